@@ -25,7 +25,7 @@ from PIL import Image
 
 from reportgen import api, catalogue
 from reportgen.base.kinds import kinds
-from reportgen.report import Document, Figure
+from reportgen.document import Document, Figure
 
 ROOT = Path(__file__).resolve().parent.parent
 SAMPLE = ROOT / "assignments" / "engine-twin-05.yaml"

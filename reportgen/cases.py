@@ -18,18 +18,18 @@ from reportgen import catalogue
 from reportgen.assignment import Assignment
 from reportgen.assignment.common import Drawing
 from reportgen.base.units import Language
+from reportgen.case import AskedFor, Case, DriverMotion, MachineAnalysis, Misconceptions
+from reportgen.case.key import Span
+from reportgen.case.shafts import Shaft
+from reportgen.case.wording import positive_sense
 from reportgen.derivation.joint_friction import misconceptions
 from reportgen.derivation.run_mistakes import mistaken
+from reportgen.document import Block, Document, Paragraph, Strong, Text
 from reportgen.formula import Symbol, ids, vocabulary
 from reportgen.formula.sheet import Family
 from reportgen.machine.analysis import Analysis, Machine, motion_at
 from reportgen.machine.laws import FULL_TURN, STEPS
-from reportgen.report import Block, Document, Paragraph, Strong, Text
 from reportgen.report.balancing_mistakes import mistaken as of_balancing
-from reportgen.report.case import AskedFor, Case, DriverMotion, MachineAnalysis, Misconceptions
-from reportgen.report.key import Span
-from reportgen.report.shafts import Shaft
-from reportgen.report.wording import positive_sense
 
 if TYPE_CHECKING:
     from reportgen.drawing.animation import Animation

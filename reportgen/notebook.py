@@ -26,7 +26,10 @@ from reportgen.base.source import MappingNode, Scalar, Source, read_source, read
 from reportgen.base.source_text import at, put, without
 from reportgen.base.units import Given, Language, read_unit
 from reportgen.base.words import as_error, language_of, unknown, word
+from reportgen.case import Case
 from reportgen.cases import opened
+from reportgen.document import TEXT_WIDTH
+from reportgen.document.named_figures import NamedFigure, named_figures
 from reportgen.drawing import Diagram, Scene
 from reportgen.drawing.sheet import sheets
 from reportgen.export import curves, figures
@@ -34,9 +37,6 @@ from reportgen.export.curves import Over
 from reportgen.export.figures import MovingFigure
 from reportgen.export.quantities import QuantityArray, quantity, shown
 from reportgen.export.study import Study
-from reportgen.report import TEXT_WIDTH
-from reportgen.report.case import Case
-from reportgen.report.named_figures import NamedFigure, named_figures
 
 PARAMETERS = "parameters"
 WRITABLE = 10**300

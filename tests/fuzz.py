@@ -27,10 +27,14 @@ from reportgen.base.errors import ReportgenError
 from reportgen.base.files import folder as kept_in
 from reportgen.base.template_folders import search_path, templates
 from reportgen.base.words import load_words, sections
+from reportgen.case import MachineAnalysis
+from reportgen.case.key import Key
 from reportgen.cases import MachineCase, open_case
 from reportgen.classes.draw import Draw, judge_of
 from reportgen.classes.roster import read_roster
 from reportgen.classes.spec import read_spec
+from reportgen.document import Figure, Plate
+from reportgen.document.prose import Prose
 from reportgen.handin.drawing_file import wanted_plans
 from reportgen.handin.drawing_reader import DrawnMark, WantedPlans
 from reportgen.handin.files import read_file
@@ -42,11 +46,7 @@ from reportgen.marking.key import key_of
 from reportgen.marking.paper import task_of
 from reportgen.marking.policy import read_policy
 from reportgen.marking.sheet import answer_book, read_submission
-from reportgen.report import Figure, Plate
-from reportgen.report.case import MachineAnalysis
-from reportgen.report.key import Key
 from reportgen.report.outline import names
-from reportgen.report.prose import Prose
 from reportgen.report.report import Report
 from reportgen.sheets.frame import FIELDS, blocks, read_block
 from reportgen.workbook import write_csv, write_xlsx

@@ -31,14 +31,14 @@ from reportgen.base.kinds import kinds
 from reportgen.base.languages import setting_of
 from reportgen.base.template_folders import languages, samples
 from reportgen.base.units import Language
+from reportgen.case import Case
+from reportgen.case.key import Key
 from reportgen.cases import open_case
 from reportgen.cli import app
+from reportgen.document.named_figures import named_figures
 from reportgen.marking.key import Ask, key_of
 from reportgen.page.editing import EditSession
 from reportgen.page.live import LiveSession
-from reportgen.report.case import Case
-from reportgen.report.key import Key
-from reportgen.report.named_figures import named_figures
 from tests.marking.filled import filled
 
 OWN: Language | Literal[""] = ""

@@ -18,10 +18,10 @@ from bench.growth import Growth
 from bench.size import Size, size_of
 from bench.solving import compare, machine
 
+from reportgen.document import Equation, Figure, List, Paragraph, Table, Text
 from reportgen.drawing import Circle, Label, Line, Scene
 from reportgen.formula import Number
 from reportgen.machine.analysis import analyse
-from reportgen.report import Equation, Figure, List, Paragraph, Table, Text
 from tests.lanes import proof
 
 SAMPLE = Path(__file__).parents[1] / "assignments" / "engine-twin-05.yaml"

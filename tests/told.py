@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from reportgen.base.units import Language
-from reportgen.formula import plain
-from reportgen.report import (
+from reportgen.document import (
     Block,
     Cell,
     Document,
@@ -23,6 +22,7 @@ from reportgen.report import (
     Text,
     Value,
 )
+from reportgen.formula import plain
 
 
 def told(document: Document) -> str:

@@ -29,15 +29,15 @@ from reportgen.base.standards import STANDARDS, Standards, other_than_usual
 from reportgen.base.steps import step
 from reportgen.base.units import Language
 from reportgen.base.words import templates_hash, word
+from reportgen.case import bounded
 from reportgen.cases import MachineCase, open_case, opened
-from reportgen.report.case import bounded
 
 if TYPE_CHECKING:
+    from reportgen.case.key import Key
+    from reportgen.document import Document
     from reportgen.machine.analysis import Analysis
     from reportgen.marking.key import Ask
     from reportgen.marking.policy import Policy
-    from reportgen.report import Document
-    from reportgen.report.key import Key
 
 FORMATS = names("report")
 """What a report can be written as."""
@@ -143,7 +143,7 @@ def build_each(
     standards: Standards = STANDARDS,
 ) -> made.Put:
     """Write the complete report in some of `FORMATS`; gives their paths in that order, and what became of others."""
-    from reportgen.report import Listing
+    from reportgen.document import Listing
 
     assignment = load(path, language)
     if extent is not None:

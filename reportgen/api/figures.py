@@ -12,13 +12,13 @@ from reportgen.base.errors import NotOfferedError
 from reportgen.base.formats import chosen, names, usual
 from reportgen.base.units import Language
 from reportgen.base.words import word
+from reportgen.case import Case
 from reportgen.cases import open_case, opened
+from reportgen.document.named_figures import NamedFigure, safe
 from reportgen.export import curves, figures
 from reportgen.export.curves import Over
 from reportgen.export.figures import FORMATS as FIGURE_FORMATS
 from reportgen.export.figures import MOVING, MovingFigure
-from reportgen.report.case import Case
-from reportgen.report.named_figures import NamedFigure, safe
 from reportgen.writers import figure
 
 __all__ = ["FIGURE_FORMATS", "MOVING", "PLOT_FORMATS", "figure_files", "figure_list", "plot_files", "worked_at"]

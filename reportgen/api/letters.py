@@ -12,14 +12,14 @@ from reportgen.base.source import read_source
 from reportgen.base.words import as_error
 
 if TYPE_CHECKING:
-    from reportgen.report.layout import Letter
+    from reportgen.document.layout import Letter
 
 Engine = Literal["typst", "latex"]
 
 
 def letter_of(assignment: Assignment, engine: Engine) -> Letter:
     """The letter of a file; raises `AssignmentError` where the engine does not have its font, or its language's."""
-    from reportgen.report.layout import Letter
+    from reportgen.document.layout import Letter
 
     if engine == "typst":
         letters_of(assignment)

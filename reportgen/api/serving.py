@@ -12,8 +12,8 @@ from reportgen.cases import opener
 from reportgen.page import watch as served
 
 if TYPE_CHECKING:
-    from reportgen.report import Document
-    from reportgen.report.case import Case
+    from reportgen.case import Case
+    from reportgen.document import Document
 
 Written = Callable[[Callable[[], bytes], Language], None]
 """What is told of each finished report: a function that gives its PDF, or raises `TypesetterError`; its language."""

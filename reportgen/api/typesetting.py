@@ -15,9 +15,9 @@ from reportgen.base.steps import step
 from reportgen.base.words import word
 
 if TYPE_CHECKING:
+    from reportgen.document import Document
+    from reportgen.document.layout import Letter
     from reportgen.drawing.sheet import DrawingSheet
-    from reportgen.report import Document
-    from reportgen.report.layout import Letter
     from reportgen.writers.pdflatex import Ahead
 
 SUFFIX: Mapping[Engine, str] = {"typst": ".typ", "latex": ".tex"}
@@ -45,7 +45,7 @@ def typeset(
 
     That of typst keeps the `standards`; LaTeX may have read `ahead` what the source begins with.
     """
-    from reportgen.report.layout import Letter
+    from reportgen.document.layout import Letter
 
     step("typeset")
     letter = letter or Letter()

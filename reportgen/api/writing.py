@@ -15,14 +15,14 @@ from reportgen.base.languages import setting_of
 from reportgen.base.standards import STANDARDS, Standards
 from reportgen.base.steps import step
 from reportgen.base.template_folders import school_folder
-from reportgen.report.case import bounded
+from reportgen.case import bounded
 
 if TYPE_CHECKING:
+    from reportgen.case import Case
+    from reportgen.case.key import Key
+    from reportgen.document import Document
+    from reportgen.document.layout import Letter
     from reportgen.drawing.sheet import DrawingSheet
-    from reportgen.report import Document
-    from reportgen.report.case import Case
-    from reportgen.report.key import Key
-    from reportgen.report.layout import Letter
     from reportgen.writers.pdflatex import Ahead
 
 
@@ -75,7 +75,7 @@ def word_file(assignment: Assignment, tree: Document) -> bytes:
 
 def _written(assignment: Assignment, tree: Document, look: Path | None) -> bytes:
     """Write a Word file with the look of a school's Word file, if there is one."""
-    from reportgen.report.layout import Letter
+    from reportgen.document.layout import Letter
     from reportgen.workbook.letterhead import read_letterhead
     from reportgen.writers import pictures
     from reportgen.writers import word as writer

@@ -11,14 +11,14 @@ from reportgen.balancing import engine_drawings, engine_motion, orders_ids
 from reportgen.balancing.engine_sheet import FACTORS, ORDERS
 from reportgen.balancing.places_page import PlacesPage, bare
 from reportgen.balancing.solved_engine import SolvedEngine
+from reportgen.case.result_entries import ResultEntries
+from reportgen.case.shafts import Shaft
+from reportgen.document import Inlines, Table, Text
 from reportgen.drawing import Scene
 from reportgen.drawing.animation import Animation
 from reportgen.drawing.plates import DrawingPlate
 from reportgen.drawing.scales import IN_REPORT
 from reportgen.formula import Symbol
-from reportgen.report import Inlines, Table, Text
-from reportgen.report.result_entries import ResultEntries
-from reportgen.report.shafts import Shaft
 from reportgen.sheets.plates import drawn
 
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 
+from reportgen.case.design import Designed, DesignPage
+from reportgen.document import Column, InlineMath, Inlines, Table, Text, Value
 from reportgen.formula import Number, Symbol
-from reportgen.report import Column, InlineMath, Inlines, Table, Text, Value
-from reportgen.report.design import Designed, DesignPage
 
 FIRST_WIDTH, PAGE_WIDTH, WIDEST = 18.0, 165.0, 30.0
 """What the first column takes, what a table may take of a page, and a column at most (mm)."""

@@ -14,14 +14,14 @@ from reportgen.balancing.places_page import PlacesPage, bare
 from reportgen.balancing.rotor_file import BEARINGS
 from reportgen.balancing.rotor_sheet import AFTER, AXES, BEFORE
 from reportgen.balancing.solved_rotor import SolvedRotor
+from reportgen.case.result_entries import ResultEntries
+from reportgen.case.shafts import Shaft
+from reportgen.document import Column, Equation, InlineMath, Inlines, Table, Text, Value
 from reportgen.drawing import Scene
 from reportgen.drawing.animation import Animation
 from reportgen.drawing.plates import DrawingPlate
 from reportgen.drawing.scales import IN_REPORT
 from reportgen.formula import Chain, Expression, Number, Symbol, total
-from reportgen.report import Column, Equation, InlineMath, Inlines, Table, Text, Value
-from reportgen.report.result_entries import ResultEntries
-from reportgen.report.shafts import Shaft
 from reportgen.sheets.plates import drawn
 
 OF_BEARING = rotor_ids.at_bearing, rotor_ids.bearing_force

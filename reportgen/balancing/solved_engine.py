@@ -12,11 +12,11 @@ from numpy.typing import ArrayLike, NDArray
 from reportgen.balancing import orders_ids
 from reportgen.balancing.engine_file import Parameters
 from reportgen.balancing.engine_sheet import COUPLES, ORDERS, EngineSheet
+from reportgen.case import Misconceptions
+from reportgen.case.design import DesignCase
 from reportgen.formula import PI, Expression, Ref, cis, total
 from reportgen.formula.piston_orders import first_term
 from reportgen.formula.sheet import Sheet
-from reportgen.report.case import Misconceptions
-from reportgen.report.design import DesignCase
 
 FIRST_TERM = "orders-first-term"
 """The name of a factor that was taken as the first term of its series: A₂ = λ."""

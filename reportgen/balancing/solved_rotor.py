@@ -9,10 +9,10 @@ from functools import cached_property
 from reportgen.balancing import rotor_ids
 from reportgen.balancing.rotor_file import BEARINGS, LEFT, RIGHT, Parameters
 from reportgen.balancing.rotor_sheet import AFTER, BEFORE, RotorSheet, resultant
+from reportgen.case import Misconceptions
+from reportgen.case.design import DesignCase
 from reportgen.formula import PI, Expression, Number, Ref, cis, heading
 from reportgen.formula.sheet import ZERO, Sheet
-from reportgen.report.case import Misconceptions
-from reportgen.report.design import DesignCase
 
 Changed = Iterator[tuple[str, str, Expression]]
 """Ids of quantities, the name of a mistake, what the quantity becomes by it."""

@@ -12,12 +12,12 @@ from reportgen.cam import animation, views
 from reportgen.cam import sheets as sheet_of_cam
 from reportgen.cam.file import exceeded
 from reportgen.cam.solved import SolvedCam
+from reportgen.case import DriverMotion, Misconceptions
+from reportgen.case.result_entries import ResultEntries
+from reportgen.case.shafts import Shaft
 from reportgen.drawing.animation import Animation
 from reportgen.drawing.plates import DrawingPlate
 from reportgen.drawing.sheet import DrawingSheet
-from reportgen.report.case import DriverMotion, Misconceptions
-from reportgen.report.result_entries import ResultEntries
-from reportgen.report.shafts import Shaft
 
 
 @dataclass(frozen=True)

@@ -20,10 +20,10 @@ from reportgen.cam.file import Designed, Parameters, designed, positions_of
 from reportgen.cam.formulas import enter_lengths, enter_lowest, enter_profile, factor
 from reportgen.cam.laws import Floats, FollowerMotion, LawInterval
 from reportgen.cam.profile import Cam, CamProfile
+from reportgen.case import Misconceptions, with_another
 from reportgen.formula import PI, Expression, Number, Operand, Ref, Symbol, acos, as_expression, branch, tan
 from reportgen.formula.sheet import Sheet
 from reportgen.formula.vocabulary import Chapter
-from reportgen.report.case import Misconceptions, with_another
 
 LINES: Mapping[str, tuple[str, ...]] = {
     "arcs": ("cam.arc.rise", "cam.arc.return", "cam.arc.swing"),

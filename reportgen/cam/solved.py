@@ -9,8 +9,8 @@ import numpy as np
 
 from reportgen.cam.file import Parameters
 from reportgen.cam.solution import CamSolution
+from reportgen.case.design import DesignCase
 from reportgen.formula.sheet import Sheet
-from reportgen.report.design import DesignCase
 
 
 @dataclass(frozen=True)

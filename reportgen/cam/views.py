@@ -17,13 +17,13 @@ from reportgen.cam.file import ALLOWED, Judged, exceeded, judged
 from reportgen.cam.laws import FollowerLaw, Piece
 from reportgen.cam.solution import MOVING
 from reportgen.cam.solved import SolvedCam
+from reportgen.case import AskedFor
+from reportgen.case.design import DesignPage
+from reportgen.document import Cell, Column, Equation, InlineMath, Inlines, Table, Text, Value, listed
+from reportgen.document.prose import Prose
 from reportgen.drawing import Scene
 from reportgen.formula import Call, Chain, Expression, Number, Symbol, substitute
 from reportgen.formula.plain import formula
-from reportgen.report import Cell, Column, Equation, InlineMath, Inlines, Table, Text, Value, listed
-from reportgen.report.case import AskedFor
-from reportgen.report.design import DesignPage
-from reportgen.report.prose import Prose
 
 CHECKS = (74.0, 30.0, 30.0, 26.0)
 ROWS = 16.0

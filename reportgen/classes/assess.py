@@ -14,6 +14,7 @@ from pathlib import Path
 from reportgen.base.errors import Fault, Problem, ReportgenError
 from reportgen.base.units import Language
 from reportgen.base.words import as_problem
+from reportgen.case.key import Key
 from reportgen.cases import open_case
 from reportgen.classes.collecting import Collected, Refused, collect, named_after
 from reportgen.classes.corrections import Correction, applied
@@ -35,7 +36,6 @@ from reportgen.marking.marks import Marking, Submission, Unmarked
 from reportgen.marking.parts import check_shares
 from reportgen.marking.policy import Policy
 from reportgen.marking.scheme import MarkingScheme, key_asked, marking_scheme
-from reportgen.report.key import Key
 
 
 @dataclass(frozen=True)

@@ -11,6 +11,7 @@ from pathlib import Path
 from reportgen.base.errors import AssignmentError, Fault, Mark, Problem
 from reportgen.base.units import Language
 from reportgen.base.words import as_problem
+from reportgen.case.key import Key
 from reportgen.classes.archives import ARCHIVE
 from reportgen.classes.isolation import isolated
 from reportgen.classes.platforms import Handed, Owner
@@ -20,7 +21,6 @@ from reportgen.handin.reading_book import is_unchanged
 from reportgen.marking.marks import Submission
 from reportgen.marking.policy import Twice
 from reportgen.marking.sheet import read_submission
-from reportgen.report.key import Key
 
 
 @dataclass(frozen=True, slots=True)

@@ -23,12 +23,12 @@ from reportgen.base.template_folders import languages
 from reportgen.base.typed import plain_signs
 from reportgen.base.units import NUMBER, Language, write
 from reportgen.base.words import as_error, as_problem, close_or_known, common_words, messages, word
+from reportgen.case.key import Key
 from reportgen.classes.roster import Record, columns, comparable, folded, folder_name, heading_row, records
+from reportgen.document import InlineMath, Inlines, Text
 from reportgen.formula.vocabulary import Chapter
 from reportgen.marking.key import symbol_text, words_of
 from reportgen.marking.marks import Amendment, Marked, Marking, Verdict, points_of
-from reportgen.report import InlineMath, Inlines, Text
-from reportgen.report.key import Key
 from reportgen.workbook import read
 
 NEEDED = ("judgement", "reason")

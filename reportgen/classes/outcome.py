@@ -18,6 +18,7 @@ from reportgen.base.kinds import title
 from reportgen.base.standards import STANDARDS, Standards
 from reportgen.base.units import Language
 from reportgen.base.words import as_problem, counted, word
+from reportgen.case.key import Key
 from reportgen.classes.archives import zipped
 from reportgen.classes.assess import Graded
 from reportgen.classes.gradebooks import Gradebook, StudentResult
@@ -39,7 +40,6 @@ from reportgen.marking.policy import Policy
 from reportgen.marking.questions import question_rows
 from reportgen.marking.scheme import key_asked
 from reportgen.marking.variant_marks import groups, variant_rows
-from reportgen.report.key import Key
 from reportgen.workbook import write_csv, write_xlsx
 
 CLASS_PAGE = Path("class.pdf")

@@ -14,6 +14,7 @@ from pathlib import Path
 from reportgen.base.errors import Fault, Mark, Problem
 from reportgen.base.units import Language
 from reportgen.base.words import as_problem
+from reportgen.case.key import Key
 from reportgen.classes.collecting import Collected, Refused, chosen_of, named_after
 from reportgen.classes.isolation import isolated
 from reportgen.classes.platforms import Handed, changed
@@ -25,7 +26,6 @@ from reportgen.handin.files import DRAWING, kinds
 from reportgen.handin.reading_book import NAME
 from reportgen.marking.marks import Submission
 from reportgen.marking.policy import Twice
-from reportgen.report.key import Key
 
 
 @dataclass(frozen=True, slots=True)

@@ -20,16 +20,16 @@ from xml.sax.saxutils import escape, quoteattr
 
 import numpy as np
 
-from reportgen import report as tree
+from reportgen import document as tree
 from reportgen.base.kinds import title
 from reportgen.base.units import Language
+from reportgen.case.key import Key, KeyRow, Role
 from reportgen.cases import open_case
 from reportgen.marking.key import key_of, shown_number, symbol_text, words_of
 from reportgen.marking.paper import given_of
 from reportgen.marking.policy import Policy
 from reportgen.page.elements import Pens
 from reportgen.page.html import Blocks
-from reportgen.report.key import Key, KeyRow, Role
 from reportgen.writers import pictures
 
 DOTS = 110

@@ -15,6 +15,7 @@ from reportgen.base.errors import AssignmentError, Fault, Mark, Problem
 from reportgen.base.limits import Limits
 from reportgen.base.units import Language
 from reportgen.base.words import as_problem
+from reportgen.case.key import Key
 from reportgen.classes.isolation import isolated
 from reportgen.classes.platforms import Handed
 from reportgen.classes.pool import each_within
@@ -22,7 +23,6 @@ from reportgen.handin import FileReading, files
 from reportgen.handin.drawing_reader import WantedPlans
 from reportgen.marking.marks import Marking
 from reportgen.marking.policy import Policy
-from reportgen.report.key import Key
 from reportgen.workbook import Page, read
 
 LIMITS = Limits(seconds=60.0, megabytes=1000)

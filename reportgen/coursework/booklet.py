@@ -11,8 +11,9 @@ from dataclasses import dataclass, replace
 from itertools import dropwhile
 from typing import Any
 
+from reportgen.case.wording import sentence
 from reportgen.coursework.symbol_renaming import changed
-from reportgen.report import (
+from reportgen.document import (
     BlankLine,
     Block,
     Cell,
@@ -31,9 +32,8 @@ from reportgen.report import (
     Table,
     Text,
 )
-from reportgen.report.layout import contents
-from reportgen.report.numbering import number
-from reportgen.report.wording import sentence
+from reportgen.document.layout import contents
+from reportgen.document.numbering import number
 
 RUN_IN = 4
 """The level of a heading that stands in its paragraph."""

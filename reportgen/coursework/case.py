@@ -13,10 +13,17 @@ from typing import Any, Self
 import numpy as np
 
 from reportgen.assignment.common import AssignedPart, Assignment, TakenDatum
+from reportgen.case import Case, CaseOfParts, DriverMotion, Misconceptions
+from reportgen.case.key import Key, PartOfKey, Span, capitalised
+from reportgen.case.result_entries import ResultEntries
+from reportgen.case.shafts import Shaft
+from reportgen.case.wording import phrase
 from reportgen.coursework import senses
 from reportgen.coursework.booklet import PartReport, booklet, handout
 from reportgen.coursework.senses import PartShafts
 from reportgen.coursework.symbol_renaming import Letters, changed, letters_of, nodes, relettered
+from reportgen.document import Block, Document, Equation, InlineMath, Inlines, Paragraph, Text, listed
+from reportgen.document.used_symbols import explained, is_explained, used_symbols
 from reportgen.drawing.animation import Animation
 from reportgen.drawing.plates import DrawingPlate
 from reportgen.drawing.plates import changed as with_change
@@ -24,13 +31,6 @@ from reportgen.drawing.sheet import DrawingSheet
 from reportgen.formula import Chain, Expression, Number, Ref, Symbol
 from reportgen.formula.ledger import Ledger
 from reportgen.formula.sheet import Family
-from reportgen.report import Block, Document, Equation, InlineMath, Inlines, Paragraph, Text, listed
-from reportgen.report.case import Case, CaseOfParts, DriverMotion, Misconceptions
-from reportgen.report.key import Key, PartOfKey, Span, capitalised
-from reportgen.report.result_entries import ResultEntries
-from reportgen.report.shafts import Shaft
-from reportgen.report.used_symbols import explained, is_explained, used_symbols
-from reportgen.report.wording import phrase
 
 _NUMBER = re.compile(r"\b\d\b")
 """The number of a wheel in what a quantity is called."""

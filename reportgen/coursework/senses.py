@@ -8,11 +8,11 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from reportgen.case.key import capitalised
+from reportgen.case.shafts import Shaft
+from reportgen.case.wording import sentence
+from reportgen.document import Block, Cell, Column, Inlines, Paragraph, Reference, Table, Text, Value
 from reportgen.formula import Number
-from reportgen.report import Block, Cell, Column, Inlines, Paragraph, Reference, Table, Text, Value
-from reportgen.report.key import capitalised
-from reportgen.report.shafts import Shaft
-from reportgen.report.wording import sentence
 
 KEY = "tab.shafts"
 WIDTHS = (76.0, 26.0, 58.0)

@@ -7,14 +7,14 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from reportgen.case import AskedFor
+from reportgen.case.result_entries import ResultEntries
+from reportgen.case.wording import MAGNITUDE
+from reportgen.document import Block, Document
+from reportgen.document.prose import Prose
 from reportgen.exercise.figures import FIGURES
 from reportgen.exercise.solution_page import solution, task_names
 from reportgen.exercise.solved import SolvedExercise
-from reportgen.report import Block, Document
-from reportgen.report.case import AskedFor
-from reportgen.report.prose import Prose
-from reportgen.report.result_entries import ResultEntries
-from reportgen.report.wording import MAGNITUDE
 
 if TYPE_CHECKING:
     from reportgen.drawing.plates import DrawingPlate

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from reportgen.case.design import DesignCase
 from reportgen.drawing import Arc, Arrow, Circle, Item, Line, Polyline, Scene, style
 from reportgen.drawing.canvas import Canvas, finish, settle
 from reportgen.drawing.description import PaperLength, fact, turning
@@ -11,7 +12,6 @@ from reportgen.drawing.geometry import bounds, polar, rectangle
 from reportgen.drawing.labels import Request, label
 from reportgen.exercise.friction_drawings import FORCE, angle_mark, force
 from reportgen.formula import Symbol
-from reportgen.report.design import DesignCase
 
 RADIUS = 17.0
 """Of a drum on a scheme (mm)."""

@@ -8,17 +8,17 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, ClassVar
 
+from reportgen.case import Misconceptions
+from reportgen.case.design import DesignCase, DesignPage
+from reportgen.case.result_entries import ResultEntries
+from reportgen.document import Figure
+from reportgen.document.prose import Prose
 from reportgen.drawing import Scene
 from reportgen.drawing.plates import DrawingPlate, enlargeable
 from reportgen.drawing.scales import IN_REPORT, FigureSize
 from reportgen.drawing.sheet import ENLARGED, lettered
 from reportgen.exercise import friction_brakes, friction_drawings, friction_mistakes, friction_sheets
 from reportgen.formula.sheet import Sheet
-from reportgen.report import Figure
-from reportgen.report.case import Misconceptions
-from reportgen.report.design import DesignCase, DesignPage
-from reportgen.report.prose import Prose
-from reportgen.report.result_entries import ResultEntries
 
 
 @dataclass(frozen=True)

@@ -6,6 +6,7 @@ import cmath
 import math
 from collections.abc import Iterable, Sequence
 
+from reportgen.case.design import DesignCase
 from reportgen.drawing import Arc, Arrow, Content, Item, Line, Polyline, Scene, style
 from reportgen.drawing.canvas import Canvas, finish
 from reportgen.drawing.description import angle, names_of, pointing
@@ -14,7 +15,6 @@ from reportgen.drawing.labels import Request, label
 from reportgen.drawing.plan import Plan, PlanPoint, PlanVector, Style, plan
 from reportgen.drawing.scales import IN_REPORT, FigureSize
 from reportgen.formula import Fraction, Number, Product, Symbol
-from reportgen.report.design import DesignCase
 
 DOWN = -1j
 FORCE = 19.0

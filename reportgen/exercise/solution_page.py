@@ -11,13 +11,8 @@ from typing import TYPE_CHECKING, Any
 from reportgen.base.gaps import NO_LETTER
 from reportgen.base.shown import view
 from reportgen.base.units import Given
-from reportgen.exercise import file
-from reportgen.exercise.figures import FIGURES
-from reportgen.exercise.solved import SolvedExercise
-from reportgen.exercise.symbols import Literal, symbol
-from reportgen.exercise.views import AT, FurtherView, Solution, lettered
-from reportgen.formula import PI, Chain, Expression, Negative, Number, Symbol, ids, vocabulary
-from reportgen.report import (
+from reportgen.case.finished import finished
+from reportgen.document import (
     Block,
     Cell,
     Column,
@@ -31,8 +26,13 @@ from reportgen.report import (
     Value,
     listed,
 )
-from reportgen.report.finished import finished
-from reportgen.report.prose import NamedPoint, Prose
+from reportgen.document.prose import NamedPoint, Prose
+from reportgen.exercise import file
+from reportgen.exercise.figures import FIGURES
+from reportgen.exercise.solved import SolvedExercise
+from reportgen.exercise.symbols import Literal, symbol
+from reportgen.exercise.views import AT, FurtherView, Solution, lettered
+from reportgen.formula import PI, Chain, Expression, Negative, Number, Symbol, ids, vocabulary
 
 if TYPE_CHECKING:
     pass

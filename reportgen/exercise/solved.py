@@ -15,6 +15,7 @@ from typing import Any, cast
 from reportgen.base.errors import NotOfferedError
 from reportgen.base.units import Given
 from reportgen.base.words import word
+from reportgen.case import LoadedAssignment
 from reportgen.exercise import algebra, file
 from reportgen.exercise.algebra import Algebraic, Plane
 from reportgen.exercise.conditions import GROUND, Condition, Rates, Velocities
@@ -24,7 +25,6 @@ from reportgen.exercise.solving import System
 from reportgen.exercise.symbols import Literal
 from reportgen.formula import Expression, ids
 from reportgen.formula.constructions import dot
-from reportgen.report.case import LoadedAssignment
 
 ZERO = Plane(0, 0)
 LONGEST = 40

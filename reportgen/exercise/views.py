@@ -14,6 +14,8 @@ from typing import Any
 
 from reportgen.base.shown import view
 from reportgen.base.units import MM
+from reportgen.document import Equation, Inline, InlineMath, Inlines, Text, Value, listed
+from reportgen.document.prose import NamedPoint
 from reportgen.exercise.centres import SAME_PLACE
 from reportgen.exercise.derivation import Axis, Step, Vector
 from reportgen.exercise.file import Asked
@@ -22,8 +24,6 @@ from reportgen.exercise.solution import Worked
 from reportgen.exercise.solved import SolvedExercise
 from reportgen.exercise.symbols import symbol
 from reportgen.formula import Chain, Expression, Number, Symbol, Term, VectorEquation, ids, refs, substitute, vocabulary
-from reportgen.report import Equation, Inline, InlineMath, Inlines, Text, Value, listed
-from reportgen.report.prose import NamedPoint
 
 AT = 1
 """The one position of an exercise."""

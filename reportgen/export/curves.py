@@ -16,10 +16,10 @@ from reportgen.assignment import Assignment
 from reportgen.base.errors import Fault, Mark, NotOfferedError
 from reportgen.base.units import MM, Language, QuantityFault, read_number, read_unit
 from reportgen.base.words import as_error, word
+from reportgen.case import Case, DriverMotion
 from reportgen.drawing import Content, Diagram, PlottedCurve
 from reportgen.export.quantities import Found, quantity
 from reportgen.formula import Chain, Symbol
-from reportgen.report.case import Case, DriverMotion
 from reportgen.report.equations import heading_of
 from reportgen.workbook import SheetCell, read
 

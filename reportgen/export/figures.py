@@ -17,12 +17,12 @@ from reportgen.base.errors import NotOfferedError, UnknownNameError
 from reportgen.base.formats import chosen, names, rows
 from reportgen.base.units import Language
 from reportgen.base.words import unknown, word
+from reportgen.case import Case, bounded
+from reportgen.document.alt_text import sentences
+from reportgen.document.named_figures import NamedFigure, named_figures, safe
 from reportgen.drawing import Scene
 from reportgen.drawing.animation import LAYERS, Animation, Pane, Track
 from reportgen.drawing.stills import sample_at, stills
-from reportgen.report.case import Case, bounded
-from reportgen.report.named_figures import NamedFigure, named_figures, safe
-from reportgen.report.telling import sentences
 
 FORMATS = names("figures")
 """What a figure can be written as."""

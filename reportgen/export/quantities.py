@@ -11,10 +11,10 @@ import numpy as np
 from reportgen.base.errors import NotOfferedError, UnknownNameError
 from reportgen.base.units import Language
 from reportgen.base.words import unknown, word
+from reportgen.case import Case, DriverMotion
 from reportgen.formula import Symbol
 from reportgen.formula.sheet import Family
 from reportgen.formula.vocabulary import KINDS
-from reportgen.report.case import Case, DriverMotion
 
 _IN_SI = {"°": "rad", "%": "", "cm": "m", "cm²": "m²", "N/cm²": "Pa", "N/(cm²·mm)": "Pa/m"}
 """Of units in which values are printed, but for those in mm."""

@@ -16,12 +16,12 @@ import numpy as np
 
 from reportgen import catalogue
 from reportgen.assignment import Assignment
+from reportgen.case import Case
 from reportgen.derivation.sides import image
 from reportgen.export.quantities import QuantityArray, quantity
 from reportgen.formula import ids
 from reportgen.formula.ledger import Ledger
 from reportgen.formula.sheet import Family
-from reportgen.report.case import Case
 
 SAME = 1e-13
 """What differs by a smaller share is the same number worked out twice."""

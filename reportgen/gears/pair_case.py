@@ -10,6 +10,8 @@ from functools import cached_property, partial
 import numpy as np
 
 from reportgen.base.units import MM
+from reportgen.case.result_entries import ResultEntries
+from reportgen.case.shafts import Shaft
 from reportgen.drawing import Circle, Line, Pen, Polyline, Scene, style
 from reportgen.drawing.animation import (
     Animation,
@@ -48,8 +50,6 @@ from reportgen.gears.pair_drawings import (
     turned,
 )
 from reportgen.gears.pair_solution import SolvedPair
-from reportgen.report.result_entries import ResultEntries
-from reportgen.report.shafts import Shaft
 from reportgen.sheets.plates import drawn, on_sheet
 
 

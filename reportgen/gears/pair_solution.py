@@ -11,14 +11,14 @@ from functools import cached_property
 
 import numpy as np
 
+from reportgen.case import Misconceptions, with_another
+from reportgen.case.design import DesignCase
 from reportgen.formula import PI, Expression, Operand, Ref, refs, tan
 from reportgen.formula.sheet import Sheet
 from reportgen.formula.vocabulary import Chapter
 from reportgen.gears import gears_ids
 from reportgen.gears.formulas import WHEELS, PairFormulas, named
 from reportgen.gears.pair import Chosen, GearPair, PairLimits
-from reportgen.report.case import Misconceptions, with_another
-from reportgen.report.design import DesignCase
 
 POINTS = 9
 """Sliding is worked out at so many points, evenly from one end of the active path to the other."""

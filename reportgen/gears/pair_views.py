@@ -7,15 +7,15 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from reportgen.case.design import DesignPage
+from reportgen.case.wording import phrase
+from reportgen.document import Block, Column, InlineMath, Inlines, Table, Text, Value
 from reportgen.drawing import Scene
 from reportgen.formula import Number, Symbol, vocabulary
 from reportgen.gears import gears_ids
 from reportgen.gears.formulas import WHEELS
 from reportgen.gears.pair_drawings import mesh, region, sliding
 from reportgen.gears.pair_solution import SolvedPair
-from reportgen.report import Block, Column, InlineMath, Inlines, Table, Text, Value
-from reportgen.report.design import DesignPage
-from reportgen.report.wording import phrase
 
 PAIR = (68.0, 22.0, 35.0, 35.0)
 CHECKS = (70.0, 18.0, 28.0, 26.0, 18.0)

@@ -11,6 +11,10 @@ from typing import Any
 import numpy as np
 
 from reportgen.base.units import MM
+from reportgen.case.design import DesignPage
+from reportgen.case.result_entries import ResultEntries
+from reportgen.case.shafts import Shaft
+from reportgen.document import Column, Equation, InlineMath, Inlines, Table, Text, Value, listed
 from reportgen.drawing import Scene
 from reportgen.drawing.animation import Animation
 from reportgen.drawing.plates import DrawingPlate
@@ -20,10 +24,6 @@ from reportgen.gears.train import DUST, LEAST_DIFFERENCE, LEAST_OUTER, Train
 from reportgen.gears.train_drawings import scheme_views, velocity_triangles
 from reportgen.gears.train_formulas import OTHER, term_of
 from reportgen.gears.train_solution import FIRST_ROW_WHEEL, SolvedTrain
-from reportgen.report import Column, Equation, InlineMath, Inlines, Table, Text, Value, listed
-from reportgen.report.design import DesignPage
-from reportgen.report.result_entries import ResultEntries
-from reportgen.report.shafts import Shaft
 from reportgen.sheets.plates import drawn
 
 ROWS, SHORT_ROWS = 15, 6

@@ -11,6 +11,8 @@ from functools import cached_property
 import numpy as np
 
 from reportgen.base.units import MM, SERIES, nice_up
+from reportgen.case import Misconceptions
+from reportgen.case.design import DesignCase
 from reportgen.formula import PI, Expression, Operand, Product, Ref, Symbol, as_expression, signed, sin
 from reportgen.formula.sheet import Sheet
 from reportgen.formula.vocabulary import Chapter
@@ -19,8 +21,6 @@ from reportgen.gears import train_ids
 from reportgen.gears.train import CONDITIONS, SCHEMES, Train, TrainChoice, power_way
 from reportgen.gears.train_file import Parameters
 from reportgen.gears.train_formulas import OTHER, TrainScheme, term_of
-from reportgen.report.case import Misconceptions
-from reportgen.report.design import DesignCase
 
 FIRST_ROW_WHEEL = 4
 """Wheels of ordinary rows are numbered from here."""

@@ -10,6 +10,8 @@ from reportgen.base.errors import Fault, Mark
 from reportgen.base.files import cause, contents
 from reportgen.base.units import Language
 from reportgen.base.words import as_error, word
+from reportgen.case import Case
+from reportgen.case.key import Key
 from reportgen.handin import FileReading, submission
 from reportgen.handin.drawing_file import wanted_plans
 from reportgen.handin.drawing_reader import WantedPlans
@@ -22,8 +24,6 @@ from reportgen.marking.marks import Submission
 from reportgen.marking.policy import Policy
 from reportgen.marking.scheme import key_asked, marking_scheme
 from reportgen.marking.sheet import read_submission
-from reportgen.report.case import Case
-from reportgen.report.key import Key
 
 
 def read(case: Case, papers: Case, files: Sequence[Path], ask: Ask) -> tuple[Key, Submission]:

@@ -8,6 +8,8 @@ from pathlib import Path
 
 from reportgen.base.template_folders import languages
 from reportgen.base.words import common_words
+from reportgen.case import Case, MachineAnalysis
+from reportgen.case.key import Key
 from reportgen.handin import FileReading
 from reportgen.handin.drawing_reader import DrawnMark, WantedPlans, read_drawing
 from reportgen.handin.dxf_lines import read_lines
@@ -18,8 +20,6 @@ from reportgen.marking.feedback import cell_comment
 from reportgen.marking.key import symbol_text, words_of
 from reportgen.marking.marks import Marked, Marking, Verdict
 from reportgen.marking.policy import Policy
-from reportgen.report.case import Case, MachineAnalysis
-from reportgen.report.key import Key
 
 MARKED = "marked-sheet-{number}.dxf"
 AT_FAULT = frozenset({Verdict.wrong, Verdict.implausible})

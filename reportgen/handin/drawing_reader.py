@@ -14,6 +14,7 @@ import numpy as np
 
 from reportgen.base.errors import Fault, Mark
 from reportgen.base.units import MM
+from reportgen.case.key import Key
 from reportgen.handin import FileReading
 from reportgen.handin.dxf_lines import DrawnLines, DrawnText
 from reportgen.handin.line_set import Lines
@@ -25,7 +26,6 @@ from reportgen.handin.plan_shapes import PlanShape, PlanSketch, Values
 from reportgen.handin.wrong_vectors import WrongVector, wrong_vectors
 from reportgen.marking.bands import PAPER_ERROR
 from reportgen.marking.marks import Answer, Place, ReadOff
-from reportgen.report.key import Key
 from reportgen.workbook.package import RefusedError
 
 OFF = PAPER_ERROR * MM

@@ -11,10 +11,10 @@ from reportgen.base.errors import Fault, Mark
 from reportgen.base.files import cause, contents
 from reportgen.base.units import Language
 from reportgen.base.words import as_error
+from reportgen.case.key import Key
 from reportgen.handin import FileReading
 from reportgen.marking.marks import Marking
 from reportgen.marking.policy import Policy
-from reportgen.report.key import Key
 from reportgen.workbook.package import RefusedError
 
 if TYPE_CHECKING:

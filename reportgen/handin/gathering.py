@@ -10,13 +10,13 @@ import numpy as np
 
 from reportgen.base.errors import Fault, Mark
 from reportgen.base.units import QuantityFault
+from reportgen.case.key import Key, KeyRow
 from reportgen.handin import FileReading, agree, figures
 from reportgen.handin.numbers import NUMBER, Marks, read_value
 from reportgen.handin.statements import ANTICLOCKWISE, CLOCKWISE
 from reportgen.handin.symbols import Symbols, bare
 from reportgen.handin.word_text import TextLine, WordMark
 from reportgen.marking.marks import Answer, Place
-from reportgen.report.key import Key, KeyRow
 
 SHOWN = 60
 """Characters of a text that are quoted."""

@@ -10,9 +10,9 @@ from dataclasses import dataclass
 from reportgen.base.languages import decimal_mark, typed_units
 from reportgen.base.typed import SPACES
 from reportgen.base.units import Language, QuantityFault
+from reportgen.case.key import KeyRow
 from reportgen.marking.key import typed_unit
 from reportgen.marking.numbers import DecimalMark, read_number
-from reportgen.report.key import KeyRow
 
 _DECIMALS = re.compile(r"(?<![\d.,])\d+([.,])(\d+)(?![\d]|[.,]\d)")
 BOTH = 0.1

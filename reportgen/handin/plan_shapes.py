@@ -12,8 +12,8 @@ from typing import Literal
 import numpy as np
 
 from reportgen.base.units import MM
+from reportgen.case import Case, MachineAnalysis
 from reportgen.formula import Symbol, ids
-from reportgen.report.case import Case, MachineAnalysis
 from reportgen.report.plans import POLE, force_construction, motion_construction
 from reportgen.report.report import Report
 

@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from hashlib import sha256
 
+from reportgen.case.key import Key, KeyRow
 from reportgen.marking.key import symbol_text, words_of
 from reportgen.marking.marks import Submission
 from reportgen.marking.sheet import (
@@ -24,7 +25,6 @@ from reportgen.marking.sheet import (
     page,
     rows_shown,
 )
-from reportgen.report.key import Key, KeyRow
 from reportgen.workbook import Book, BookSheet, Entry, write_xlsx
 
 NAME = "reading.xlsx"

@@ -6,9 +6,9 @@ import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cached_property
 
+from reportgen.case.key import Key, KeyRow
 from reportgen.handin.word_text import LETTERS
 from reportgen.marking.key import symbol_text
-from reportgen.report.key import Key, KeyRow
 
 _MARKS = re.compile(r"[\s_^{}|]")
 _BRACES = re.compile(r"[\s{}|]")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from reportgen.case.key import Key, KeyRow
 from reportgen.handin import FileReading
 from reportgen.handin import statements as said
 from reportgen.handin.gathering import Gathering
@@ -15,7 +16,6 @@ from reportgen.handin.word_frame import read_blanks
 from reportgen.handin.word_nodes import XmlNode
 from reportgen.handin.word_tables import read_table
 from reportgen.handin.word_text import OBJECT, Block, TextGrid, TextLine, WordMark
-from reportgen.report.key import Key, KeyRow
 
 FREE = 10
 """The level of a position that no heading gives: any heading ends it."""

@@ -8,6 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from reportgen.base.errors import Fault, Mark
+from reportgen.case.key import Key
 from reportgen.handin import FileReading, agree
 from reportgen.handin.word_comments import MarginNote, with_comments
 from reportgen.handin.word_file import open_word, word_faults
@@ -18,7 +19,6 @@ from reportgen.marking.feedback import cell_comment
 from reportgen.marking.key import words_of
 from reportgen.marking.marks import Answer, Marking, Place
 from reportgen.marking.policy import Policy
-from reportgen.report.key import Key
 
 MARKED = "marked.docx"
 

@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 from reportgen.base.units import QuantityFault
+from reportgen.case.key import KeyRow
 from reportgen.handin import statements as said
 from reportgen.handin.gathering import Gathering
 from reportgen.handin.numbers import NUMBER, UNIT, plain_unit, read_value
@@ -14,7 +15,6 @@ from reportgen.handin.reading_words import any_of, label_of
 from reportgen.handin.symbols import bare
 from reportgen.handin.word_text import OBJECT, TextCell, TextGrid, TextLine
 from reportgen.marking.numbers import is_blank
-from reportgen.report.key import KeyRow
 
 HEADS = 4
 """Rows among which the one with the positions is looked for."""

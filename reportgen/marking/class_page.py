@@ -11,6 +11,8 @@ from typing import Any
 from reportgen.base.template_folders import search_path
 from reportgen.base.units import Language, nice_up, write
 from reportgen.base.words import load_words
+from reportgen.case.key import capitalised
+from reportgen.document import TEXT_WIDTH, Block, Column, Document, Figure, InlineMath, Inlines, Table, Text
 from reportgen.drawing import Content
 from reportgen.drawing.counts import bars, histogram
 from reportgen.drawing.statistics import intervals, scatter
@@ -22,8 +24,6 @@ from reportgen.marking.paper import DASH, cells, heading, paper, paragraph
 from reportgen.marking.policy import Policy
 from reportgen.marking.questions import Item, by_question, by_section
 from reportgen.marking.variant_marks import VariantGroup, groups
-from reportgen.report import TEXT_WIDTH, Block, Column, Document, Figure, InlineMath, Inlines, Table, Text
-from reportgen.report.key import capitalised
 
 CLASSES = 10
 """Columns of the histogram."""

@@ -7,13 +7,13 @@ from itertools import groupby
 from pathlib import Path
 from typing import Any
 
+from reportgen.case.key import Key
+from reportgen.document import Text, plain
 from reportgen.marking.feedback import amended, blank_positions, blank_rows, lateness, mistake_inlines, points_text
 from reportgen.marking.grades import open_text
 from reportgen.marking.key import symbol_text, words_of
 from reportgen.marking.marks import Marked, Marking, Unmarked, points_of
 from reportgen.marking.policy import Policy
-from reportgen.report import Text, plain
-from reportgen.report.key import Key
 
 FIRSTS = 5
 """First mistakes that are told; the page of feedback has them all."""

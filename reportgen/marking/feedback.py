@@ -9,10 +9,13 @@ from typing import Any
 
 import numpy as np
 
-from reportgen import report as tree
+from reportgen import document as tree
 from reportgen.base.errors import Problem
 from reportgen.base.settled import significant
 from reportgen.base.units import Language, rounded, write
+from reportgen.case.key import Key, KeyRow
+from reportgen.case.wording import sentence
+from reportgen.document import Block, Column, Document, Inline, InlineMath, Inlines, Paragraph, Table, Text, plain
 from reportgen.formula import Number
 from reportgen.formula.sheet import ZERO
 from reportgen.marking.key import shown_number, words_of
@@ -21,9 +24,6 @@ from reportgen.marking.marks import Amendment, Marked, Marking, Verdict, points_
 from reportgen.marking.paper import DASH, cells, fields, heading, paper, paragraph, student_rows
 from reportgen.marking.policy import Policy
 from reportgen.marking.sheet import NAMES, asked_positions, given_entry, grid, info_page, named_pages, page, rows_shown
-from reportgen.report import Block, Column, Document, Inline, InlineMath, Inlines, Paragraph, Table, Text, plain
-from reportgen.report.key import Key, KeyRow
-from reportgen.report.wording import sentence
 from reportgen.workbook import Book, BookSheet, Entry
 from reportgen.workbook.writing import Style
 

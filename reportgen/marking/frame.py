@@ -10,13 +10,13 @@ from collections.abc import Iterator, Mapping
 from hashlib import sha256
 from itertools import groupby
 
+from reportgen.case import Case
+from reportgen.case.key import Key, KeyRow
+from reportgen.document import Blank, Block, Document, Inline, InlineMath, Paragraph, Text
 from reportgen.formula import Chain, refs
 from reportgen.marking.key import formula_in_symbols, symbol_text, words_of
 from reportgen.marking.marks import Place
 from reportgen.marking.paper import fields, heading, paper, paragraph, student_rows
-from reportgen.report import Blank, Block, Document, Inline, InlineMath, Paragraph, Text
-from reportgen.report.case import Case
-from reportgen.report.key import Key, KeyRow
 
 LONGEST = 40
 """Characters of a bookmark."""

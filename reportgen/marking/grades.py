@@ -10,13 +10,13 @@ from typing import Any
 from reportgen.base.template_folders import search_path
 from reportgen.base.units import Language
 from reportgen.base.words import load_words
+from reportgen.case.key import Key, KeyRow
+from reportgen.document import plain
 from reportgen.formula.vocabulary import Chapter
 from reportgen.marking.feedback import amended
 from reportgen.marking.key import symbol_text
 from reportgen.marking.marks import Marked, Marking, Submission, Unmarked, points_of
 from reportgen.marking.policy import Policy
-from reportgen.report import plain
-from reportgen.report.key import Key, KeyRow
 
 Value = str | float | None
 

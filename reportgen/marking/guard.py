@@ -19,6 +19,7 @@ from itertools import combinations
 
 import numpy as np
 
+from reportgen.case.key import Key, KeyRow, Role
 from reportgen.formula import vocabulary
 from reportgen.formula.evaluation import evaluate
 from reportgen.formula.vocabulary import Chapter
@@ -27,7 +28,6 @@ from reportgen.marking.marks import Cells, Marked, Notice, Place, Submission, Ve
 from reportgen.marking.mistakes import WRONG_DATUM
 from reportgen.marking.scheme import MarkingScheme
 from reportgen.marking.working import Working, last_half_unit
-from reportgen.report.key import Key, KeyRow, Role
 
 FOREIGN_SHARE = 0.8
 """The share of a sheet's, a column's or a chapter's values that are not its own."""

@@ -19,6 +19,9 @@ from reportgen.base.source import read_source
 from reportgen.base.template_folders import search_path
 from reportgen.base.units import Language
 from reportgen.base.words import as_error, close_or_known, load_words
+from reportgen.case import Case, CaseOfParts
+from reportgen.case.key import Key, KeyRow, Role
+from reportgen.case.wording import BY_FORMULA, OPEN, definition_of, phrase
 from reportgen.formula import Expression, Number, ids, refs, substitute
 from reportgen.formula.ledger import Ledger
 from reportgen.formula.plain import formula
@@ -33,9 +36,6 @@ from reportgen.marking.bands import (
     plans_read,
     trapezoid_errors,
 )
-from reportgen.report.case import Case, CaseOfParts
-from reportgen.report.key import Key, KeyRow, Role
-from reportgen.report.wording import BY_FORMULA, OPEN, definition_of, phrase
 
 
 def words_of(key: Key) -> Mapping[str, Any]:

@@ -9,9 +9,11 @@ from typing import Any
 
 import numpy as np
 
-from reportgen import report as tree
+from reportgen import document as tree
 from reportgen.base.settled import significant
 from reportgen.base.units import significant_decimals
+from reportgen.case.key import Key, KeyRow, PartOfKey
+from reportgen.document import Cell, Column, Document, InlineMath, Inlines, Paragraph, Table, Text, plain
 from reportgen.formula import Number
 from reportgen.formula.plain import formula
 from reportgen.formula.sheet import ZERO
@@ -29,8 +31,6 @@ from reportgen.marking.paper import (
     unnamed_rows,
 )
 from reportgen.marking.sheet import Filling, grid, info_page, number_format, page
-from reportgen.report import Cell, Column, Document, InlineMath, Inlines, Paragraph, Table, Text, plain
-from reportgen.report.key import Key, KeyRow, PartOfKey
 from reportgen.workbook import Book, BookSheet, Entry
 
 FORMAT = "reportgen-key/1"

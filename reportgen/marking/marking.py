@@ -15,6 +15,8 @@ from pathlib import Path
 
 import numpy as np
 
+from reportgen.case import Case
+from reportgen.case.key import KeyRow, Role
 from reportgen.formula.ledger import Ledger
 from reportgen.marking.bands import half_unit, is_direction
 from reportgen.marking.exchanged import Exchange, possible_exchanges
@@ -29,8 +31,6 @@ from reportgen.marking.scale_readings import best_working, charged_for_scales, l
 from reportgen.marking.scheme import MarkingScheme, Values, marking_scheme
 from reportgen.marking.sheet import read_submission
 from reportgen.marking.working import Working
-from reportgen.report.case import Case
-from reportgen.report.key import KeyRow, Role
 
 SEARCHES: tuple[Callable[[Working, Cells], dict[Place, Mistake]], ...] = (
     slips_of_writing,

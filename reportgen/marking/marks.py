@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 
 from reportgen.base.errors import Mark, Problem
-from reportgen.report import Inlines
-from reportgen.report.key import Key
+from reportgen.case.key import Key
+from reportgen.document import Inlines
 
 Place = tuple[str, int]
 """A quantity's id and a position from 1; 0 for a quantity that is the same at all positions."""

@@ -13,6 +13,7 @@ from itertools import combinations
 
 import numpy as np
 
+from reportgen.case.key import Role
 from reportgen.formula import Call, Expression, Negative, Sum, ids, rebuild, refs, walk
 from reportgen.formula.evaluation import evaluate
 from reportgen.formula.ledger import follow
@@ -22,7 +23,6 @@ from reportgen.marking.bands import half_unit, is_direction
 from reportgen.marking.marks import Cells, Marked, Place, Verdict
 from reportgen.marking.scheme import MarkingScheme, Values
 from reportgen.marking.working import Change, Working
-from reportgen.report.key import Role
 
 WRONG_DATUM = "wrong-datum"
 """The name of a given datum taken wrongly."""

@@ -9,17 +9,17 @@ from functools import partial
 from itertools import groupby
 from typing import Any
 
-from reportgen import report as tree
+from reportgen import document as tree
 from reportgen.base.units import Language
+from reportgen.case import AskedFor, Case, CaseOfParts, LoadedAssignment
+from reportgen.case.key import Key, KeyRow, Role
+from reportgen.document import Block, Cell, Column, Document, InlineMath, Inlines, Paragraph, Table, Text
+from reportgen.document.numbering import number
 from reportgen.drawing.label_size import box
 from reportgen.formula import Number
 from reportgen.formula.vocabulary import Chapter
 from reportgen.marking.key import words_of
 from reportgen.marking.sheet import asked_positions, info_rows, open_cells
-from reportgen.report import Block, Cell, Column, Document, InlineMath, Inlines, Paragraph, Table, Text
-from reportgen.report.case import AskedFor, Case, CaseOfParts, LoadedAssignment
-from reportgen.report.key import Key, KeyRow, Role
-from reportgen.report.numbering import number
 from reportgen.report.report import PLATES_UP_TO
 
 MOST_POSITIONS, MOST_FILLED = 8, 4

@@ -14,11 +14,11 @@ from reportgen.base.errors import Finding
 from reportgen.base.source import read_source
 from reportgen.base.units import Language
 from reportgen.base.words import as_error
+from reportgen.case.key import Key, PartOfKey
 from reportgen.marking.guard import Classmate
 from reportgen.marking.marks import Marked, Marking, Notice, Place, Submission
 from reportgen.marking.policy import Policy
 from reportgen.marking.scheme import MarkingScheme
-from reportgen.report.key import Key, PartOfKey
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,10 +15,10 @@ import numpy as np
 from reportgen.base.template_folders import search_path
 from reportgen.base.units import Language
 from reportgen.base.words import load_words
+from reportgen.case.key import Key, KeyRow
 from reportgen.marking.grades import DECIMALS, Value, section_name
 from reportgen.marking.key import symbol_text
 from reportgen.marking.marks import Marked, Marking, Place, Verdict
-from reportgen.report.key import Key, KeyRow
 
 LEAST = 10
 """Students from whom on a correlation tells anything: of fewer, one of 0.6 may be chance (1 in 20)."""

@@ -12,12 +12,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from reportgen.case.key import Role
 from reportgen.formula import refs, vocabulary
 from reportgen.formula.evaluation import evaluate
 from reportgen.marking.marks import Cells, Marked, Place, Submission, Verdict
 from reportgen.marking.scheme import MarkingScheme, Values
 from reportgen.marking.working import CONFIRMED, ScaleReading, Working, lay_out
-from reportgen.report.key import Role
 
 Fitting = Callable[[Working], tuple[int, int]]
 """How many values of a sheet a working explains, and how many there are."""

@@ -8,14 +8,14 @@ from functools import cached_property
 
 import numpy as np
 
+from reportgen.case import Case, Misconceptions
+from reportgen.case.key import Key, KeyRow, Role
 from reportgen.formula import Product, Ref, vocabulary
 from reportgen.formula.ledger import Ledger, standing_on
 from reportgen.marking.bands import computed_bands, drawn_bands, is_chosen_length, is_direction
 from reportgen.marking.key import key_of
 from reportgen.marking.marks import Place, Submission
 from reportgen.marking.policy import Policy
-from reportgen.report.case import Case, Misconceptions
-from reportgen.report.key import Key, KeyRow, Role
 
 Values = Mapping[str, np.ndarray]
 """Values (SI) by id, [N] or [1]."""

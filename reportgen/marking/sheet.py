@@ -23,12 +23,12 @@ from reportgen.base.template_folders import languages
 from reportgen.base.typed import plain_signs
 from reportgen.base.units import Language, QuantityFault
 from reportgen.base.words import as_error, as_problem, common_words
+from reportgen.case.key import Key, KeyRow, Role
+from reportgen.document import plain
 from reportgen.formula.vocabulary import Chapter
 from reportgen.marking.key import shown_number, symbol_text, typed_unit, words_of
 from reportgen.marking.marks import Answer, Place, Submission
 from reportgen.marking.numbers import DecimalMark, decimal_mark, is_blank, read_number
-from reportgen.report import plain
-from reportgen.report.key import Key, KeyRow, Role
 from reportgen.workbook import Book, BookSheet, Entry, Page, SheetCell, read
 
 NAMES = 5

@@ -17,12 +17,12 @@ import numpy as np
 from reportgen.base.template_folders import search_path
 from reportgen.base.units import Language, write
 from reportgen.base.words import load_words
+from reportgen.case.key import Role
 from reportgen.formula import Symbol
 from reportgen.formula.plain import formula
 from reportgen.marking.grades import DECIMALS, Value
 from reportgen.marking.marks import Marking
 from reportgen.marking.policy import Policy
-from reportgen.report.key import Role
 
 LEAST = 2
 """Students of a group at least: one alone has no spread."""

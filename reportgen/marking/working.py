@@ -9,13 +9,13 @@ from typing import NamedTuple
 
 import numpy as np
 
+from reportgen.case.key import KeyRow, Role
 from reportgen.formula import Expression, ids, refs, vocabulary
 from reportgen.formula.evaluation import evaluate
 from reportgen.formula.ledger import follow
 from reportgen.marking.bands import half_unit
 from reportgen.marking.marks import Place, Submission
 from reportgen.marking.scheme import MarkingScheme, Values, makes_scale
-from reportgen.report.key import KeyRow, Role
 
 Change = Callable[[np.ndarray, Values], np.ndarray]
 """A quantity's value (SI) from what it comes to and all values before it."""

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from reportgen.case import Case, bounded
+from reportgen.document import Document
 from reportgen.page import html
 from reportgen.page.html import Live, Panel
-from reportgen.report import Document
-from reportgen.report.case import Case, bounded
 
 
 def panels(case: Case) -> tuple[Panel, ...]:

@@ -12,12 +12,12 @@ from typing import Any
 from reportgen import catalogue
 from reportgen.base.kinds import kinds, titles
 from reportgen.base.units import Language
+from reportgen.case import Case
+from reportgen.document import Figure
 from reportgen.page import html
 from reportgen.page.elements import Painter, Pens
 from reportgen.page.html import Live
 from reportgen.page.live import LiveSession, empty_document
-from reportgen.report import Figure
-from reportgen.report.case import Case
 
 READY = 60.0
 """The page waits so long (s) for the file that it has begun."""

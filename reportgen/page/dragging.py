@@ -13,10 +13,10 @@ from dataclasses import replace
 import numpy as np
 
 from reportgen.assignment import Assignment
+from reportgen.case import Case, MachineAnalysis
 from reportgen.drawing.animation import MomentValue, MovingBody, MovingName, MovingVector, Pane, Still, Track
 from reportgen.page.panel import PanelWriter, samples
 from reportgen.page.sampling import Samples
-from reportgen.report.case import Case, MachineAnalysis
 
 KEPT = "words", "written", "printed"
 """What is worked out of a case once and is not needed of a value that is being drawn: its words, ledgers, symbols."""

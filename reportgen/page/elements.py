@@ -12,6 +12,7 @@ from html import escape as escaped
 from itertools import groupby
 
 from reportgen.base.units import Language
+from reportgen.document.layout import fits
 from reportgen.drawing import Arc, Arrow, Circle, Content, Hatch, Item, Label, Line, Pen, Polyline, Scene, style
 from reportgen.drawing.geometry import frame
 from reportgen.drawing.label_size import POINT, SCRIPT, box
@@ -38,7 +39,6 @@ from reportgen.formula.setting import (
     sides,
 )
 from reportgen.formula.vocabulary import numbered, runs
-from reportgen.report.layout import fits
 
 COLOURS = {
     style.BLACK: "ink",

@@ -16,17 +16,17 @@ from functools import cache
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
-from reportgen import report as tree
+from reportgen import document as tree
 from reportgen.base.errors import TypesetterError
 from reportgen.base.languages import setting_of
 from reportgen.base.template_folders import templates
+from reportgen.document import layout
+from reportgen.document.alt_text import figure_text
+from reportgen.document.named_figures import figure_name, safe
 from reportgen.drawing import Scene
 from reportgen.formula import Expression, VectorEquation
 from reportgen.formula.setting import NARROW, written
 from reportgen.page.elements import MathmlFormulas, Painter, Pens, escape
-from reportgen.report import layout
-from reportgen.report.named_figures import figure_name, safe
-from reportgen.report.telling import figure_text
 
 if TYPE_CHECKING:
     from jinja2 import Environment, Template

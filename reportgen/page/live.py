@@ -12,14 +12,14 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any
 
-from reportgen import report as tree
+from reportgen import document as tree
 from reportgen.base.errors import AssignmentError, ReportgenError
 from reportgen.base.template_folders import search_path
 from reportgen.base.units import Language
 from reportgen.base.words import load_words, spoken, unexpected
+from reportgen.case import Case
 from reportgen.page import html, panels
 from reportgen.page.html import Live, Panel, WrittenReport
-from reportgen.report.case import Case
 
 NOBODY = "–"
 """What stands on the page of a file that was never right."""

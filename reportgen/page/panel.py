@@ -18,6 +18,7 @@ import numpy as np
 from reportgen.base.languages import decimal_mark
 from reportgen.base.settled import ALIKE, settled, significant
 from reportgen.base.units import Language, rounded, write
+from reportgen.document.alt_text import sentences, within
 from reportgen.drawing import Content, Label
 from reportgen.drawing.animation import (
     LAYERS,
@@ -40,7 +41,6 @@ from reportgen.formula import Symbol
 from reportgen.formula.vocabulary import KINDS
 from reportgen.page.elements import MathmlFormulas, Painter, Pens
 from reportgen.page.html import Panel, data, save_buttons, template
-from reportgen.report.telling import sentences, within
 
 SPEEDS = (0.1, 0.25, 0.5, 1.0, 2.0)
 """Of the motion shown: shares of its usual one."""

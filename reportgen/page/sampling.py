@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from reportgen.base.units import MM
+from reportgen.case import MachineAnalysis
 from reportgen.derivation import enter_plans
 from reportgen.derivation.loads import Polygon
 from reportgen.derivation.motion import What, centre_symbol
@@ -53,7 +54,6 @@ from reportgen.machine.motion import Motion
 from reportgen.page import panes, shaking
 from reportgen.page.friction_layer import friction_items
 from reportgen.page.running import timed_runs, working_point
-from reportgen.report.case import MachineAnalysis
 from reportgen.report.curves import axis, curves_of_motion, over_a_turn, over_the_cycle, torque_chart
 from reportgen.report.figures import drawing_scale, looks
 from reportgen.report.plans import POLE, force_construction, motion_construction

@@ -21,12 +21,12 @@ from reportgen.base.source import read_source
 from reportgen.base.template_folders import templates
 from reportgen.base.units import Language
 from reportgen.base.words import language_of
+from reportgen.case import Case
+from reportgen.document import Document
 from reportgen.page.choosing import Chooser
 from reportgen.page.editing import EditSession
 from reportgen.page.live import LiveSession
 from reportgen.page.serving import Server
-from reportgen.report import Document
-from reportgen.report.case import Case
 
 QUIET, LONGEST = 20, 200
 """Changes are taken together until nothing changes for the first time (ms), and no longer than the second."""

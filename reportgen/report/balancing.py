@@ -10,6 +10,7 @@ import numpy as np
 
 from reportgen.base.shown import view
 from reportgen.derivation.balancing import AFTER, AXES, BEFORE, LETTERS
+from reportgen.document import Value
 from reportgen.drawing import Diagram, PlottedCurve, Scene, charts
 from reportgen.drawing.counterweights import CounterweightDisc, with_discs
 from reportgen.formula import Chain, Symbol, balance_ids, ids
@@ -18,7 +19,7 @@ from reportgen.machine import DRIVER
 from reportgen.machine.balance import BalancedTurn, frame_reactions, shaking_force
 from reportgen.machine.laws import FULL_TURN
 from reportgen.machine.motion import unit
-from reportgen.report import Value, orders
+from reportgen.report import orders
 from reportgen.report.figures import FigureScenes, drawing_scale, looks, reduction, shown_at
 from reportgen.report.orders import factors_table
 from reportgen.report.report import Report

@@ -15,15 +15,7 @@ from reportgen.base.errors import NotOfferedError
 from reportgen.base.units import significant_decimals
 from reportgen.base.words import word
 from reportgen.catalogue.given_loads import ByOrdinates
-from reportgen.formula import Expression, Number, Symbol, ids, size, vocabulary, walk
-from reportgen.formula.plain import python
-from reportgen.formula.vocabulary import Chapter, on_plan
-from reportgen.machine import DRIVER
-from reportgen.machine.analysis import motion_at
-from reportgen.machine.laws import FULL_TURN
-from reportgen.machine.loads import Applied
-from reportgen.machine.springs import SpringLaw, TorsionLaw
-from reportgen.report import (
+from reportgen.document import (
     Block,
     Cell,
     Column,
@@ -37,6 +29,14 @@ from reportgen.report import (
     Value,
     listed,
 )
+from reportgen.formula import Expression, Number, Symbol, ids, size, vocabulary, walk
+from reportgen.formula.plain import python
+from reportgen.formula.vocabulary import Chapter, on_plan
+from reportgen.machine import DRIVER
+from reportgen.machine.analysis import motion_at
+from reportgen.machine.laws import FULL_TURN
+from reportgen.machine.loads import Applied
+from reportgen.machine.springs import SpringLaw, TorsionLaw
 from reportgen.report.comments import Peak, each_peak, reaction_ids, slider_rates, turning_rates
 from reportgen.report.guide_couples import guide_couples
 from reportgen.report.phrases import sign

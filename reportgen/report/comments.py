@@ -11,10 +11,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from reportgen.base.shown import view
+from reportgen.document import InlineMath, Inlines, Text, Value, listed
 from reportgen.formula import ids
 from reportgen.machine import DRIVER, GROUND
 from reportgen.machine.analysis import Position
-from reportgen.report import InlineMath, Inlines, Text, Value, listed
 from reportgen.report.phrases import at_positions, say
 from reportgen.report.report import Report
 

@@ -12,6 +12,7 @@ import numpy as np
 
 from reportgen.base.units import MM
 from reportgen.derivation.sides import scheme
+from reportgen.document.prose import subscripted
 from reportgen.drawing import Content, Diagram, PlottedCurve, Scene, charts
 from reportgen.drawing.diagram import Inclination
 from reportgen.formula import Chain, Symbol, ids
@@ -22,7 +23,6 @@ from reportgen.machine.laws import FULL_TURN
 from reportgen.report.comments import sliders
 from reportgen.report.equations import heading_words
 from reportgen.report.figures import FigureScenes
-from reportgen.report.prose import subscripted
 from reportgen.report.report import Report
 
 THINNED = 4

@@ -16,6 +16,8 @@ from reportgen.base.languages import setting_of
 from reportgen.derivation.loads import Edge, Polygon
 from reportgen.derivation.motion import What
 from reportgen.derivation.sides import Side
+from reportgen.document import Equation, Inline, InlineMath, Inlines, Text, Value, listed
+from reportgen.document.prose import subscripted
 from reportgen.formula import (
     Chain,
     Expression,
@@ -34,9 +36,7 @@ from reportgen.formula import (
 )
 from reportgen.formula.vocabulary import on_plan, segment
 from reportgen.machine import mobility
-from reportgen.report import Equation, Inline, InlineMath, Inlines, Text, Value, listed
 from reportgen.report.groups import Contact, GroupView
-from reportgen.report.prose import subscripted
 from reportgen.report.report import Report
 
 # --- numbers and symbols

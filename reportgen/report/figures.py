@@ -15,6 +15,8 @@ import numpy as np
 from reportgen.base.units import MM
 from reportgen.derivation.motion import NEAREST, centre_symbol
 from reportgen.derivation.sides import Side
+from reportgen.document import TEXT_WIDTH
+from reportgen.document.layout import FIGURE_HEIGHT, in_rows
 from reportgen.drawing import Scene
 from reportgen.drawing import indicator as indicator_figure
 from reportgen.drawing import scheme as scheme_figure
@@ -42,9 +44,7 @@ from reportgen.machine.flywheel import SAME_ANGLE
 from reportgen.machine.laws import FULL_TURN
 from reportgen.machine.loads import Piston
 from reportgen.machine.motion import Motion, solve_motion
-from reportgen.report import TEXT_WIDTH
 from reportgen.report.groups import GroupView, PlaneLink
-from reportgen.report.layout import FIGURE_HEIGHT, in_rows
 from reportgen.report.report import DENSE, Report
 
 A3_UPRIGHT, A3_ACROSS = (297.0, 420.0), (420.0, 297.0)

@@ -11,13 +11,13 @@ from dataclasses import dataclass
 from reportgen.base.shown import shown, view
 from reportgen.derivation.loads import Polygon
 from reportgen.derivation.sides import Scheme, Side, image, sides
+from reportgen.document.prose import NamedPoint
 from reportgen.formula import ids, refs
 from reportgen.formula.ids import Name
 from reportgen.formula.ledger import Ledger
 from reportgen.machine import DRIVER, Crank, Dyad, Guide, Inertia, Linkage, Mobility
 from reportgen.machine.analysis import Machine, Position
 from reportgen.machine.loads import Applied, Torque
-from reportgen.report.prose import NamedPoint
 
 # What knows nothing of words is shown here.
 shown("__str__")(Position)

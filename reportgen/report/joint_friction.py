@@ -12,6 +12,8 @@ from reportgen.base.shown import view
 from reportgen.base.units import MM
 from reportgen.derivation.joint_friction import RubbingJoint, rubbing_joints
 from reportgen.derivation.loads import Edge, Polygon
+from reportgen.document import FIRST_COLUMN, Column, Inlines, Table, Text
+from reportgen.document.prose import NamedPoint, subscripted
 from reportgen.drawing import Arc, Circle, Item, Line, Scene, style
 from reportgen.drawing.canvas import Canvas, finish
 from reportgen.drawing.description import PaperLength, fact, turning
@@ -24,12 +26,11 @@ from reportgen.formula import Number, Symbol, friction_ids, ids, vocabulary
 from reportgen.machine import GROUND
 from reportgen.machine.forces import reaction_name
 from reportgen.machine.joint_friction import FrictionForces, relative_sense
-from reportgen.report import FIRST_COLUMN, Column, Inlines, Table, Text, equations
+from reportgen.report import equations
 from reportgen.report.face_friction import FaceForce, Leaning, any_tilts, at_both_ends, face_forces, leaning_forces
 from reportgen.report.figures import FigureScenes, as_large_as_asked, beside_one_another, drawing_scale, looks, on_paper
 from reportgen.report.groups import GroupView
 from reportgen.report.plans import force_plan
-from reportgen.report.prose import NamedPoint, subscripted
 from reportgen.report.report import Report
 from reportgen.report.tables import bare, side_by_side
 from reportgen.report.wide_sliders import face

@@ -6,18 +6,9 @@ from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
+from reportgen.document import Paragraph, Table
 from reportgen.machine.analysis import Position
-from reportgen.report import (
-    Paragraph,
-    Table,
-    balancing,
-    chapters,
-    joint_friction,
-    result_tables,
-    running,
-    tables,
-    wide_sliders,
-)
+from reportgen.report import balancing, chapters, joint_friction, result_tables, running, tables, wide_sliders
 from reportgen.report.report import Report
 
 

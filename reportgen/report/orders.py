@@ -6,10 +6,10 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
 from reportgen.derivation.orders import EXACT, OF_ALL, ORDERS, SENSES
+from reportgen.document import Value
 from reportgen.drawing.stars import star
 from reportgen.formula import Number, balance_ids, vocabulary
 from reportgen.machine.orders import Engine, engine
-from reportgen.report import Value
 from reportgen.report.figures import FigureScenes
 from reportgen.report.report import Report
 from reportgen.report.tables import bare

@@ -14,8 +14,9 @@ from itertools import chain
 from typing import Any
 
 from reportgen.base.shown import shown
-from reportgen.machine.analysis import Position
-from reportgen.report import (
+from reportgen.case import MachineAnalysis
+from reportgen.case.finished import finished
+from reportgen.document import (
     Block,
     Document,
     Figure,
@@ -27,6 +28,11 @@ from reportgen.report import (
     Reference,
     Section,
     Text,
+)
+from reportgen.document.layout import contents
+from reportgen.document.used_symbols import used_symbols
+from reportgen.machine.analysis import Position
+from reportgen.report import (
     balancing,
     chapters,
     comments,
@@ -49,14 +55,10 @@ from reportgen.report import chapters as overview
 from reportgen.report import figures as centres
 from reportgen.report import joint_friction as friction
 from reportgen.report import phrases as steps
-from reportgen.report.case import MachineAnalysis
 from reportgen.report.figures import PAPERS, FigureScenes, close
-from reportgen.report.finished import finished
 from reportgen.report.groups import GroupView
-from reportgen.report.layout import contents
 from reportgen.report.named_tables import table
 from reportgen.report.report import Report
-from reportgen.report.used_symbols import used_symbols
 
 # --- names without parentheses ----------------------------------------------------------------------
 

@@ -20,12 +20,12 @@ from reportgen.base.units import MM
 from reportgen.base.words import unfilled
 from reportgen.derivation.motion import POLES
 from reportgen.derivation.sides import Side
+from reportgen.document import Inline, InlineMath, Inlines, Reference, Text, Value
+from reportgen.document.insertions import inlines
+from reportgen.document.prose import NamedPoint, subscripted
 from reportgen.formula import Chain, Number, Symbol, ids
-from reportgen.report import Inline, InlineMath, Inlines, Reference, Text, Value
 from reportgen.report.equations import a, image, math, quantity, slider_ways, v, value
 from reportgen.report.groups import CarriedPoint, GroupView
-from reportgen.report.insertions import inlines
-from reportgen.report.prose import NamedPoint, subscripted
 from reportgen.report.report import Report
 
 if TYPE_CHECKING:

@@ -16,6 +16,8 @@ from reportgen.base.units import MM, nice_up
 from reportgen.derivation.loads import Edge, Polygon
 from reportgen.derivation.motion import POLES, What
 from reportgen.derivation.sides import Side, image
+from reportgen.document import Inlines
+from reportgen.document.layout import SCENE_GAP
 from reportgen.drawing import Scene
 from reportgen.drawing.plan import (
     Construction,
@@ -32,10 +34,8 @@ from reportgen.drawing.plan import (
 from reportgen.drawing.scheme import thumbnail
 from reportgen.drawing.sheet import sheets
 from reportgen.formula import Chain, Symbol, ids, vocabulary
-from reportgen.report import Inlines
 from reportgen.report.figures import A3_ACROSS, FIGURE_ROOM, FigureScenes, on_paper, scale_note
 from reportgen.report.groups import GroupView
-from reportgen.report.layout import SCENE_GAP
 from reportgen.report.phrases import counted
 from reportgen.report.report import Report
 

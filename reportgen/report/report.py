@@ -14,9 +14,11 @@ import numpy as np
 
 from reportgen.assignment import Assignment
 from reportgen.base.units import MM
+from reportgen.case import MachineAnalysis
 from reportgen.derivation.loads import Polygon
 from reportgen.derivation.motion import links_in_plane_motion
 from reportgen.derivation.sides import scheme
+from reportgen.document.prose import Prose, subscripted
 from reportgen.drawing.charts import Area
 from reportgen.formula import Symbol, ids, vocabulary
 from reportgen.formula.ledger import Ledger
@@ -25,10 +27,8 @@ from reportgen.machine.analysis import Analysis, Machine, Position, analyse
 from reportgen.machine.flywheel import SAME_ANGLE, RegulatedCycle
 from reportgen.machine.laws import FULL_TURN
 from reportgen.machine.loads import Applied, Piston, Torque
-from reportgen.report.case import MachineAnalysis
 from reportgen.report.extents import LEFT_OUT, OF_A_TURN, OPENING
 from reportgen.report.groups import BodyView, DriverView, GroupView, PlaneLink, displaced_inertia
-from reportgen.report.prose import Prose, subscripted
 
 PLATES_UP_TO = 24
 """Above this many positions of a turn, plates are drawn for worked ones only, and not all are shown."""

@@ -9,22 +9,12 @@ import numpy as np
 
 from reportgen.base.units import MM
 from reportgen.derivation.sides import Side, image
+from reportgen.document import FIRST_COLUMN, TEXT_WIDTH, Column, InlineMath, Inlines, Paragraph, Table, Text
 from reportgen.formula import Chain, Number, Power, Symbol, ids
 from reportgen.formula.sheet import ZERO
 from reportgen.formula.vocabulary import Chapter
 from reportgen.machine import Crank
-from reportgen.report import (
-    FIRST_COLUMN,
-    TEXT_WIDTH,
-    Column,
-    InlineMath,
-    Inlines,
-    Paragraph,
-    Table,
-    Text,
-    balancing,
-    running,
-)
+from reportgen.report import balancing, running
 from reportgen.report.comments import AT_REST
 from reportgen.report.groups import GroupView
 from reportgen.report.guide_couples import guide_couples

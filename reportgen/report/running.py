@@ -10,11 +10,12 @@ import numpy as np
 
 from reportgen.base.units import rounded, significant_decimals
 from reportgen.derivation import run_ids
+from reportgen.document import Equation, InlineMath, Inlines, Paragraph, Table, Text, Value, listed
 from reportgen.formula import NOTHING, Chain, Expression, Number, Symbol, plus
 from reportgen.machine.drives import ConstantDrive, Geared, TableDrive
 from reportgen.machine.running import MotionRun
 from reportgen.machine.true_motion import OFF_SPEED
-from reportgen.report import Equation, InlineMath, Inlines, Paragraph, Table, Text, Value, listed, running_motors
+from reportgen.report import running_motors
 from reportgen.report.report import Report
 from reportgen.report.running_curves import motion_of
 from reportgen.report.running_forces import asks_forces, forces_table

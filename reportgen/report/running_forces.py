@@ -7,11 +7,11 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from reportgen.base.units import figure_decimals
+from reportgen.document import Table
 from reportgen.formula import Number, Symbol, ids, size
 from reportgen.formula.sheet import ZERO
 from reportgen.machine.analysis import Analysis, Position
 from reportgen.machine.true_motion import at_true_speeds
-from reportgen.report import Table
 from reportgen.report.report import Report
 from reportgen.report.running_curves import motion_of
 from reportgen.report.tables import list_table

@@ -7,9 +7,9 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
 from reportgen.base.units import significant_decimals
+from reportgen.document import Inline, Inlines, Table, Text, Value
 from reportgen.formula import Number
 from reportgen.machine.motors import MotorChecks
-from reportgen.report import Inline, Inlines, Table, Text, Value
 from reportgen.report.report import Report
 from reportgen.report.tables import list_table
 

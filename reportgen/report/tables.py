@@ -11,11 +11,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from reportgen.catalogue.given_loads import ByOrdinates
-from reportgen.drawing.label_size import box
-from reportgen.formula import Chain, Expression, Fraction, Number, Symbol, ids, refs, size, vocabulary
-from reportgen.formula.vocabulary import KINDS
-from reportgen.machine.laws import Law
-from reportgen.report import (
+from reportgen.document import (
     FIRST_COLUMN,
     TEXT_WIDTH,
     Cell,
@@ -28,7 +24,11 @@ from reportgen.report import (
     Value,
     listed,
 )
-from reportgen.report.prose import subscripted
+from reportgen.document.prose import subscripted
+from reportgen.drawing.label_size import box
+from reportgen.formula import Chain, Expression, Fraction, Number, Symbol, ids, refs, size, vocabulary
+from reportgen.formula.vocabulary import KINDS
+from reportgen.machine.laws import Law
 from reportgen.report.report import Report
 
 WIDEST_COLUMN = 26.0

@@ -8,12 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from reportgen.base.shown import view
+from reportgen.document.prose import NamedPoint
 from reportgen.drawing import Item, Line, style
 from reportgen.drawing.forces import LEAST_ARM
 from reportgen.drawing.geometry import unit
 from reportgen.formula import Symbol, constructions, ids, vocabulary
 from reportgen.machine.loads import carriers
-from reportgen.report.prose import NamedPoint
 from reportgen.report.report import Report
 from reportgen.report.tables import bare
 

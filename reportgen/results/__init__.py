@@ -12,9 +12,9 @@ from typing import Any
 
 import numpy as np
 
+from reportgen.case import Case
 from reportgen.formula.ledger import Ledger
 from reportgen.formula.sheet import Family
-from reportgen.report.case import Case
 
 FORMAT = "reportgen-results/1"
 

@@ -11,9 +11,9 @@ from reportgen.base.errors import AssignmentError, Finding, SheetError
 from reportgen.base.languages import setting_of
 from reportgen.base.source import read_source
 from reportgen.base.words import as_error, word
+from reportgen.case import Case, CaseOfParts, MachineAnalysis
 from reportgen.drawing.plates import DrawingPlate
 from reportgen.drawing.sheet import DrawingSheet, PlacedScene, TooLargeError
-from reportgen.report.case import Case, CaseOfParts, MachineAnalysis
 from reportgen.sheets.frame import TitleBlock, blocks, fields_of, framed, numbered, read_block, room
 from reportgen.sheets.packing import Packing
 from reportgen.sheets.plates import Set, Sources, plates_of

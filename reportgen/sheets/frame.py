@@ -20,11 +20,11 @@ from reportgen.base.source import read_source
 from reportgen.base.template_folders import templates
 from reportgen.base.units import Language
 from reportgen.base.words import as_error, close_or_known
+from reportgen.case import Case
 from reportgen.drawing import Anchor, Description, Item, Label, Line, Pen, Polyline, Scene
 from reportgen.drawing.description import fact
 from reportgen.drawing.label_size import box
 from reportgen.drawing.sheet import DrawingSheet, PlacedScene, Room, font_size
-from reportgen.report.case import Case
 
 SIZES: Mapping[str, tuple[float, float]] = {
     "A0": (1189.0, 841.0),

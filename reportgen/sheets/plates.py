@@ -13,8 +13,11 @@ from functools import partial
 from typing import Any, Literal
 
 from reportgen.base.units import Language
+from reportgen.case import Case, MachineAnalysis
 from reportgen.derivation.loads import Polygon
 from reportgen.derivation.motion import What
+from reportgen.document import Inline, InlineMath, Inlines, Table, Text, Value, plain
+from reportgen.document.unspaced import set_out
 from reportgen.drawing import Content, Scene
 from reportgen.drawing.geometry import unit
 from reportgen.drawing.plan import Plan, plan
@@ -23,9 +26,8 @@ from reportgen.drawing.scales import FigureSize
 from reportgen.drawing.sheet import ENLARGED, grid, lettered, widths
 from reportgen.formula import Chain, Number, ids
 from reportgen.formula.plain import formula, quantity
-from reportgen.report import Inline, InlineMath, Inlines, Table, Text, Value, balancing, curves, plain, running_curves
+from reportgen.report import balancing, curves, running_curves
 from reportgen.report import joint_friction as friction
-from reportgen.report.case import Case, MachineAnalysis
 from reportgen.report.chapters import spring_lines
 from reportgen.report.figures import centre_state, centres, indicator, positions_scene, scheme
 from reportgen.report.force_figures import lever, separated, separated_driver
@@ -51,7 +53,6 @@ from reportgen.report.result_tables import (
     velocities,
     velocity_segments,
 )
-from reportgen.report.unspaced import set_out
 
 Set = Literal["kinematics", "forces", "balancing"]
 WIDEST, MOST_ROWS = 180.0, 24

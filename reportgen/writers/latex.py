@@ -14,14 +14,14 @@ from functools import cache
 from itertools import islice, pairwise
 from typing import TYPE_CHECKING
 
-from reportgen import report as tree
+from reportgen import document as tree
 from reportgen.base.languages import setting_of
 from reportgen.base.template_folders import templates
 from reportgen.base.units import Language
+from reportgen.document import layout
 from reportgen.drawing import Scene
 from reportgen.formula import Expression, Symbol, VectorEquation
 from reportgen.formula.setting import columns
-from reportgen.report import layout
 from reportgen.writers.drawing import paint_latex
 from reportgen.writers.latex_math import LatexFormulas, declarations, escape, hexadecimal
 

@@ -15,6 +15,7 @@ from typing import ClassVar, Literal
 
 from reportgen.base.errors import TypesetterError
 from reportgen.base.units import MINUS
+from reportgen.document.layout import fits
 from reportgen.formula import Expression, Symbol, VectorEquation
 from reportgen.formula.setter import TextSetter
 from reportgen.formula.setting import (
@@ -32,7 +33,6 @@ from reportgen.formula.setting import (
     sides,
 )
 from reportgen.formula.vocabulary import numbered, runs
-from reportgen.report.layout import fits
 
 NARROW_TERMS = 5
 """A vector equation of at most so many terms fits any line."""

@@ -13,11 +13,13 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict
 from itertools import groupby, pairwise
 
-from reportgen import report as tree
+from reportgen import document as tree
 from reportgen.base.errors import TypesetterError
 from reportgen.base.languages import PageMargins, setting_of
 from reportgen.base.template_folders import templates
 from reportgen.base.units import Language, by_power_of_ten
+from reportgen.document import layout, spoken
+from reportgen.document.alt_text import figure_text, sentences, within
 from reportgen.drawing import Scene
 from reportgen.drawing.geometry import moved
 from reportgen.drawing.label_size import box
@@ -25,8 +27,6 @@ from reportgen.drawing.sheet import DrawingSheet
 from reportgen.formula import Chain, Expression, Product, Sum, Symbol, VectorEquation, walk
 from reportgen.formula.setting import EQUALS, NARROW, MathRow, Part, columns, displayed, laid, sides, written
 from reportgen.formula.speech import Speech
-from reportgen.report import layout, spoken
-from reportgen.report.telling import figure_text, sentences, within
 from reportgen.writers.drawing import paint_typst
 from reportgen.writers.typst_fonts import FONT, breadth
 from reportgen.writers.typst_math import TypstFormulas, literal

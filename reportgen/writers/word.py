@@ -10,12 +10,12 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import groupby, pairwise
 
-from reportgen import report as tree
+from reportgen import document as tree
 from reportgen.base.languages import setting_of
+from reportgen.document import layout
+from reportgen.document.alt_text import figure_text
 from reportgen.drawing import Scene
 from reportgen.formula.setting import NARROW, written
-from reportgen.report import layout
-from reportgen.report.telling import figure_text
 from reportgen.writers.word_elements import (
     A4,
     BOLD,

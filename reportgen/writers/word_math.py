@@ -12,6 +12,8 @@ from itertools import chain
 from typing import ClassVar
 
 from reportgen.base.units import Language
+from reportgen.document import TEXT_WIDTH
+from reportgen.document.layout import ABREAST, fits, in_groups
 from reportgen.drawing.label_size import POINT, Boxes
 from reportgen.formula import Expression, Symbol, VectorEquation
 from reportgen.formula.setter import TextSetter
@@ -30,8 +32,6 @@ from reportgen.formula.setting import (
     parted,
 )
 from reportgen.formula.vocabulary import numbered, runs
-from reportgen.report import TEXT_WIDTH
-from reportgen.report.layout import ABREAST, fits, in_groups
 from reportgen.writers.word_elements import GRID, ITALIC, KEPT, LIGHT, MATH_FONT, escape, paragraph, rule, run, twips
 from reportgen.writers.word_styles import EQUATION_SIZE, KNOWN_SIZE
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from reportgen import report as tree
+from reportgen import document as tree
 from reportgen.writers.word_elements import PageSetup
 
 COVER = PageSetup(left=36, right=26, top=30, bottom=26, running=False, framed=True)

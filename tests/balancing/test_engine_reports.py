@@ -21,6 +21,7 @@ from reportgen.cases import open_case
 from reportgen.catalogue import sample
 from reportgen.classes import assess
 from reportgen.classes.variants import make_variants
+from reportgen.document import text_of
 from reportgen.drawing import Label
 from reportgen.formula import Chain, Number, Symbol
 from reportgen.marking.feedback import cell_comment
@@ -29,7 +30,6 @@ from reportgen.marking.marking import mark
 from reportgen.marking.mistakes import Mistake
 from reportgen.marking.policy import Policy
 from reportgen.marking.scheme import MarkingScheme, marking_scheme
-from reportgen.report import text_of
 from reportgen.results import results as results_of
 from reportgen.sheets import drawing_sheets
 from tests.balancing.test_rotor_reports import ROUNDED, arrows, recomputes

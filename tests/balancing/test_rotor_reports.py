@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from reportgen import api
-from reportgen import report as tree
+from reportgen import document as tree
 from reportgen.balancing import rotor_ids
 from reportgen.balancing.rotor_case import RotorCase
 from reportgen.balancing.rotor_drawings import moments_plan, two_views, unbalance_plan

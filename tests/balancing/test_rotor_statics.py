@@ -15,8 +15,8 @@ from reportgen.balancing.rotor_file import BEARINGS, Parameters
 from reportgen.balancing.rotor_sheet import AFTER, BEFORE, RotorSheet
 from reportgen.base.errors import AssignmentError
 from reportgen.cases import open_case, opened
+from reportgen.document import text_of
 from reportgen.formula.model import model
-from reportgen.report import text_of
 
 FOLDER = Path(__file__).parents[2] / "assignments" / "rotor"
 LEAST = 1e-12

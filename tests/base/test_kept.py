@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from reportgen.base import files as kept
-from reportgen.report import Block, prose
+from reportgen.document import Block, prose
 from reportgen.writers import latex, pdflatex
 from tests.lanes import matrix
 from tests.writers import sample

@@ -8,8 +8,8 @@ import pytest
 
 from reportgen.base.errors import TemplateError
 from reportgen.base.words import find, sections
-from reportgen.report import Paragraph, Text
-from reportgen.report.prose import Prose
+from reportgen.document import Paragraph, Text
+from reportgen.document.prose import Prose
 
 
 def file_of(folder: Path, text: str) -> Path:

@@ -13,8 +13,8 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from reportgen import api
+from reportgen.document import Block, Equation, Figure, List, Paragraph, Plate, Table, Text
 from reportgen.drawing import Label, Scene
-from reportgen.report import Block, Equation, Figure, List, Paragraph, Plate, Table, Text
 
 
 @dataclass(frozen=True, slots=True)

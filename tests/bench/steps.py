@@ -29,7 +29,7 @@ STEPS = {
     "reportgen.machine.analysis.virtual_work_torque": "torque by virtual work",
     "reportgen.machine.analysis.summarise": "figures of the cycle",
     "reportgen.derivation.write_ledger": "numbers and their lines",
-    "reportgen.report.case.printed": "values as written down",
+    "reportgen.case.printed": "values as written down",
     "reportgen.marking.key.drawn_bands": "tolerance bands",
     "reportgen.marking.key.computed_bands": "tolerance bands",
     "reportgen.report.outline.compose": "text and figures",

@@ -12,7 +12,7 @@ import pytest
 from reportgen import api
 from reportgen.cases import MachineCase
 from reportgen.catalogue import check
-from reportgen.report import text_of
+from reportgen.document import text_of
 from tests.report import trees
 from tests.report.calculator import misses
 

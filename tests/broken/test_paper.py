@@ -10,7 +10,8 @@ import pytest
 from reportgen import api
 from reportgen.cases import MachineCase
 from reportgen.catalogue import check
-from reportgen.report import Plate, outline
+from reportgen.document import Plate
+from reportgen.report import outline
 from tests.lanes import matrix
 
 FOUR_BAR = """\

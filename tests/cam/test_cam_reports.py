@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from reportgen import report as tree
+from reportgen import document as tree
 from reportgen.base.units import Language
 from reportgen.cases import open_case
 from reportgen.formula import Chain, Number, Symbol, walk

@@ -17,7 +17,7 @@ from reportgen.api.figures import plot_files
 from reportgen.base.errors import AssignmentError, NotOfferedError
 from reportgen.cases import opened
 from reportgen.catalogue import sample
-from reportgen.report import text_of
+from reportgen.document import text_of
 
 HEAD = """
 kind: linkage

@@ -16,9 +16,9 @@ from reportgen import api
 from reportgen.base.kinds import kinds
 from reportgen.cases import opened
 from reportgen.catalogue import sample
+from reportgen.document import text_of
 from reportgen.formula import ids
 from reportgen.marking.key import key_of
-from reportgen.report import text_of
 from tests.lanes import matrix
 from tests.report import built
 

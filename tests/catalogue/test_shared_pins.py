@@ -10,8 +10,8 @@ import pytest
 from reportgen import catalogue
 from reportgen.cases import MachineCase, open_case
 from reportgen.derivation import write_ledger
+from reportgen.document import text_of
 from reportgen.machine.reduction import reduced
-from reportgen.report import text_of
 
 FOUR_BAR = """\
 kind: linkage

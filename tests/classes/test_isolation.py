@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from reportgen.base.errors import Problem
+from reportgen.case import MachineAnalysis
 from reportgen.cases import open_case
 from reportgen.classes import assess, outcome
 from reportgen.marking.guard import Classmate
@@ -17,7 +18,6 @@ from reportgen.marking.marks import Marking, Submission
 from reportgen.marking.policy import Policy
 from reportgen.marking.scheme import MarkingScheme
 from reportgen.marking.sheet import answer_book
-from reportgen.report.case import MachineAnalysis
 from reportgen.workbook import write_xlsx
 from tests.handin import wml
 from tests.handin.drawings import Manner, draw, true_plans

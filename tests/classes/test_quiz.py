@@ -17,15 +17,15 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from reportgen import report as tree
+from reportgen import document as tree
 from reportgen.base.errors import AssignmentError
+from reportgen.case.key import Role
 from reportgen.cases import open_case
 from reportgen.classes import quiz
 from reportgen.classes.quiz import _answer, question_bank
 from reportgen.marking.key import Ask, key_of
 from reportgen.marking.paper import task_of
 from reportgen.marking.policy import Policy
-from reportgen.report.key import Role
 from tests.marking.students import ASSIGNMENTS
 
 FILE = ASSIGNMENTS / "slider-crank-02.yaml"

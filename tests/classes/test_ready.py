@@ -13,7 +13,7 @@ from reportgen.classes import ready
 from reportgen.classes.pool import KINDS
 
 ASKED = (
-    "import reportgen.classes.ready; from reportgen.report import prose; from reportgen.base import words; "
+    "import reportgen.classes.ready; from reportgen.document import prose; from reportgen.base import words; "
     "print(prose._environment.cache_info().currsize, words._as_of.cache_info().currsize)"
 )
 

@@ -12,14 +12,14 @@ import pytest
 
 from reportgen import api
 from reportgen.base.errors import Problem
+from reportgen.case import MachineAnalysis
+from reportgen.case.key import Key
 from reportgen.cases import open_case
 from reportgen.classes import assess, outcome
+from reportgen.document import Document
 from reportgen.marking.key import Ask, key_of
 from reportgen.marking.policy import Policy
 from reportgen.marking.sheet import answer_book
-from reportgen.report import Document
-from reportgen.report.case import MachineAnalysis
-from reportgen.report.key import Key
 from reportgen.workbook import write_xlsx
 from tests.handin import wml
 from tests.handin.drawings import Manner, draw, true_plans

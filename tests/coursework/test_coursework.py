@@ -22,6 +22,8 @@ from reportgen.base.units import Language
 from reportgen.cases import open_case, opened, opener
 from reportgen.coursework.case import Coursework, PartCase
 from reportgen.coursework.symbol_renaming import nodes
+from reportgen.document import Contents, Document, Section, plain, text_of
+from reportgen.document.numbering import unreferenced
 from reportgen.drawing import Scene
 from reportgen.formula import Symbol
 from reportgen.marking.key import Ask, key_of
@@ -31,8 +33,6 @@ from reportgen.marking.paper import task_of
 from reportgen.marking.policy import Policy
 from reportgen.marking.scheme import marking_scheme
 from reportgen.page import panels
-from reportgen.report import Contents, Document, Section, plain, text_of
-from reportgen.report.numbering import unreferenced
 from reportgen.results.files import table, workbook
 from reportgen.sheets import drawing_sheets
 from tests.drawing.overlaps import overlaps

@@ -9,13 +9,13 @@ from pathlib import Path
 
 import pytest
 
+from reportgen.case.shafts import Shaft
 from reportgen.cases import open_case
 from reportgen.coursework.booklet import groups, topic
 from reportgen.coursework.case import Coursework
 from reportgen.coursework.senses import PartShafts, turning
-from reportgen.report import Block, Inlines, Section, Table, plain, text_of
-from reportgen.report.shafts import Shaft
-from reportgen.report.used_symbols import explained, is_explained, used_symbols
+from reportgen.document import Block, Inlines, Section, Table, plain, text_of
+from reportgen.document.used_symbols import explained, is_explained, used_symbols
 
 ASSIGNMENTS = Path(__file__).parents[2] / "assignments"
 FOLDER = ASSIGNMENTS / "coursework"
@@ -174,7 +174,7 @@ def _alone(row: tuple[object, ...]) -> Table:
 
 
 def _has_words(case: object, id: str) -> bool:
-    from reportgen.report.wording import phrase
+    from reportgen.case.wording import phrase
 
     return bool(phrase(id, case.printed, case.words))  # type: ignore[attr-defined]
 

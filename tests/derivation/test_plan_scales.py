@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 
 from reportgen.base.units import SERIES, nice_down, nice_up
+from reportgen.case.key import KeyRow
 from reportgen.cases import MachineCase
 from reportgen.derivation.loads import Polygon
 from reportgen.derivation.motion import What
 from reportgen.derivation.scales import SHEET_BOXES, TEXT_BOX
 from reportgen.drawing.plan import Plan
 from reportgen.marking.marking import mark
-from reportgen.report.key import KeyRow
 from reportgen.report.plans import force_plan, motion_plan
 from reportgen.report.report import Report
 from tests.marking import students

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 import reportgen
+from reportgen.case import MachineAnalysis
 from reportgen.drawing import Hatch, Label, Polyline, style
 from reportgen.drawing.animation import MovingBody, MovingVector
 from reportgen.drawing.springs import OUTER, TEETH
 from reportgen.formula import Symbol
 from reportgen.page.sampling import Samples
-from reportgen.report.case import MachineAnalysis
 from reportgen.report.figures import scheme
 from reportgen.report.report import Report
 from reportgen.sheets.plates import Sources, plates_of

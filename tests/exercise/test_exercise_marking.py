@@ -14,12 +14,12 @@ from reportgen.cases import open_case
 from reportgen.classes import assess
 from reportgen.classes.assess import Graded
 from reportgen.classes.variants import make_variants
+from reportgen.document import text_of
 from reportgen.marking.key import key_of
 from reportgen.marking.marking import compare, mark
 from reportgen.marking.mistakes import Mistake
 from reportgen.marking.policy import Policy
 from reportgen.marking.scheme import marking_scheme
-from reportgen.report import text_of
 from tests.marking import demo, students
 
 FOLDER = Path(__file__).parents[2] / "assignments" / "plane-motion"

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 from reportgen import api, catalogue
 from reportgen.base.errors import AssignmentError
+from reportgen.document import text_of
 from reportgen.exercise import centres
 from reportgen.exercise.case import ExerciseCase
 from reportgen.exercise.centres import lay_out
@@ -19,7 +20,6 @@ from reportgen.exercise.file import Method
 from reportgen.exercise.plane_motion import why_not
 from reportgen.exercise.solution import Worked, belongs, work_out
 from reportgen.exercise.solution_page import solution
-from reportgen.report import text_of
 
 FOLDER = Path(__file__).parents[2] / "assignments" / "plane-motion"
 FILES = sorted(FOLDER.glob("*.yaml"))

@@ -8,10 +8,10 @@ from typing import Any
 import pytest
 
 from reportgen import api
+from reportgen.case.wording import phrase
 from reportgen.exercise.case import ExerciseCase
 from reportgen.formula import vocabulary
 from reportgen.formula.vocabulary import Chapter
-from reportgen.report.wording import phrase
 
 FOLDER = Path(__file__).parents[2] / "assignments" / "plane-motion"
 OF_MACHINES = ("centre of percussion", "tâm va đập", "khâu", "link ")

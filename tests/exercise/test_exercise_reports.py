@@ -13,13 +13,13 @@ import pytest
 from reportgen import api
 from reportgen.base.units import write
 from reportgen.cases import open_case
+from reportgen.document import Document, Equation, Paragraph, Section, plain, text_of
 from reportgen.exercise.case import ExerciseCase
 from reportgen.exercise.solution_page import solution
 from reportgen.exercise.views import lettered
 from reportgen.formula import Chain, Number
 from reportgen.marking.key import key_of
 from reportgen.marking.paper import task_of
-from reportgen.report import Document, Equation, Paragraph, Section, plain, text_of
 from reportgen.results.tables import print_tables
 from tests.lanes import matrix
 from tests.report import built

@@ -11,10 +11,10 @@ from hypothesis import strategies as st
 from reportgen import catalogue
 from reportgen.base.errors import AssignmentError
 from reportgen.base.units import Language, write
+from reportgen.document import text_of
 from reportgen.exercise.case import ExerciseCase
 from reportgen.exercise.solution_page import solution
 from reportgen.formula.evaluation import evaluate
-from reportgen.report import text_of
 from tests.lanes import proof
 
 FOUR_BAR = """\

@@ -13,10 +13,10 @@ import numpy as np
 import reportgen
 from reportgen.base.errors import AssignmentError
 from reportgen.base.units import Given
+from reportgen.case import Case
 from reportgen.cases import opened
 from reportgen.export.study import Study
 from reportgen.notebook import Model
-from reportgen.report.case import Case
 
 WIDE = 0.08
 """Half a range at most, as a share of the sample's own value."""

@@ -10,10 +10,10 @@ import pytest
 from reportgen import api
 from reportgen.api.figures import plot_files
 from reportgen.base.errors import AssignmentError, NotOfferedError, UnknownNameError
+from reportgen.case import Case
 from reportgen.cases import open_case, opened
 from reportgen.export.curves import dense, diagrams, read_measured
 from reportgen.formula import Chain, Symbol
-from reportgen.report.case import Case
 from tests.report import built
 
 ROOT = Path(__file__).parents[2]

@@ -16,11 +16,11 @@ from reportgen import api
 from reportgen.api.figures import figure_files
 from reportgen.base.errors import NotOfferedError, TypesetterError, UnknownNameError
 from reportgen.cases import open_case
+from reportgen.document.named_figures import NamedFigure, named_figures
 from reportgen.drawing import Arrow, Label, Scene
 from reportgen.drawing.style import arrow_head
 from reportgen.export.figures import MovingFigure, drawn, moving
 from reportgen.formula import Expression, Number
-from reportgen.report.named_figures import NamedFigure, named_figures
 from tests.lanes import matrix
 from tests.report import built
 

@@ -10,6 +10,7 @@ from reportgen.base.errors import TemplateError
 from reportgen.base.template_folders import languages, search_path
 from reportgen.base.units import PLAIN, Language, write
 from reportgen.base.words import load_words
+from reportgen.document import Words
 from reportgen.formula import (
     Call,
     Chain,
@@ -30,7 +31,6 @@ from reportgen.formula import (
 )
 from reportgen.formula.speech import Speech
 from reportgen.formula.vocabulary import KINDS
-from reportgen.report import Words
 from tests.formula.drawn import drawn, in_units
 from tests.formula.spoken_reader import Listener, Misheard
 

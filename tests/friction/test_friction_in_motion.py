@@ -10,10 +10,10 @@ import pytest
 
 from reportgen import catalogue
 from reportgen.cases import MachineCase, open_case
+from reportgen.document import text_of
 from reportgen.machine.analysis import Machine
 from reportgen.machine.flywheel import flywheel
 from reportgen.machine.true_motion import TrueMotion, true_motion
-from reportgen.report import text_of
 
 R, L, F = 0.1, 0.4, 500.0
 TEXT = Path(__file__).with_name("motion.yaml").read_text(encoding="utf-8")

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from reportgen import catalogue
-from reportgen import report as tree
+from reportgen import document as tree
 from reportgen.api import load
 from reportgen.cases import open_case, opened
 from reportgen.catalogue import sample

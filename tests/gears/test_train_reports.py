@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from reportgen import api
-from reportgen import report as tree
+from reportgen import document as tree
 from reportgen.cases import open_case, opened
 from reportgen.drawing import Arrow, Label, Line
 from reportgen.formula import Chain, Number, Symbol, walk

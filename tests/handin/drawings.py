@@ -14,8 +14,8 @@ from dataclasses import dataclass, field
 import ezdxf
 import numpy as np
 
+from reportgen.case import MachineAnalysis
 from reportgen.formula import ids
-from reportgen.report.case import MachineAnalysis
 
 Place = tuple[str, int]
 Line = tuple[complex, complex]

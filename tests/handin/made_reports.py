@@ -11,9 +11,9 @@ from pathlib import Path
 import numpy as np
 
 from reportgen.base.units import Language
+from reportgen.case.key import Key, KeyRow
 from reportgen.cases import open_case
 from reportgen.marking.key import Ask, key_of
-from reportgen.report.key import Key, KeyRow
 from tests.handin import wml
 
 ROOT = Path(__file__).parents[2] / "assignments"

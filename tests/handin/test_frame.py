@@ -15,11 +15,11 @@ from pathlib import Path
 import pytest
 
 from reportgen import api
+from reportgen.case.key import Key
 from reportgen.cases import open_case
 from reportgen.handin import FileReading, word_report
 from reportgen.marking.frame import LONGEST, blank_name, bookmark_name
 from reportgen.marking.key import Ask, key_of
-from reportgen.report.key import Key
 from tests.handin import made_reports
 from tests.lanes import matrix, proof
 

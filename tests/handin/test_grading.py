@@ -12,6 +12,7 @@ import openpyxl
 import pytest
 
 from reportgen.base.errors import AssignmentError, Mark
+from reportgen.case.key import Key
 from reportgen.cases import open_case
 from reportgen.classes import assess, outcome
 from reportgen.handin import agree, submission, word_report
@@ -25,7 +26,6 @@ from reportgen.marking.marks import Answer, Submission, Verdict
 from reportgen.marking.policy import Policy, read_policy
 from reportgen.marking.scheme import marking_scheme
 from reportgen.marking.sheet import read_submission
-from reportgen.report.key import Key
 from tests.handin import made_reports, reports, wml
 from tests.lanes import proof
 

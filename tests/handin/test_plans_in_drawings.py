@@ -13,6 +13,7 @@ import ezdxf
 import numpy as np
 import pytest
 
+from reportgen.case import MachineAnalysis
 from reportgen.cases import opened
 from reportgen.formula.ledger import follow
 from reportgen.handin import FileReading, submission
@@ -23,7 +24,6 @@ from reportgen.marking.marking import mark
 from reportgen.marking.marks import Verdict
 from reportgen.marking.policy import Policy
 from reportgen.marking.scheme import MarkingScheme, key_asked, marking_scheme
-from reportgen.report.case import MachineAnalysis
 from reportgen.sheets import drawing_sheets
 from reportgen.sheets.dxf import write_sheet
 from tests.handin.drawings import RELEASES, Manner, Truth, at, draw, seen, true_plans

@@ -14,6 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
+from reportgen.case.key import Key
 from reportgen.cases import open_case
 from reportgen.classes.variants import make_variants
 from reportgen.formula.vocabulary import Chapter
@@ -21,7 +22,6 @@ from reportgen.marking.marks import Answer, Place, Submission
 from reportgen.marking.mistakes import mistakes_in
 from reportgen.marking.scheme import MarkingScheme, marking_scheme
 from reportgen.marking.sheet import NAMES, asked_positions
-from reportgen.report.key import Key
 from reportgen.workbook import write_csv, write_xlsx
 from tests.marking import students
 from tests.marking.keys import csv_rows

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 
+from reportgen.case.key import Key
 from reportgen.marking.sheet import answer_book
-from reportgen.report.key import Key
 from reportgen.workbook import Book, write_xlsx
 
 

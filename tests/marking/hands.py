@@ -12,11 +12,11 @@ from typing import Any
 import numpy as np
 
 from reportgen.base.errors import Mark
+from reportgen.case.key import Role
 from reportgen.cases import opened
 from reportgen.marking.key import Ask
 from reportgen.marking.marks import Answer, Submission
 from reportgen.marking.scheme import MarkingScheme
-from reportgen.report.key import Role
 from tests.marking import students
 from tests.marking.hand import Change, Hand
 from tests.marking.machines import WAYS

@@ -8,10 +8,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from reportgen.base.units import Language, rounded
+from reportgen.case.key import Key, KeyRow, Role
 from reportgen.formula import Symbol
 from reportgen.formula.vocabulary import Chapter
 from reportgen.marking.sheet import HEAD, answer_book
-from reportgen.report.key import Key, KeyRow, Role
 
 LABELS = ("1", "2", "3", "4")
 

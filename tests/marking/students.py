@@ -17,6 +17,7 @@ import yaml
 from reportgen import api
 from reportgen.assignment import Assignment
 from reportgen.base.errors import AssignmentError, Mark
+from reportgen.case.key import Key, KeyRow
 from reportgen.cases import opened
 from reportgen.formula.ledger import follow
 from reportgen.marking.bands import PAPER_ERROR, measuring_errors
@@ -25,7 +26,6 @@ from reportgen.marking.marks import Answer, Submission
 from reportgen.marking.mistakes import Mistake
 from reportgen.marking.scheme import MarkingScheme, marking_scheme
 from reportgen.marking.sheet import asked_positions, grid, info_page, page, rows_shown
-from reportgen.report.key import Key, KeyRow
 from reportgen.workbook import Book, Entry
 
 ASSIGNMENTS = Path(__file__).parents[2] / "assignments"

@@ -11,7 +11,9 @@ from openpyxl import load_workbook
 from reportgen import api
 from reportgen.base.errors import AssignmentError
 from reportgen.base.units import Language
+from reportgen.case.key import Key
 from reportgen.cases import open_case, opened
+from reportgen.document import PageBreak, text_of
 from reportgen.formula.vocabulary import Chapter
 from reportgen.marking.key import EVERYTHING, Ask, key_of
 from reportgen.marking.marks import Verdict
@@ -19,8 +21,6 @@ from reportgen.marking.paper import answer_tables, task_of
 from reportgen.marking.policy import Policy, Scale, read_policy
 from reportgen.marking.scheme import marking_scheme
 from reportgen.marking.sheet import answer_book, read_submission
-from reportgen.report import PageBreak, text_of
-from reportgen.report.key import Key
 from reportgen.workbook import write_csv, write_xlsx
 from tests.lanes import matrix, proof
 from tests.marking import students

@@ -6,12 +6,12 @@ from dataclasses import replace
 
 import pytest
 
+from reportgen.document import text_of
 from reportgen.marking.exchanged import NAME
 from reportgen.marking.feedback import feedback_document
 from reportgen.marking.marking import mark
 from reportgen.marking.marks import Marking, Submission, Verdict
 from reportgen.marking.scheme import MarkingScheme
-from reportgen.report import text_of
 from tests.marking import students
 
 PAIR = (2, 5)

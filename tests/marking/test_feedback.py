@@ -15,6 +15,7 @@ from reportgen.base.errors import CellMark, Problem
 from reportgen.base.template_folders import languages, search_path
 from reportgen.base.units import Language
 from reportgen.base.words import load_words
+from reportgen.document import Figure, Table, plain, text_of
 from reportgen.drawing import Label
 from reportgen.marking.class_page import class_document
 from reportgen.marking.comment import comment
@@ -23,7 +24,6 @@ from reportgen.marking.grades import grade_rows
 from reportgen.marking.marks import Answer, Marked, Marking, Notice, Submission, Unmarked, Verdict
 from reportgen.marking.mistakes import CONVENTIONS, WRONG_DATUM
 from reportgen.marking.policy import Policy
-from reportgen.report import Figure, Table, plain, text_of
 from reportgen.workbook import write_csv, write_xlsx
 from reportgen.workbook.writing import FILLS
 from tests.marking.keys import small_key

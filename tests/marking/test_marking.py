@@ -9,13 +9,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from reportgen.case.key import KeyRow
 from reportgen.cases import open_case, opened
 from reportgen.marking.marking import mark
 from reportgen.marking.marks import Marking, Verdict
 from reportgen.marking.mistakes import Mistake
 from reportgen.marking.policy import Policy
 from reportgen.marking.scheme import marking_scheme
-from reportgen.report.key import KeyRow
 from tests.lanes import matrix
 from tests.marking import students
 

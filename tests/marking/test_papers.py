@@ -8,10 +8,10 @@ import pytest
 
 from reportgen import api
 from reportgen.base.units import Language
+from reportgen.document import Document, text_of
 from reportgen.marking.class_page import class_document
 from reportgen.marking.feedback import feedback_document
 from reportgen.marking.key_files import key_document
-from reportgen.report import Document, text_of
 from tests.lanes import matrix
 from tests.marking.test_feedback import marking
 from tests.marking.test_sheet import handout

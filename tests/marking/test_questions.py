@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from reportgen.case.key import Role
 from reportgen.drawing import Circle
 from reportgen.drawing.statistics import intervals, scatter
 from reportgen.formula import Symbol
@@ -16,7 +17,6 @@ from reportgen.marking.marks import Marking, Submission, Verdict
 from reportgen.marking.policy import Policy
 from reportgen.marking.questions import by_cell, by_question, by_section, question_rows
 from reportgen.marking.variant_marks import groups, variant_rows
-from reportgen.report.key import Role
 from tests.lanes import proof
 from tests.marking.keys import row, small_key
 from tests.marking.test_feedback import cell

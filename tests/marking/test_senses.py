@@ -12,11 +12,11 @@ from typing import Any
 import numpy as np
 import pytest
 
+from reportgen.case.key import KeyRow
 from reportgen.cases import MachineCase, open_case
 from reportgen.marking.marking import mark
 from reportgen.marking.marks import Marking, Verdict
 from reportgen.marking.scheme import MarkingScheme, marking_scheme
-from reportgen.report.key import KeyRow
 from reportgen.results import results as results_of
 from tests.lanes import matrix
 from tests.marking import students

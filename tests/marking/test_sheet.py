@@ -12,11 +12,11 @@ import pytest
 from openpyxl import load_workbook
 
 from reportgen.base.units import Language, write
+from reportgen.case.key import Key, Role
+from reportgen.document import Document, Table, plain, text_of
 from reportgen.marking.key import key_of, words_of
 from reportgen.marking.paper import answer_tables, task_of
 from reportgen.marking.sheet import answer_book, number_format
-from reportgen.report import Document, Table, plain, text_of
-from reportgen.report.key import Key, Role
 from reportgen.workbook import write_xlsx
 from tests.marking.keys import small_key
 from tests.report import built

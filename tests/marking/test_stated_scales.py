@@ -11,12 +11,12 @@ from typing import Any
 import numpy as np
 import pytest
 
+from reportgen.case.key import Role
 from reportgen.classes.assess import asked_of
 from reportgen.marking.key import Ask
 from reportgen.marking.marking import mark
 from reportgen.marking.marks import Answer, Marking, Submission, Verdict
 from reportgen.marking.scheme import MarkingScheme
-from reportgen.report.key import Role
 from tests.lanes import matrix
 from tests.marking import hands, students
 from tests.marking.machines import MACHINES

@@ -7,9 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from reportgen.document import Paragraph, plain
 from reportgen.formula.vocabulary import Chapter
 from reportgen.marking.key_files import key_document
-from reportgen.report import Paragraph, plain
 from tests.marking import students
 
 FILES = sorted(path.stem for path in Path("assignments").glob("*.yaml"))

@@ -11,13 +11,13 @@ import pytest
 from reportgen.base.template_folders import languages, search_path
 from reportgen.base.units import Language
 from reportgen.base.words import load_words
+from reportgen.case.key import Key
 from reportgen.cases import open_case
+from reportgen.document import plain
 from reportgen.formula import vocabulary
 from reportgen.marking.key import key_of
 from reportgen.marking.paper import answer_tables
 from reportgen.marking.sheet import answer_book
-from reportgen.report import plain
-from reportgen.report.key import Key
 from tests.lanes import matrix
 from tests.marking import students
 from tests.report import built

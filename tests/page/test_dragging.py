@@ -12,12 +12,12 @@ from reportgen import catalogue
 from reportgen.assignment import Assignment
 from reportgen.base.source import MappingNode, Scalar, Source, read_source
 from reportgen.base.source_text import at, put
+from reportgen.case import MachineAnalysis
 from reportgen.cases import open_case, opened
 from reportgen.page.dragging import Resident, tracks
 from reportgen.page.ownership import Owned, moved, owners
 from reportgen.page.panel import PanelWriter
 from reportgen.page.sampling import Samples
-from reportgen.report.case import MachineAnalysis
 from tests.lanes import matrix
 
 FOLDER = Path(__file__).parents[2] / "assignments"

@@ -7,11 +7,11 @@ from pathlib import Path
 
 import pytest
 
-from reportgen import report as tree
+from reportgen import document as tree
 from reportgen.base.units import Language
+from reportgen.document import Plate
 from reportgen.drawing import Arrow, Scene
 from reportgen.drawing.style import arrow_head
-from reportgen.report import Plate
 from tests.lanes import proof
 from tests.page.browser import Browser
 from tests.page.made import made

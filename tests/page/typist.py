@@ -18,11 +18,11 @@ from typing import Any
 from reportgen.base.errors import ReportgenError, Where
 from reportgen.base.source import Scalar, read_text
 from reportgen.base.source_text import at
+from reportgen.case import Case
 from reportgen.page.editing import EditSession
 from reportgen.page.fields import written_at
 from reportgen.page.serving import Server
 from reportgen.page.watch import edited
-from reportgen.report.case import Case
 from tests.page.browser import Browser
 
 PATIENCE = 20.0

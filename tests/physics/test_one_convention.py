@@ -10,8 +10,8 @@ import pytest
 
 from reportgen import api
 from reportgen.cases import MachineCase
+from reportgen.document import InlineMath, Table, Value
 from reportgen.formula import Symbol
-from reportgen.report import InlineMath, Table, Value
 from reportgen.report.report import Report
 from tests.lanes import matrix
 from tests.report.built import walk

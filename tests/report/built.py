@@ -17,10 +17,11 @@ from reportgen.assignment import Assignment
 from reportgen.base.kinds import kinds
 from reportgen.base.units import Language
 from reportgen.cases import MachineCase
+from reportgen.document import Block, Document, Figure, List, Plate
 from reportgen.drawing import Scene
 from reportgen.formula import Chain
 from reportgen.formula.ledger import Ledger
-from reportgen.report import Block, Document, Figure, List, Plate, outline
+from reportgen.report import outline
 from tests.lanes import matrix
 from tests.report.pages import Glyph, Page
 

@@ -11,9 +11,9 @@ import pytest
 from reportgen import api
 from reportgen.assignment.common import Extent
 from reportgen.base.units import write
+from reportgen.case import Case
 from reportgen.cases import opened
-from reportgen.report import Document, Table, text_of
-from reportgen.report.case import Case
+from reportgen.document import Document, Table, text_of
 from tests.report import built
 
 SHAPER = """

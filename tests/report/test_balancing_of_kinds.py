@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from reportgen.cases import MachineCase, open_case
+from reportgen.document import Section
 from reportgen.formula import balance_ids
 from reportgen.machine.balance import shaking_force
-from reportgen.report import Section
 from tests.lanes import matrix
 
 ASSIGNMENTS = Path(__file__).parents[2] / "assignments"

@@ -15,8 +15,8 @@ import pytest
 
 from reportgen import api
 from reportgen.base.errors import AssignmentError
+from reportgen.document import Document, text_of
 from reportgen.formula import Number
-from reportgen.report import Document, text_of
 from reportgen.writers import typst_fonts
 from tests.lanes import matrix
 

@@ -8,9 +8,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from reportgen.document import Block, Paragraph, Table, plain
 from reportgen.formula import vocabulary
-from reportgen.report import Block, Paragraph, Table, comments, plain
 from reportgen.report import chapters as overview
+from reportgen.report import comments
 from reportgen.report.report import Report
 from tests.lanes import matrix
 from tests.report import built

@@ -14,12 +14,12 @@ from reportgen.base.template_folders import templates
 from reportgen.cases import MachineCase, open_case, opened
 from reportgen.classes.variants import make_variants
 from reportgen.cli import app
+from reportgen.document import Contents, Document, Figure, Plate, Section, Table, Text, plain
+from reportgen.document.layout import contents
+from reportgen.document.numbering import unreferenced
 from reportgen.marking.key import key_of
 from reportgen.marking.paper import task_of
-from reportgen.report import Contents, Document, Figure, Plate, Section, Table, Text, plain
 from reportgen.report.extents import LEFT_OUT
-from reportgen.report.layout import contents
-from reportgen.report.numbering import unreferenced
 from reportgen.report.report import Report
 from reportgen.sheets import drawing_sheets, plates_by_set
 from tests.lanes import matrix

@@ -11,11 +11,11 @@ import pytest
 
 from reportgen.base.units import MM
 from reportgen.cases import MachineCase, open_case
+from reportgen.document import text_of
 from reportgen.drawing import Circle, Label, Scene
 from reportgen.formula import Symbol
 from reportgen.machine.joint_friction import relative_sense
 from reportgen.report import joint_friction as friction
-from reportgen.report import text_of
 from reportgen.report.face_friction import face_forces
 from reportgen.report.figures import drawing_scale
 from reportgen.report.report import Report

@@ -14,8 +14,8 @@ import pytest
 from reportgen import api, cases
 from reportgen.base.units import Language
 from reportgen.base.words import common_words
+from reportgen.document import Figure, Table, plain, text_of
 from reportgen.drawing import Arc
-from reportgen.report import Figure, Table, plain, text_of
 from reportgen.report.report import Report
 from tests.report import built
 

@@ -13,7 +13,7 @@ import pytest
 
 from reportgen import api
 from reportgen.base.errors import NotOfferedError
-from reportgen.report import Listing
+from reportgen.document import Listing
 from tests.lanes import matrix
 
 ASSIGNMENTS = Path(__file__).parents[2] / "assignments"

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from reportgen import api, cases
+from reportgen.document import text_of
 from reportgen.formula import Chain, Number, walk
 from reportgen.machine.motion import solve_motion
-from reportgen.report import text_of
 from reportgen.report.report import Report
 from tests.report import built
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from reportgen import report as tree
+from reportgen import document as tree
 from reportgen.derivation.motion import POLES
 from reportgen.drawing import Content, Label
 from reportgen.drawing.forces import LEAST_ARM

@@ -16,11 +16,12 @@ from reportgen.base.kinds import SAMPLE
 from reportgen.base.template_folders import search_path, templates
 from reportgen.base.words import SECTION, load_words, sections
 from reportgen.cases import opened
+from reportgen.document import Block
+from reportgen.document.prose import GLOBALS, Prose, _environment
 from reportgen.marking.key import key_of
 from reportgen.marking.paper import task_of
-from reportgen.report import Block, named_tables
+from reportgen.report import named_tables
 from reportgen.report import outline as namespace
-from reportgen.report.prose import GLOBALS, Prose, _environment
 
 ROOT = templates()
 REPOSITORY = Path(__file__).parents[2]

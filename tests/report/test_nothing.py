@@ -10,7 +10,7 @@ import pytest
 
 from reportgen import api
 from reportgen.cases import MachineCase
-from reportgen.report import text_of
+from reportgen.document import text_of
 from reportgen.report.outline import compose
 from tests.lanes import matrix
 

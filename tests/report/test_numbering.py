@@ -5,9 +5,7 @@ from __future__ import annotations
 import pytest
 
 from reportgen.base.errors import DocumentError
-from reportgen.drawing import Scene
-from reportgen.formula import Symbol
-from reportgen.report import (
+from reportgen.document import (
     Block,
     Cell,
     Column,
@@ -26,7 +24,9 @@ from reportgen.report import (
     Words,
     text_of,
 )
-from reportgen.report.numbering import number, unreferenced
+from reportgen.document.numbering import number, unreferenced
+from reportgen.drawing import Scene
+from reportgen.formula import Symbol
 
 X = Symbol("x")
 SCENE = Scene(10, 10)

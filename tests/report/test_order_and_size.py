@@ -8,11 +8,11 @@ import pytest
 
 from reportgen import api
 from reportgen.base.template_folders import templates
+from reportgen.document import Figure, Paragraph, Section, Table, plain
+from reportgen.document.layout import FIGURE_HEIGHT, fits, height, in_parts
 from reportgen.formula import Chain, Expression, Symbol
 from reportgen.formula.plain import Plain
 from reportgen.formula.setting import Parenthesis, displayed
-from reportgen.report import Figure, Paragraph, Section, Table, plain
-from reportgen.report.layout import FIGURE_HEIGHT, fits, height, in_parts
 from tests.report import built
 from tests.report.built import Report, Written
 from tests.report.test_report_figures import captions

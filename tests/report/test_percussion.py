@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from reportgen import api, cases
+from reportgen.document import Figure, InlineMath, Paragraph, text_of
 from reportgen.drawing import Label, Scene
 from reportgen.formula import Expression, Symbol, walk
-from reportgen.report import Figure, InlineMath, Paragraph, text_of
 from reportgen.report.percussion import percussion
 from reportgen.report.report import Report
 from tests.lanes import matrix

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from reportgen.formula import PI, Chain, Expression, Negative, Number, Symbol, Term, VectorEquation, call, sqrt
-from reportgen.formula.plain import formula
-from reportgen.report import (
+from reportgen.document import (
     BlankLine,
     Contents,
     Cover,
@@ -20,6 +18,8 @@ from reportgen.report import (
     plain,
     text_of,
 )
+from reportgen.formula import PI, Chain, Expression, Negative, Number, Symbol, Term, VectorEquation, call, sqrt
+from reportgen.formula.plain import formula
 
 A, B, C = Symbol("a"), Symbol("b", "2"), Symbol("c", "BA", "n")
 

@@ -14,6 +14,7 @@ from reportgen.assignment import Assignment
 from reportgen.assignment.common import Extent
 from reportgen.base.units import MM
 from reportgen.cases import MachineCase
+from reportgen.document import Document, Figure, Paragraph, Plate, plain
 from reportgen.drawing import Circle, Label, Line, Scene, style
 from reportgen.drawing.canvas import Canvas, finish
 from reportgen.drawing.geometry import coincident
@@ -21,7 +22,7 @@ from reportgen.drawing.labels import label
 from reportgen.drawing.positions import DOT
 from reportgen.drawing.sheet import ENLARGED, lettered
 from reportgen.formula import Chain, Symbol, vocabulary
-from reportgen.report import Document, Figure, Paragraph, Plate, figures, plain
+from reportgen.report import figures
 from reportgen.report.report import Report
 from reportgen.sheets.plates import Sources
 from tests.drawing.overlaps import astray, cross, overlaps, watched

@@ -9,10 +9,10 @@ import pytest
 
 from reportgen import api
 from reportgen.cases import opened
+from reportgen.document import text_of
 from reportgen.formula import Symbol
 from reportgen.marking.key import key_of
 from reportgen.marking.key_files import key_document
-from reportgen.report import text_of
 from tests.lanes import matrix
 from tests.report import built
 

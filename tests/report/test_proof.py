@@ -11,8 +11,8 @@ import pytest
 from reportgen.api import wording
 from reportgen.base.template_folders import REFERENCE, templates
 from reportgen.base.words import sections
-from reportgen.report import Emph, Inlines, Strong, Text
-from reportgen.report.proof import ProofReader
+from reportgen.document import Emph, Inlines, Strong, Text
+from reportgen.document.proof import ProofReader
 from tests.lanes import proof
 
 

@@ -13,8 +13,7 @@ from hypothesis import strategies as st
 from reportgen.base.errors import TemplateError
 from reportgen.base.template_folders import search_path, templates
 from reportgen.base.words import home
-from reportgen.formula import Number, Symbol
-from reportgen.report import (
+from reportgen.document import (
     BlankLine,
     Block,
     Emph,
@@ -33,7 +32,8 @@ from reportgen.report import (
     Value,
     prose,
 )
-from reportgen.report.prose import Prose
+from reportgen.document.prose import Prose
+from reportgen.formula import Number, Symbol
 
 V_B = Symbol("v", "B")
 SPEED = Number(15.708, 2, "m/s")

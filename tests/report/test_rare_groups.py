@@ -8,7 +8,7 @@ import pytest
 
 from reportgen import api
 from reportgen.base.units import Language
-from reportgen.report import text_of
+from reportgen.document import text_of
 
 SLOTTED = """
 kind: linkage

@@ -18,9 +18,9 @@ from reportgen import api
 from reportgen.base.errors import TemplateError
 from reportgen.base.shown import MEMBERS
 from reportgen.cases import opened
-from reportgen.report.dialect import FILTERS
-from reportgen.report.prose import GLOBALS, Prose, _told
-from reportgen.report.values import PLAIN, FunctionToken, Token, Values, held
+from reportgen.document.dialect import FILTERS
+from reportgen.document.prose import GLOBALS, Prose, _told
+from reportgen.document.values import PLAIN, FunctionToken, Token, Values, held
 from tests.lanes import matrix
 
 ASSIGNMENTS = Path(__file__).parents[2] / "assignments"

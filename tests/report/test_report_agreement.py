@@ -9,7 +9,7 @@ from itertools import chain
 
 import pytest
 
-from reportgen.report import Document, Emph, Inlines, LineBreak, Paragraph, Reference, Strong, Text
+from reportgen.document import Document, Emph, Inlines, LineBreak, Paragraph, Reference, Strong, Text
 from tests.report import built, pages
 from tests.report.built import Report
 from tests.report.pages import Glyph

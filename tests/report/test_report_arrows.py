@@ -8,10 +8,10 @@ from collections.abc import Iterator
 
 import pytest
 
+from reportgen.document import Figure, InlineMath, Plate, text_of
 from reportgen.drawing import Arrow, Label
 from reportgen.formula import Chain, Number, Symbol
 from reportgen.machine import DRIVER
-from reportgen.report import Figure, InlineMath, Plate, text_of
 from tests.report import built, pages
 from tests.report.built import Report, Written
 

@@ -7,8 +7,8 @@ from itertools import pairwise
 
 import pytest
 
-from reportgen.report import Figure
-from reportgen.report.layout import in_rows
+from reportgen.document import Figure
+from reportgen.document.layout import in_rows
 from tests.lanes import matrix
 from tests.report import built
 from tests.report.built import Report

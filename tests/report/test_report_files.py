@@ -15,7 +15,7 @@ import pytest
 
 from reportgen import api
 from reportgen.base.made import RECORD
-from reportgen.report import Contents, Section, plain
+from reportgen.document import Contents, Section, plain
 from tests.lanes import matrix, proof
 from tests.report import built, pages
 from tests.report.built import Report

@@ -13,12 +13,12 @@ import yaml
 
 from reportgen import api
 from reportgen.assignment import Assignment
+from reportgen.document import Figure
 from reportgen.drawing import Arrow, Label, Line, Scene
 from reportgen.drawing.canvas import Canvas, finish
 from reportgen.drawing.label_size import box
 from reportgen.drawing.labels import KEY, label
 from reportgen.formula import Chain, Symbol
-from reportgen.report import Figure
 from tests.drawing.overlaps import astray, cross, overlaps, watched
 from tests.lanes import matrix
 from tests.report import built, variants

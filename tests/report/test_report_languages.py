@@ -15,10 +15,7 @@ from reportgen.base.kinds import SAMPLE, kinds
 from reportgen.base.template_folders import kind_file, search_path
 from reportgen.base.units import Language
 from reportgen.base.words import SECTION, Passage, load_words, sections
-from reportgen.formula import vocabulary
-from reportgen.formula.plain import formula
-from reportgen.machine import DyadKind
-from reportgen.report import (
+from reportgen.document import (
     Block,
     Cover,
     Emph,
@@ -36,8 +33,11 @@ from reportgen.report import (
     Words,
     plain,
 )
-from reportgen.report.numbering import unreferenced
-from reportgen.report.translation import FREE_LISTS, SectionContents
+from reportgen.document.numbering import unreferenced
+from reportgen.document.translation import FREE_LISTS, SectionContents
+from reportgen.formula import vocabulary
+from reportgen.formula.plain import formula
+from reportgen.machine import DyadKind
 from tests.lanes import matrix
 from tests.report import built
 from tests.report.built import Written

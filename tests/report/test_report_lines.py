@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from reportgen.base.units import write
-from reportgen.report import text_of
+from reportgen.document import text_of
 from tests.lanes import matrix
 from tests.report import built, trees
 from tests.report.built import Report, Written

@@ -12,7 +12,7 @@ import pytest
 
 from reportgen import api
 from reportgen.assignment.common import ReportSection, Student
-from reportgen.report import Section
+from reportgen.document import Section
 from tests.report import built, pages
 from tests.report.built import Written
 

@@ -10,7 +10,7 @@ import pytest
 import typst
 
 from reportgen import api
-from reportgen.report import Block, Emph, Figure, List, Paragraph, Plate, Reference, Section, Strong, Table
+from reportgen.document import Block, Emph, Figure, List, Paragraph, Plate, Reference, Section, Strong, Table
 from reportgen.report.figures import across, close, in_text
 from tests.report import built, pages
 from tests.report.built import Report, Written

@@ -12,6 +12,7 @@ import pytest
 from reportgen import api
 from reportgen.base.template_folders import search_path
 from reportgen.base.words import load_words
+from reportgen.document import Block, Equation, InlineMath, Paragraph, plain
 from reportgen.drawing import Arc, Arrow, Scene
 from reportgen.drawing.forces import COUPLE_RADIUS
 from reportgen.formula import Chain, Expression, Number, Symbol, VectorEquation, walk
@@ -19,7 +20,7 @@ from reportgen.formula.setting import BOUND, MathRow, columns
 from reportgen.formula.sheet import ZERO
 from reportgen.formula.vocabulary import vector
 from reportgen.machine import SlidingDriver
-from reportgen.report import Block, Equation, InlineMath, Paragraph, force_figures, plain, result_tables
+from reportgen.report import force_figures, result_tables
 from reportgen.report.report import Report
 from tests.derivation.printed import SHARE
 from tests.lanes import matrix

@@ -12,7 +12,7 @@ import pytest
 
 from reportgen import api
 from reportgen.base.units import Language
-from reportgen.report import Block, Document, Section, text_of
+from reportgen.document import Block, Document, Section, text_of
 from tests.report import built
 
 FOLDER = built.ROOT / "tests" / "snapshots"

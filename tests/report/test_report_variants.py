@@ -11,8 +11,8 @@ import pytest
 
 from reportgen import api
 from reportgen.base.units import write
-from reportgen.report import text_of
-from reportgen.report.numbering import unreferenced
+from reportgen.document import text_of
+from reportgen.document.numbering import unreferenced
 from tests.lanes import matrix, proof
 from tests.report import built, pages, trees, variants
 from tests.report.built import Written

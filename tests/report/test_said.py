@@ -12,7 +12,7 @@ import pytest
 
 from reportgen.base.template_folders import templates
 from reportgen.cases import MachineCase, open_case
-from reportgen.report import Section, Table, plain, text_of
+from reportgen.document import Section, Table, plain, text_of
 from reportgen.report.comments import top_reactions
 from reportgen.report.report import Report
 from tests.lanes import matrix

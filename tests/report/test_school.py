@@ -12,12 +12,12 @@ from reportgen.base.errors import AssignmentError, TemplateError
 from reportgen.base.template_folders import search_path, templates
 from reportgen.base.units import Language
 from reportgen.base.words import sections
+from reportgen.case import MachineAnalysis
 from reportgen.cases import open_case
+from reportgen.document import text_of
+from reportgen.document.prose import Prose
 from reportgen.formula import Symbol
-from reportgen.report import text_of
-from reportgen.report.case import MachineAnalysis
 from reportgen.report.outline import names
-from reportgen.report.prose import Prose
 from reportgen.report.report import Report
 from reportgen.sheets import frame
 from reportgen.writers import latex, pdflatex, typst_math

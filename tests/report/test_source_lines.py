@@ -10,7 +10,8 @@ import pytest
 
 from reportgen import api
 from reportgen.base.units import Language
-from reportgen.report import Document, outline
+from reportgen.document import Document
+from reportgen.report import outline
 from reportgen.writers import latex, typst
 from tests.derivation.random_variants import cases
 from tests.exercise.test_exercise_equations import OF_SEVERAL, by_equations

@@ -20,12 +20,7 @@ from reportgen.base.template_folders import languages, search_path
 from reportgen.base.units import Language, by_power_of_ten, write
 from reportgen.base.words import load_words
 from reportgen.cases import open_case
-from reportgen.formula import Chain, Expression, Symbol, VectorEquation, children
-from reportgen.formula.setting import known_of
-from reportgen.marking.key import Ask, key_of
-from reportgen.marking.key_files import key_document
-from reportgen.marking.paper import task_of
-from reportgen.report import (
+from reportgen.document import (
     Block,
     Document,
     Emph,
@@ -43,6 +38,11 @@ from reportgen.report import (
     Words,
     spoken,
 )
+from reportgen.formula import Chain, Expression, Symbol, VectorEquation, children
+from reportgen.formula.setting import known_of
+from reportgen.marking.key import Ask, key_of
+from reportgen.marking.key_files import key_document
+from reportgen.marking.paper import task_of
 from reportgen.writers import typst, typst_compiler
 from reportgen.writers.typst_math import TypstFormulas
 from tests.formula.drawn import DIGITS, drawn, in_units, opened

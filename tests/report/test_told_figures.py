@@ -21,13 +21,13 @@ from reportgen.base.template_folders import languages, search_path
 from reportgen.base.units import Language
 from reportgen.base.words import load_words
 from reportgen.cases import open_case
+from reportgen.document import Document, Figure, Plate
+from reportgen.document.alt_text import MOST, figure_text, sentences
 from reportgen.drawing import Arc, Arrow, Circle, Line, Pen, Polyline, Scene
 from reportgen.drawing.charts import PENS
 from reportgen.drawing.counts import bars, histogram
 from reportgen.drawing.description import PaperLength, crossings
 from reportgen.drawing.statistics import intervals, scatter
-from reportgen.report import Document, Figure, Plate
-from reportgen.report.telling import MOST, figure_text, sentences
 from reportgen.sheets import drawing_sheets
 from reportgen.writers import typst, typst_compiler
 from tests.lanes import matrix

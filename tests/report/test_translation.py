@@ -12,8 +12,8 @@ import pytest
 from reportgen.base.kinds import kinds
 from reportgen.base.template_folders import REFERENCE, languages, templates
 from reportgen.base.whole import is_whole, offered
+from reportgen.document.translation import faults
 from reportgen.report.phrases import form_of
-from reportgen.report.translation import faults
 
 WARNED = frozenset({"words-term", "words-untranslated", "words-idle"})
 

@@ -11,10 +11,11 @@ import yaml
 
 from reportgen import catalogue
 from reportgen.cases import MachineCase, open_case
+from reportgen.document import Table, Value, text_of
 from reportgen.drawing import Label
 from reportgen.formula import Number
 from reportgen.machine.true_motion import at_positions
-from reportgen.report import Table, Value, running, text_of
+from reportgen.report import running
 from reportgen.report.report import Report
 from reportgen.report.result_tables import residuals
 from reportgen.report.running_curves import stopping

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
+from reportgen.document import Figure, Plate, lines_of
 from reportgen.drawing import Label
 from reportgen.formula.plain import formula
-from reportgen.report import Figure, Plate, lines_of
 from tests.lanes import matrix
 from tests.report import built
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
+from reportgen.document import Emph, InlineMath, Reference, Strong, Text, Value, plain
+from reportgen.document.unspaced import unspaced
 from reportgen.formula import Chain, Number, Symbol
-from reportgen.report import Emph, InlineMath, Reference, Strong, Text, Value, plain
-from reportgen.report.unspaced import unspaced
 
 B, V = InlineMath(Symbol("B")), InlineMath(Symbol("v", "B"))
 SIZE = Value(Number(3.5, 1, "m/s"))

@@ -13,17 +13,17 @@ from unittest import mock
 import pytest
 
 from reportgen import api
-from reportgen import report as tree
+from reportgen import document as tree
 from reportgen.base.template_folders import search_path
 from reportgen.base.units import Language
 from reportgen.base.words import load_words
+from reportgen.document import Block, Document, Equation, List, Plate, Section, lines_of, plain
+from reportgen.document.layout import fits
 from reportgen.drawing import Label
 from reportgen.formula import Expression, VectorEquation
 from reportgen.formula import plain as plain_notation
 from reportgen.formula.plain import Plain
 from reportgen.formula.setting import sides
-from reportgen.report import Block, Document, Equation, List, Plate, Section, lines_of, plain
-from reportgen.report.layout import fits
 from reportgen.writers import word
 from tests.lanes import matrix
 from tests.report import built

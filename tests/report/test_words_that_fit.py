@@ -11,7 +11,7 @@ from reportgen import catalogue
 from reportgen.base.template_folders import templates
 from reportgen.base.units import Language
 from reportgen.cases import open_case
-from reportgen.report import text_of
+from reportgen.document import text_of
 from tests.lanes import matrix
 from tests.report import built
 

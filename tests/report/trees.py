@@ -6,10 +6,7 @@ from collections.abc import Iterable, Iterator
 from itertools import pairwise
 
 from reportgen.base.units import Language
-from reportgen.drawing import Label
-from reportgen.formula import Chain, Expression, Number, Symbol, Term, VectorEquation, walk
-from reportgen.formula.ledger import Ledger
-from reportgen.report import (
+from reportgen.document import (
     Block,
     Cell,
     Document,
@@ -25,6 +22,9 @@ from reportgen.report import (
     Table,
     Value,
 )
+from reportgen.drawing import Label
+from reportgen.formula import Chain, Expression, Number, Symbol, Term, VectorEquation, walk
+from reportgen.formula.ledger import Ledger
 from reportgen.writers.typst_math import TypstFormulas
 from tests.report import built
 from tests.report.calculator import Line

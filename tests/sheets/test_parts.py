@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from reportgen.cam.solved import SolvedCam
+from reportgen.case import Case
 from reportgen.cases import open_case
 from reportgen.drawing import Label, Polyline, Scene
 from reportgen.drawing.sheet import DrawingSheet
@@ -18,7 +19,6 @@ from reportgen.formula import Chain, Number, Symbol
 from reportgen.gears import train_ids
 from reportgen.gears.train_solution import pole_distance
 from reportgen.marking.key import key_of
-from reportgen.report.case import Case
 from reportgen.sheets import drawing_sheets
 from tests.lanes import matrix
 from tests.sheets.laid import ROOT

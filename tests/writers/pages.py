@@ -10,7 +10,7 @@ from typing import Any
 import pymupdf
 import pytest
 
-from reportgen.report import Block, Document
+from reportgen.document import Block, Document
 from reportgen.writers import latex, pdflatex, typst, typst_compiler
 from tests.writers import sample
 

@@ -8,26 +8,7 @@ from dataclasses import replace
 
 from reportgen.base.template_folders import search_path
 from reportgen.base.words import load_words
-from reportgen.drawing import Arc, Arrow, Circle, Hatch, Item, Label, Line, Pen, Polyline, Scene
-from reportgen.formula import (
-    PI,
-    Call,
-    Chain,
-    Expression,
-    Fraction,
-    Negative,
-    Number,
-    Power,
-    Product,
-    Sum,
-    Symbol,
-    Term,
-    VectorEquation,
-    cos,
-    sin,
-    sqrt,
-)
-from reportgen.report import (
+from reportgen.document import (
     BlankLine,
     Block,
     Cell,
@@ -52,6 +33,25 @@ from reportgen.report import (
     Text,
     Value,
     Words,
+)
+from reportgen.drawing import Arc, Arrow, Circle, Hatch, Item, Label, Line, Pen, Polyline, Scene
+from reportgen.formula import (
+    PI,
+    Call,
+    Chain,
+    Expression,
+    Fraction,
+    Negative,
+    Number,
+    Power,
+    Product,
+    Sum,
+    Symbol,
+    Term,
+    VectorEquation,
+    cos,
+    sin,
+    sqrt,
 )
 
 WORDS = Words.among(load_words(search_path("vi")), "vi")

@@ -19,8 +19,8 @@ from reportgen.base.errors import OutputWarning, TypesetterError
 from reportgen.base.limits import TEMPLATES, call_within
 from reportgen.base.standards import KNOWN, STANDARDS, other_than_usual, titled
 from reportgen.base.units import Language
+from reportgen.document import Cell, Column, Document, Figure, InlineMath, Paragraph, Section, Table, Text
 from reportgen.formula import Symbol
-from reportgen.report import Cell, Column, Document, Figure, InlineMath, Paragraph, Section, Table, Text
 from reportgen.writers import typst_compiler
 from tests.lanes import matrix
 from tests.marking.test_papers import PAPERS

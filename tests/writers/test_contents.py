@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from reportgen.report import Contents, Section, Text
+from reportgen.document import Contents, Section, Text
 from tests.lanes import proof
 from tests.writers.pages import body_of, by_latex, by_typst, needs_tex
 

@@ -11,6 +11,7 @@ from xml.etree import ElementTree
 import pytest
 
 from reportgen.base.units import Language
+from reportgen.document import Equation, InlineMath, Paragraph, Section, Text
 from reportgen.drawing import Arrow, Circle, Label, Line, Scene
 from reportgen.drawing.label_size import POINT, SCRIPT, SMALL_CUT, box
 from reportgen.formula import (
@@ -29,7 +30,6 @@ from reportgen.formula import (
 from reportgen.formula.plain import formula
 from reportgen.page import html
 from reportgen.page.elements import MathmlFormulas, Painter, Pens
-from reportgen.report import Equation, InlineMath, Paragraph, Section, Text
 from tests.writers import sample
 
 SCRIPTED = {"msub": 2, "msup": 2, "msubsup": 3, "mover": 2, "mfrac": 2}

@@ -10,9 +10,7 @@ import pymupdf
 import pytest
 
 from reportgen.base.errors import TypesetterError
-from reportgen.drawing import Scene
-from reportgen.formula import Chain, Expression, Number, Product, Sum, Symbol, Term, VectorEquation
-from reportgen.report import (
+from reportgen.document import (
     Block,
     Cell,
     Column,
@@ -28,6 +26,8 @@ from reportgen.report import (
     Table,
     Text,
 )
+from reportgen.drawing import Scene
+from reportgen.formula import Chain, Expression, Number, Product, Sum, Symbol, Term, VectorEquation
 from reportgen.writers import latex, pdflatex
 from reportgen.writers.latex_math import MATHEMATICAL, TEXTUAL, escape
 from tests.writers import sample

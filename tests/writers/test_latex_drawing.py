@@ -7,8 +7,8 @@ from dataclasses import replace
 import pymupdf
 import pytest
 
+from reportgen.document import Figure
 from reportgen.drawing import Arc, Arrow, Circle, Hatch, Label, Line, Pen, Polyline, Scene
-from reportgen.report import Figure
 from reportgen.writers.drawing import paint_latex
 from reportgen.writers.latex_math import LatexFormulas
 from tests.writers import sample

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from reportgen.base.errors import TypesetterError
-from reportgen.report import Section, Text
-from reportgen.report.layout import Letter
+from reportgen.document import Section, Text
+from reportgen.document.layout import Letter
 from reportgen.writers import latex, pdflatex
 from tests.writers import sample
 from tests.writers.pages import document, needs_tex

@@ -12,9 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from reportgen.base.errors import TypesetterError
-from reportgen.drawing import Arc, Arrow, Label, Polyline, Scene
-from reportgen.formula import Chain, Number, Product, Sum, Symbol, Term, VectorEquation
-from reportgen.report import (
+from reportgen.document import (
     Column,
     Cover,
     Equation,
@@ -28,7 +26,9 @@ from reportgen.report import (
     Text,
     Value,
 )
-from reportgen.report.layout import in_rows
+from reportgen.document.layout import in_rows
+from reportgen.drawing import Arc, Arrow, Label, Polyline, Scene
+from reportgen.formula import Chain, Number, Product, Sum, Symbol, Term, VectorEquation
 from reportgen.writers import typst, typst_compiler
 from reportgen.writers.typst_math import literal
 from tests.writers import sample

@@ -10,8 +10,8 @@ from typing import Any
 import pymupdf
 import pytest
 
+from reportgen.document import Figure
 from reportgen.drawing import Arc, Arrow, Label, Line, Pen, Polyline, Scene
-from reportgen.report import Figure
 from tests.writers import sample
 from tests.writers.pages import MM, by_typst
 

@@ -11,6 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from reportgen.base.errors import TypesetterError
+from reportgen.document import Equation, InlineMath, Paragraph
 from reportgen.formula import (
     Call,
     Chain,
@@ -28,7 +29,6 @@ from reportgen.formula import (
     VectorEquation,
 )
 from reportgen.formula.evaluation import evaluate
-from reportgen.report import Equation, InlineMath, Paragraph
 from reportgen.writers.latex_math import LatexFormulas
 from reportgen.writers.typst_math import TypstFormulas
 from tests.writers import sample

@@ -11,10 +11,10 @@ from typing import Any
 
 import pytest
 
+from reportgen.document import Block, Equation, Figure, Paragraph, Plate, Section, Table, Text, plain
+from reportgen.document.layout import Letter
 from reportgen.drawing import Scene
 from reportgen.formula import Matrix, Symbol, VectorEquation
-from reportgen.report import Block, Equation, Figure, Paragraph, Plate, Section, Table, Text, plain
-from reportgen.report.layout import Letter
 from reportgen.writers import pictures as drawn
 from reportgen.writers import word
 from tests.writers import sample

@@ -12,7 +12,7 @@ from typing import Any
 
 import pytest
 
-from reportgen.report import Cell, Section, Table, plain
+from reportgen.document import Cell, Section, Table, plain
 from reportgen.writers import pictures as drawn
 from reportgen.writers import word
 from tests.lanes import proof

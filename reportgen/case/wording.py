@@ -13,9 +13,9 @@ from string import Formatter
 from typing import Any
 
 from reportgen.base.gaps import gaps
+from reportgen.document import Inline, Inlines, Text
 from reportgen.formula import Expression, Symbol, ids, refs, vocabulary
 from reportgen.formula.ledger import Ledger
-from reportgen.report import Inline, Inlines, Text
 
 MAGNITUDE = "magnitude"
 """Stands in place of a phrase where the sign of a quantity says nothing."""

@@ -1,7 +1,7 @@
 """The language of templates: names, members, calls, conditions, loops, sections that are included, and no more.
 
 A template is judged where it is read: a sign that is not in the language is a fault with its line.  What is left
-works on what a template holds (`reportgen/report/values.py`) and nothing else; loops and texts have bounds.  What Jinja
+works on what a template holds (`values.py` beside it) and nothing else; loops and texts have bounds.  What Jinja
 would do by itself, joining texts, going through a list, asking for a section, is done by functions of this module.
 """
 
@@ -15,8 +15,8 @@ from jinja2 import Environment, TemplateSyntaxError, Undefined, nodes
 from jinja2.runtime import Context, LoopContext
 from jinja2.visitor import NodeTransformer
 
-from reportgen.report.markdown import SECRET
-from reportgen.report.values import Token, held
+from reportgen.document.markdown import SECRET
+from reportgen.document.values import Token, held
 
 LONGEST = 400_000
 """Characters of a text, as many as a file of templates may have bytes."""

@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import Any, get_args
 
 from reportgen.base.shown import text as as_text
+from reportgen.document import Inline, InlineMath, Inlines, Text, Value
+from reportgen.document.markdown import SECRET
+from reportgen.document.prose import NamedPoint, inlines_of
 from reportgen.formula import Expression, Number, vocabulary
-from reportgen.report import Inline, InlineMath, Inlines, Text, Value
-from reportgen.report.markdown import SECRET
-from reportgen.report.prose import NamedPoint, inlines_of
 
 
 def inlines(of: Any) -> Inlines:

@@ -46,9 +46,8 @@ from reportgen.base.source import STRANGE
 from reportgen.base.template_folders import DEFAULT_LANGUAGE
 from reportgen.base.units import MINUS, Language
 from reportgen.base.words import find, home, of_file, refuse_strangers, word
-from reportgen.formula import Expression, Number, vocabulary
-from reportgen.report import BlankLine, Block, InlineMath, Inlines, Reference, Section, Text, Value, dialect, markdown
-from reportgen.report.dialect import (
+from reportgen.document import BlankLine, Block, InlineMath, Inlines, Reference, Section, Text, Value, dialect, markdown
+from reportgen.document.dialect import (
     LONGEST,
     MOST_ITEMS,
     MOST_STEPS,
@@ -58,8 +57,9 @@ from reportgen.report.dialect import (
     numbers,
     short,
 )
-from reportgen.report.markdown import SECRET, Emitted, Place, Rendered, SectionKey, Unnumbered
-from reportgen.report.values import PLAIN, FunctionToken, Marked, Token, Values, held
+from reportgen.document.markdown import SECRET, Emitted, Place, Rendered, SectionKey, Unnumbered
+from reportgen.document.values import PLAIN, FunctionToken, Marked, Token, Values, held
+from reportgen.formula import Expression, Number, vocabulary
 
 _PIECE = re.compile(
     f"\ue000{SECRET}:(?P<value>\\d+)\ue001"

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from reportgen.formula import Expression, Symbol, VectorEquation, children
-from reportgen.formula.speech import Speech
-from reportgen.report import (
+from reportgen.document import (
     Block,
     Document,
     Emph,
@@ -21,6 +19,8 @@ from reportgen.report import (
     Strong,
     Table,
 )
+from reportgen.formula import Expression, Symbol, VectorEquation, children
+from reportgen.formula.speech import Speech
 
 
 def speech(document: Document) -> Speech:

@@ -7,8 +7,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import chain
 
+from reportgen.document import Block, Document, Figure, List, Plate, plain
 from reportgen.drawing import Scene
-from reportgen.report import Block, Document, Figure, List, Plate, plain
 
 _FIGURE = re.compile(r"(^|\.)fig\.")
 """What says in the key of a block that it is a figure, behind the name of its part: cam.fig.law."""

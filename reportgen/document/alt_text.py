@@ -10,13 +10,13 @@ from collections.abc import Iterable, Iterator, Mapping
 from itertools import groupby
 
 from reportgen.base.units import Language
+from reportgen.document import Figure, InlineMath, Inlines, Plate, Text, Words, plain
+from reportgen.document.unspaced import set_out
 from reportgen.drawing import Content, Description, Scene
 from reportgen.drawing.description import Fact, PaperLength, Told
 from reportgen.formula import Number, Symbol
 from reportgen.formula.plain import Plain
 from reportgen.formula.setting import PRIMES, parted
-from reportgen.report import Figure, InlineMath, Inlines, Plate, Text, Words, plain
-from reportgen.report.unspaced import set_out
 
 MOST = 600
 """Characters of the text of a drawing."""

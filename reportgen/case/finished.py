@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from reportgen.report import Block, Document, Words
-from reportgen.report.case import LoadedAssignment
-from reportgen.report.numbering import number
+from reportgen.case import LoadedAssignment
+from reportgen.document import Block, Document, Words
+from reportgen.document.numbering import number
 
 
 def finished(case: LoadedAssignment, blocks: Iterable[Block], close: bool = False, title: str = "") -> Document:

@@ -19,8 +19,7 @@ from reportgen.base.kinds import SAMPLE
 from reportgen.base.template_folders import MACHINES, REFERENCE, templates
 from reportgen.base.units import Language
 from reportgen.base.words import SECTION, sections
-from reportgen.formula import Symbol
-from reportgen.report import (
+from reportgen.document import (
     Block,
     Cell,
     Column,
@@ -36,10 +35,11 @@ from reportgen.report import (
     Text,
     Words,
 )
-from reportgen.report import Section as Heading
-from reportgen.report.insertions import inlines
-from reportgen.report.numbering import number
-from reportgen.report.translation import FIELDS, read_table, read_words_in
+from reportgen.document import Section as Heading
+from reportgen.document.insertions import inlines
+from reportgen.document.numbering import number
+from reportgen.document.translation import FIELDS, read_table, read_words_in
+from reportgen.formula import Symbol
 
 NUMBER_WIDTH = 12.0
 SIDE = 74.0

@@ -21,16 +21,17 @@ from reportgen.base.kinds import title as kind_title
 from reportgen.base.languages import UnitNames, languages, setting_of
 from reportgen.base.template_folders import search_path
 from reportgen.base.words import common_words, load_words, word
+from reportgen.case.key import INSTANT, Key, Span
+from reportgen.case.result_entries import ResultEntries, entries_of
+from reportgen.document import Block, Cover, Document
 from reportgen.formula import Expression, Operand, Symbol, as_expression, substitute
 from reportgen.formula.rounding import printed
 from reportgen.formula.sheet import Family
-from reportgen.report import Block, Cover, Document
-from reportgen.report.key import INSTANT, Key, Span
-from reportgen.report.result_entries import ResultEntries, entries_of
 
 if TYPE_CHECKING:
     import numpy as np
 
+    from reportgen.case.shafts import Shaft
     from reportgen.derivation import PlannedLedger
     from reportgen.derivation.loads import Polygon
     from reportgen.drawing.animation import Animation
@@ -41,7 +42,6 @@ if TYPE_CHECKING:
     from reportgen.machine.balance import BalancedTurn
     from reportgen.machine.flywheel import RegulatedCycle
     from reportgen.machine.true_motion import TrueMotion
-    from reportgen.report.shafts import Shaft
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,13 +8,11 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, ClassVar, Generic, TypeVar
 
-from reportgen.drawing import Scene
-from reportgen.formula import Symbol
-from reportgen.formula.carrying import carried
-from reportgen.formula.ledger import Ledger
-from reportgen.formula.sheet import Sheet
-from reportgen.formula.vocabulary import in_language
-from reportgen.report import (
+from reportgen.case import AskedFor, LoadedAssignment
+from reportgen.case.finished import finished
+from reportgen.case.key import Span
+from reportgen.case.wording import positive_sense
+from reportgen.document import (
     Block,
     Cell,
     Column,
@@ -29,12 +27,14 @@ from reportgen.report import (
     Text,
     Value,
 )
-from reportgen.report.case import AskedFor, LoadedAssignment
-from reportgen.report.finished import finished
-from reportgen.report.key import Span
-from reportgen.report.layout import contents
-from reportgen.report.prose import Prose
-from reportgen.report.wording import positive_sense
+from reportgen.document.layout import contents
+from reportgen.document.prose import Prose
+from reportgen.drawing import Scene
+from reportgen.formula import Symbol
+from reportgen.formula.carrying import carried
+from reportgen.formula.ledger import Ledger
+from reportgen.formula.sheet import Sheet
+from reportgen.formula.vocabulary import in_language
 
 DATA = (95.0, 25.0, 40.0)
 """Widths (mm) of the columns of the given data."""

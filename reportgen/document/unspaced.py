@@ -12,8 +12,8 @@ import re
 from collections.abc import Mapping
 
 from reportgen.base.languages import Language, setting_of
+from reportgen.document import inlines as tree
 from reportgen.formula import Symbol
-from reportgen.report import inlines as tree
 
 _NARROW, _FORMULAS, _WIDE = 0xF0000, 0xF8000, 0x100000
 """Where the private characters begin that stand for inlines other than text, by what they begin and end with."""

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
+from reportgen.case.balancing_entries import balancing_summary, shaken_entries
 from reportgen.formula import ids
 from reportgen.machine import Crank
 from reportgen.machine.analysis import Analysis, Machine
@@ -13,7 +14,6 @@ from reportgen.machine.balance import BalancedTurn
 from reportgen.machine.forces import Load
 from reportgen.machine.joint_friction import FrictionForces
 from reportgen.machine.true_motion import TrueMotion, at_positions, at_true_speeds
-from reportgen.report.balancing_entries import balancing_summary, shaken_entries
 
 Entries = Mapping[str, Any]
 """Numbers (SI, radians), vectors of the plane as complex numbers, and tables of them, by name."""

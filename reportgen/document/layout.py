@@ -8,11 +8,7 @@ from dataclasses import dataclass, replace
 from itertools import groupby
 
 from reportgen.base.units import Language
-from reportgen.drawing import Scene
-from reportgen.drawing.label_size import POINT, Boxes, box
-from reportgen.formula import Expression, VectorEquation
-from reportgen.formula.setting import MathRow, Part
-from reportgen.report import (
+from reportgen.document import (
     TEXT_WIDTH,
     Block,
     Contents,
@@ -26,6 +22,10 @@ from reportgen.report import (
     Table,
     plain,
 )
+from reportgen.drawing import Scene
+from reportgen.drawing.label_size import POINT, Boxes, box
+from reportgen.formula import Expression, VectorEquation
+from reportgen.formula.setting import MathRow, Part
 
 SCENE_GAP = 4.0
 """Between scenes side by side, mm."""

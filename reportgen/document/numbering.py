@@ -12,10 +12,10 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Literal
 
-from reportgen import report as tree
+from reportgen import document as tree
 from reportgen.base.errors import DocumentError
-from reportgen.report import plain
-from reportgen.report.unspaced import set_out
+from reportgen.document import plain
+from reportgen.document.unspaced import set_out
 
 _COUNTED_LEVELS = 3
 

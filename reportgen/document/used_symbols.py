@@ -5,9 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
-from reportgen.drawing import Label, Scene
-from reportgen.formula import Chain, Expression, Number, Symbol, VectorEquation, children
-from reportgen.report import (
+from reportgen.document import (
     Block,
     Emph,
     Equation,
@@ -21,6 +19,8 @@ from reportgen.report import (
     Table,
     Text,
 )
+from reportgen.drawing import Label, Scene
+from reportgen.formula import Chain, Expression, Number, Symbol, VectorEquation, children
 
 LEAST_WORD = 4
 """A text of so many letters is no unit and no verdict."""

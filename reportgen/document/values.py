@@ -21,7 +21,7 @@ from jinja2 import Undefined
 from jinja2.exceptions import SecurityError
 
 from reportgen.base import shown
-from reportgen.report.markdown import SECRET
+from reportgen.document.markdown import SECRET
 
 PLAIN = frozenset((str, int, float, bool, type(None)))
 """Types of which a template holds the values themselves."""

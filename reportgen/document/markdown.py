@@ -19,7 +19,7 @@ from markdown_it import MarkdownIt
 from markdown_it.token import Token
 from markdown_it.tree import SyntaxTreeNode
 
-from reportgen import report as tree
+from reportgen import document as tree
 from reportgen.base.errors import TemplateError
 from reportgen.base.words import of_file, word
 

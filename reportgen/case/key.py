@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from reportgen.base.units import Language
+from reportgen.document import InlineMath, Inlines, Text
 from reportgen.formula import Chain, Expression, Symbol
 from reportgen.formula.vocabulary import Chapter
-from reportgen.report import InlineMath, Inlines, Text
 
 if TYPE_CHECKING:
     import numpy as np

@@ -1,0 +1,329 @@
+"""The document as data: blocks and inlines that every writer renders and none computes.
+
+All texts are plain strings exactly as they shall appear; writers escape.  Lengths are millimetres.
+`key` names a block for references and is unique in the document; `number` is filled in by
+`document.numbering` and printed by the writers as it stands, so all writers number alike.
+
+Its plain text, in order, is what snapshots compare and what a text-only reader sees: symbols are written
+base_sub^sup, numbers as printed in the document's language, drawings by their captions.
+"""
+
+from __future__ import annotations
+
+import datetime
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field, fields
+from typing import Any, Literal, Self
+
+from reportgen.base.languages import UnitNames, setting_of
+from reportgen.base.units import Language
+from reportgen.document.inlines import DOTS as DOTS
+from reportgen.document.inlines import Blank as Blank
+from reportgen.document.inlines import Emph as Emph
+from reportgen.document.inlines import Inline as Inline
+from reportgen.document.inlines import InlineMath as InlineMath
+from reportgen.document.inlines import Inlines as Inlines
+from reportgen.document.inlines import LineBreak as LineBreak
+from reportgen.document.inlines import Reference as Reference
+from reportgen.document.inlines import Strong as Strong
+from reportgen.document.inlines import Text as Text
+from reportgen.document.inlines import Value as Value
+from reportgen.document.unspaced import set_out
+from reportgen.drawing import Scene
+from reportgen.formula import Expression
+from reportgen.formula.plain import formula, quantity
+
+# --- blocks ---------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class Section:
+    """A heading; level 1 is a part of the report, 4 is a run-in heading.
+
+    `numbered=False` is for foreword, conclusion and the like: listed in the contents, not counted.  One that begins a
+    section of the templates has its name in `opens`, which is not printed.
+    """
+
+    level: int
+    title: Inlines
+    key: str = ""
+    numbered: bool = True
+    number: str = ""
+    opens: str = field(default="", compare=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Paragraph:
+    inlines: Inlines
+    align: Literal["", "center", "right"] = ""
+
+
+@dataclass(frozen=True, slots=True)
+class List:
+    """Items are blocks; `ordered` counts from `start`."""
+
+    items: tuple[tuple[Block, ...], ...]
+    ordered: bool = False
+    start: int = 1
+
+
+@dataclass(frozen=True, slots=True)
+class Equation:
+    """One or more displayed lines; each row is one expression.
+
+    With a `key` the group is numbered, once, on its last row.  A row too wide for the text block is
+    broken by the writers before an "=" of its chain, aligned after the first.
+    """
+
+    rows: tuple[Expression, ...]
+    key: str = ""
+    number: str = ""
+
+
+TEXT_WIDTH = 160.0
+"""What of an A4 page text takes across (mm)."""
+FIRST_COLUMN = 16.0
+"""The column of a table that names the positions (mm)."""
+
+
+@dataclass(frozen=True, slots=True)
+class Column:
+    width: float
+    align: Literal["left", "center", "right"] = "center"
+
+
+@dataclass(frozen=True, slots=True)
+class Cell:
+    inlines: Inlines = ()
+    span: int = 1
+
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """A ruled table; where it continues on the next page, its number and its `head` rows repeat.
+
+    A cell spans columns only; one across the whole table heads the rows below it.  One that is `framed` has a frame
+    around its head and rows, as a boxed answer has.  Where it runs over pages, `last` rows at least stand on the last.
+    """
+
+    columns: tuple[Column, ...]
+    head: tuple[tuple[Cell, ...], ...]
+    rows: tuple[tuple[Cell, ...], ...]
+    caption: Inlines = ()
+    key: str = ""
+    number: str = ""
+    framed: bool = False
+    last: int = 3
+
+
+@dataclass(frozen=True, slots=True)
+class Figure:
+    """One scene, or several side by side in rows as they fit, with one caption, in true size.
+
+    Where the page has no room for it, the text runs on to the end of the page before it.  One that is `turned` by 90°
+    has a page for itself.  `at` is the label of the position that it shows, if it shows one.  One that stands `here`
+    keeps its place between tables that run over pages.
+    """
+
+    scenes: tuple[Scene, ...]
+    caption: Inlines = ()
+    key: str = ""
+    number: str = ""
+    turned: bool = False
+    at: str = ""
+    here: bool = False
+    rest: str = ""
+    """The number of the table that has what its drawings tell and more, filled in by numbering if there is one."""
+
+
+@dataclass(frozen=True, slots=True)
+class Plate:
+    """A figure on a page of its own paper size (mm), for what the A4 text block cannot hold in true size either way.
+
+    Plates stand together at the end of their chapter.
+
+    With `continues` it is a further page of the figure before it, whose number it shares.  `at` is the label of the
+    position that it shows, if it shows one; `rest` is as that of a figure.
+    """
+
+    scene: Scene
+    paper: tuple[float, float]
+    caption: Inlines = ()
+    key: str = ""
+    number: str = ""
+    continues: bool = False
+    at: str = ""
+    rest: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Cover:
+    """The title page: institution lines on top, title lines in the middle, labelled fields, place and date."""
+
+    institution: tuple[str, ...]
+    title: tuple[str, ...]
+    subtitle: tuple[str, ...]
+    fields: tuple[tuple[str, str], ...]
+    """(label, value); an empty value prints a dotted line to fill in."""
+    place_and_date: str
+
+
+@dataclass(frozen=True, slots=True)
+class Contents:
+    """The table of contents with true page numbers: levels 1 to 3, or `brief`, levels 1 and 2.
+
+    It stands on pages of its own unless it is not `alone`: then what follows goes on below it.
+    """
+
+    title: str
+    brief: bool = False
+    alone: bool = True
+
+
+@dataclass(frozen=True, slots=True)
+class BlankLine:
+    """A dotted line to write on."""
+
+    label: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Listing:
+    """Lines of a program, set as they stand in letters of one width."""
+
+    lines: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class PageBreak:
+    pass
+
+
+Block = (
+    Section | Paragraph | List | Equation | Table | Figure | Plate | Cover | Contents | BlankLine | Listing | PageBreak
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Words:
+    """The few words writers themselves print, in the report's language."""
+
+    figure: str
+    table: str
+    contents: str
+    page: str
+    continued: str
+    """Stands behind the number of a table or plate that goes on from the page before."""
+    part: str
+    """Which of several a part of a figure is, its later ones, on whatever page: part 2."""
+    save: str
+    """What the buttons below a figure do on a page."""
+    speech: Mapping[str, Any] = field(default_factory=dict, repr=False)
+    """How formulas are said, units by their printed signs."""
+    phrases: Mapping[str, str] = field(default_factory=dict, repr=False)
+    """The phrases of what drawings tell, by their names."""
+
+    @classmethod
+    def among(cls, words: Mapping[str, Any], language: Language) -> Self:
+        """Those of all words of a language, in which a school may have more."""
+        speech, printed = words["speech"], UnitNames({**setting_of(language).units, **words["units"]})
+        units = {printed.get(unit, unit): said for unit, said in speech["units"].items()}
+        own = words["document"] | {"speech": {**speech, "units": units}, "phrases": words["told"]}
+        return cls(*(own[field.name] for field in fields(cls)))
+
+
+@dataclass(frozen=True, slots=True)
+class Document:
+    """A finished report: its blocks in order and what every page carries."""
+
+    language: Language
+    title: str
+    author: str
+    header: tuple[str, str]
+    """Left and right text of the running header (not on the cover)."""
+    footer: tuple[str, str]
+    """Left text of the running footer, and the word before the page number."""
+    words: Words
+    blocks: tuple[Block, ...] = field(default=())
+    close: bool = False
+    """Whether it is set in smaller type with less room between lines and blocks."""
+    date: datetime.date | None = None
+    """When it was written, as far as its file says it."""
+
+
+def text_of(document: Document) -> str:
+    """All text of a document, a line for each heading, paragraph, row and formula."""
+    return "\n".join(line for block in document.blocks for line in lines_of(block, document)) + "\n"
+
+
+def lines_of(block: Block, document: Document) -> Iterator[str]:
+    """The lines of one block, in the words and the language of its document."""
+    language, words = document.language, document.words
+    match block:
+        case Section(_, title, number=number):
+            yield f"{number} {plain(title, language)}".strip()
+        case Paragraph(inlines):
+            yield plain(inlines, language)
+        case List(items, ordered, start):
+            for index, item in enumerate(items):
+                mark = f"{start + index}." if ordered else "•"
+                for i, line in enumerate(line for inner in item for line in lines_of(inner, document)):
+                    yield f"{mark} {line}" if i == 0 else f"{' ' * len(mark)} {line}"
+        case Equation(rows, number=number):
+            for row in rows:
+                yield formula(row, language) + (f"  ({number})" if number and row is rows[-1] else "")
+        case Table(_, head, rows):
+            yield from _caption(block, words, language)
+            for cells in (*head, *rows):
+                yield _row(cells, language)
+        case Plate(continues=True):
+            yield f"{words.figure} {block.number}{setting_of(language).aside(words.continued)}"
+        case Figure() | Plate():
+            yield from _caption(block, words, language)
+        case Cover(institution, title_lines, subtitle, fields, place_and_date):
+            yield from (*institution, *title_lines, *subtitle)
+            yield from (f"{label}{setting_of(language).colon}{value or '…'}" for label, value in fields)
+            yield place_and_date
+        case Contents(heading):
+            yield heading
+        case BlankLine(label):
+            yield f"{label} …".strip()
+        case Listing(code):
+            yield from code
+        case PageBreak():
+            pass
+
+
+def _caption(block: Table | Figure | Plate, words: Words, language: Language) -> Iterator[str]:
+    if block.number or block.caption:
+        word = words.table if isinstance(block, Table) else words.figure
+        yield f"{word} {block.number}{setting_of(language).stop} {plain(block.caption, language)}".strip()
+
+
+def _row(cells: tuple[Cell, ...], language: Language) -> str:
+    return " | ".join(plain(cell.inlines, language) for cell in cells)
+
+
+def listed(parts: Iterable[Inline]) -> Inlines:
+    """Inlines side by side with commas."""
+    return tuple(one for index, part in enumerate(parts) for one in ((Text(", "), part) if index else (part,)))
+
+
+def plain(inlines: Inlines, language: Language) -> str:
+    """The text of inlines in one line, with the marks of the language."""
+    result = []
+    for inline in set_out(inlines, language):
+        match inline:
+            case Text(text) | Reference(text=text):
+                result.append(text)
+            case Emph(of) | Strong(of):
+                result.append(plain(of, language))
+            case InlineMath(expression):
+                result.append(formula(expression, language))
+            case Value(number):
+                result.append(quantity(number, language))
+            case LineBreak():
+                result.append(" ")
+            case Blank():
+                result.append(DOTS)
+    return "".join(result)
