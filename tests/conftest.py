@@ -16,6 +16,7 @@ import pytest
 from hypothesis import settings
 from xdist.scheduler import LoadScopeScheduling
 
+from reportgen.base import limits
 from reportgen.cli import COLLECTED
 from tests.report import built
 
@@ -66,3 +67,12 @@ def pair(request: pytest.FixtureRequest) -> tuple[built.Report, built.Report]:
 def written(request: pytest.FixtureRequest) -> built.Written:
     """The tree of each assignment file in each language."""
     return built.written(*request.param)
+
+
+@pytest.fixture
+def here(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A school's words are rendered in this process, as in one that is bounded already.
+
+    For tests of what the words do; those of the bounds have the process that users have.
+    """
+    monkeypatch.setattr(limits, "_bounded", True)

@@ -104,6 +104,7 @@ def test_styles_header_footer_and_margins_are_taken_over(school: Put, letterhead
     assert found == pytest.approx([31, 28, 18], abs=0.05)
 
 
+@pytest.mark.usefixtures("here")
 def test_it_may_lie_beside_the_assignment(letterhead: bytes, tmp_path: Path) -> None:
     (tmp_path / "ours").mkdir()
     (tmp_path / "ours" / "report.docx").write_bytes(letterhead)
@@ -113,6 +114,7 @@ def test_it_may_lie_beside_the_assignment(letterhead: bytes, tmp_path: Path) -> 
     assert "Khoa Cơ khí" in file.parts["word/header1.xml"].decode()
 
 
+@pytest.mark.usefixtures("here")
 @proof
 def test_what_is_made_with_it_is_valid(school: Put, letterhead: bytes, tmp_path: Path) -> None:
     audit = pytest.importorskip("openxml_audit")

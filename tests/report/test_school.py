@@ -47,6 +47,7 @@ def test_a_school_overrides_one_section(tmp_path: Path, monkeypatch: pytest.Monk
     assert "Position plan" in text
 
 
+@pytest.mark.usefixtures("here")
 @proof
 def test_a_section_of_a_school_may_call_and_write_short(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     root = tmp_path / "templates"
@@ -66,6 +67,7 @@ def test_a_section_of_a_school_may_call_and_write_short(tmp_path: Path, monkeypa
     assert "Our speeds" in text
 
 
+@pytest.mark.usefixtures("here")
 def test_a_section_that_no_report_has_is_a_located_fault(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A misspelt name would change nothing, and nobody would know."""
     root = tmp_path / "templates"
@@ -117,6 +119,7 @@ def test_a_size_that_no_school_asks_for_is_a_fault(tmp_path: Path) -> None:
     assert (problem.code, problem.mark.line) == ("choice", 7)
 
 
+@pytest.mark.usefixtures("here")
 @proof
 def test_tables_and_lines_keep_within_the_page_in_a_broad_font(tmp_path: Path) -> None:
     """A font that comes with typst, a fifth broader than its usual one, a point larger."""
@@ -163,6 +166,7 @@ def test_latex_sets_times_and_nothing_stands_out(tmp_path: Path) -> None:
 CRANK = Path(__file__).parents[2] / "assignments" / "slider-crank-01.yaml"
 
 
+@pytest.mark.usefixtures("here")
 @pytest.mark.parametrize("language", ["ru", "zh", "vi"])
 def test_a_school_may_have_words_in_any_one_language(language: str, tmp_path: Path) -> None:
     (tmp_path / "ours").mkdir()
@@ -201,6 +205,7 @@ def test_a_symbol_without_letters_is_set_by_every_typesetter() -> None:
 SAMPLES = [("vi", "Trường Đại học Mẫu"), ("en", "Sample University")]
 
 
+@pytest.mark.usefixtures("here")
 @pytest.mark.parametrize(("language", "ours"), matrix(SAMPLES, SAMPLES[:1]))
 def test_the_sample_school_shows_all_that_a_school_changes(language: Language, ours: str) -> None:
     folder = templates() / "sample-school"
