@@ -18,6 +18,7 @@ from reportgen.base.errors import AssignmentError, NotOfferedError
 from reportgen.cases import opened
 from reportgen.catalogue import sample
 from reportgen.document import text_of
+from tests.lanes import proof
 
 HEAD = """
 kind: linkage
@@ -66,7 +67,7 @@ def slotted() -> float:
 
 @pytest.mark.parametrize(
     ("groups", "ω3"),
-    [(FOUR_BAR, four_bar()), (SLOTTED, slotted()), (SIX_BAR, four_bar())],
+    [(FOUR_BAR, four_bar()), (SLOTTED, slotted()), pytest.param(SIX_BAR, four_bar(), marks=proof)],
     ids=["RRR", "RPR", "six-bar"],
 )
 def test_a_crank_that_does_not_get_round(tmp_path: Path, groups: str, ω3: float) -> None:

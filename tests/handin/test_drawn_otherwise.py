@@ -108,7 +108,7 @@ def test_vectors_are_read_however_they_are_drawn(name: str, way: str) -> None:
 
 
 @pytest.mark.parametrize("name", matrix(MACHINES, {"four-bar-02"}))
-@pytest.mark.parametrize("way", [in_pieces, with_gaps])
+@pytest.mark.parametrize("way", matrix([in_pieces, with_gaps], [in_pieces]))
 def test_wrong_vectors_in_pieces_are_read_whole_or_not_at_all(name: str, way: Redraw) -> None:
     """Letters stand beside them, which say which vector a first piece is of: its end is not the vector's."""
     for seed in range(1, 7):

@@ -29,7 +29,7 @@ from reportgen.machine.running import MotionRun, NoMotionError, mean_torque, ste
 from reportgen.machine.springs import SpringLaw
 from reportgen.machine.starting import start, stop
 from reportgen.machine.true_motion import at_positions, at_true_speeds
-from tests.lanes import matrix
+from tests.lanes import matrix, proof
 
 ASSIGNMENTS = Path(__file__).parents[2] / "assignments"
 MOTOR = LinearDrive(600.0, 20.0)
@@ -247,6 +247,7 @@ def test_a_motor_that_is_strong_enough_in_the_mean_alone_stalls() -> None:
     assert told.value.missing == pytest.approx(-missing[0] - weak.torque(np.zeros(1))[0], rel=1e-6)
 
 
+@proof
 def test_a_motor_starts_only_where_its_torque_suffices() -> None:
     """140 N·m get over 150 N·m at 90° with the energy of a longer way: from 101° on, and until before 55°."""
     motor = LinearDrive(140.0, 4.0)
@@ -280,6 +281,7 @@ def test_where_a_start_stalls_does_not_depend_on_the_inertia(inertia: float) -> 
     assert work == pytest.approx(0.0, abs=1e-8 * 100.0)
 
 
+@proof
 def test_a_motor_that_starts_nowhere() -> None:
     """5 N·m are less than the slider asks for at every angle from which it would have to get over 150 N·m."""
     motor = KlossDrive(200.0, 0.001, 30.0)

@@ -14,6 +14,7 @@ from reportgen.base.units import write
 from reportgen.case import Case
 from reportgen.cases import opened
 from reportgen.document import Document, Table, text_of
+from tests.lanes import matrix
 from tests.report import built
 
 SHAPER = """
@@ -82,7 +83,7 @@ TITLES = {"vi": "Kết luận", "en": "Conclusion", "ru": "Заключение"
 SUMMARIES = {"vi": "Tóm tắt kết quả", "en": "Summary of results", "ru": "Сводка результатов", "zh": "结果摘要"}
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("language", matrix(LANGUAGES, ["en"]))
 def test_the_conclusion_names_what_came_out(language: str) -> None:
     case, document = _made(language, "short")
     text = _section(document, TITLES[language])
@@ -93,7 +94,7 @@ def test_the_conclusion_names_what_came_out(language: str) -> None:
     assert "4A-" in text
 
 
-@pytest.mark.parametrize("language", ["vi", "en"])
+@pytest.mark.parametrize("language", matrix(["vi", "en"], ["vi"]))
 def test_the_summary_names_it_too(language: str) -> None:
     case, document = _made(language, "full")
     text = _section(document, SUMMARIES[language])
@@ -122,7 +123,7 @@ def test_what_is_not_asked_for_is_not_there(tmp_path: Path) -> None:
     assert "The start from rest takes" not in text_of(document)
 
 
-@pytest.mark.parametrize("extent", ["short", "full"])
+@pytest.mark.parametrize("extent", matrix(["short", "full"], ["short"]))
 def test_the_work_in_mertsalovs_check_is_given(extent: Extent) -> None:
     """T_I = A − J_r ω₁²/2: A at the position is stated before, or stands in the table of the flywheel."""
     path = built.ROOT / "assignments" / "toggle-press-02.yaml"

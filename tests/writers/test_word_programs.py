@@ -15,13 +15,14 @@ import pytest
 from reportgen.document import Cell, Section, Table, plain
 from reportgen.writers import pictures as drawn
 from reportgen.writers import word
-from tests.lanes import proof
+from tests.lanes import matrix, proof
 from tests.report import built
 from tests.writers import sample
 from tests.writers.pages import MM, opened
 from tests.writers.word_file import letters_of, squash
 
 needs_office = pytest.mark.skipif(shutil.which("soffice") is None, reason="LibreOffice Writer is not installed")
+CRANK = built.ROOT / "assignments" / "slider-crank-01.yaml"
 PAGES = 0.15
 """By so much the pages of LibreOffice may differ from ours: figures do not float there, and type is larger."""
 LARGEST = 4_000_000
@@ -47,26 +48,27 @@ def written(folder: Path, document: Any, language: Any) -> Path:
 # --- python-docx ----------------------------------------------------------------------------------
 
 
-def test_python_docx_finds_headings_and_tables(tmp_path: Path) -> None:
+@pytest.mark.parametrize("file", matrix([built.SAMPLE, CRANK], [CRANK]), ids=lambda file: file.stem)
+def test_python_docx_finds_headings_and_tables(tmp_path: Path, file: Path) -> None:
     docx = pytest.importorskip("docx")
-    document = built.written(built.SAMPLE, "en").document
+    document = built.written(file, "en").document
     path = written(tmp_path, document, "en")
     assert path.stat().st_size < LARGEST
-    file = docx.Document(str(path))
-    headings = [(one.style.name, squash(letters_of(one._p))) for one in file.paragraphs if one.style.name[:3] == "Hea"]
+    read = docx.Document(str(path))
+    headings = [(one.style.name, squash(letters_of(one._p))) for one in read.paragraphs if one.style.name[:3] == "Hea"]
     assert headings == [
         (f"Heading {block.level}", squash(plain(block.title, "en")).replace("_", ""))
         for block in document.blocks
         if isinstance(block, Section) and block.level <= 3
     ]
-    tables = [one for one in file.tables if one.style.name == "Report Table"]
+    tables = [one for one in read.tables if one.style.name == "Report Table"]
     ours = [one for one in document.blocks if isinstance(one, Table)]
     assert len(ours) > 10
     for table, block in zip(tables, ours, strict=True):
         for row, cells in zip(table.rows, (*block.head, *block.rows), strict=True):
             shown = [squash(letters_of(cell._tc)) for cell in row.cells]
             assert bare(shown) == bare(list(spread(cells)))
-    assert file.core_properties.title == document.title
+    assert read.core_properties.title == document.title
 
 
 def spread(cells: tuple[Cell, ...]) -> Iterator[str]:
