@@ -1,8 +1,8 @@
-"""What an assignment comes to, whatever kind of work it is: the data that every output is made of.
+"""A case: an assignment solved, as the data that every output is made from.
 
-Whoever makes files, marks or draws a class asks a `Case` and nothing else, and never which kind of case it is.  A
-machine is one (`reportgen.cases`), an exercise of plane motion another; a further kind of work is one more and changes
-nobody else.
+Code that writes files, marks answers or draws variants for a class works with a `Case` and never asks for its kind.
+`reportgen.cases` has the case of a machine; every other kind of work has its own in its package, and a new kind changes
+no shared code.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The report of what is designed (a cam, a gear pair, a planetary train), from sections and words of its own."""
+"""Case and report of a design (a cam, a gear pair, a planetary train) with sections and words of its own."""
 
 from __future__ import annotations
 

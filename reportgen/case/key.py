@@ -1,4 +1,7 @@
-"""The answer key of an assignment, as data: its rows are the ledger's own families, so key, report and marker agree."""
+"""The answer key of an assignment as data.
+
+Its rows come from the ledger, so that key, report and marking agree.
+"""
 
 from __future__ import annotations
 

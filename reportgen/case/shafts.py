@@ -1,4 +1,4 @@
-"""The shafts of a work: what turns, how fast and which way."""
+"""The shafts of an assignment: their speeds and senses of rotation."""
 
 from __future__ import annotations
 

@@ -1,9 +1,9 @@
-"""What each quantity is in words, and which sense of it counts as positive, for the rows of task, sheet and key.
+"""Name each quantity in words and say which sense of it is positive, in the rows of task, answer sheet and key.
 
-The phrases ("normal acceleration of B about A") stand in `words.yaml` under `quantities`, by the families of the
-vocabulary; a quantity that a machine has for itself, or calls by another name, stands there by its own id, or among
-the names of the given data.  Those of the senses stand under `positive`, by ids, families and kinds, of which the
-nearest decides; those of a machine come before the common ones.
+The phrases ("normal acceleration of B about A") are in `words.yaml` under `quantities`, by the families of the
+vocabulary.  A quantity that only one machine has, or that it calls by another name, has a phrase under its own id, or
+among the names of the given data.  Senses are under `positive`, by ids, families and kinds; the most specific entry
+applies.  The words of a machine come before the common ones.
 """
 
 from __future__ import annotations

@@ -1,11 +1,12 @@
-"""The document as data: blocks and inlines that every writer renders and none computes.
+"""The tree of a finished document: blocks, and the inlines that they are made of.
 
-All texts are plain strings exactly as they shall appear; writers escape.  Lengths are millimetres.
-`key` names a block for references and is unique in the document; `number` is filled in by
-`document.numbering` and printed by the writers as it stands, so all writers number alike.
+Everything that makes or writes a document uses these types.  The package knows blocks and words, but no machine and no
+case.  Texts are plain strings exactly as they appear in print; writers escape them.  Lengths are in millimetres.  A
+block's `key` is unique in the document and other blocks refer to it; `document.numbering` fills in its `number`, so
+that all writers print the same numbers.
 
-Its plain text, in order, is what snapshots compare and what a text-only reader sees: symbols are written
-base_sub^sup, numbers as printed in the document's language, drawings by their captions.
+`text_of` returns a document as plain text, which snapshots compare: symbols are written base_sub^sup, numbers as
+printed in the document's language, drawings by their captions.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
-"""Figures told: what a reader who does not see a drawing hears of it, from its data and the words of a language.
+"""Text alternatives for figures, for readers who do not see the drawing.
 
-PDF, page and Word file take the same text: number and caption, then what the drawing says of itself, `MOST` characters
-at most; where that is not all, the table that has the rest is named.
+The PDF, the page and the Word file use the same text: number and caption, then the facts that the drawing states about
+itself, at most `MOST` characters.  If this leaves something out, the text names the table that has the rest.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
-"""The language of templates: names, members, calls, conditions, loops, sections that are included, and no more.
+"""The template language: names, members, calls, conditions, loops and included sections; nothing else.
 
-A template is judged where it is read: a sign that is not in the language is a fault with its line.  What is left
-works on what a template holds (`values.py` beside it) and nothing else; loops and texts have bounds.  What Jinja
-would do by itself, joining texts, going through a list, asking for a section, is done by functions of this module.
+A template is checked when it is read: syntax outside this language is a fault with its line.  The rest works only on
+the values of a template (`values.py`), and loops and texts have size limits.  Functions of this module replace what
+Jinja would do by itself: join texts, iterate over lists, look up a section.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""What a line is made of: texts, formulas, values and references, as data.
+"""The inlines that a line consists of: texts, formulas, values and references.
 
-Texts are plain strings exactly as they shall appear; writers escape.
+Texts are plain strings exactly as they appear in print; writers escape them.
 """
 
 from __future__ import annotations

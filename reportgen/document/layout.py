@@ -1,4 +1,4 @@
-"""What all writers decide alike about a document: which rows share a line, what stays together, where figures part."""
+"""Layout decisions that all writers share: which rows share a line, what stays together, where figures are divided."""
 
 from __future__ import annotations
 

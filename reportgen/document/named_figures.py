@@ -1,4 +1,4 @@
-"""The figures of a finished report by their names, each as drawings that can stand by themselves."""
+"""The figures of a finished document by name, each as drawings that can be used on their own, for example as files."""
 
 from __future__ import annotations
 

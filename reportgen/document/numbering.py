@@ -1,8 +1,8 @@
-"""Numbers and cross-references: the last pass over a finished tree, shared by all writers.
+"""Number a finished tree and resolve its cross-references, in one last pass for all writers.
 
-Parts (level 1) count 1, 2, …; sections below them 1.1 and 1.1.1; equations, tables and figures count
-by part, each kind by itself.  In a part without a number they count 1, 2, … through the whole
-document, which no number of a counted part can equal, as those have two members.
+Parts (level 1) count 1, 2, …; sections below them 1.1 and 1.1.1; equations, tables and figures count by part, each kind
+by itself.  In a part without a number they count 1, 2, … through the whole document.  These never equal the number of a
+counted part, which has two members.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
-"""A proof sheet: all that a language says beside what the language of reference says, numbered for remarks.
+"""Proof sheet of a language: its texts beside those of the reference language, numbered for a proofreader's remarks.
 
-Every section stands there with all its conditions, and with the data of one machine where it has them; what it has not
-is named as the template names it.
+Every section is printed with all its conditions and, where possible, with the data of one machine.  A value that this
+machine does not have is printed as the template names it.
 """
 
 from __future__ import annotations

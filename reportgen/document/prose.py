@@ -1,10 +1,10 @@
-"""Words: templates of plain Markdown with Jinja names become blocks of the tree.
+"""Render templates, plain Markdown with Jinja names, as blocks of the tree.
 
-Two things are never mixed: what the author of a template wrote and what was put into it.  Static text
-is enclosed in marks that also carry its file and line; whatever `{{ … }}` emits goes to a side list
-and leaves a token behind.  Both survive macros, `{% set %}` blocks, `~` and filters, because a string
-made of them still says which part of it is which, and all the rest is a user's text.  The marks hold a
-number drawn anew in every process, so that no text can imitate them; it never reaches the result.
+The text of a template's author and the values inserted into it never mix.  Static text is enclosed in marks that also
+carry its file and line; whatever `{{ … }}` emits goes to a side list and leaves a token behind.  Both survive macros,
+`{% set %}` blocks, `~` and filters: a string made from them still says which part came from where, and all the rest is
+a user's text.  The marks contain a number that each process draws at random, so that no text can imitate them; it never
+reaches the result.
 """
 
 from __future__ import annotations

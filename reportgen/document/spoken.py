@@ -1,4 +1,7 @@
-"""The speech of a document: all of its symbols are known before one is said, so that no two sound alike."""
+"""Speech for the formulas of a document.
+
+It collects all symbols before it says one, so that no two symbols sound alike.
+"""
 
 from __future__ import annotations
 

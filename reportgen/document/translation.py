@@ -1,4 +1,4 @@
-"""Whether a language says all that the language of reference says: its files, its sections, its short words.
+"""Check that a language translates everything in the reference language: files, sections and short words.
 
 Sections are compared by what does not depend on a language: the names that they call and show, the figures and sections
 that they refer to, their formulas, the levels of their headings.  Words are compared by their keys and gaps.  Each

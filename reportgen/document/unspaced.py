@@ -1,9 +1,9 @@
-"""Lines of a language that sets no blanks between words, and marks of its own between them.
+"""Punctuation of languages that write no spaces between words, such as Chinese.
 
-What code puts between inlines, blanks, commas, parentheses, is written as in English; a line that has letters of such
-a language gets its marks here, once for all writers: full-width, and no blank on either side of them or of its letters.
-Only a formula or a value has one on the side of a letter, as typesetters leave a gap there between letters of two
-scripts; between letters they do so themselves.
+Code writes blanks, commas and parentheses between inlines as in English.  In a line with letters of such a language,
+this module adapts them for all writers: punctuation becomes full-width, and spaces beside it or beside such letters go.
+Only a formula or a value keeps a space beside a letter, because typesetters leave a gap between two scripts; between
+plain letters they add it themselves.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The symbols that occur in a report, for the list of those that it uses."""
+"""Find the symbols that occur in a document, for its list of symbols."""
 
 from __future__ import annotations
 

@@ -1,8 +1,8 @@
-"""What a template holds: texts, numbers, tuples of these, and tokens for all else.
+"""The values that a template can use: texts, numbers, tuples of these, and tokens for everything else.
 
-A token is a number and says whether what it stands for counts as true.  What that is lies in the `Values` of the
-report, which alone can be asked for its shown members, for its entries, for what a function gives.  So nothing that a
-template can get hold of leads into the program, whatever is done with it.
+A token is a number that also says whether the object behind it counts as true.  The object itself stays in the
+`Values` of the report, which give out only its registered members, its entries and the results of functions.  So a
+template never holds a reference into the program.
 """
 
 from __future__ import annotations

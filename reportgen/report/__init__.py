@@ -1,5 +1,5 @@
-"""A machine's report: its words, equations, figures and tables become a `Document`.
+"""The report of a machine: what its templates can name, its equations, figures and tables.
 
-`outline.compose` is the way in.  The tree of blocks and what turns words into it is `reportgen.document`, the data
-that a report is made of is `reportgen.case`.
+`outline.compose` makes the document.  `reportgen.document` has the tree that it returns and the rendering of templates,
+`reportgen.case` the data that it shows.
 """
