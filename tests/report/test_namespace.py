@@ -20,8 +20,7 @@ from reportgen.document import Block
 from reportgen.document.prose import GLOBALS, Prose, _environment
 from reportgen.marking.key import key_of
 from reportgen.marking.paper import task_of
-from reportgen.report import named_tables
-from reportgen.report import outline as namespace
+from reportgen.report import named_tables, outline
 
 ROOT = templates()
 REPOSITORY = Path(__file__).parents[2]
@@ -37,7 +36,7 @@ OTHERS = {
 }
 """The files of words of each kind of work that is no machine, by one of its assignments."""
 Sections = Mapping[tuple[Path, str], nodes.Template]
-OF_REPORT = {*namespace.PROPERTIES, *namespace.VALUES, *namespace.FUNCTIONS}
+OF_REPORT = {*outline.PROPERTIES, *outline.VALUES, *outline.FUNCTIONS}
 
 
 @cache
@@ -122,7 +121,7 @@ def test_every_name_that_is_explained_exists() -> None:
 
 
 def test_no_name_stands_in_two_tables() -> None:
-    own = [*namespace.PROPERTIES, *namespace.VALUES, *namespace.FUNCTIONS, *GLOBALS]
+    own = [*outline.PROPERTIES, *outline.VALUES, *outline.FUNCTIONS, *GLOBALS]
     assert len(own) == len(set(own))
 
 
@@ -138,7 +137,7 @@ def test_the_templates_of_other_work_use_the_names_that_they_get_and_all_of_them
 def test_figures_and_tables_are_those_that_templates_name(kind: str) -> None:
     """A table of quantities by their ids has words of its own and no row."""
     named = set(called(kind))
-    rows = set(namespace.FIGURES if kind == "figure" else named_tables.TABLES)
+    rows = set(outline.FIGURES if kind == "figure" else named_tables.TABLES)
     assert rows - named == set()
     words = {name for path in search_paths() for name in load_words(path)["tables"]} if kind == "table" else set()
     assert named - rows <= words
