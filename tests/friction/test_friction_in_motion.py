@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+from functools import cache
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import numpy as np
 import pytest
@@ -28,20 +30,26 @@ def lost(f: float) -> float:
     return float(np.trapezoid(f * pressing * rate, φ))
 
 
-def opened(tmp_path: Path, f: float, small: float = 240.0) -> tuple[Path, Machine, TrueMotion]:
-    file = tmp_path / "machine.yaml"
+def written(folder: Path, f: float, small: float = 240.0) -> Path:
+    file = folder / "machine.yaml"
     file.write_text(TEXT.replace("3: 0.12", f"3: {f}").replace("240 W", f"{small} W"), encoding="utf-8")
-    assignment = catalogue.load(file)
+    return file
+
+
+@cache
+def opened(f: float, small: float = 240.0) -> tuple[Machine, TrueMotion]:
+    with TemporaryDirectory() as folder:
+        assignment = catalogue.load(written(Path(folder), f, small))
     machine = catalogue.module(assignment.kind).machine(assignment)
     assert machine.unevenness is not None
     assert machine.true_motion is not None
-    return file, machine, true_motion(machine, machine.true_motion, flywheel(machine, machine.unevenness))
+    return machine, true_motion(machine, machine.true_motion, flywheel(machine, machine.unevenness))
 
 
 @pytest.mark.parametrize("f", [0.1, 0.6])
-def test_the_drive_does_the_work_of_loads_and_friction(f: float, tmp_path: Path) -> None:
+def test_the_drive_does_the_work_of_loads_and_friction(f: float) -> None:
     """30 N·m on the crank, none of the force over a turn, and that of the slider, for wheel, drive and motor alike."""
-    _, machine, motion = opened(tmp_path, f)
+    machine, motion = opened(f)
     work = 2 * math.pi * 30 + lost(f)
     assert flywheel(machine, 0.05).constant * 2 * math.pi == pytest.approx(work, rel=1e-7)
     for steady in motion.states.values():
@@ -49,10 +57,10 @@ def test_the_drive_does_the_work_of_loads_and_friction(f: float, tmp_path: Path)
     assert motion.demand(machine).mean * 2 * math.pi == pytest.approx(work, rel=1e-7)
 
 
-def test_the_brake_has_less_to_do(tmp_path: Path) -> None:
+def test_the_brake_has_less_to_do() -> None:
     """From the stop on φ the energy has gone into brake, load and slider."""
-    _, _, motion = opened(tmp_path, 0.6)
-    _, _, smooth = opened(tmp_path, 1e-6)
+    _, motion = opened(0.6)
+    _, smooth = opened(1e-6)
     assert motion.stopped is not None
     assert smooth.stopped is not None
     assert motion.stopped.angle[-1] < smooth.stopped.angle[-1]
@@ -61,20 +69,19 @@ def test_the_brake_has_less_to_do(tmp_path: Path) -> None:
     assert motion.started.time > smooth.started.time
 
 
-def test_the_motor_overcomes_friction(tmp_path: Path) -> None:
+def test_the_motor_overcomes_friction() -> None:
     """A motor that endures the loads alone is too weak for them and the slider."""
     f = 0.6
-    _, machine, motion = opened(tmp_path, f)
+    machine, motion = opened(f)
     needed = motion.demand(machine).effective * 100 * math.pi / 30
-    _, machine, motion = opened(tmp_path, f, small=round(needed * 0.99, 1))
+    machine, motion = opened(f, small=round(needed * 0.99, 1))
     assert [checks.fits for checks in motion.motors(machine)] == [False, True]
-    _, machine, smooth = opened(tmp_path, 1e-6, small=round(needed * 0.99, 1))
+    machine, smooth = opened(1e-6, small=round(needed * 0.99, 1))
     assert [checks.fits for checks in smooth.motors(machine)] == [True, True]
 
 
 def test_text_task_and_key_say_so(tmp_path: Path) -> None:
-    file, _, _ = opened(tmp_path, 0.3)
-    case = open_case(file)
+    case = open_case(written(tmp_path, 0.3))
     assert isinstance(case, MachineCase)
     text = text_of(case.document())
     assert "The friction of the joints is a resistance as well" in text

@@ -10,13 +10,18 @@ import pytest
 from reportgen.document import Paragraph, plain
 from reportgen.formula.vocabulary import Chapter
 from reportgen.marking.key_files import key_document
+from tests.lanes import matrix
 from tests.marking import students
 
 FILES = sorted(path.stem for path in Path("assignments").glob("*.yaml"))
 WITH_FLYWHEEL = [name for name in FILES if "flywheel:" in Path("assignments", f"{name}.yaml").read_text("utf-8")]
 
 
-@pytest.mark.parametrize("name", WITH_FLYWHEEL)
+TELLING = ("engine-single-III", "shaper-04", "toggle-press-01", "slotted-lever-02")
+"""Gas, loads over the stroke, and one that jumps between the positions."""
+
+
+@pytest.mark.parametrize("name", matrix(WITH_FLYWHEEL, TELLING))
 def test_the_rule_over_the_positions_gives_what_is_right_or_not_asked(name: str) -> None:
     scheme = students.scheme(name)
     rows = {row.id: np.array(row.values) for row in scheme.key.rows}

@@ -18,7 +18,7 @@ from reportgen.formula import vocabulary
 from reportgen.marking.key import key_of
 from reportgen.marking.paper import answer_tables
 from reportgen.marking.sheet import answer_book
-from tests.lanes import matrix
+from tests.lanes import matrix, proof
 from tests.marking import students
 from tests.report import built
 
@@ -109,6 +109,7 @@ def test_paper_has_the_words_beside_the_symbol() -> None:
     assert ["v_B", "Vận tốc của B", "m/s", ""] in texts
 
 
+@proof
 def test_every_phrase_is_that_of_a_quantity_or_a_family() -> None:
     own = (row for head in vocabulary.heads() for row in vocabulary.rows_of(head))
     names = {row.name for row in (*vocabulary.ROWS, *own)}

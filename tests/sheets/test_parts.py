@@ -48,6 +48,7 @@ def framed(name: str, size: str = "") -> list[DrawingSheet]:
     return [sheet for sheet in sheets(name, size) if sheet.fields]
 
 
+@cache
 def of_parts(name: str, size: str = "") -> list[DrawingSheet]:
     """The sheets of a design, or of the parts of a coursework: those of its machine come first."""
     case = opened(name)
