@@ -277,7 +277,10 @@ def smaller(report: Report, name: str) -> Inlines:
 
 
 def plates_last(blocks: Iterable[Block], said: Callable[[Plate], Paragraph]) -> Iterator[Block]:
-    """The blocks with the plates of each section at its end; where one was called for, it is `said` where it stands."""
+    """Yield the blocks with the plates of each chapter at its end; where one was called for, `said` tells that.
+
+    A page of text ends early before a plate: so once in a chapter at most.
+    """
     plates: list[Plate] = []
     for block in blocks:
         if isinstance(block, Plate):
@@ -285,7 +288,7 @@ def plates_last(blocks: Iterable[Block], said: Callable[[Plate], Paragraph]) -> 
             if not block.continues:
                 yield said(block)
             continue
-        if isinstance(block, Section) and block.level <= 2:
+        if isinstance(block, Section) and block.level == 1:
             yield from plates
             plates.clear()
         yield block
