@@ -38,7 +38,7 @@ from reportgen.base.limits import ONE_THREAD, Limits, limit_memory
 from reportgen.base.made import assignment_hash
 from reportgen.base.template_folders import templates
 from reportgen.base.units import Language
-from reportgen.base.words import templates_hash, unexpected, word
+from reportgen.base.words import speak, spoken, templates_hash, unexpected, word
 from reportgen.classes import leavings
 
 if TYPE_CHECKING:
@@ -318,7 +318,8 @@ def each_within(
     with _uninterrupted():
         # Some of its methods are annotated with other names, or not at all.
         make: Any = ProcessPool
-        pool = make(workers, initializer=limit_memory, initargs=(limits.megabytes,), context=_context((preload,)))
+        begun = limits.megabytes, spoken()
+        pool = make(workers, initializer=_begin, initargs=begun, context=_context((preload,)))
     try:
         for argument in arguments:
             with _uninterrupted():
@@ -330,6 +331,15 @@ def each_within(
     finally:
         pool.stop()
         pool.join()
+
+
+def _begin(megabytes: int, language: Language) -> None:
+    """Limit the memory of this process, and let it speak the language of the process that reads its results.
+
+    The server that it was forked from may have been started in another one.
+    """
+    limit_memory(megabytes)
+    speak(language)
 
 
 def _outcome(call: tuple[Argument, Future[Any]]) -> tuple[Argument, Any]:

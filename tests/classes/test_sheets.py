@@ -8,7 +8,9 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
+from reportgen.base.errors import Problem
 from reportgen.base.limits import Limits
+from reportgen.base.words import SPOKEN
 from reportgen.classes import reading_sheets as sheets
 from reportgen.classes.platforms import Handed
 from reportgen.cli import app
@@ -60,3 +62,14 @@ def test_the_rest_of_a_class_is_marked(tmp_path: Path, monkeypatch: pytest.Monke
     assert result.exit_code == 1
     assert "K225520103007.csv:1:1: error[sheet-beyond-limits]: it cannot be read within 60 s and 24 MB" in result.output
     assert {path.name for path in out.iterdir() if path.is_dir()} == {"K225520103004", "K225520103012"}
+
+
+def test_a_sheet_is_told_in_the_language_of_its_own_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The server that reading processes are forked from lives on, with the environment in which it was started."""
+    told = []
+    for language in ("vi", "en"):
+        monkeypatch.setenv(SPOKEN, language)
+        ((_, problems),) = sheets.read_sheets([Handed(tmp_path / "none.csv")], None)
+        assert isinstance(problems[0], Problem)
+        told.append(problems[0].message)
+    assert [text.partition(":")[0] for text in told] == ["không đọc được tệp", "the file cannot be read"]
