@@ -15,7 +15,6 @@ import pytest
 from reportgen import api
 from reportgen.api.figures import figure_files
 from reportgen.base.errors import NotOfferedError, TypesetterError, UnknownNameError
-from reportgen.cases import open_case
 from reportgen.document.named_figures import NamedFigure, named_figures
 from reportgen.drawing import Arrow, Label, Scene
 from reportgen.drawing.style import arrow_head
@@ -119,7 +118,7 @@ def test_every_label_can_be_set_by_matplotlib(name: str, caplog: pytest.LogCaptu
     labels = dict.fromkeys(
         item.content
         for language in ("vi", "en")
-        for _, scene in built.scenes(open_case(BRIEF[name], language).document())  # type: ignore[arg-type]
+        for _, scene in built.scenes(built.document(BRIEF[name], language))  # type: ignore[arg-type]
         for item in scene.items
         if isinstance(item, Label)
     )

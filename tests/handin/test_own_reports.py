@@ -7,16 +7,15 @@ from pathlib import Path
 
 import pytest
 
-from reportgen import catalogue
 from reportgen.assignment.common import Extent
 from reportgen.base.languages import languages
-from reportgen.cases import opened
 from reportgen.handin.word_file import open_word
 from reportgen.handin.word_reader import read_report
 from reportgen.marking.key import Ask, key_of
 from reportgen.writers import word
 from tests.handin.made_reports import ROOT
 from tests.lanes import matrix
+from tests.report import built
 
 SAMPLES = sorted(
     path.relative_to(ROOT).with_suffix("").as_posix()
@@ -51,9 +50,9 @@ TURNS = [
 
 @pytest.mark.parametrize(("name", "language", "extent"), matrix(dict.fromkeys([*FIRST, LONGEST, *TURNS]), FIRST))
 def test_each_value_that_the_sheet_asks_is_read_in_our_own_report(name: str, language: str, extent: Extent) -> None:
-    case = opened(catalogue.load(ROOT / f"{name}.yaml", language).with_extent(extent))
-    key = Ask().of(key_of(case))
-    content = word.write(case.document(), lambda scenes: [(b"", b"") for _ in scenes])
+    path = ROOT / f"{name}.yaml"
+    key = Ask().of(key_of(built.case(path, language, extent)))
+    content = word.write(built.document(path, language, extent), lambda scenes: [(b"", b"") for _ in scenes])
     reading = read_report(open_word(Path("report.docx"), content).blocks, key, "report.docx")
     asked = {(row.id, position) for row in key.asked for position in row.positions}
     left = [pattern for of, pattern in LEFT if of == extent]

@@ -1,11 +1,15 @@
-"""Finished reports of every assignment file in the repository, each built once a run."""
+"""Cases and finished reports of the repository's assignment files, each made once in a process for all tests.
+
+What is kept is frozen. A test that changes a file or the program opens a case of its own.
+"""
 
 from __future__ import annotations
 
+import re
 import shutil
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from functools import cache, cached_property
+from functools import cache, cached_property, lru_cache
 from pathlib import Path
 from typing import Any
 from unittest import mock
@@ -14,14 +18,17 @@ import pytest
 
 from reportgen import api
 from reportgen.assignment import Assignment
+from reportgen.assignment.common import Extent
 from reportgen.base.kinds import kinds
+from reportgen.base.source import Source
 from reportgen.base.units import Language
-from reportgen.cases import MachineCase
+from reportgen.base.words import language_of
+from reportgen.case import Case
+from reportgen.cases import MachineCase, opened
 from reportgen.document import Block, Document, Figure, List, Plate
 from reportgen.drawing import Scene
 from reportgen.formula import Chain
 from reportgen.formula.ledger import Ledger
-from reportgen.report import outline
 from tests.lanes import matrix
 from tests.report.pages import Glyph, Page
 
@@ -29,6 +36,9 @@ ROOT = Path(__file__).parents[2]
 FILES = sorted((ROOT / "assignments").glob("*.yaml"))
 LANGUAGES: tuple[Language, ...] = ("vi", "en")
 ENGINES: tuple[api.Engine, ...] = ("typst", "latex")
+
+MOST = 64
+"""Cases that are kept at once: those of a few files in all languages and extents."""
 
 needs_tex = pytest.mark.skipif(shutil.which("pdflatex") is None, reason="pdflatex is not installed")
 MARKS = {"typst": (), "latex": (needs_tex,)}
@@ -40,15 +50,19 @@ def assignment(path: Path) -> Assignment:
     return api.load(path)
 
 
+@cache
 def own_language(path: Path) -> Language:
-    return assignment(path).language
+    return language_of(Source(str(path), path.read_text(encoding="utf-8")))
 
 
 def _first_of_each_kind(files: Iterable[Path]) -> list[Path]:
-    kinds: dict[str, Path] = {}
+    """By the text alone: every process of the tests asks this before its first test."""
+    found: dict[str, Path] = {}
     for path in files:
-        kinds.setdefault(assignment(path).kind, path)
-    return list(kinds.values())
+        kind = re.search(r"^kind: *([\w-]+)", path.read_text(encoding="utf-8"), re.MULTILINE)
+        assert kind, path
+        found.setdefault(kind[1], path)
+    return list(found.values())
 
 
 TYPESET = _first_of_each_kind(FILES)
@@ -101,7 +115,8 @@ PAIRS = matrix(
 class Written:
     """A report below the typesetter: what it was made of, and its tree."""
 
-    case: MachineCase
+    case: Any
+    """For a machine a `MachineCase`."""
     document: Document
     lines: frozenset[tuple[str, int | None]]
     """The quantities that have a worked line, with its position."""
@@ -149,7 +164,7 @@ def compose(assignment: Assignment) -> Written:
     return _composed(MachineCase(assignment))
 
 
-def _composed(case: MachineCase) -> Written:
+def _composed(case: Case) -> Written:
     lines: set[tuple[str, int | None]] = set()
     chain = Ledger.chain
 
@@ -158,19 +173,38 @@ def _composed(case: MachineCase) -> Written:
         return chain(ledger, id, position, note)
 
     with mock.patch.object(Ledger, "chain", watched):
-        document = outline.compose(case)
+        document = case.document()
     return Written(case, document, frozenset(lines))
 
 
-@cache
-def case(path: Path, language: Language) -> MachineCase:
-    return MachineCase(assignment(path) if language == own_language(path) else api.load(path, language))
+def case(path: Path, language: Language | None = None, extent: Extent | None = None) -> Any:
+    """A file of the repository as a `Case`, in its own language and extent where none is given."""
+    return _case(*_as_asked(path, language, extent))
 
 
-@cache
-def written(path: Path, language: Language) -> Written:
+def written(path: Path, language: Language | None = None, extent: Extent | None = None) -> Written:
     """The tree of a file of the repository."""
-    return _composed(case(path, language))
+    return _written(*_as_asked(path, language, extent))
+
+
+def document(path: Path, language: Language | None = None, extent: Extent | None = None) -> Document:
+    return written(path, language, extent).document
+
+
+def _as_asked(path: Path, language: Language | None, extent: Extent | None) -> tuple[Path, Language, Extent]:
+    path = path.resolve()
+    return path, language or own_language(path), extent or assignment(path).report.extent
+
+
+@lru_cache(MOST)
+def _case(path: Path, language: Language, extent: Extent) -> Case:
+    loaded = assignment(path) if language == own_language(path) else api.load(path, language)
+    return opened(loaded.with_extent(extent))
+
+
+@lru_cache(MOST)
+def _written(path: Path, language: Language, extent: Extent) -> Written:
+    return _composed(_case(path, language, extent))
 
 
 def typeset(tree: Written, engine: api.Engine) -> Report:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import cache
 from pathlib import Path
 
 import pytest
@@ -23,7 +22,8 @@ from reportgen.report.extents import LEFT_OUT
 from reportgen.report.report import Report
 from reportgen.sheets import drawing_sheets, plates_by_set
 from tests.lanes import matrix
-from tests.report.built import FILES, MARKS, ROOT, SAMPLE, assignment
+from tests.report import built
+from tests.report.built import FILES, MARKS, ROOT, SAMPLE
 
 pymupdf = pytest.importorskip("pymupdf")
 
@@ -35,14 +35,13 @@ ENGINE, OTHER = 25, 20
 
 
 def case(name: str, extent: Extent) -> MachineCase:
-    made = opened(assignment(ROOT / "assignments" / f"{name}.yaml").with_extent(extent))
+    made = built.case(ROOT / "assignments" / f"{name}.yaml", extent=extent)
     assert isinstance(made, MachineCase)
     return made
 
 
-@cache
 def document(name: str, extent: Extent) -> Document:
-    return case(name, extent).document()
+    return built.document(ROOT / "assignments" / f"{name}.yaml", extent=extent)
 
 
 def keys(name: str, extent: Extent) -> list[str]:

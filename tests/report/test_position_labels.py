@@ -136,8 +136,8 @@ PLANS = ("fig.positions", "fig.indicator", "fig.extremes")
 def test_text_and_caption_say_how_much_smaller_a_plan_is(name: str, language: str) -> None:
     """Both name the factor and no scale but that of the text; one in the scale of the text has it printed below."""
     path = built.ROOT / "assignments" / f"{name}.yaml"
-    made = MachineCase(api.load(path, language).with_extent("short"))
-    shown, document = Report(made), made.document()
+    made = built.written(path, language, "short")
+    shown, document = Report(made.case), made.document
     scale = Chain((shown.ledger.symbol("mu.l"), shown.ledger.number("mu.l")))
     said = " ".join(plain(b.inlines, language) for b in built.walk(document.blocks) if isinstance(b, Paragraph))
     captions = {b.key: b for b in built.walk(document.blocks) if isinstance(b, (Figure, Plate)) and b.key in PLANS}

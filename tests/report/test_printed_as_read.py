@@ -100,7 +100,7 @@ def test_every_report_is_free_of_doubles_and_ids(path: Path, language: str) -> N
     """But for what its file has so."""
     typed = path.read_text(encoding="utf-8")
     for extent in ("full", "short"):
-        text = text_of(opened(api.load(path, language).with_extent(extent)).document())
+        text = text_of(built.document(path, language, extent))
         assert [one for one in faults(text) if one.replace(",", ".") not in typed] == []
 
 

@@ -11,11 +11,11 @@ import numpy as np
 import pytest
 
 from reportgen.base.template_folders import templates
-from reportgen.cases import MachineCase, open_case
 from reportgen.document import Section, Table, plain, text_of
 from reportgen.report.comments import top_reactions
 from reportgen.report.report import Report
 from tests.lanes import matrix
+from tests.report import built
 
 ROOT = Path(__file__).parents[2]
 FILES = sorted(path.stem for path in (ROOT / "assignments").glob("*.yaml"))
@@ -25,9 +25,8 @@ TELLING = ("engine-single-I", "shaper-01", "four-bar-02")
 
 @cache
 def page(name: str, language: Any) -> tuple[Report, str]:
-    case = open_case(ROOT / "assignments" / f"{name}.yaml", language)
-    assert isinstance(case, MachineCase)
-    return Report(case), text_of(case.document())
+    made = built.written(ROOT / "assignments" / f"{name}.yaml", language)
+    return Report(made.case), text_of(made.document)
 
 
 @pytest.mark.parametrize("language", ["vi", "en"])

@@ -19,7 +19,6 @@ from reportgen.base.languages import setting_of
 from reportgen.base.template_folders import languages, search_path
 from reportgen.base.units import Language, by_power_of_ten, write
 from reportgen.base.words import load_words
-from reportgen.cases import open_case
 from reportgen.document import (
     Block,
     Document,
@@ -109,9 +108,13 @@ def listener(language: Language) -> Listener:
 
 
 def documents(path: Path, language: Language) -> tuple[Document, ...]:
-    case, ask = open_case(path, language), Ask()
+    case, ask = built.case(path, language), Ask()
     key = key_of(case)
-    return case.document(), task_of(case, ask.on_paper(key), False, True), key_document(ask.of(key), case.title)
+    return (
+        built.document(path, language),
+        task_of(case, ask.on_paper(key), False, True),
+        key_document(ask.of(key), case.title),
+    )
 
 
 @cache

@@ -8,7 +8,6 @@ import math
 import re
 import zipfile
 from collections.abc import Iterator
-from functools import cache
 from html import unescape
 from itertools import combinations
 from pathlib import Path
@@ -64,9 +63,8 @@ LARGE = 2.0
 """Smaller circles (mm) are marks of points, no strokes."""
 
 
-@cache
 def document(name: str, language: Language) -> Document:
-    return api.document(api.load(ROOT / name, language))
+    return built.document(ROOT / name, language)
 
 
 def drawings(name: str, language: Language) -> Iterator[tuple[Figure | Plate, Scene, str]]:

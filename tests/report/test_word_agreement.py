@@ -12,7 +12,6 @@ from unittest import mock
 
 import pytest
 
-from reportgen import api
 from reportgen import document as tree
 from reportgen.base.template_folders import search_path
 from reportgen.base.units import Language
@@ -118,7 +117,7 @@ EXERCISES = sorted((built.ROOT / "assignments" / "plane-motion").glob("*.yaml"))
 @pytest.mark.parametrize("language", built.LANGUAGES)
 @pytest.mark.parametrize("path", matrix(EXERCISES, EXERCISES[:2]), ids=lambda path: path.stem)
 def test_an_exercise_is_in_the_file_in_order(path: Path, language: Language) -> None:
-    document = api.document(api.load(path, language))
+    document = built.document(path, language)
     assert_in_order(document, WordFile(word.write(document, no_pictures)))
 
 
@@ -129,7 +128,7 @@ SHORT = [(path, language) for path in built.TYPESET for language in built.LANGUA
     ("path", "language"), matrix(SHORT, [(built.SAMPLE, "vi")]), ids=lambda one: getattr(one, "stem", one)
 )
 def test_a_short_report_is_in_the_file_in_order(path: Path, language: Language) -> None:
-    document = api.document(api.load(path, language).with_extent("short"))
+    document = built.document(path, language, "short")
     assert_in_order(document, WordFile(word.write(document, no_pictures)))
 
 

@@ -8,10 +8,10 @@ from pathlib import Path
 from typing import Any
 
 from reportgen.base.languages import setting_of
-from reportgen.cases import open_case
 from reportgen.drawing.sheet import DrawingSheet, PlacedScene
 from reportgen.sheets import drawing_sheets
 from reportgen.sheets.frame import TitleBlock, blocks, read_block
+from tests.report import built
 
 ROOT = Path(__file__).parents[2]
 MACHINES = sorted(path.stem for path in (ROOT / "assignments").glob("*.yaml"))
@@ -28,10 +28,9 @@ class Laid:
     sheets: list[DrawingSheet]
 
 
-@cache
 def opened(name: str) -> Any:
     folder = ROOT / "assignments" / ("plane-motion" if name in EXERCISES else "")
-    return open_case(folder / f"{name}.yaml")
+    return built.case(folder / f"{name}.yaml")
 
 
 @cache
