@@ -91,7 +91,7 @@ def test_any_subset_of_the_masses(tmp_path: Path, kind: str, given: tuple[str, .
 
 
 @pytest.mark.parametrize("extent", matrix(["full", "short"], ["short"]))
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("kind", matrix(KINDS, ("slider-crank", "shaper", "engine-twin")))
 def test_every_place_of_a_mass_centre_has_its_line(tmp_path: Path, kind: str, extent: str) -> None:
     """l_AS = s·l is worked out before it stands in the table of real dimensions; so is the crank's."""
     Parameters = import_module(kinds()[kind]).Parameters

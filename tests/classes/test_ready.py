@@ -11,6 +11,7 @@ import pytest
 
 from reportgen.classes import ready
 from reportgen.classes.pool import KINDS
+from tests.lanes import matrix
 
 ASKED = (
     "import reportgen.classes.ready; from reportgen.document import prose; from reportgen.base import words; "
@@ -36,7 +37,9 @@ def test_kind_and_language_are_read_off_a_spec_and_off_files(tmp_path: Path) -> 
     assert ready.kinds(tmp_path / "a", None) == {"four-bar:vi"}
 
 
-@pytest.mark.parametrize("kinds", ["slider-crank:vi", "no-such-kind:vi slider-crank:en"])
+@pytest.mark.parametrize(
+    "kinds", matrix(["slider-crank:vi", "no-such-kind:vi slider-crank:en"], ["no-such-kind:vi slider-crank:en"])
+)
 def test_words_and_templates_of_the_kinds_are_there(kinds: str) -> None:
     environments, files = in_a_server(kinds)
     assert environments >= 1

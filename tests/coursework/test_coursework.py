@@ -19,7 +19,7 @@ from reportgen import check, load, solve
 from reportgen.api import result_files
 from reportgen.base.errors import Mark
 from reportgen.base.units import Language
-from reportgen.cases import open_case, opened, opener
+from reportgen.cases import open_case, opener
 from reportgen.coursework.case import Coursework, PartCase
 from reportgen.coursework.symbol_renaming import nodes
 from reportgen.document import Contents, Document, Section, plain, text_of
@@ -37,6 +37,7 @@ from reportgen.results.files import table, workbook
 from reportgen.sheets import drawing_sheets
 from tests.drawing.overlaps import overlaps
 from tests.lanes import proof
+from tests.report import built
 
 ASSIGNMENTS = Path(__file__).parents[2] / "assignments"
 FOLDER = ASSIGNMENTS / "coursework"
@@ -60,7 +61,7 @@ SECOND = """
 
 @cache
 def coursework(path: Path = SHAPER) -> Coursework:
-    case = open_case(path)
+    case = built.case(path)
     assert isinstance(case, Coursework)
     return case
 
@@ -87,7 +88,8 @@ def headings(document: Document, level: int) -> list[tuple[str, str]]:
 def test_machine_train_pair_and_cam_are_one_booklet_from_motor_to_cam() -> None:
     """The motor's 960 rpm become the crank's 80 rpm: 6 by the train, 2 by the pair behind it."""
     whole = coursework(FOLDER / "shaper-whole.yaml")
-    numbers = [number for number, _ in headings(whole.document(), 1) if number]
+    document = built.document(FOLDER / "shaper-whole.yaml")
+    numbers = [number for number, _ in headings(document, 1) if number]
     assert numbers == ["1", "2", "3", "4", "5"]
     asked = {row.id.partition(".")[0] for row in key_of(whole).rows}
     assert {"train", "gears", "cam"} <= asked
@@ -111,7 +113,7 @@ def test_the_chapters_of_the_parts_follow_those_of_the_machine(three: Coursework
 def test_nothing_of_the_machines_chapters_is_another_one() -> None:
     """But for the numbers of tables at the front, where those of the parts have come in."""
     case = coursework()
-    both = (text_of(one) for one in (case.document(), case.machine.document()))
+    both = (text_of(one) for one in (built.document(SHAPER), case.machine.document()))
     whole, alone = (re.sub(r"bảng \d+(?!\.?\d)", "bảng", one).splitlines() for one in both)
     first = alone.index("1 Tổng hợp và phân tích động học cơ cấu")
     last = alone.index("Kết luận", first)
@@ -121,7 +123,7 @@ def test_nothing_of_the_machines_chapters_is_another_one() -> None:
 
 def test_its_contents_are_those_of_all_parts() -> None:
     """The 53 lines of shaper and cam are three more than a page holds: the task goes on below these."""
-    (listed,) = nodes(coursework().document().blocks, Contents)
+    (listed,) = nodes(built.document(SHAPER).blocks, Contents)
     assert not listed.alone
     (of_machine,) = nodes(coursework().machine.document().blocks, Contents)
     assert of_machine.alone
@@ -129,7 +131,7 @@ def test_its_contents_are_those_of_all_parts() -> None:
 
 def test_every_table_and_figure_is_spoken_of_by_its_number() -> None:
     case = coursework()
-    new = set(unreferenced(case.document()))
+    new = set(unreferenced(built.document(SHAPER)))
     old = set(unreferenced(case.machine.document()))
     own = {f"cam.{key}" for key in unreferenced(case.members[0].case.document())}
     assert new <= old | own
@@ -149,15 +151,20 @@ def test_each_quantity_has_a_symbol_of_its_own(three: Coursework) -> None:
     assert not cams[0] & cams[1]
 
 
+@cache
+def of_designs() -> frozenset[Symbol]:
+    """The symbols of all cams and gears."""
+    parts = [built.case(one) for folder in ("cam", "gears") for one in (ASSIGNMENTS / folder).glob("*.yaml")]
+    return frozenset(one.symbol for part in parts for one in part.printed.families.values() if not one.hidden)
+
+
 @proof
 @pytest.mark.parametrize("file", sorted(ASSIGNMENTS.glob("*.yaml")), ids=lambda file: file.stem)
 def test_a_machine_knows_its_symbols_without_its_report(file: Path) -> None:
     """Whatever its report has of the symbols of any part's quantities: keys are made without the report."""
-    parts = [open_case(one) for folder in ("cam", "gears") for one in (ASSIGNMENTS / folder).glob("*.yaml")]
-    quantities = {one.symbol for part in parts for one in part.printed.families.values() if not one.hidden}
-    case = open_case(file)
+    case = built.case(file)
     assert case.used is not None
-    assert set(nodes(case.document().blocks, Symbol)) & quantities <= set(case.used)
+    assert set(nodes(built.document(file).blocks, Symbol)) & of_designs() <= set(case.used)
 
 
 def test_a_key_and_a_task_are_made_without_any_report(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -178,7 +185,7 @@ def test_points_that_are_named_anew_are_said(three: Coursework) -> None:
     ("language", "indices"), [("vi", {"ht", "br", "cam"}), ("en", {"train", "gears", "cam"})], ids=["vi", "en"]
 )
 def test_indices_are_words_of_the_language(language: Language, indices: set[str]) -> None:
-    case = open_case(FOLDER / "shaper-whole.yaml", language)
+    case = built.case(FOLDER / "shaper-whole.yaml", language)
     assert isinstance(case, Coursework)
     assert {new.sub.rpartition(",")[2] for letters in case.letters.values() for new in letters.values()} == indices
 
@@ -191,7 +198,7 @@ def test_a_derivative_goes_with_what_it_is_of() -> None:
 
 @pytest.mark.parametrize("extent", ["full", "short"])
 def test_what_is_taken_from_the_machine_is_printed_with_where_it_comes_from(extent: str) -> None:
-    text = text_of(opened(load(TWIN, "en").with_extent(extent)).document())  # type: ignore[arg-type]
+    text = text_of(built.document(TWIN, "en", extent))  # type: ignore[arg-type]
     assert "Taken from the data of the machine:\nn_cam = 1/2·n = 1100 rpm" in text
 
 
@@ -309,7 +316,7 @@ def test_a_part_that_has_not_changed_is_not_computed_again(tmp_path: Path) -> No
 def test_no_symbol_of_a_part_stays_in_its_drawings() -> None:
     """A letter that has an index has it in formulas, tables and figures alike."""
     case = coursework(TWIN)
-    document = case.document()
+    document = built.document(TWIN)
     first = next(i for i, one in enumerate(document.blocks) if isinstance(one, Section) and one.number == "3")
     last = next(i for i, one in enumerate(document.blocks) if isinstance(one, Section) and one.number == "3.7")
     assert not set(nodes(document.blocks[first:last], Symbol)) & set(case.letters["cam"])

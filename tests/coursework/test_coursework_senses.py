@@ -16,6 +16,7 @@ from reportgen.coursework.case import Coursework
 from reportgen.coursework.senses import PartShafts, turning
 from reportgen.document import Block, Inlines, Section, Table, plain, text_of
 from reportgen.document.used_symbols import explained, is_explained, used_symbols
+from tests.report import built
 
 ASSIGNMENTS = Path(__file__).parents[2] / "assignments"
 FOLDER = ASSIGNMENTS / "coursework"
@@ -59,7 +60,7 @@ def said(inlines: Inlines) -> str:
 
 @cache
 def whole() -> Coursework:
-    case = open_case(FOLDER / "shaper-whole.yaml")
+    case = built.case(FOLDER / "shaper-whole.yaml")
     assert isinstance(case, Coursework)
     return case
 
@@ -86,13 +87,13 @@ def senses(blocks: tuple[Block, ...]) -> dict[str, tuple[str, str]]:
 
 def test_the_train_turns_the_crank_as_the_machine_says() -> None:
     """The train has −80 rpm against its driving shaft, the machine +80: the motor turns clockwise (−12 = 6·(−2))."""
-    found = senses(section(whole().document().blocks, "overview"))
+    found = senses(section(built.document(FOLDER / "shaper-whole.yaml").blocks, "overview"))
     speeds = [(speed, sense.split()[0]) for speed, sense in found.values()]
     assert speeds[0] == ("80", "ngược")
     assert speeds[1] == ("960", "theo")
     assert speeds[2] == ("80", "ngược")
     assert speeds[-1] == ("80", "ngược")
-    text = " ".join(text_of(whole().document()).split())
+    text = " ".join(text_of(built.document(FOLDER / "shaper-whole.yaml")).split())
     assert "n_r = −80" in text or "−80" in text
     assert "dấu trừ chỉ cho biết hai trục này quay ngược chiều nhau" in text
 
@@ -123,7 +124,7 @@ def test_a_train_of_another_speed_is_not_taken_for_the_crank_s_shaft() -> None:
 
 def test_foreword_and_summary_know_all_parts() -> None:
     """With the numbers of the parts' own ledgers."""
-    case, document = whole(), whole().document()
+    case, document = whole(), built.document(FOLDER / "shaper-whole.yaml")
     foreword, summary = (
         " ".join(
             " ".join(
@@ -153,7 +154,7 @@ def test_foreword_and_summary_know_all_parts() -> None:
 
 def test_symbols_that_are_explained_where_they_stand_are_not_listed_again() -> None:
     """Each symbol of a part is explained in its chapter or in the one table, which is less than a page and a half."""
-    case, document = whole(), whole().document()
+    case, document = whole(), built.document(FOLDER / "shaper-whole.yaml")
     (table,) = [one for one in document.blocks if isinstance(one, Table) and one.key == "tab.symbols.parts"]
     assert len(table.rows) < 45
     listed = {symbol for row in table.rows for symbol in used_symbols([_alone(row)])}

@@ -16,6 +16,7 @@ from reportgen.document import text_of
 from reportgen.machine.analysis import Machine
 from reportgen.machine.flywheel import flywheel
 from reportgen.machine.true_motion import TrueMotion, true_motion
+from tests.lanes import proof
 
 R, L, F = 0.1, 0.4, 500.0
 TEXT = Path(__file__).with_name("motion.yaml").read_text(encoding="utf-8")
@@ -69,6 +70,7 @@ def test_the_brake_has_less_to_do() -> None:
     assert motion.started.time > smooth.started.time
 
 
+@proof
 def test_the_motor_overcomes_friction() -> None:
     """A motor that endures the loads alone is too weak for them and the slider."""
     f = 0.6

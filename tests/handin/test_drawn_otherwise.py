@@ -94,7 +94,7 @@ def lines_of(entity) -> tuple[complex, complex] | None:
 
 
 @pytest.mark.parametrize("name", matrix(MACHINES, {"four-bar-02"}))
-@pytest.mark.parametrize("way", WAYS)
+@pytest.mark.parametrize("way", matrix(WAYS, [*WAYS][::3]))
 def test_vectors_are_read_however_they_are_drawn(name: str, way: str) -> None:
     """As many as of plain lines where nothing is cut; of pieces two thirds, and none at a wrong length."""
     data, truth = drawn(name, PLAIN, 7)

@@ -18,6 +18,7 @@ from reportgen.marking.key import key_of, words_of
 from reportgen.marking.paper import answer_tables, task_of
 from reportgen.marking.sheet import answer_book, number_format
 from reportgen.workbook import write_xlsx
+from tests.lanes import matrix
 from tests.marking.keys import small_key
 from tests.report import built
 
@@ -104,7 +105,7 @@ def handout(name: str, language: Language) -> tuple[Key, Document]:
 NAMES = ("engine-twin-05", "slider-crank-01", "shaper-01", "linkage-8", "linkage-slide", "four-bar-01")
 
 
-@pytest.mark.parametrize("language", ["vi", "en"])
+@pytest.mark.parametrize("language", matrix(["vi", "en"], ["vi"]))
 @pytest.mark.parametrize("name", NAMES)
 def test_a_task_gives_no_answer_away(name: str, language: Language) -> None:
     key, tree = handout(name, language)

@@ -56,7 +56,7 @@ def turning(
     return Report(MachineCase(api.load(file)))
 
 
-@pytest.fixture(params=["anticlockwise", "clockwise"])
+@pytest.fixture(params=matrix(["anticlockwise", "clockwise"], ["clockwise"]))
 def direction(request: pytest.FixtureRequest) -> str:
     return str(request.param)
 

@@ -60,7 +60,7 @@ def test_a_start_that_is_over_in_a_few_degrees() -> None:
     prove_in_time(body.machine, 0.0, STRONG, run, run.place(math.radians(8.0)), 24)
 
 
-@pytest.mark.parametrize("begin", [0.0, 20.0])
+@pytest.mark.parametrize("begin", matrix([0.0, 20.0], [20.0]))
 def test_a_start_that_the_load_stops(begin: float) -> None:
     """80 N·m come no farther than where their work is used up, and swing back to less; from 20° that is within 4°."""
     drive = LinearDrive(80.0, 1.0)
@@ -109,7 +109,7 @@ def test_the_strongest_brake() -> None:
 # --- steady motion ------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("moment", [0.1, 0.02, 0.005])
+@pytest.mark.parametrize("moment", matrix([0.1, 0.02, 0.005], [0.005]))
 @pytest.mark.parametrize("breakdown", [200.0, 500.0])
 def test_an_induction_motor_of_little_inertia(moment: float, breakdown: float) -> None:
     """It follows the load so closely that nothing of an earlier cycle is left; ω and t to 1e-8."""

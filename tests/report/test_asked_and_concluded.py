@@ -14,7 +14,7 @@ from reportgen.base.units import write
 from reportgen.case import Case
 from reportgen.cases import opened
 from reportgen.document import Document, Table, text_of
-from tests.lanes import matrix
+from tests.lanes import matrix, proof
 from tests.report import built
 
 SHAPER = """
@@ -94,7 +94,8 @@ def test_the_conclusion_names_what_came_out(language: str) -> None:
     assert "4A-" in text
 
 
-@pytest.mark.parametrize("language", matrix(["vi", "en"], ["vi"]))
+@proof
+@pytest.mark.parametrize("language", ["vi", "en"])
 def test_the_summary_names_it_too(language: str) -> None:
     case, document = _made(language, "full")
     text = _section(document, SUMMARIES[language])

@@ -147,7 +147,7 @@ def assert_same(one: Any, other: Any, tolerance: float) -> None:
             assert twin == pytest.approx(row, abs=tolerance * max(largest, 1e-12)), name
 
 
-@pytest.mark.parametrize("path", matrix(built.FILES, built.TYPESET), ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", matrix(built.FILES, built.TELLING), ids=lambda path: path.stem)
 def test_the_printed_task_gives_the_same_results(path: Path, tmp_path: Path) -> None:
     compare(path, tmp_path)
 

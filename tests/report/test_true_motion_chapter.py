@@ -19,6 +19,7 @@ from reportgen.report import running
 from reportgen.report.report import Report
 from reportgen.report.result_tables import residuals
 from reportgen.report.running_curves import stopping
+from tests.lanes import proof
 from tests.report import built, trees
 from tests.report.calculator import misses
 
@@ -109,6 +110,7 @@ def _with_drive(tmp_path: Path, text: str) -> Path:
     return file
 
 
+@proof
 def test_a_machine_at_another_speed_than_planned_is_warned_of(tmp_path: Path) -> None:
     """M₀/k = 30 rad/s without load: planned for 60 rad/s it is another machine, planned for 28 it is not."""
     text = FILE.read_text(encoding="utf-8")

@@ -22,7 +22,7 @@ from reportgen.base.units import Language
 from reportgen.document import Cell, Column, Document, Figure, InlineMath, Paragraph, Section, Table, Text
 from reportgen.formula import Symbol
 from reportgen.writers import typst_compiler
-from tests.lanes import matrix
+from tests.lanes import matrix, proof
 from tests.marking.test_papers import PAPERS
 from tests.report import built
 from tests.sheets.laid import laid
@@ -295,6 +295,7 @@ def refused(_: int) -> bytes:
     return typst_compiler.compile(f"{DATED}= A\n=== B")
 
 
+@proof
 def test_it_is_told_from_the_process_of_a_school_too() -> None:
     with pytest.warns(typst_compiler.StandardWarning, match="skipped from heading level"):
         assert call_within(TEMPLATES, refused, 0).startswith(b"%PDF-")
