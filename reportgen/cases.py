@@ -22,14 +22,12 @@ from reportgen.case import AskedFor, Case, DriverMotion, MachineAnalysis, Miscon
 from reportgen.case.key import Span
 from reportgen.case.shafts import Shaft
 from reportgen.case.wording import positive_sense
-from reportgen.derivation.joint_friction import misconceptions
-from reportgen.derivation.run_mistakes import mistaken
+from reportgen.derivation.topic_ledger import LEDGER
 from reportgen.document import Block, Document, Paragraph, Strong, Text
 from reportgen.formula import Symbol, ids, vocabulary
 from reportgen.formula.sheet import Family
 from reportgen.machine.analysis import Analysis, Machine, motion_at
 from reportgen.machine.laws import FULL_TURN, STEPS
-from reportgen.report.balancing_mistakes import mistaken as of_balancing
 
 if TYPE_CHECKING:
     from reportgen.drawing.animation import Animation
@@ -37,8 +35,8 @@ if TYPE_CHECKING:
     from reportgen.report.report import Report
 
 
-GENERAL, HEIGHT, SEEN = "vasntωεφαl", "y", "uUψTθrγβ"
-"""Letters without an index that stand for any point, link, length or angle, or count links; those of diagrams."""
+GENERAL, HEIGHT = "vasntωεφαl", "y"
+"""Letters without an index that stand for any point, link, length or angle, or count links; that of a diagram."""
 
 
 def opened(assignment: Assignment) -> Case:
@@ -94,7 +92,10 @@ class MachineCase(MachineAnalysis):
 
         names, bodies = list(self.analysis.motion.points), self.analysis.machine.linkage.inertias
         images = {vocabulary.on_plan(name, prime) for name in names for prime in (False, True)}
-        balancing = SEEN if self.balanced else ""
+        # Views load what renders templates, which most commands go without.
+        from reportgen.report.topic_views import VIEWS
+
+        further = "".join(hooks.letters for hooks in VIEWS.among(self.analysis.machine.topics))
         corners = {corner for polygon in self.polygons for edge in polygon.edges for corner in (edge.start, edge.end)}
         return frozenset(
             {family.symbol for family in self.printed.families.values()}
@@ -105,7 +106,7 @@ class MachineCase(MachineAnalysis):
             | {Symbol(axis, name) for axis in "xys" for name in names}
             | {
                 Symbol(letter)
-                for letter in (*corners, *POLES.values(), *GENERAL, *(HEIGHT if self.analysis.gas else ""), *balancing)
+                for letter in (*corners, *POLES.values(), *GENERAL, *(HEIGHT if self.analysis.gas else ""), *further)
             }
         )
 
@@ -172,9 +173,9 @@ class MachineCase(MachineAnalysis):
             _wrong_readings(analysis),
             _whole_rods(analysis.machine, tuple(self.ledger.families)),
             changed={
-                **misconceptions(self.ledger.families),
-                **mistaken(self.ledger, analysis.machine.turns),
-                **of_balancing(self.ledger),
+                id: other
+                for hooks in LEDGER.among(analysis.machine.topics)
+                for id, other in hooks.mistakes(self.ledger, analysis.machine).items()
             },
         )
 

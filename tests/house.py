@@ -273,7 +273,7 @@ LIMITS: Mapping[Callable[[House], Counted], int | None] = {
     arrows_back_up: 0,
     circles: 0,
     longest_module: 500,
-    words_of_architecture: 1500,
+    words_of_architecture: 1200,
     ids_by_f_string: 0,
     class_names_twice: 0,
     longest_positional_call: 6,

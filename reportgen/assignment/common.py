@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -160,6 +160,8 @@ class Draft:
 
 
 Check = Callable[[Draft], Iterator[Finding]]
+Extended = tuple[type[Part], tuple[Check, ...]]
+"""Parameters with the sections of topics, and the checks of these topics."""
 Labels = Callable[[Any, Positions], Sequence[str]]
 """What the positions of the cycle are called, from the parameters and the evenly spaced positions of a turn."""
 
@@ -168,6 +170,8 @@ Labels = Callable[[Any, Positions], Sequence[str]]
 class Kind:
     """What the reader must know of a kind of machine.
 
+    `base` are the parameters of the kind itself, to which `topics` add sections of their own: `extended` gives the
+    parameters with the sections of some topics, and the checks of these.
     `turns` of the driver make a cycle; `indicator` is the type of the section of that name, None for a
     machine that has none; `checks` look at what no single value shows.  `labels` are given by a kind that adds
     positions to the evenly spaced ones.  A kind that is but one instant of a motion has no positions, and nothing
@@ -176,7 +180,7 @@ class Kind:
     """
 
     name: str
-    parameters: type[Part]
+    base: type[Part]
     indicator: Any = None
     turns: int = 1
     checks: tuple[Check, ...] = ()
@@ -184,11 +188,27 @@ class Kind:
     indicator_optional: bool = False
     has_positions: bool = True
     part: str = ""
+    topics: tuple[str, ...] = ()
+    extended: Callable[[type[Part], tuple[str, ...]], Extended] | None = None
+
+    @property
+    def parameters(self) -> type[Part]:
+        """The parameters with the sections of all its topics."""
+        return self.base if self.extended is None else self.extended(self.base, self.topics)[0]
+
+    @property
+    def all_checks(self) -> tuple[Check, ...]:
+        """The checks of the kind and of its topics."""
+        return self.checks if self.extended is None else (*self.checks, *self.extended(self.base, self.topics)[1])
+
+    def asking(self, keys: Collection[str]) -> Kind:
+        """Return the same with those of its topics that a file has a section of, by the keys of its parameters."""
+        return replace(self, topics=tuple(topic for topic in self.topics if topic in keys))
 
     @property
     def counts_positions(self) -> bool:
         """Whether a turn may have another number of positions, told in a section or among the parameters."""
-        return self.has_positions or POSITIONS in self.parameters.model_fields
+        return self.has_positions or POSITIONS in self.base.model_fields
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import os
 import unicodedata
-from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -53,7 +54,7 @@ def assess(
         findings.insert(0, _no_kind(name, kinds))
     else:
         numbered = (instants, worked_positions(kind.turns, kind.labels)) if kind.has_positions else ()
-        for check_one in (school_of(path), *kind.checks, *numbered):
+        for check_one in (school_of(path), *_given(kind, raw).all_checks, *numbered):
             places = {finding.where for finding in findings}
             findings += [finding for finding in check_one(draft) if finding.where not in places]
     # What the source already refuses is not judged a second time.
@@ -113,7 +114,7 @@ def read_model(path: Path, model: type[Model], language: Language | None = None)
     top, faults = _top(source)
     value: Model | None = None
     if top is not None:
-        value, findings = _section(_WHOLE, model, plain(top))
+        value, findings = _section(_WHOLE, model, plain(top), lambda: {_WHOLE: (model, ...)})
         faults += [_placed(replace(finding, where=finding.where[1:]), top) for finding in findings]
     if faults or value is None:
         raise as_error(faults, language or language_of(source))
@@ -189,7 +190,7 @@ def _no_kind(name: object, kinds: Collection[str]) -> Finding:
 
 def _sections(raw: dict[str, Any], kind: Kind | None) -> tuple[list[Finding], Draft]:
     """Reads each section by itself, so that the checks can look at those in order whatever the others are."""
-    known = sections(kind)
+    known, whole = sections(None if kind is None else _asking(kind, raw)), partial(sections, kind)
     findings: list[Finding] = []
     valid: dict[str, Any] = {}
     for key in raw.keys() - known.keys() - {"kind"}:
@@ -198,7 +199,7 @@ def _sections(raw: dict[str, Any], kind: Kind | None) -> tuple[list[Finding], Dr
             findings.append(_unknown((key,), ["kind", *known]))
     for key, (type_, default) in known.items():
         if raw.get(key) is not None:
-            valid[key], faulty = _section(key, type_, raw[key])
+            valid[key], faulty = _section(key, type_, raw[key], whole)
             findings += faulty
         elif default is ...:
             findings.append(Finding("missing-key", (key,), {"key": key}))
@@ -207,14 +208,34 @@ def _sections(raw: dict[str, Any], kind: Kind | None) -> tuple[list[Finding], Dr
     return findings, Draft(raw, {key: value for key, value in valid.items() if value is not None})
 
 
-def _section(key: str, type_: Any, content: Any) -> tuple[Any, list[Finding]]:
-    """The section's value (None if it has none) and its faults; unknown keys alone do not spoil the value."""
+def _asking(kind: Kind, raw: Mapping[str, Any]) -> Kind:
+    """Return the kind with those of its topics that the file asks for."""
+    parameters = raw.get("parameters")
+    return kind.asking(parameters if isinstance(parameters, dict) else ())
+
+
+def _given(kind: Kind, raw: Mapping[str, Any]) -> Kind:
+    """Return the kind with those of its topics whose section is not left empty."""
+    parameters = raw.get("parameters")
+    table = parameters if isinstance(parameters, dict) else {}
+    return kind.asking([key for key, value in table.items() if value is not None])
+
+
+def _section(
+    key: str, type_: Any, content: Any, whole: Callable[[], Mapping[str, tuple[Any, Any]]]
+) -> tuple[Any, list[Finding]]:
+    """Return the section's value (None if it has none) and its faults; unknown keys alone do not spoil the value.
+
+    `whole` gives the sections with all topics, among whose keys the one that an unknown key means is looked for.
+    """
     adapter: TypeAdapter[Any] = TypeAdapter(type_)
     try:
         return adapter.validate_python(content), []
     except ValidationError as error:
         details = _telling(error.errors(include_url=False))
-    schema = adapter.json_schema() if any(one["type"] == "extra_forbidden" for one in details) else {}
+    schema = (
+        TypeAdapter(whole()[key][0]).json_schema() if any(one["type"] == "extra_forbidden" for one in details) else {}
+    )
     findings = [_finding(key, detail, content, schema) for detail in details]
     if all(detail["type"] == "extra_forbidden" for detail in details):
         return adapter.validate_python(content, extra="ignore"), findings

@@ -90,7 +90,7 @@ def _as_draft_07(part: Any) -> Any:
 
 def _tell_checks(part: Schema, root: Schema, kind: Kind) -> None:
     """Put into the schema what the checks of a kind say of several keys."""
-    for check in kind.checks:
+    for check in kind.all_checks:
         match check:
             case OneOf(names=names, required=required, form=form):
                 either = [{"required": [name]} for name in names]
@@ -176,7 +176,7 @@ def choices_of(schema: Schema) -> list[str]:
 
 def alternatives_to(kind: Kind, path: Sequence[str]) -> list[str]:
     """The other keys by which the same may be said as by that of a path."""
-    checks = (check for check in kind.checks if isinstance(check, OneOf) and check.where == tuple(path[:-1]))
+    checks = (check for check in kind.all_checks if isinstance(check, OneOf) and check.where == tuple(path[:-1]))
     return [name for check in checks if path[-1] in check.names for name in check.names if name != path[-1]]
 
 

@@ -17,10 +17,10 @@ import numpy as np
 
 from reportgen.balancing import orders_ids as names
 from reportgen.balancing.engine_file import Parameters
+from reportgen.balancing.piston_orders import acceleration_factor, short_series
 from reportgen.base.units import MM, nice_up
 from reportgen.drawing.geometry import corners_of
 from reportgen.formula import PI, Expression, Number, Ref, cis, size, total
-from reportgen.formula.piston_orders import acceleration_factor, short_series
 from reportgen.formula.sheet import Sheet
 from reportgen.formula.vocabulary import Chapter
 

@@ -12,10 +12,10 @@ from numpy.typing import ArrayLike, NDArray
 from reportgen.balancing import orders_ids
 from reportgen.balancing.engine_file import Parameters
 from reportgen.balancing.engine_sheet import COUPLES, ORDERS, EngineSheet
+from reportgen.balancing.piston_orders import first_term
 from reportgen.case import Misconceptions
 from reportgen.case.design import DesignCase
 from reportgen.formula import PI, Expression, Ref, cis, total
-from reportgen.formula.piston_orders import first_term
 from reportgen.formula.sheet import Sheet
 
 FIRST_TERM = "orders-first-term"

@@ -7,6 +7,7 @@ from functools import cache
 from pathlib import Path
 
 from reportgen.base.files import leads_out
+from reportgen.base.topics import topics
 
 Language = str
 """The name of a folder that is a language; whoever reads one from outside checks it against `languages`."""
@@ -18,6 +19,8 @@ LANGUAGE_FILE = "language.yaml"
 
 MACHINES = "catalogue"
 """The folder beside `report.md` with a file for each kind of machine or exercise."""
+TOPICS = "topics"
+"""The folder beside `report.md` with a file for each topic of a machine."""
 
 
 def templates() -> Path:
@@ -102,6 +105,11 @@ def search_path(
 def kind_file(language: Language, kind: str, root: Path | None = None) -> Path:
     """The file with all words of one kind of machine."""
     return (root or templates()) / language / MACHINES / f"{kind}.md"
+
+
+def topic_files(language: Path) -> list[Path]:
+    """Return the files of the topics in the folder of a language."""
+    return [language / TOPICS / f"{topic}.md" for topic in topics()]
 
 
 def told_in(language: Language, name: str) -> Path:

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from reportgen.base.kinds import kinds
-from reportgen.base.template_folders import DEFAULT_LANGUAGE, REFERENCE, kind_file, templates
+from reportgen.base.template_folders import DEFAULT_LANGUAGE, REFERENCE, kind_file, templates, topic_files
 from reportgen.base.units import Language
 from reportgen.base.words import FILE, SECTION, load_words, sections
 
@@ -40,7 +40,8 @@ def _has_all(language: Language) -> bool:
     own, reference = templates() / language, templates() / REFERENCE
     if not (own / FILE).is_file() or any(_absent(load_words((own,)), load_words((reference,)))):
         return False
-    return not any(name for file in reference.glob("*.md") for name in _missing(own / file.name, file))
+    files = (*reference.glob("*.md"), *topic_files(reference))
+    return not any(name for file in files for name in _missing(own / file.relative_to(reference), file))
 
 
 def _missing(own: Path, reference: Path) -> Iterator[str]:

@@ -45,6 +45,7 @@ from reportgen.base.template_folders import (
     school_files,
     school_strays,
     templates,
+    topic_files,
 )
 from reportgen.base.units import Language
 
@@ -389,16 +390,21 @@ def find(name: str, places: Sequence[Path]) -> Passage | None:
     """The section of this name in the first of some places (files, folders) that has it."""
     if not _NAME.fullmatch(name):
         return None
-    passages = (sections(file).get(section) for file, section in (home(name, place) for place in places))
+    passages = (sections(file).get(section) for place in places for file, section in homes(name, place))
     return next(filter(None, passages), None)
 
 
-def home(name: str, place: Path) -> tuple[Path, str]:
-    """The file in which the section `name` would stand in a place, and what it would be called there."""
+def homes(name: str, place: Path) -> Iterator[tuple[Path, str]]:
+    """Yield the files in which a section may be in a place, each with the name of the section there.
+
+    In a folder the name says which file it is; the files of topics have the whole names of their sections.
+    """
     if place.suffix == ".md":
-        return place, name
+        yield place, name
+        return
     file, _, section = name.rpartition("/")
-    return place / f"{file or 'report'}.md", section
+    yield place / f"{file or 'report'}.md", section
+    yield from ((topic, name) for topic in topic_files(place))
 
 
 def of_school(places: Sequence[Path]) -> list[Path]:
@@ -423,7 +429,7 @@ def _names(language: Path) -> Iterator[str]:
     """The names of all sections of a language, those of the machines included."""
     for file in language.glob("*.md"):
         yield from (name if file.stem == "report" else f"{file.stem}/{name}" for name in sections(file))
-    for file in (language / MACHINES).glob("*.md"):
+    for file in (*topic_files(language), *(language / MACHINES).glob("*.md")):
         yield from sections(file)
 
 

@@ -39,9 +39,6 @@ if TYPE_CHECKING:
     from reportgen.drawing.sheet import DrawingSheet
     from reportgen.formula.ledger import Ledger
     from reportgen.machine.analysis import Analysis
-    from reportgen.machine.balance import BalancedTurn
-    from reportgen.machine.flywheel import RegulatedCycle
-    from reportgen.machine.true_motion import TrueMotion
 
 
 @dataclass(frozen=True, slots=True)
@@ -412,7 +409,7 @@ class MachineAnalysis(LoadedAssignment):
         """Every number with the force plans, in the symbols and units of the assignment's language."""
         from reportgen.derivation import write_ledger
 
-        written = write_ledger(self.analysis, self.unit_names, self.assignment.worked_positions, self.balanced)
+        written = write_ledger(self.analysis, self.unit_names, self.assignment.worked_positions)
         return replace(written, ledger=written.ledger.in_language(self.words["symbols"]))
 
     @property
@@ -428,27 +425,9 @@ class MachineAnalysis(LoadedAssignment):
     @cached_property
     def entries(self) -> ResultEntries:
         """What holds at each of its positions."""
-        asked = self.analysis.machine.true_motion
-        return entries_of(self.analysis, None if asked is None else self.true_motion, self.balanced)
+        return entries_of(self.analysis)
 
     @property
     def polygons(self) -> tuple[Polygon, ...]:
         """The force plans: one for each group, the driver's last; none without loads."""
         return self.written.polygons
-
-    @property
-    def flywheel(self) -> RegulatedCycle | None:
-        """The flywheel, if the assignment asks for one."""
-        return self.written.flywheel
-
-    @cached_property
-    def balanced(self) -> BalancedTurn | None:
-        """What balances it, if the assignment asks for it."""
-        from reportgen.machine.balance import balanced_turn
-
-        return balanced_turn(self.analysis.machine) if self.analysis.machine.balancing else None
-
-    @property
-    def true_motion(self) -> TrueMotion | None:
-        """The motion under a drive, if the assignment asks for it."""
-        return self.written.true_motion

@@ -26,7 +26,7 @@ from typing import Any
 import numpy as np
 
 from reportgen.assignment import parts, reading
-from reportgen.assignment.common import Assignment, Kind, named_worked
+from reportgen.assignment.common import Assignment, Extended, Kind, Part, named_worked
 from reportgen.assignment.fields import UNIT_KEY
 from reportgen.assignment.schema import alternatives_to, choices_of, file_schema, places, schema_of
 from reportgen.base.errors import AssignmentError, Fault, Finding, Level, Problem, TemplateError
@@ -36,19 +36,13 @@ from reportgen.base.source import MappingNode, Scalar, Source, read_source
 from reportgen.base.source_text import at as node_at
 from reportgen.base.source_text import put, text_of
 from reportgen.base.template_folders import MACHINES, samples, told_in
+from reportgen.base.topics import topics
 from reportgen.base.units import Language, QuantityFault, measures, read_quantity, read_unit
 from reportgen.base.whole import is_whole, offered
 from reportgen.base.words import as_error, as_problem, language_of, sections, spoken, word
-from reportgen.catalogue import (
-    assembly,
-    declared_loads,
-    given_balancing,
-    given_friction,
-    given_motion,
-    given_springs,
-    wide_sliders,
-)
-from reportgen.catalogue.parameters import Driven, UnderGravity
+from reportgen.catalogue import assembly, declared_loads
+from reportgen.catalogue.parameters import Driven
+from reportgen.catalogue.topic_sections import TopicParameters, sections_of, topic_checks, with_topics
 from reportgen.machine.analysis import Machine
 from reportgen.machine.laws import FULL_TURN, STEPS
 
@@ -62,9 +56,10 @@ def kind(name: str) -> Kind:
     """What the reader of assignment files must know of a kind; raises `KeyError`."""
     machine = module(name)
     shared = getattr(machine.Parameters, "checks", tuple)
+    takes_topics = issubclass(machine.Parameters, TopicParameters)
     return Kind(
         name,
-        parameters=machine.Parameters,
+        base=machine.Parameters,
         indicator=getattr(machine, "Indicator", None),
         turns=machine.TURNS,
         checks=(*shared(), *machine.CHECKS),
@@ -72,7 +67,15 @@ def kind(name: str) -> Kind:
         indicator_optional=getattr(machine, "INDICATOR_OPTIONAL", False),
         has_positions=getattr(machine, "HAS_POSITIONS", True),
         part=getattr(machine, "PART", ""),
+        topics=topics() if takes_topics else (),
+        extended=_extended if takes_topics else None,
     )
+
+
+def _extended(parameters: type[Part], names: tuple[str, ...]) -> Extended:
+    """Return the parameters of a machine with the sections of some topics, and the checks of these."""
+    assert issubclass(parameters, TopicParameters), "only a machine has topics"
+    return with_topics(parameters, names), topic_checks(parameters, names)
 
 
 def assess(source: Source, path: Path) -> tuple[Assignment | None, list[Fault]]:
@@ -81,9 +84,8 @@ def assess(source: Source, path: Path) -> tuple[Assignment | None, list[Fault]]:
     if assignment is not None and (machine_of := getattr(module(assignment.kind), "machine", None)) is not None:
         machine = machine_of(assignment)
         findings = [*_misplaced(assignment, machine), *_out_of_reach(machine)]
-        findings = findings or list(given_springs.meetings(machine))
-        findings = findings or list(given_friction.locks(machine, assignment.worked_positions))
-        findings = findings or list(given_motion.faults(machine))
+        for section in sections_of(machine.topics):
+            findings = findings or list(section.failures(machine, assignment.worked_positions))
         faults = reading.placed(source, findings)
     return (None if faults else assignment), faults
 
@@ -100,13 +102,10 @@ def _misplaced(assignment: Assignment, machine: Machine) -> Iterator[Finding]:
         if slides == measures(at.unit, "deg"):
             words = {"given": at.unit, "unit": "mm" if slides else "deg"}
             yield Finding("wrong-unit", ("positions", "at", index), words)
-    if isinstance(assignment.parameters, UnderGravity):
-        yield from wide_sliders.faults(assignment.parameters.faces, machine.linkage)
-        springs = assignment.parameters.springs
-        misplaced = list(given_springs.faults(springs, machine.linkage))
-        yield from misplaced or given_springs.wound_up(springs, machine)
-        yield from given_balancing.faults(assignment.parameters.balancing, machine)
-        yield from given_friction.faults(assignment.parameters.friction, machine)
+    given = assignment.parameters
+    if isinstance(given, TopicParameters):
+        for section in sections_of(given.asked()):
+            yield from section.faults(given, machine)
     if isinstance(assignment.parameters, Driven):
         points = declared_loads.pins(machine.linkage)
         for index, load in enumerate(assignment.parameters.loads):
@@ -198,7 +197,9 @@ def problems_of(source: Source, path: Path, language: Language | None = None) ->
 def _doubts(assignment: Assignment) -> Iterator[Finding]:
     """What is allowed in the file of a machine but hardly meant."""
     if (machine_of := getattr(module(assignment.kind), "machine", None)) is not None:
-        yield from given_motion.warnings(machine_of(assignment))
+        machine = machine_of(assignment)
+        for section in sections_of(machine.topics):
+            yield from section.warnings(machine)
 
 
 def examples(name: str) -> dict[str, Path]:

@@ -2,21 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import replace
+from collections.abc import Collection
+from dataclasses import dataclass, replace
 from typing import Any
 
 from reportgen.assignment.common import Assignment
-from reportgen.catalogue import (
-    declared_loads,
-    given_balancing,
-    given_friction,
-    given_motion,
-    given_springs,
-    wide_sliders,
-)
+from reportgen.catalogue import declared_loads
 from reportgen.catalogue.given_sheet import GivenSheet
-from reportgen.catalogue.parameters import Flywheel
+from reportgen.catalogue.topic_sections import Opening, chapters, entered
 from reportgen.machine import DRIVER, Crank, Linkage
 from reportgen.machine.analysis import Machine
 from reportgen.machine.loads import LoadsByKind, crank_motion
@@ -24,46 +17,47 @@ from reportgen.machine.loads import LoadsByKind, crank_motion
 OPENING = ("contents", "given", "scheme", "overview", "foreword", "symbols", "structure", "motion")
 CLOSING = ("conclusion", "references", "checks")
 
-# --- the machine ------------------------------------------------------------------------------------
+
+@dataclass(frozen=True)
+class KindSections:
+    """The sections of a report that differ from kind to kind, by the names of their words.
+
+    `sizes` and `load` tell where lengths and loads come from; `summary` follows the accelerations, `course` the
+    kinematic diagrams; `driver` is the balance of the driver.
+    """
+
+    sizes: str = "dimensions"
+    load: str = "working"
+    summary: tuple[str, ...] = ()
+    course: tuple[str, ...] = ()
+    driver: str = "crank"
 
 
 def outline(
     masses: bool,
     loads: bool,
-    flywheel: Flywheel | None,
+    topics: Collection[str],
     *,
-    balancing: bool = False,
-    motion: bool = False,
     curves: bool = True,
     further: bool = False,
-    springs: bool = False,
-    faces: bool = False,
-    friction: bool = False,
-    sizes: str = "dimensions",
-    load: str = "working",
-    summary: tuple[str, ...] = (),
-    course: tuple[str, ...] = (),
-    driver: str = "crank",
+    words: KindSections = KindSections(),
 ) -> tuple[str, ...]:
-    """The report's sections in order; without mass and load it ends with the kinematics.
+    """Return the report's sections in order; without mass and load it ends with the kinematics.
 
-    `sizes` and `load` tell where lengths and loads come from; `summary` follows the accelerations, `course` the
-    kinematic diagrams, if there are any `curves`.  `further` loads stand beside those of the kind, there may
-    be `springs`, sliders may have `faces` and joints `friction`.  The chapter on `balancing` follows the driver,
-    the true `motion` the flywheel.
+    The kinematic diagrams are left out without `curves`.  `further` loads stand beside those of the kind.  The chapters
+    of `topics` stand where their sections say.
     """
-    diagrams = ("diagrams", *course) if curves else ()
-    kinematics = (*OPENING, sizes, "positions", "velocity", "acceleration", *summary, *diagrams)
+    diagrams = ("diagrams", *words.course) if curves else ()
+    kinematics = (*OPENING, words.sizes, "positions", "velocity", "acceleration", *words.summary, *diagrams)
     if not (masses or loads):
         return (*kinematics, *CLOSING)
+    beside = (*(("further-loads",) if further else ()), *chapters(topics, "loads"))
     inertia = ("loads",) if masses else ()
-    wheel = (*(() if flywheel is None else ("flywheel",)), *(("true-motion",) if motion else ()))
-    beside = (*(("further-loads",) if further else ()), *(("springs",) if springs else ()))
-    shaking = ("balancing/chapter",) if balancing else ()
-    wide = ("faces",) if faces else ()
-    rubbing = ("friction",) if friction else ()
-    behind = (*rubbing, *shaking, *wheel)
-    return (*kinematics, load, *beside, *inertia, "groups", *wide, driver, *behind, *CLOSING)
+    behind = chapters(topics, "driver")
+    return (
+        *(*kinematics, words.load, *beside, *inertia, "groups"),
+        *(*chapters(topics, "groups"), words.driver, *behind, *CLOSING),
+    )
 
 
 def with_crank(q: GivenSheet, linkage: Linkage) -> Linkage:
@@ -98,7 +92,7 @@ def driven(
     q: GivenSheet,
     linkage: Linkage,
     start: float,
-    sections: Mapping[str, Any] | None = None,
+    sections: KindSections | None = None,
     **own: Any,
 ) -> Machine:
     """The machine of an assignment whose crank stands at the angle `start` (rad) in position 1.
@@ -113,34 +107,24 @@ def driven(
     turns = own.get("turns", assignment.turns)
     motion_at = crank_motion(linkage, positions, start)
     declared = declared_loads.loads(given.loads, linkage, motion_at, of_kind, through=not positions.at)
-    of_springs, springs = given_springs.loads(given.springs, linkage, q.datum, (*of_kind, *declared), motion_at)
-    loads = LoadsByKind.of((*of_kind, *declared, *of_springs))
-    faces = wide_sliders.entered(given.faces, linkage, q.datum)
-    balancing = given_balancing.entered(given.balancing, q.datum)
-    friction = given_friction.entered(given.friction, linkage, faces, q.datum)
-    given_motion.entered(given.motion, q.datum)
+    topics = entered(Opening(given, linkage, q.datum, (*of_kind, *declared), motion_at))
+    loads = LoadsByKind.of((*of_kind, *declared, *topics.loads))
     rows = declared_loads.rows(given.loads, declared, loads.idle)
-    further = {*(row.id for row in rows), *(load.name for load in of_springs)}
+    further = {*(row.id for row in rows), *(load.name for load in topics.loads)}
     # What a kind sets out by its name is its own load.
     q.lines = {name: tuple(id for id in lines if id not in further) for name, lines in q.lines.items()}
-    own["facts"] = {**own.get("facts", {}), "declared": rows, "springs": springs}
-    parts = dict(sections or {})
+    own["facts"] = {**own.get("facts", {}), "declared": rows}
+    words = sections or KindSections()
     acts = LoadsByKind.of(of_kind).act
-    if parts.get("load") == "cycle" and not acts:
-        parts["load"] = "no-gas"
-    parts |= {
-        "springs": bool(springs),
-        "faces": bool(faces),
-        "balancing": balancing is not None,
-        "friction": friction is not None,
-        "curves": not positions.at,
-        "motion": given.motion is not None,
-        "further": bool(rows) and (acts or parts.get("load") == "no-gas"),
-    }
+    if words.load == "cycle" and not acts:
+        words = replace(words, load="no-gas")
+    beside = bool(rows) and (acts or words.load == "no-gas")
     fields: dict[str, Any] = {
         "count": positions.number,
         "turns": turns,
-        "outline": outline(bool(linkage.inertias), loads.act, given.flywheel, **parts),
+        "outline": outline(
+            bool(linkage.inertias), loads.act, topics.subjects, curves=not positions.at, further=beside, words=words
+        ),
     }
     if positions.at:
         own |= {"instants": True, "count": positions.number, "places": positions.instants(turns)}
@@ -152,12 +136,9 @@ def driven(
         turn=positions.sign,
         speed=given.speed,
         acceleration=given.acceleration,
-        faces=faces,
-        friction=friction,
         sheet=q,
-        unevenness=given.unevenness,
-        balancing=balancing,
-        true_motion=None if given.motion is None else given.motion.asked,
+        topics=topics.subjects,
+        beside=tuple(load.name for load in topics.loads),
         applied=loads.applied,
         torques=loads.torques,
         idle=loads.idle,

@@ -18,7 +18,7 @@ from reportgen.assignment.fields import Gravity, Interval, Length, Offset, Ratio
 from reportgen.base.errors import Finding
 from reportgen.base.units import Given
 from reportgen.catalogue import given_loads
-from reportgen.catalogue.driven import driven
+from reportgen.catalogue.driven import KindSections, driven
 from reportgen.catalogue.given_sheet import CRANK_DRAWN, GivenSheet, cycle_angles
 from reportgen.catalogue.parameters import Driven
 from reportgen.catalogue.sliders import (
@@ -201,7 +201,7 @@ def machine(assignment: Assignment) -> Machine:
         q,
         linkage,
         geometry.crank_angle(start),
-        {"sizes": "synthesis", "load": "cycle"},
+        KindSections(sizes="synthesis", load="cycle"),
         formulas=lambda q: offset_slider(q, geometry.turn, angles, offset, True),
         count=len(places),
         pistons=(piston,),

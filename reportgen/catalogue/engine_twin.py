@@ -17,7 +17,7 @@ from reportgen.assignment.fields import Angle, Length, RodRatio, Share
 from reportgen.base.errors import Finding
 from reportgen.base.units import Given
 from reportgen.catalogue import given_loads
-from reportgen.catalogue.driven import driven
+from reportgen.catalogue.driven import KindSections, driven
 from reportgen.catalogue.given_sheet import GivenSheet, cycle_angles
 from reportgen.catalogue.parameters import Driven
 from reportgen.catalogue.sliders import centred_slider, compared
@@ -162,7 +162,7 @@ def machine(assignment: Assignment) -> Machine:
         q,
         linkage,
         positions.start_or(UP),
-        {"sizes": "synthesis", "load": "cycle"},
+        KindSections(sizes="synthesis", load="cycle"),
         formulas=formulas,
         pistons=pistons,
         applied=gas_forces(pistons),

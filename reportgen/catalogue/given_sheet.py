@@ -11,7 +11,8 @@ import numpy as np
 
 from reportgen.assignment.common import Positions
 from reportgen.base.units import Given
-from reportgen.catalogue.parameters import Driven, FixedPoint, Flywheel
+from reportgen.catalogue.parameters import Driven, FixedPoint
+from reportgen.catalogue.topic_sections import TopicParameters, sections_of
 from reportgen.catalogue.typed import as_typed, size_of
 from reportgen.formula import NOTHING, PI, Expression, Number, Operand, Ref, Symbol, ids, signed, turned, vocabulary
 from reportgen.formula.sheet import Sheet
@@ -59,15 +60,15 @@ class GivenSheet(Sheet):
         n: Given | None = None,
         omega1: Given | None = None,
         epsilon1: Given | None = None,
-        flywheel: Flywheel | None = None,
+        topics: TopicParameters | None = None,
     ) -> None:
-        """ω₁ (its size) as given, or ω₁ = 2πn/60 from the speed in rpm; ε₁ (its size); δ if a flywheel is asked for.
+        """Enter ω₁ (its size) as given, or ω₁ = 2πn/60 from the speed in rpm; ε₁ (its size); what topics add.
 
         A file with neither is refused by the kind's checks.
         """
         if self.given is not None:
             n, omega1, epsilon1 = self.given.n, self.given.omega1, self.given.epsilon1
-            flywheel = self.given.flywheel
+            topics = self.given
         if n is not None:
             rpm = n.value if n.unit == "rpm" else n.si * 30 / np.pi
             self.define("omega.1", 2 * PI * self.give("n", rpm) / 60)
@@ -75,8 +76,9 @@ class GivenSheet(Sheet):
             self.give("omega.1", omega1.si)
         if epsilon1 is not None and epsilon1.si:
             self.datum(ids.angular_acceleration(DRIVER), size_of(epsilon1))
-        if flywheel is not None:
-            self.datum("unevenness", flywheel.delta, Symbol("δ", "ω"), "ratio")
+        if topics is not None:
+            for section in sections_of(topics.asked()):
+                section.enter_speed(topics, self.datum)
 
     def drawn(self, start: str, end: str, asked: Given | None, default: float = CRANK_DRAWN) -> None:
         """The crank's drawn length: as asked for, else `default` (m on paper)."""

@@ -17,7 +17,7 @@ from reportgen.base.errors import Finding
 from reportgen.base.units import Given
 from reportgen.catalogue import assembly
 from reportgen.catalogue.declared_loads import against
-from reportgen.catalogue.driven import driven
+from reportgen.catalogue.driven import KindSections, driven
 from reportgen.catalogue.four_bar import STRAIGHT, extremes
 from reportgen.catalogue.given_sheet import CRANK_DRAWN, GivenSheet
 from reportgen.catalogue.loops import ClosedLoops
@@ -243,7 +243,7 @@ def machine(assignment: Assignment) -> Machine:
         q,
         linkage,
         start,
-        {"sizes": "synthesis" if given.swing else "dimensions", "summary": ("summary",)},
+        KindSections(sizes="synthesis" if given.swing else "dimensions", summary=("summary",)),
         formulas=formulas,
         sliders=sliders,
         compared=tuple(loops.compared),

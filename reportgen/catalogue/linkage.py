@@ -12,27 +12,19 @@ from dataclasses import replace
 
 import numpy as np
 
-from reportgen.assignment.checks import of_parameters, one_of
+from reportgen.assignment.checks import one_of
 from reportgen.assignment.common import ROMAN, Assignment, Draft, Positions
 from reportgen.base.errors import Finding
 from reportgen.base.units import nice_up
-from reportgen.catalogue import (
-    assembly,
-    declared_loads,
-    given_balancing,
-    given_friction,
-    given_motion,
-    given_springs,
-    linkage_checks,
-    wide_sliders,
-)
+from reportgen.catalogue import assembly, declared_loads, linkage_checks
 from reportgen.catalogue import linkage_file as file
-from reportgen.catalogue.driven import outline
+from reportgen.catalogue.driven import KindSections, outline
 from reportgen.catalogue.given_sheet import GivenSheet
 from reportgen.catalogue.linkage_file import Parameters
 from reportgen.catalogue.linkage_words import arms, facts
 from reportgen.catalogue.loops import ClosedLoops
-from reportgen.catalogue.parameters import needs_loads, steady_flywheel, weightless
+from reportgen.catalogue.parameters import weightless
+from reportgen.catalogue.topic_sections import Opening, entered
 from reportgen.catalogue.typed import size_of
 from reportgen.formula import Symbol, ids, turned
 from reportgen.formula.sheet import Sheet
@@ -53,14 +45,6 @@ BOX = (0.210, 0.260)
 STEPS = 72
 
 
-@of_parameters
-def _check_flywheel(given: Parameters) -> Iterator[Finding]:
-    """A flywheel turns with a crank, and so does what drives a machine."""
-    for key in ("flywheel", "motion"):
-        if getattr(given, key) is not None and isinstance(given.driver, file.SlideDriver):
-            yield Finding(f"{key}-of-slide", ("parameters", key), at="key")
-
-
 def _check_weights(draft: Draft) -> Iterator[Finding]:
     """In a horizontal plane a body has a mass and no weight."""
     masses = draft.at("parameters", "masses")
@@ -68,15 +52,7 @@ def _check_weights(draft: Draft) -> Iterator[Finding]:
     yield from weightless([("parameters", "masses", index, "G") for index in range(count)])(draft)
 
 
-CHECKS = (
-    one_of("parameters.driver", "n", "omega1", form=("type", "crank")),
-    needs_loads(("masses", "loads", "springs")),
-    _check_flywheel,
-    steady_flywheel("parameters", "driver", "epsilon1"),
-    given_motion.check,
-    _check_weights,
-    linkage_checks.check,
-)
+CHECKS = (one_of("parameters.driver", "n", "omega1", form=("type", "crank")), _check_weights, linkage_checks.check)
 
 
 def position_labels(parameters: Parameters, positions: Positions) -> tuple[str, ...]:
@@ -130,22 +106,18 @@ def machine(assignment: Assignment) -> Machine:
     )
     declared = _loads(given, linkage, _motion_at(built), through=not positions.at, span=span)
     q = _sheet(given, linkage, built, drawn.si if (drawn := assignment.drawing.crank) else None)
-    of_springs, springs = given_springs.loads(given.springs, linkage, q.datum, declared, _motion_at(built))
-    loads = LoadsByKind.of((*declared, *of_springs))
+    topics = entered(Opening(given, linkage, q.datum, declared, _motion_at(built)))
+    loads = LoadsByKind.of((*declared, *topics.loads))
     acting = tuple(load.name for load in declared if load.name not in loads.idle)
     q.set_out("lengths", *(ids.length(arm) for arm in arms(given)))
     q.set_out("loads", *acting)
-    faces = wide_sliders.entered(given.faces, linkage, q.datum)
-    balancing = given_balancing.entered(given.balancing, q.datum)
-    friction = given_friction.entered(given.friction, linkage, faces, q.datum)
-    given_motion.entered(given.motion, q.datum)
     fixed_points = {name: q.coordinates(name) for name in linkage.ground}
     loops = ClosedLoops(linkage, turn, fixed_points, accelerates=float(np.sign(built.acceleration)))
     return replace(
         built,
         sheet=q,
-        faces=faces,
-        friction=friction,
+        topics=topics.subjects,
+        beside=tuple(load.name for load in topics.loads),
         formulas=loops.write,
         compared=tuple(loops.compared),
         equations=loops.equations,
@@ -155,19 +127,11 @@ def machine(assignment: Assignment) -> Machine:
         outline=outline(
             bool(linkage.inertias),
             loads.act,
-            given.flywheel,
-            motion=given.motion is not None,
+            topics.subjects,
             curves=not positions.at,
-            springs=bool(springs),
-            faces=bool(faces),
-            balancing=balancing is not None,
-            friction=friction is not None,
-            driver="crank" if crank else "slide",
+            words=KindSections(driver="crank" if crank else "slide"),
         ),
-        balancing=balancing,
-        unevenness=None if given.flywheel is None else given.flywheel.delta.si,
-        true_motion=None if given.motion is None else given.motion.asked,
-        facts={**facts(given, tuple(load.name for load in declared), acting), "springs": springs},
+        facts=facts(given, tuple(load.name for load in declared), acting),
     )
 
 
@@ -189,7 +153,7 @@ def _sheet(given: Parameters, linkage: Linkage, built: Machine, drawn: float | N
         q.construct(ids.place(name), x + turned(y))
     if isinstance(driver, file.CrankDriver):
         q.datum(ids.length(driver.centre, driver.pin), driver.length)
-        q.speed(driver.n, driver.omega1, driver.epsilon1, given.flywheel)
+        q.speed(driver.n, driver.omega1, driver.epsilon1, given)
         paper = _drawn(built, driver.length.si) if drawn is None else drawn
         q.give(ids.drawn(driver.centre, driver.pin), paper, drawn_length(driver.centre, driver.pin))
     else:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
@@ -29,8 +29,7 @@ from reportgen.base.errors import Where
 from reportgen.base.units import Given
 from reportgen.catalogue.declared_loads import LAST_LINK, LEVEL, Constant, Link, Name, OverAngle, OverWay
 from reportgen.catalogue.given_loads import Diagram
-from reportgen.catalogue.given_motion import MotionSection
-from reportgen.catalogue.parameters import Flywheel, UnderGravity
+from reportgen.catalogue.parameters import UnderGravity
 from reportgen.machine import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint, SlidingDriver
 
 MOST_GROUPS = 12
@@ -324,9 +323,14 @@ class Parameters(UnderGravity):
     turns: Annotated[int, Whole(1, 2)] = 1
     also_at: Annotated[tuple[Angle, ...], Field(max_length=24)] = ()
     paths: Annotated[tuple[Name, ...], Field(max_length=MOST_NAMES)] = ()
-    flywheel: Flywheel | None = None
-    motion: MotionSection | None = None
     declared: Declared = Declared()
+
+    acceleration_key: ClassVar[tuple[str, ...]] = ("parameters", "driver", "epsilon1")
+    load_keys: ClassVar[tuple[str, ...]] = ("masses", "loads")
+
+    @property
+    def slides(self) -> bool:
+        return isinstance(self.driver, SlideDriver)
 
     @property
     def linkage(self) -> Linkage:

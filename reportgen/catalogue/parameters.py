@@ -1,4 +1,4 @@
-"""What the parameters of machines with a crank share: speed, gravity, masses, the flywheel, loads, and their checks.
+"""Parameters that machines with a crank share: speed, gravity, masses, loads, and their checks.
 
 A kind declares what of it there is: `class Parameters(Driven, masses=(2, 3), moments=(2,), shares=(2,))` reads the
 weight `G2` or the mass `m2`, the moment of inertia `J2` and the place `s2` of the mass centre, with their checks.
@@ -18,26 +18,17 @@ from reportgen.assignment.fields import (
     AngularVelocity,
     Coordinate,
     Gravity,
-    Interval,
     Mass,
     MomentOfInertia,
-    Ratio,
     RotationalSpeed,
     Share,
     Weight,
 )
 from reportgen.base.errors import Finding, Where
 from reportgen.base.units import Given
-from reportgen.catalogue import given_motion
-from reportgen.catalogue.declared_loads import MOST_LOADS, CrankLoading, Link
-from reportgen.catalogue.given_balancing import BalancingTask
-from reportgen.catalogue.given_friction import JointFriction
-from reportgen.catalogue.given_motion import MotionSection
-from reportgen.catalogue.given_springs import Spring
-from reportgen.catalogue.wide_sliders import Face
+from reportgen.catalogue.declared_loads import MOST_LOADS, CrankLoading
+from reportgen.catalogue.topic_sections import TopicParameters
 from reportgen.machine import DRIVER
-
-Unevenness = Annotated[Given, Ratio(Interval(least=1e-4, most=0.5))]
 
 
 class FixedPoint(Part):
@@ -47,26 +38,15 @@ class FixedPoint(Part):
     y: Coordinate
 
 
-class Flywheel(Part):
-    """How uneven the speed may be: δ = (ω_max − ω_min)/ω_m."""
-
-    delta: Unevenness
-
-
 OF_LINK: Mapping[str, Any] = {"G": Weight, "m": Mass, "J": MomentOfInertia, "s": Share}
 """What a file may give of a link, by the letter before its number."""
 
 
-class UnderGravity(Part):
-    """Where a machine stands: gravity, none in a horizontal plane; its springs; how wide its sliders are, what rubs;
-    whether what shakes the frame is worked out."""
+class UnderGravity(TopicParameters):
+    """Where a machine stands: gravity, none in a horizontal plane."""
 
     g: Gravity = Given(9.81, 9.81, "m/s2", "9.81 m/s2")
     plane: Literal["horizontal"] | None = None
-    springs: Annotated[tuple[Spring, ...], Field(max_length=MOST_LOADS)] = ()
-    faces: Annotated[dict[Link, Face], Field(max_length=MOST_LOADS)] = Field(default_factory=dict)
-    balancing: BalancingTask | None = None
-    friction: JointFriction | None = None
 
     @property
     def gravity(self) -> float:
@@ -75,22 +55,20 @@ class UnderGravity(Part):
 
 
 class Driven(UnderGravity):
-    """The crank's speed in one of two ways and its acceleration, the flywheel that is asked for, masses if declared.
+    """The crank's speed in one of two ways and its acceleration, masses if declared.
 
     Of the links `masses` and of the crank the weight or the mass may be given, of those `required` it must be;
-    `moments` and `shares` are the links with J and s.  A flywheel needs a mass or one of the keys `loads`.
+    `moments` and `shares` are the links with J and s; the keys `loads` give loads of the kind.
     """
 
     n: RotationalSpeed | None = None
     omega1: AngularVelocity | None = None
     epsilon1: AngularAcceleration | None = None
-    flywheel: Flywheel | None = None
-    motion: MotionSection | None = None
     loads: Annotated[tuple[CrankLoading, ...], Field(max_length=MOST_LOADS)] = ()
 
     links: ClassVar[Mapping[str, tuple[int, ...]]] = {}
     required: ClassVar[tuple[int, ...]] = ()
-    evened: ClassVar[tuple[str, ...]] = ()
+    acceleration_key: ClassVar[tuple[str, ...]] = ("parameters", "epsilon1")
     crank_on_axis: ClassVar[bool] = False
     """Whether the crank's mass centre lies on its axis where `s1` is not given."""
 
@@ -103,15 +81,19 @@ class Driven(UnderGravity):
         loads: Iterable[str] = (),
         **rest: Any,
     ) -> None:
+        super().__init_subclass__(**rest)
+        if cls.topic_names:
+            # All else is that of the class below, to which sections of topics are added.
+            return
         of_masses, of_moments, of_shares = (tuple(sorted({DRIVER, *links})) for links in (masses, moments, shares))
         cls.links = {"G": of_masses, "m": of_masses, "J": of_moments, "s": of_shares}
-        cls.required, cls.evened = tuple(required), (*loads, "loads", "springs")
+        cls.required = tuple(required)
+        cls.load_keys = (*(f"{letter}{link}" for letter in "GmJ" for link in cls.links[letter]), *loads, "loads")
         # A field of pydantic is an annotation with a default, which the body of the class would have had.
         for letter, numbers in cls.links.items():
             for number in numbers:
                 cls.__annotations__[f"{letter}{number}"] = OF_LINK[letter] | None
                 setattr(cls, f"{letter}{number}", None)
-        super().__init_subclass__(**rest)
 
     @property
     def speed(self) -> float:
@@ -125,46 +107,14 @@ class Driven(UnderGravity):
         """ε₁ (rad/s²), positive in the sense of ω₁."""
         return 0.0 if self.epsilon1 is None else self.epsilon1.si
 
-    @property
-    def unevenness(self) -> float | None:
-        """δ of the flywheel, a ratio; None if none is asked for."""
-        return None if self.flywheel is None else self.flywheel.delta.si
-
     @classmethod
     def checks(cls) -> tuple[Check, ...]:
-        """One speed, one of weight and mass, something for a flywheel to even out."""
+        """One speed, one of weight and mass."""
         one_mass = (
             one_of("parameters", f"G{link}", f"m{link}", required=link in cls.required) for link in cls.links["G"]
         )
-        evened = (*(f"{letter}{link}" for letter in "GmJ" for link in cls.links[letter]), *cls.evened)
         weights = [("parameters", f"G{link}") for link in cls.links["G"]]
-        needed = needs_loads(evened), steady_flywheel("parameters", "epsilon1"), given_motion.check
-        return one_of("parameters", "n", "omega1"), *one_mass, *needed, weightless(weights)
-
-
-def needs_loads(keys: Iterable[str]) -> Check:
-    """A flywheel is asked for only where one of the parameters `keys` gives a mass or a load to even out."""
-    known = tuple(keys)
-
-    def check(draft: Draft) -> Iterator[Finding]:
-        wanted = draft.at("parameters", "flywheel") is not None
-        if wanted and not any(draft.at("parameters", key) for key in known):
-            yield Finding("flywheel-without-loads", ("parameters", "flywheel"), at="key")
-
-    return check
-
-
-def steady_flywheel(*acceleration: str) -> Check:
-    """A flywheel evens a speed out that is constant in the mean, over a whole turn; true motion goes through one."""
-
-    def check(draft: Draft) -> Iterator[Finding]:
-        for asked in ("flywheel", "motion"):
-            keys = ((acceleration, acceleration[-1]), (("positions", "at"), "at"))
-            given = [key for place, key in keys if draft.at(*place) is not None]
-            if given and draft.at("parameters", asked) is not None:
-                yield Finding(f"{asked}-without-turn", ("parameters", asked), {"key": given[0]}, at="key")
-
-    return check
+        return one_of("parameters", "n", "omega1"), *one_mass, weightless(weights)
 
 
 def weightless(weights: Iterable[Where]) -> Check:

@@ -16,7 +16,7 @@ from reportgen.base.errors import Finding
 from reportgen.base.units import Given, nice_up
 from reportgen.catalogue import assembly, slotted
 from reportgen.catalogue.assembly import Member
-from reportgen.catalogue.driven import driven
+from reportgen.catalogue.driven import KindSections, driven
 from reportgen.catalogue.given_sheet import GivenSheet, cycle_angles
 from reportgen.catalogue.parameters import Driven
 from reportgen.catalogue.slotted import HIGHEST, Ram, SlottedCrank
@@ -161,7 +161,7 @@ def machine(assignment: Assignment) -> Machine:
         q,
         linkage,
         geometry.crank.crank_angle(start),
-        {"sizes": "synthesis", "course": ("course", "functions")},
+        KindSections(sizes="synthesis", course=("course", "functions")),
         formulas=formulas,
         applied=applied,
         sliders=(course,),

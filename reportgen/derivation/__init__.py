@@ -8,27 +8,22 @@ from dataclasses import dataclass
 import numpy as np
 
 from reportgen.base.units import rounded, significant_decimals
-from reportgen.derivation.balancing import enter_balancing
-from reportgen.derivation.cycle import enter_flywheel
 from reportgen.derivation.forces import enter_forces
 from reportgen.derivation.groups import enter_kinematics
-from reportgen.derivation.joint_friction import enter_friction, enter_friction_of_cycle
 from reportgen.derivation.loads import Polygon
-from reportgen.derivation.running import enter_running
 from reportgen.derivation.scales import no_scales, own_scales
+from reportgen.derivation.topic_ledger import LEDGER
 from reportgen.formula import PI, Expression, Ref, Symbol, call, circle_line, ids, vocabulary
 from reportgen.formula import size as size_of
 from reportgen.formula.evaluation import evaluate
 from reportgen.formula.ledger import Ledger
 from reportgen.formula.sheet import ZERO, Sheet, is_short
 from reportgen.formula.vocabulary import KINDS, Chapter
-from reportgen.machine import Crank, Linkage, flywheel
+from reportgen.machine import Crank, Linkage
 from reportgen.machine.analysis import Analysis, no_formulas, possible
-from reportgen.machine.balance import BalancedTurn, balanced_turn
 from reportgen.machine.gas import Bracket
 from reportgen.machine.laws import Stroke
 from reportgen.machine.loads import Applied, Torque
-from reportgen.machine.true_motion import TrueMotion, true_motion
 
 ONE_QUANTITY = (("M.eq", "M.vw", "M.least", "M.greatest", "M.difference"), ("M.mean", "M.energy"))
 """Quantities that are one: both torques and the extremes of their curve, the mean by the curve and by the work."""
@@ -36,49 +31,36 @@ ONE_QUANTITY = (("M.eq", "M.vw", "M.least", "M.greatest", "M.difference"), ("M.m
 
 @dataclass(frozen=True, slots=True)
 class PlannedLedger:
-    """What stands of an analysis: its ledger, the force plans that are laid out in it, its flywheel and true motion.
+    """The ledger of an analysis, and the force plans that are laid out in it.
 
     There is a plan for each group, the driver's is the last; none without loads.
     """
 
     ledger: Ledger
     polygons: tuple[Polygon, ...] = ()
-    flywheel: flywheel.RegulatedCycle | None = None
-    true_motion: TrueMotion | None = None
 
 
 def write_ledger(
-    analysis: Analysis,
-    units: Mapping[str, str] | None = None,
-    worked: Sequence[int] = (),
-    balanced: BalancedTurn | None = None,
+    analysis: Analysis, units: Mapping[str, str] | None = None, worked: Sequence[int] = ()
 ) -> PlannedLedger:
-    """The ledger of an analysis: given data, plans, closed formulas, forces, both torques, the cycle's figures.
+    """Return the ledger of an analysis: given data, plans, closed formulas, forces, both torques, the cycle's figures.
 
-    The plans of the `worked` positions fill their paper, of all positions if none is named.  What balances the machine
-    is taken as `balanced` if it is known.
+    The plans of the `worked` positions fill their paper, of all positions if none is named.
     """
     machine = analysis.machine
     q, polygons = enter_plans(analysis, worked, machine.formulas)
-    regulated: flywheel.RegulatedCycle | None = None
-    moved: TrueMotion | None = None
     if analysis.loads:
-        if analysis.with_friction is not None:
-            enter_friction(q, analysis, analysis.with_friction, worked)
+        topics = tuple(LEDGER.among(machine.topics))
+        for hooks in topics:
+            hooks.enter_forces(q, analysis, worked)
         with q.within(Chapter.cycle):
             _cycle(q, analysis)
-            if machine.friction is not None and machine.cyclic:
-                enter_friction_of_cycle(q, machine, machine.friction)
-            if machine.unevenness is not None:
-                regulated = flywheel.flywheel(machine, machine.unevenness)
-                enter_flywheel(q, analysis, regulated)
-            if machine.true_motion is not None:
-                moved = true_motion(machine, machine.true_motion, regulated)
-                enter_running(q, analysis, moved)
-        if machine.balancing is not None:
-            enter_balancing(q, analysis, balanced or balanced_turn(machine))
+            for hooks in topics:
+                hooks.enter_cycle(q, analysis)
+        for hooks in topics:
+            hooks.enter_last(q, analysis)
     ledger = Ledger(q.families, machine.positions, units=units or {}, same=ONE_QUANTITY, lines=q.lines)
-    return PlannedLedger(ledger, polygons, regulated, moved)
+    return PlannedLedger(ledger, polygons)
 
 
 def enter_plans(
@@ -106,7 +88,9 @@ def enter_plans(
     _applied(q, analysis)
     applied = {one.name: (one.link, one.point, one.direction(analysis.motion)) for one in machine.applied}
     torques = {torque.name: torque.link for torque in machine.torques}
-    return q, enter_forces(q, machine.linkage, machine.turn, applied, torques, own_scales if scaled else no_scales)
+    guides = tuple(hooks.enter_guide for hooks in LEDGER.among(machine.topics))
+    scales = own_scales if scaled else no_scales
+    return q, enter_forces(q, machine.linkage, machine.turn, applied, torques, scales=scales, guides=guides)
 
 
 def _masses(q: Sheet, analysis: Analysis) -> None:

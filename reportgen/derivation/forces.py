@@ -17,6 +17,7 @@ import numpy as np
 from reportgen.derivation.loads import (
     Applied,
     Edge,
+    EnterGuide,
     ForceChain,
     LoadOn,
     Origin,
@@ -34,22 +35,7 @@ from reportgen.derivation.loads import (
 from reportgen.derivation.motion import natural_sizes
 from reportgen.derivation.scales import Scaling, own_scales
 from reportgen.derivation.sides import scheme
-from reportgen.formula import (
-    Expression,
-    Number,
-    Ref,
-    Sum,
-    Symbol,
-    call,
-    dot,
-    ids,
-    meet,
-    quotient,
-    sign,
-    total,
-    turned,
-    unit,
-)
+from reportgen.formula import Expression, Ref, Sum, Symbol, call, dot, ids, meet, quotient, sign, total, turned, unit
 from reportgen.formula.sheet import ZERO, Sheet
 from reportgen.formula.vocabulary import drawn_length
 from reportgen.machine import DRIVER, Crank, Dyad, DyadKind, Guide, Linkage
@@ -62,13 +48,14 @@ def enter_forces(
     applied: Applied,
     torques: Mapping[str, int] | None = None,
     scales: Scaling = own_scales,
+    guides: tuple[EnterGuide, ...] = (),
 ) -> tuple[Polygon, ...]:
     """Enter all force quantities, the outermost group first; returns the force plans in that order.
 
     `applied` maps a force's id to (link, point, unit vector of its positive sense), `torques` a signed
-    torque's id to its link.  Plans are drawn at the `scales` of their sizes.
+    torque's id to its link.  Plans are drawn at the `scales` of their sizes.  Topics enter more of sliders in `guides`.
     """
-    statics = Statics(q, scheme(linkage), turn, natural_sizes(q, linkage), scales=scales)
+    statics = Statics(q, scheme(linkage), turn, natural_sizes(q, linkage), scales=scales, guides=guides)
     loads = enter_loads(statics, applied, torques or {})
     statics = replace(statics, loads=loads)
     polygons = []
@@ -290,7 +277,8 @@ def _slide(g: Group, digits: str, pin: str, loads: tuple[LoadOn, ...], link: int
     """Where a slide's reaction acts: moments of all else on the link about the pin."""
     _moment(g, digits, pin, loads)
     _offset(g, digits)
-    _faces(g, digits, link)
+    for enter in g.statics.guides:
+        enter(g.statics, digits, link)
 
 
 def _moment(g: Group, digits: str, pin: str, loads: tuple[LoadOn, ...]) -> Expression | None:
@@ -312,28 +300,6 @@ def _offset(g: Group, digits: str) -> None:
         formula = call("single", couple, above(size, ZERO * statics.force))
         written = call("single", moment, size)
     q.define(ids.application(digits), formula, scale=statics.span, written=written)
-
-
-def _faces(g: Group, digits: str, link: int) -> None:
-    """N and x along the guide of a slider whose face is given, and at positions where it tilts both its ends.
-
-    x N is what M, the moment of all else about the pin, leaves to the reaction: x = −M/N.
-    """
-    q, first, last = g.q, g.q.find(ids.face_from(link)), g.q.find(ids.face_to(link))
-    if first is None or last is None:
-        return
-    statics, R, M = g.statics, q[ids.reaction(digits)], q.find(ids.reaction_couple(digits))
-    side = sign(dot(q[ids.force_vector(ids.reaction_force(digits))], turned(q[ids.guide(link)])))
-    N = q.define(ids.normal_reaction(digits), R * side, scale=statics.force)
-    place = -(q[ids.application(digits)] * side)
-    x = q.define(ids.normal_place(digits), place, scale=statics.span, written=None if M is None else -M / N)
-    if np.all((q.value(x) >= q.si(first)) & (q.value(x) <= q.si(last))):
-        return
-    moment: Expression = Number(0.0) if M is None else M
-    ends = (N * last + moment) / (last - first), -((N * first + moment) / (last - first))
-    for number, line in enumerate(ends, 1):
-        # There is no such reaction where the slider lies on one side.
-        q.define(ids.face_reaction(digits, number), call("beyond", line, x, first, last), scale=statics.force)
 
 
 DYADS: Mapping[DyadKind, Callable[[Group], Polygon]] = {"RRR": _rrr, "RRP": _rrp, "RPR": _rpr, "PRP": _prp, "RPP": _rpp}

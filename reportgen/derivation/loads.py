@@ -54,6 +54,9 @@ class LoadOn:
     read_at: Ref | None = None
 
 
+EnterGuide = Callable[["Statics", str, int], None]
+
+
 @dataclass(frozen=True, slots=True)
 class Statics:
     """Sheet `q`, linkage and loads while reactions are entered group by group."""
@@ -64,6 +67,8 @@ class Statics:
     sizes: Sizes
     loads: tuple[LoadOn, ...] = ()
     scales: Scaling = own_scales
+    guides: tuple[EnterGuide, ...] = ()
+    """What topics enter of a slider in its guide, by the digits of its reaction and its link."""
 
     @property
     def force(self) -> float:

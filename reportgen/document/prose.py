@@ -45,7 +45,7 @@ from reportgen.base.shown import text as as_text
 from reportgen.base.source import STRANGE
 from reportgen.base.template_folders import DEFAULT_LANGUAGE
 from reportgen.base.units import MINUS, Language
-from reportgen.base.words import find, home, of_file, refuse_strangers, word
+from reportgen.base.words import find, homes, of_file, refuse_strangers, word
 from reportgen.document import BlankLine, Block, InlineMath, Inlines, Reference, Section, Text, Value, dialect, markdown
 from reportgen.document.dialect import (
     LONGEST,
@@ -463,7 +463,7 @@ def _origin(error: Exception, search: tuple[Path, ...], name: str) -> Place:
     if (passage := find(name, search)) is not None:
         return str(passage.file), passage.line
     own = next(place for place in search if place.is_relative_to(search[-1]))  # of the machine, if it has one
-    return str(home(name, own)[0]), 1
+    return str(next(homes(name, own))[0]), 1
 
 
 def subscripted(text: str) -> str:

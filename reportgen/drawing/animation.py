@@ -15,7 +15,8 @@ from types import MappingProxyType
 import numpy as np
 
 from reportgen.base.units import nice_up
-from reportgen.drawing import Circle, Content, Item, Label, Line, Pen, Polyline, springs, style
+from reportgen.drawing import Circle, Content, Item, Label, Line, Pen, Polyline, style
+from reportgen.drawing import coils as springs
 from reportgen.drawing.charts import Plotted
 from reportgen.drawing.geometry import bounds
 from reportgen.drawing.plan import BEYOND, PENS, Construction
@@ -262,7 +263,7 @@ class Animation:
     values: tuple[MomentValue, ...]
     errors: Errors
     layers: tuple[str, ...] = field(default=())
-    """What can be switched on, of `LAYERS`, in their order."""
+    """What can be switched on, in the order of `LAYERS`, then of the topics."""
     name: str = ""
     title: str = ""
     runs: tuple[TimedRun, ...] = ()
@@ -273,11 +274,8 @@ class Animation:
     """Of single instants, which stand at even knots, where the driver is at each (degrees, or mm of a slide)."""
 
 
-LAYERS = (
-    *("paths", "velocities", "accelerations", "centres", "loads", "inertia", "weights", "reactions", "friction"),
-    *("shaking", "balanced"),
-)
-"""What can be drawn on the machine; the first is shown from the start."""
+LAYERS = (*("paths", "velocities", "accelerations", "centres", "loads", "inertia", "weights", "reactions"),)
+"""The layers of any machine; the first is shown from the start.  Those of topics follow."""
 
 
 # --- making drawings that move --------------------------------------------------------------------------

@@ -14,11 +14,11 @@ import numpy as np
 from reportgen.base.settled import settled
 from reportgen.drawing import Arc, Arrow, Circle, Content, Item, Label, Line, Pen, Scene, style
 from reportgen.drawing.canvas import Canvas, finish, settle
+from reportgen.drawing.coils import springs
 from reportgen.drawing.description import Fact, PaperLength, alignment, direction, fact, listed, turning
 from reportgen.drawing.geometry import Complexes, Floats, clusters, polar
 from reportgen.drawing.labels import Request, joined, label
 from reportgen.drawing.spots import distances
-from reportgen.drawing.springs import springs
 from reportgen.formula import Symbol, vocabulary
 from reportgen.machine import DRIVER, GROUND, Crank, Dyad, Guide, Linkage
 from reportgen.machine.coils import Coil

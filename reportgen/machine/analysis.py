@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property, partial
 from string import ascii_lowercase
-from typing import Any
+from typing import Any, TypeVar, cast
 
 import numpy as np
 
@@ -14,24 +14,15 @@ from reportgen.formula import Chain, ids
 from reportgen.formula.sheet import Sheet
 from reportgen.machine import Crank, Linkage
 from reportgen.machine.coils import Coil
-from reportgen.machine.counterweights import Balancing
-from reportgen.machine.drives import MotionAsked
-from reportgen.machine.faces import Faces
-from reportgen.machine.forces import (
-    Forces,
-    Load,
-    inertia_loads,
-    reaction_name,
-    solve_forces,
-    virtual_work_torque,
-    weights,
-)
+from reportgen.machine.forces import Forces, Load, inertia_loads, solve_forces, virtual_work_torque, weights
 from reportgen.machine.gas import indicated_work, stroke_at
-from reportgen.machine.joint_friction import Friction, FrictionForces, solve_with_friction
 from reportgen.machine.laws import FULL_TURN, STEPS, Stroke
-from reportgen.machine.loads import Applied, Piston, Torque, carriers
-from reportgen.machine.motion import Motion, cross, solve_motion
+from reportgen.machine.loads import Applied, Piston, Torque
+from reportgen.machine.motion import Motion, solve_motion
 from reportgen.machine.quadrature import mean_over
+
+Derived = TypeVar("Derived")
+Subject = TypeVar("Subject")
 
 
 @dataclass(frozen=True)
@@ -61,28 +52,19 @@ class Analysis:
     """Balancing torque by equilibrium of the driver (N·m, anticlockwise positive)."""
     torque_by_work: np.ndarray
     """The same by virtual work; shares no code with `torque`."""
+    _derived: dict[Callable[[Analysis], object], object] = field(
+        default_factory=dict, init=False, repr=False, compare=False
+    )
 
     @property
     def loads(self) -> tuple[Load, ...]:
         return (*self.inertia, *self.applied, *self.weights)
 
-    def at_ends(self, link: int) -> tuple[str, np.ndarray, np.ndarray, np.ndarray]:
-        """Of a slider with faces: the name of its reaction, whether it tilts [N], N₁ and N₂ (N) [N] where it does."""
-        faces, carrier = self.machine.faces[link], carriers(self.machine.linkage)[link]
-        name = reaction_name(carrier, link)
-        reaction = self.forces.reactions[name]
-        normal = cross(self.motion.slides[carrier, link].direction, reaction.force)
-        tilts = faces.tilts(normal, reaction.moment)
-        first, last = faces.ends(normal, reaction.moment)
-        return name, tilts, np.where(tilts, first, np.nan), np.where(tilts, last, np.nan)
-
-    @cached_property
-    def with_friction(self) -> FrictionForces | None:
-        """Reactions and torque with the friction of the joints, None where nothing rubs."""
-        friction = self.machine.friction
-        if friction is None:
-            return None
-        return solve_with_friction(friction, self.machine.linkage, self.motion, self.loads, self.forces)
+    def derived(self, compute: Callable[[Analysis], Derived]) -> Derived:
+        """Return what a function computes of this analysis; it is computed once."""
+        if compute not in self._derived:
+            self._derived[compute] = compute(self)
+        return cast(Derived, self._derived[compute])
 
     @cached_property
     def summary(self) -> Summary:
@@ -307,12 +289,12 @@ class Machine:
     """Pairs of a plan's quantity and its closed formula, compared in the report."""
     equations: Mapping[str, tuple[Chain, ...]] = field(default_factory=dict)
     """Equations by name that the words of its analytic method show."""
-    unevenness: float | None = None
-    """δ of the speed that a flywheel is to keep to, if the report has its chapter."""
-    balancing: Balancing | None = None
-    """What the report says of balancing, if it has its chapter."""
-    true_motion: MotionAsked | None = None
-    """What is asked of its motion under a drive, if the report has that chapter."""
+    topics: Mapping[str, object] = field(default_factory=dict)
+    """The subjects of its topics, by the names of the topics."""
+    beside: tuple[str, ...] = ()
+    """The names of the loads that topics bring."""
+    results: dict[str, object] = field(default_factory=dict, init=False, repr=False, compare=False)
+    """The results of topics that others have asked for; they are computed once."""
     places: tuple[float, ...] = ()
     """Cycle angles of the positions of one turn; empty: evenly spaced from 0."""
     labels: tuple[str, ...] = ()
@@ -321,16 +303,18 @@ class Machine:
     """The way (m) of a sliding driver over the cycle, which then stands for one turn; 0 for a crank."""
     acceleration: float = 0.0
     """ε₁ (rad/s²) of a crank, or the acceleration (m/s²) of a slide, positive in the sense of its speed."""
-    faces: Mapping[int, Faces] = field(default_factory=dict)
-    """How wide sliders are, by their links."""
-    friction: Friction | None = None
-    """What joints rub."""
     instants: bool = False
     """Whether its positions, the `places`, are single instants, so that nothing is said of the way between them."""
     essential: tuple[str, ...] = ()
     """Sections that the task of the kind asks for, so that a short report has them, too."""
     facts: Mapping[str, Any] = field(default_factory=dict)
     """What the kind's own words may name beside quantities."""
+
+    def topic(self, name: str, of: type[Subject]) -> Subject | None:
+        """Return the subject of a topic, None if the machine does not have the topic."""
+        subject = self.topics.get(name)
+        assert subject is None or isinstance(subject, of), f"the subject of {name} is not a {of.__name__}"
+        return subject
 
     @property
     def loads(self) -> tuple[Applied | Torque, ...]:

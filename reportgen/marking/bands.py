@@ -15,10 +15,11 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from reportgen.base.topics import topics
 from reportgen.formula import Call, Ref, ids, refs, vocabulary
 from reportgen.formula.ledger import Ledger
 from reportgen.formula.sheet import DUST, ZERO, Family
-from reportgen.marking.balancing import errors_of_positions
+from reportgen.marking.topic_marks import MARKS
 
 PAPER_ERROR = 0.5e-3
 """How far off a drawn point may lie (m on paper), at each end of a measured length."""
@@ -241,78 +242,22 @@ def _on_paper(ledger: Ledger, id: str) -> Family:
     return next((side for side in sides if side.of == vector.id or side.definition == measured), ledger[vector.id])
 
 
-# --- the flywheel as it is worked out on paper ----------------------------------------------------
+# --- integrals as they are worked out on paper -----------------------------------------------------
 # Integrals over the cycle by the trapezoid rule, from the positions alone.
 # The report integrates continuously. With some ten positions a student cannot, so the difference belongs to the
 # tolerance; where it is large, the quantity cannot be worked out from the positions and is not asked for.
 
-TRUE_MOTION = "run."
-OF_CURVE = frozenset({"max", "min", "mean", "delta"})
 LARGE = 0.1
 """The share of a quantity's largest value that the rule may miss it by."""
 
 
 def trapezoid_errors(ledger: Ledger) -> Mapping[str, np.ndarray]:
-    """How far excess work [N], flywheel [1] and regulated speed [N] by the rule lie from those of the ledger (SI).
-
-    And all that is found of the true motion, which the same rule integrates; counterweights by the positions alone.
-    """
-    return {**_of_flywheel(ledger), **_of_true_motion(ledger), **errors_of_positions(ledger)}
-
-
-def _of_true_motion(ledger: Ledger) -> Mapping[str, np.ndarray]:
-    """How far what stands on integrals of the true motion is from what the rule makes of the positions.
-
-    The bounds of the speed are those of its curve, wherever the positions lie.
-    """
-    rests = [id for id in ledger.families if (names := ids.rest.read(id)) and names["id"].startswith(TRUE_MOTION)]
-    if not rests:
-        return {}
-    following = [
-        id
-        for id, family in ledger.families.items()
-        if id.startswith(TRUE_MOTION) and not (family.residue or id.split(".")[1] in OF_CURVE)
-    ]
-    values = ledger.evaluate(dict.fromkeys(rests, 0.0))
-    errors = {id: np.abs(np.real(values[id]) - ledger[id].values.real) for id in following}
-    for id in following:
-        speed = id.replace(".Md", ".omega")
-        if ledger[id].definition is None and speed != id and speed in ledger:
-            # A torque is read off its characteristic at a speed that has so many figures.
-            read, at = ledger[id].values.real, ledger[speed].values.real
-            with np.errstate(all="ignore"):
-                slopes = np.abs(np.diff(read, append=read[:1]) / np.diff(at, append=at[:1]))
-            steepest = float(np.max(slopes, initial=0.0, where=np.isfinite(slopes)))
-            errors[id] = steepest * half_unit(at, DIGITS)
-    return {id: error for id, error in errors.items() if error.max() > 0}
-
-
-def _of_flywheel(ledger: Ledger) -> Mapping[str, np.ndarray]:
-    if "J.d" not in ledger:
-        return {}
-    torque = ledger["M.r"].values.real
-    angle = np.abs(np.unwrap(ledger["phi.1"].values.real))
-    angle = np.abs(angle - angle[0])
-    cycle = 2 * np.pi * np.ceil(angle[-1] / (2 * np.pi))
-    steps = np.diff(np.append(angle, cycle))
-    work = steps * (torque + np.roll(torque, -1)) / 2
-    balanced = np.concatenate(([0.0], np.cumsum(work - work.sum() * steps / cycle)[:-1]))
-    inertia = ledger["J.r"].values.real if "J.r" in ledger else np.zeros(len(torque))
-    most, least = (float(ledger[id].values[0].real) for id in ("omega.max", "omega.min"))
-    upper, lower = np.max(balanced - most**2 * inertia / 2), np.min(balanced - least**2 * inertia / 2)
-    rates = float(ledger["unevenness"].values[0].real) * float(ledger["omega.1"].values[0].real) ** 2
-    flywheel = (upper - lower) / rates
-    by_rule = {"A.excess": balanced, "J.d": np.array([flywheel])}
-    if "omega.of" in ledger:
-        energy = most**2 * flywheel / 2 - upper
-        by_rule["omega.of"] = np.sqrt(2 * (energy + balanced) / (flywheel + inertia))
-    return {id: np.abs(values - ledger[id].values.real) for id, values in by_rule.items()}
+    """Return how far values by the positions alone lie from those of the ledger (SI), by id, as topics find them."""
+    return {id: error for hooks in MARKS.among(topics()) for id, error in hooks.errors_of_positions(ledger).items()}
 
 
 def is_workable(ledger: Ledger, id: str, errors: Mapping[str, np.ndarray]) -> bool:
-    """Whether a quantity can be worked out from the positions alone; speed only where excess work can (errors SI)."""
-    id = "A.excess" if id == "omega.of" else id
-    if id.startswith(TRUE_MOTION) and id in errors and ledger[id].definition is not None:
-        # What stands on the work of all torques is found where that is.
-        id = f"{TRUE_MOTION}A{id[id.rindex('.') :]}" if id.count(".") > 1 else f"{TRUE_MOTION}A"
+    """Return True if a quantity can be found from the positions alone, where these make the `errors` (SI)."""
+    for hooks in MARKS.among(topics()):
+        id = hooks.stands_on(ledger, id)
     return id not in errors or bool(np.nanmax(errors[id]) <= LARGE * np.nanmax(np.abs(ledger[id].values)))

@@ -81,7 +81,6 @@ def general_mistakes(scheme: MarkingScheme) -> Iterator[Mistake]:
         if family.kind == "acceleration" and family.symbol.sup == "k":
             yield Mistake(NO_CORIOLIS, id, {id: _times(0)})
     yield from _of_an_accelerated_driver(scheme)
-    yield from _of_springs(scheme)
 
 
 def _of_an_accelerated_driver(scheme: MarkingScheme) -> Iterator[Mistake]:
@@ -94,15 +93,6 @@ def _of_an_accelerated_driver(scheme: MarkingScheme) -> Iterator[Mistake]:
     if (couple := ids.inertia_couple(DRIVER)) in scheme.ledger:
         both = (couple, ids.couple(ids.inertia_force(DRIVER)))
         yield Mistake("no-couple-of-driver", couple, {id: _times(0) for id in both})
-
-
-def _of_springs(scheme: MarkingScheme) -> Iterator[Mistake]:
-    """c·l for c(l − l₀)."""
-    for id, family in scheme.ledger.families.items():
-        if family.definition is None or family.kind != "force":
-            continue
-        for slack in (ref for ref in refs(family.definition) if ref in ids.spring_free):
-            yield Mistake("no-free-length", id, {id: _with(family.definition, {slack: lambda _: np.zeros(1)})})
 
 
 def _changes_of(scheme: MarkingScheme, family: Family, scales: Values) -> Iterator[tuple[str, Change]]:

@@ -217,7 +217,7 @@ class Form:
 
     def _must(self, where: Where, entry: FieldLine) -> bool:
         """Whether one of several keys that say the same has to stand there."""
-        checks = (check for check in self.kind.checks if isinstance(check, OneOf) and check.where == where)
+        checks = (check for check in self.kind.all_checks if isinstance(check, OneOf) and check.where == where)
         return any(entry.key in check.names and check.required for check in checks)
 
     def _grouped(self, where: Where, entries: Sequence[FieldLine | FieldGroup]) -> Iterator[FieldLine | FieldGroup]:

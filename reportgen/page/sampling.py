@@ -51,9 +51,9 @@ from reportgen.machine.analysis import Analysis, Machine, analyse, breaks, motio
 from reportgen.machine.forces import Load, as_single_force
 from reportgen.machine.laws import FULL_TURN
 from reportgen.machine.motion import Motion
-from reportgen.page import panes, shaking
-from reportgen.page.friction_layer import friction_items
-from reportgen.page.running import timed_runs, working_point
+from reportgen.page import panes
+from reportgen.page.topic_layers import LAYERS as TOPIC_LAYERS
+from reportgen.page.topic_layers import Box, LayerHooks
 from reportgen.report.curves import axis, curves_of_motion, over_a_turn, over_the_cycle, torque_chart
 from reportgen.report.figures import drawing_scale, looks
 from reportgen.report.plans import POLE, force_construction, motion_construction
@@ -71,7 +71,7 @@ ARROW = 34.0
 """The longest arrow of a force or a rate on the machine at most (mm)."""
 FAR = 2.5
 """A centre farther off than so many diagonals of the drawing is not drawn."""
-FORCES = ("loads", "inertia", "weights", "reactions", "friction")
+FORCES = ("loads", "inertia", "weights", "reactions")
 """The layers of forces, which have one scale."""
 LEVER, LONGER = 0.45, 0.2
 """The arrows of forces on the lever, and by how much one at the place of another is longer: shares of the lever."""
@@ -174,6 +174,7 @@ class Samples:
         machine = self.machine
         panes = tuple(self.panes())
         layers = {item.layer for item in panes[0].items}
+        of_topics = (layer for hooks in self._topics for layer in hooks.layers)
         places = self.knots[:-1] if machine.instants else machine.cycle_angles
         stands = machine.angles(machine.cycle_angles) if machine.instants else np.empty(0)
         return Animation(
@@ -188,8 +189,8 @@ class Samples:
             values=tuple(self.values()),
             units=self.report.ledger.units,
             errors=Errors(0.0, 1.0, 0.0) if machine.instants else self.errors(self.scale),
-            layers=tuple(layer for layer in LAYERS if layer in layers),
-            runs=timed_runs(self.report),
+            layers=tuple(layer for layer in (*LAYERS, *of_topics) if layer in layers),
+            runs=tuple(run for hooks in self._topics for run in hooks.runs(self.report)),
         )
 
     def turn(self, values: np.ndarray) -> Track:
@@ -217,7 +218,7 @@ class Samples:
         look = looks(report, scale)
         shown = self._sample(self.case.assignment.worked_positions[0]) % (self.knots.size - 1)
         items = linkage_items(linkage, motion, shown, scale, look)
-        low, high = self.chosen("box", lambda: shaking.with_room(report, motion, scale, extent(items)))
+        low, high = self.chosen("box", lambda: self._room(motion, scale, extent(items)))
         names = self.machine.paths or tuple(n for n in motion.points if n not in linkage.ground)
         items = ([] if self.machine.instants else path_items(linkage, motion, names, scale)) + items
         scales = [BarScale(1 / scale, "segment")]
@@ -227,9 +228,12 @@ class Samples:
             scales += [BarScale(per, kind, (layer,))] if arrows else []
         items += self._centres(scale, low, high)
         forces, per = self._forces(scale)
-        items += [*forces, *friction_items(self.report, self.analysis, scale, per, self.knots.size)]
-        scales += [BarScale(per, "force", FORCES)] if forces else []
-        shaken, bars = shaking.shown(report, motion, scale, ARROW, self.chosen)
+        items += forces
+        for hooks in self._topics:
+            items += hooks.with_forces(report, self.analysis, scale, per, self.knots.size)
+        layers = (*FORCES, *(layer for hooks in self._topics for layer in hooks.force_layers))
+        scales += [BarScale(per, "force", layers)] if forces else []
+        shown_by_topics = [hooks.shown(report, motion, scale, ARROW, self.chosen) for hooks in self._topics]
         spots = tuple(
             Spot(
                 name,
@@ -244,12 +248,22 @@ class Samples:
         return Pane(
             "machine",
             report.words["page"]["machine"],
-            items=(*items, *shaken),
+            items=(*items, *(item for of_topic, _ in shown_by_topics for item in of_topic)),
             low=low,
             high=high,
-            scales=(*scales, *bars),
+            scales=(*scales, *(bar for _, bars in shown_by_topics for bar in bars)),
             spots=spots,
         )
+
+    def _room(self, motion: Motion, scale: float, box: Box) -> Box:
+        """The corners of the drawing of the machine (mm), with room for what topics show."""
+        for hooks in self._topics:
+            box = hooks.room(self.report, motion, scale, box)
+        return box
+
+    @cached_property
+    def _topics(self) -> tuple[LayerHooks, ...]:
+        return tuple(TOPIC_LAYERS.among(self.machine.topics))
 
     @cached_property
     def _one_turn(self) -> Motion:
@@ -419,7 +433,8 @@ class Samples:
             title = axis(report, Symbol("p"), "pressure")
             tracks = tuple(Curve(symbol, Track(values)) for symbol, values in pressures)
             yield Chart(over_the_cycle(report, pressures, title, half=True), tracks)
-        yield from working_point(report)
+        for hooks in self._topics:
+            yield from hooks.charts(report)
 
     def values(self) -> Iterator[MomentValue]:
         """Positions, speeds and accelerations of points by their sizes, rotations, forces and what balances them."""
@@ -445,7 +460,8 @@ class Samples:
                 panes.scalar(self._force_symbol(name)), "force", np.abs(analysis.forces.reactions[name].force)
             )
         yield panes.value(self.report.balance_symbol(), ledger["M.eq"].kind, analysis.torque)
-        yield from (panes.value(*shown) for shown in shaking.values(self.report, motion))
+        for hooks in self._topics:
+            yield from (panes.value(*shown) for shown in hooks.values(self.report, motion))
 
     # --- what interpolation costs
 

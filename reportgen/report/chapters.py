@@ -12,7 +12,6 @@ from keyword import iskeyword
 import numpy as np
 
 from reportgen.base.errors import NotOfferedError
-from reportgen.base.units import significant_decimals
 from reportgen.base.words import word
 from reportgen.catalogue.given_loads import ByOrdinates
 from reportgen.document import (
@@ -33,17 +32,12 @@ from reportgen.formula import Expression, Number, Symbol, ids, size, vocabulary,
 from reportgen.formula.plain import python
 from reportgen.formula.vocabulary import Chapter, on_plan
 from reportgen.machine import DRIVER
-from reportgen.machine.analysis import motion_at
 from reportgen.machine.laws import FULL_TURN
 from reportgen.machine.loads import Applied
-from reportgen.machine.springs import SpringLaw, TorsionLaw
 from reportgen.report.comments import Peak, each_peak, reaction_ids, slider_rates, turning_rates
 from reportgen.report.guide_couples import guide_couples
 from reportgen.report.phrases import sign
 from reportgen.report.report import Report
-
-FIGURES = 5
-"""Significant figures of the work of a spring."""
 
 UNIFORM = Number(12.0)
 """What m l² of a uniform rod is divided by."""
@@ -104,44 +98,14 @@ def without_mass(report: Report) -> list[str]:
     return [str(link) for link in links if ids.mass(link) not in report.mass_lines]
 
 
-def spring_lines(report: Report) -> list[str]:
-    """The lengths of springs, or the angles that they are turned by, with their loads."""
-    return report.known(id for row in report.own["springs"] for id in (*row.lines, *row.loads))
-
-
-def spring_works(report: Report) -> Inlines:
-    """The works of the springs (J) over the way of a sliding driver, in the order of their numbers; of a crank none."""
-    machine = report.machine
-    if not machine.span:
-        return ()
-    ends = motion_at(machine, np.array([0.0, FULL_TURN]))
-    laws = {load.law.number: load.law for load in machine.loads if isinstance(load.law, SpringLaw | TorsionLaw)}
-    unit = report.ledger.printed_unit("J")
-    falls = (float(-np.diff(law.energy(ends))[0]) for _, law in sorted(laws.items()))
-    return listed(
-        Value(Number(float(f"{work:.{FIGURES}g}") + 0.0, max(significant_decimals(work, FIGURES), 0), unit))
-        for work in falls
-    )
-
-
-def linear_springs(report: Report) -> list[str]:
-    """Return the loads of springs between two points."""
-    return report.known(id for row in report.own["springs"] if not row.twists for id in row.loads)
-
-
-def torsion_springs(report: Report) -> list[str]:
-    """Return the loads of torsion springs."""
-    return report.known(id for row in report.own["springs"] if row.twists for id in row.loads)
-
-
-def spring_loads(report: Report) -> list[str]:
-    """The loads of springs."""
-    return report.known(id for row in report.own["springs"] for id in row.loads)
-
-
 def further_loads(report: Report) -> list[str]:
     """The loads that are declared beside those of the kind."""
     return report.known(row.id for row in report.own["declared"])
+
+
+def topic_loads(report: Report) -> list[str]:
+    """Return the loads that topics bring."""
+    return report.known(report.machine.beside)
 
 
 def uniform_rods(report: Report) -> list[str]:
@@ -188,36 +152,6 @@ def lever_couples(report: Report) -> list[str]:
 def inertia_parts(report: Report) -> list[str]:
     """The shares of the links in the reduced moment of inertia, and their sum."""
     return report.known([*(ids.reduced_inertia(link) for link in report.machine.linkage.links), "J.r"])
-
-
-def energy_bounds(report: Report) -> list[str]:
-    """Where the tangents of Wittenbauer's diagram meet its axis."""
-    return ["A.upper", "A.lower"]
-
-
-def tangent_lines(report: Report) -> list[str]:
-    """The scales of the energy–mass diagram and the inclinations of its tangents."""
-    return report.known(["mu.J", "mu.A", ids.tangent("max"), ids.tangent("min")])
-
-
-def constant_links(report: Report) -> list[str]:
-    """The moment of inertia of the links that belong to the flywheel's group in Mertsalov's method."""
-    return report.known(["J.0"])
-
-
-def constant_group(report: Report) -> list[str]:
-    """What Mertsalov's method comes to; nothing where it is not used."""
-    return report.known(["T.range", "J.I", "J.rest"])
-
-
-def stores(report: Report) -> str:
-    """What stores the excess work: the "links" with the flywheel, or the flywheel "alone"."""
-    return "links" if report.has_reduced_inertia else "alone"
-
-
-def speed_limits(report: Report) -> list[str]:
-    uneven = ["unevenness"] if "unevenness" in report.computed else []
-    return [*uneven, "omega.max", "omega.min"]
 
 
 # --- the page of results at the front of a report, and its list of symbols ------------------------

@@ -291,28 +291,6 @@ def balance_mean(report: Report) -> Inlines:
     return say(report, words[balance_course(report).mean], driven, motion=driven["motion_of"])
 
 
-@view()
-@dataclass(frozen=True, slots=True)
-class Range:
-    """The least and the greatest of a quantity over the cycle with their positions."""
-
-    least: Value
-    low: str
-    most: Value
-    high: str
-
-
-def work_range(report: Report) -> Range:
-    """Between which values the excess work of the flywheel's calculation goes."""
-    positions, values = report.all_positions, shown(report, "A.excess", report.all_positions)
-
-    def end(value: float) -> tuple[Value, str]:
-        there = [k for k, one in zip(positions, values, strict=True) if one == value]
-        return Value(report.ledger.number("A.excess", there[0])), labels(report, there)
-
-    return Range(*end(values.min()), *end(values.max()))
-
-
 # --- remarks
 
 

@@ -13,22 +13,16 @@ import numpy as np
 from reportgen.base.units import MM
 from reportgen.derivation.sides import scheme
 from reportgen.document.prose import subscripted
-from reportgen.drawing import Content, Diagram, PlottedCurve, Scene, charts
-from reportgen.drawing.diagram import Inclination
+from reportgen.drawing import Diagram, PlottedCurve, Scene, charts
 from reportgen.formula import Chain, Symbol, ids
 from reportgen.formula.vocabulary import KINDS
 from reportgen.machine import DRIVER, GROUND, Crank
-from reportgen.machine.flywheel import SAME_ANGLE, RegulatedCycle
+from reportgen.machine.cycle_torque import SAME_ANGLE
 from reportgen.machine.laws import FULL_TURN
 from reportgen.report.comments import sliders
 from reportgen.report.equations import heading_words
 from reportgen.report.figures import FigureScenes
 from reportgen.report.report import Report
-
-THINNED = 4
-"""Every fourth of the samples is enough for a curve of the flywheel."""
-ARCS = 16.0, 26.0
-"""Radii of the arcs of ψ_max and ψ_min, mm."""
 
 # --- axes
 
@@ -38,12 +32,12 @@ def axis(report: Report, shown: Symbol, kind: str) -> Chain:
     return Chain((shown,), report.ledger.printed_unit(KINDS[kind].unit))
 
 
-def _axis_of(report: Report, id: str) -> Chain:
+def axis_of(report: Report, id: str) -> Chain:
     """The axis of a quantity."""
     return axis(report, report.ledger.symbol(id), report.ledger[id].kind)
 
 
-def _driver_axis(report: Report, angle: str = "cycle_angle") -> Chain:
+def driver_axis(report: Report, angle: str = "cycle_angle") -> Chain:
     """The axis along which the driver moves: its angle, of a sliding driver its way."""
     words, slides = report.words["figure"], bool(report.machine.span)
     return Chain((Symbol("s"),), words["way"]) if slides else Chain((Symbol("φ"),), words[angle])
@@ -131,29 +125,15 @@ def over_a_turn(report: Report, curves: Sequence[Shown], title: Chain, half: boo
     slides = bool(report.machine.span)
     x, marks = _across(report)[:count], _marks(report)[: len(report.positions)]
     series = tuple(PlottedCurve(shown, x, values[:count], marks) for shown, values in curves)
-    diagram = Diagram(series, _driver_axis(report, "angle"), title, turn=not slides)
+    diagram = Diagram(series, driver_axis(report, "angle"), title, turn=not slides)
     return charts.plotted(diagram, half=half, area=report.area)
 
 
 def over_the_cycle(report: Report, curves: Sequence[Shown], title: Chain, half: bool = False) -> charts.Plotted:
     """Curves over the whole cycle, the numbered positions marked."""
     series = tuple(PlottedCurve(shown, _across(report), values, _marks(report)) for shown, values in curves)
-    diagram = Diagram(series, _driver_axis(report), title, turn=not report.machine.span)
+    diagram = Diagram(series, driver_axis(report), title, turn=not report.machine.span)
     return charts.plotted(diagram, half=half, area=report.area)
-
-
-def springs(report: Report) -> FigureScenes:
-    """The forces of springs over the cycle, those of torsion springs in a diagram of their own."""
-    by_kind: dict[str, list[Shown]] = {}
-    analysed = {load.name: load.law for load in report.loads}
-    cycle = report.dense_cycle
-    for row in report.own["springs"]:
-        # Both ends of a spring have one force.
-        name = row.loads[0]
-        values = analysed[name].value(cycle.cycle_angle, cycle.motion)
-        by_kind.setdefault(report.ledger[name].kind, []).append((report.ledger.symbol(name), values))
-    drawn = (over_the_cycle(report, shown, axis(report, shown[0][0], kind)).scene for kind, shown in by_kind.items())
-    return FigureScenes(tuple(drawn))
 
 
 # --- torque and forces over the cycle
@@ -171,8 +151,8 @@ def torque_chart(report: Report, half: bool = False) -> charts.Plotted:
     levels = ((ledger.number("M.mean").value, ledger.symbol("M.mean")),) if report.cyclic else ()
     driver = report.machine.linkage.driver
     sense = report.sense(1) if isinstance(driver, Crank) else headings(report, [cmath.exp(1j * driver.guide.angle)])[0]
-    title = _positive(report, _axis_of(report, "M.eq"), sense)
-    across = _driver_axis(report)
+    title = _positive(report, axis_of(report, "M.eq"), sense)
+    across = driver_axis(report)
     height = charts.HEIGHT if report.parts("high-curves") else charts.LOW
     diagram = Diagram((curve,), across, title, turn=not slides, levels=levels)
     return charts.plotted(diagram, half=half, height=height, area=report.area)
@@ -212,67 +192,3 @@ def polar(report: Report) -> FigureScenes:
         if all(scene.width <= charts.HALF_WIDTH for scene in scenes):
             return FigureScenes(scenes)
     return FigureScenes(tuple(draw() for draw in diagrams))
-
-
-# --- the flywheel
-
-
-def _wheel(report: Report) -> RegulatedCycle:
-    assert report.flywheel is not None
-    return report.flywheel
-
-
-def _over_cycle(
-    report: Report,
-    values: np.ndarray,
-    title: Content,
-    levels: tuple[tuple[float, Symbol], ...] = (),
-    half: bool = False,
-) -> Scene:
-    last = values.size - 1
-    kept = np.append(np.arange(0, last, THINNED), last)
-    curve = PlottedCurve("", np.degrees(_wheel(report).angle[kept]), values[kept])
-    return charts.chart(Diagram((curve,), _driver_axis(report), title, levels=levels), half=half, area=report.area)
-
-
-def flywheel_torque(report: Report) -> FigureScenes:
-    """M_r and the torque that balances its mean."""
-    wheel = _wheel(report)
-    level = (-wheel.constant, Symbol("−M", "c"))
-    return FigureScenes((_over_cycle(report, wheel.torque, _axis_of(report, "M.r"), (level,)),))
-
-
-def flywheel_work(report: Report) -> FigureScenes:
-    """J_r, if moving links have mass, and A over the cycle."""
-    wheel = _wheel(report)
-    drawings = [(wheel.inertia, "J.r")] if report.has_reduced_inertia else []
-    drawings.append((wheel.work, "A.excess"))
-    half = len(drawings) > 1
-    return FigureScenes(tuple(_over_cycle(report, values, _axis_of(report, id), half=half) for values, id in drawings))
-
-
-def wittenbauer(report: Report) -> FigureScenes:
-    """A over J_r from the axis J = 0 on, which the tangents of the two bounds of speed meet at a and b."""
-    wheel, ledger = _wheel(report), report.ledger
-    ends = np.array([0.0, wheel.inertia.max()])
-    bounds = (("max", "A.upper", wheel.upper, wheel.fastest), ("min", "A.lower", wheel.lower, wheel.slowest))
-    lines, angles = [], []
-    for radius, (name, height, at, speed) in zip(ARCS, bounds, strict=True):
-        shown, slope = ledger.symbol(ids.bound_of_speed(name)), speed**2 / 2
-        lines.append(PlottedCurve(shown, ends, at + slope * ends, (0,), (ledger.symbol(height),)))
-        angles.append(Inclination(ledger.symbol(ids.tangent(name)), 0.0, at, slope, radius))
-    curve = PlottedCurve(Symbol("A"), wheel.inertia, wheel.work, (wheel.high, wheel.low))
-    across, up = _axis_of(report, "J.r"), _axis_of(report, "A.excess")
-    scales = ledger.number("mu.J").value, ledger.number("mu.A").value
-    area = replace(report.area or charts.Area(mm=ledger.printed_unit("mm")), scales=scales)
-    diagram = Diagram((curve, *lines), across, up, turn=False, inclinations=tuple(angles))
-    return FigureScenes((charts.chart(diagram, area=area),))
-
-
-def flywheel_speed(report: Report) -> FigureScenes:
-    """How far the speed is from its mean, in percent, with the flywheel."""
-    wheel = _wheel(report)
-    mean = (wheel.fastest + wheel.slowest) / 2
-    return FigureScenes(
-        (_over_cycle(report, (wheel.speed / mean - 1) * 100, report.words["figure"]["speed_deviation"]),)
-    )

@@ -21,21 +21,19 @@ LEFT_OUT: Mapping[Extent, frozenset[str]] = {
             # constructions step by step, plans of the other positions, further curves
             *("velocity-stages", "acceleration-stages", "force-stages"),
             *("velocity-plates", "acceleration-plates", "force-plates", "coriolis-turn"),
-            *("polar", "flywheel-work", "flywheel-speed", "balancing/hodograph"),
-            *("motion-reduced", "motion-acceleration", "motion-diagrams", "motion-by-steps"),
-            *("motion-worked", "motion-wheel"),
+            "polar",
             # a second method, and the book that it is taken from
             *("formulas-velocity", "formulas-acceleration", "further-references"),
             # tables that the work goes on without, and what is said of them
             *("joints", "coordinates", "velocity-senses", "acceleration-senses", "inertia-positions"),
-            *("reactions", "mean-positions", "flywheel-table", "conclusion-reactions"),
+            *("reactions", "mean-positions", "conclusion-reactions"),
             # remarks
             *("comments/velocity", "comments/acceleration", "comments/loads", "comments/inertia"),
-            *("comments/reactions", "comments/torque", "comments/flywheel"),
+            *("comments/reactions", "comments/torque"),
             # in tables relative velocities and accelerations, and loads at other than worked positions
             *("relative", "loads-everywhere"),
             # positions as large as they are measured by, links and directions that another figure shows as well
-            *("true-size", "links-together", "mechanism-beside-forces", "high-curves", "friction-plans"),
+            *("true-size", "links-together", "mechanism-beside-forces", "high-curves"),
             # the usual size of type, pages of their own for the contents
             *("usual-type", "contents-page"),
         )
@@ -46,7 +44,7 @@ OF_A_TURN = frozenset(
     (
         # what is worked out for the other positions of a turn, curves over the turn
         *("velocity-plates", "acceleration-plates", "force-plates", "polar", "mean-positions"),
-        *("diagrams", "torque-curve", "spring-curves"),
+        *("diagrams", "torque-curve"),
         # how quantities go over the turn
         *("comments/velocity", "comments/acceleration", "comments/loads", "comments/inertia"),
         *("comments/reactions", "comments/torque"),

@@ -40,7 +40,7 @@ from reportgen.formula import Chain, Number, Symbol, ids, vocabulary
 from reportgen.formula.constructions import circle_circle
 from reportgen.machine import DRIVER, Crank
 from reportgen.machine.analysis import Machine, motion_at
-from reportgen.machine.flywheel import SAME_ANGLE
+from reportgen.machine.cycle_torque import SAME_ANGLE
 from reportgen.machine.laws import FULL_TURN
 from reportgen.machine.loads import Piston
 from reportgen.machine.motion import Motion, solve_motion

@@ -26,7 +26,7 @@ from reportgen.report.figures import HALF, FigureScenes, beside_one_another, dra
 from reportgen.report.groups import GroupView
 from reportgen.report.plans import force_plan, motion_plan
 from reportgen.report.report import Report
-from reportgen.report.wide_sliders import at_ends, face
+from reportgen.report.slider_faces import at_ends, face, faces_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,7 +58,7 @@ class _Bodies:
     def faces(self) -> Canvas:
         """The faces of the links that are sliders as wide as is given, each with what holds it at its pin."""
         items: list[Item] = []
-        for link in (link for link in self.links if link in self.report.machine.faces):
+        for link in (link for link in self.links if link in faces_of(self.report)):
             items += face(self.report, link, self.k, self.scale)
         return Canvas(tuple(items))
 

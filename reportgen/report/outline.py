@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from itertools import chain
+from operator import attrgetter
 from typing import Any
 
 from reportgen.base.shown import shown
@@ -33,12 +34,10 @@ from reportgen.document.layout import contents
 from reportgen.document.used_symbols import used_symbols
 from reportgen.machine.analysis import Position
 from reportgen.report import (
-    balancing,
     chapters,
     comments,
     curves,
     equations,
-    face_friction,
     figures,
     force_figures,
     guide_couples,
@@ -46,19 +45,17 @@ from reportgen.report import (
     percussion,
     phrases,
     plans,
-    running,
-    running_curves,
     tables,
-    wide_sliders,
+    topic_views,
 )
 from reportgen.report import chapters as overview
 from reportgen.report import figures as centres
-from reportgen.report import joint_friction as friction
 from reportgen.report import phrases as steps
 from reportgen.report.figures import PAPERS, FigureScenes, close
 from reportgen.report.groups import GroupView
 from reportgen.report.named_tables import table
 from reportgen.report.report import Report
+from reportgen.report.topic_views import DrawnFigure
 
 # --- names without parentheses ----------------------------------------------------------------------
 
@@ -99,7 +96,6 @@ PROPERTIES = (
     "accelerated",
     "all_zero",
     "cyclic",
-    "has_flywheel",
     "has_force",
     "has_forces",
     "has_own_load",
@@ -108,7 +104,6 @@ PROPERTIES = (
     "has_turning_links",
     "instants",
     "loads_crank",
-    "needs_flywheel",
     "synthesised",
     "speed_in_rpm",
     "weighed",
@@ -147,35 +142,22 @@ VALUES: Mapping[str, Callable[[Report], Any]] = {
     "scope_key": phrases.scope_key,
     "slide_reactions": phrases.slide_reactions,
     "slider_convention": phrases.slider_convention,
-    "stores": chapters.stores,
     "strokes_at_start": phrases.strokes_at_start,
     "study": phrases.study,
     "turning": phrases.turning,
     # what is set out together, by ids
-    "constant_group": chapters.constant_group,
-    "constant_links": chapters.constant_links,
     "coordinate_lengths": interpolations.coordinate_lengths,
     "crank_lines": chapters.crank_lines,
     "driver_joints": chapters.driver_joints,
     "driver_reactions": chapters.driver_reactions,
-    "energy_bounds": chapters.energy_bounds,
     "further_loads": chapters.further_loads,
-    "linear_springs": chapters.linear_springs,
-    "spring_lines": chapters.spring_lines,
-    "spring_works": chapters.spring_works,
-    "torsion_springs": chapters.torsion_springs,
-    "spring_loads": chapters.spring_loads,
+    "topic_loads": chapters.topic_loads,
     "guide_couples": guide_couples.guide_couples,
-    "wide_sliders": wide_sliders.wide_sliders,
-    **friction.VALUES,
     "gas_forces": chapters.gas_forces,
     "inertia_parts": chapters.inertia_parts,
     "lever_couples": chapters.lever_couples,
     "mean_lines": chapters.mean_lines,
-    "speed_limits": chapters.speed_limits,
     "tabled_forces": chapters.tabled_forces,
-    "tangent_lines": chapters.tangent_lines,
-    **balancing.VALUES,
     "uniform_rods": chapters.uniform_rods,
     "without_mass": chapters.without_mass,
     "work_lines": chapters.work_lines,
@@ -185,7 +167,6 @@ VALUES: Mapping[str, Callable[[Report], Any]] = {
     "has_moments_of_inertia": phrases.has_moments_of_inertia,
     "plan_in_text": figures.plan_in_text,
     "shares_pins": chapters.shares_pins,
-    **running.VALUES,
 }
 """What functions make of a report."""
 
@@ -225,15 +206,6 @@ FIGURES: Mapping[str, tuple[str, Callable[..., FigureScenes]]] = {
     "lever": ("fig.lever", force_figures.lever),
     "polar": ("fig.polar", curves.polar),
     "torque": ("fig.M", curves.torque),
-    "springs": ("fig.springs", curves.springs),
-    **friction.FIGURES,
-    # the flywheel
-    "flywheel-torque": ("fig.Mr", curves.flywheel_torque),
-    "flywheel-work": ("fig.Jr", curves.flywheel_work),
-    "flywheel-speed": ("fig.speed", curves.flywheel_speed),
-    "wittenbauer": ("fig.wittenbauer", curves.wittenbauer),
-    **balancing.FIGURES,
-    **running_curves.FIGURES,
 }
 """What the keys of a figure begin with, and who draws it; its caption stands in `words.yaml` under `captions`."""
 
@@ -245,7 +217,7 @@ def figure(report: Report, name: str, *arguments: Any, words: str = "") -> tuple
     A figure on plates is a block for each of them; the first has key and caption.  Raises `KeyError` for a
     name that nobody draws.
     """
-    key, draw = FIGURES[name]
+    key, draw = _drawn(report, name)
     at = ""
     if arguments and isinstance(arguments[0], str):
         key, caption, *shown = arguments
@@ -271,9 +243,14 @@ def figure(report: Report, name: str, *arguments: Any, words: str = "") -> tuple
     return Plate(first, drawn.paper, inlines, key, at=at), *further
 
 
+def _drawn(report: Report, name: str) -> DrawnFigure:
+    """Return the key of a figure, and the function that draws it.  Raises `KeyError` for a name that is not known."""
+    return FIGURES[name] if name in FIGURES else topic_views.merged(report, attrgetter("figures"))[name]
+
+
 def smaller(report: Report, name: str) -> Inlines:
     """What the text says of a figure by its name that is shown smaller than to the scales of the text."""
-    return phrases.shown_smaller(report, FIGURES[name][1](report).smaller, name)
+    return phrases.shown_smaller(report, _drawn(report, name)[1](report).smaller, name)
 
 
 def plates_last(blocks: Iterable[Block], said: Callable[[Plate], Paragraph]) -> Iterator[Block]:
@@ -343,13 +320,9 @@ FUNCTIONS: Mapping[str, Callable[..., Any]] = {
     "couple_sense": guide_couples.couple_sense,
     "counted": phrases.counted,
     "drawn_group": phrases.drawn_group,
-    "drives": friction.drives,
-    "solved_exactly": friction.solved_exactly,
-    "tilting_with_friction": face_friction.tilting,
-    "has_efficiency": friction.has_efficiency,
-    "face_state": wide_sliders.face_state,
     "first_turn": Report.first_turn,
     "parts": Report.parts,
+    "passages": topic_views.passages,
     "percussion_state": percussion.percussion_state,
     "force_list": equations.force_list,
     "group_kind": equations.group_kind,
@@ -382,19 +355,18 @@ FUNCTIONS: Mapping[str, Callable[..., Any]] = {
     "remarks": comments.remarks,
     "slider_rates": comments.slider_rates,
     "top_reactions": comments.top_reactions,
-    "work_range": comments.work_range,
-    **balancing.FUNCTIONS,
-    **running.FUNCTIONS,
 }
 """Functions of a report and of what a template puts between the parentheses."""
 
 
 def names(report: Report) -> dict[str, Any]:
-    """All that the templates of a report may name."""
+    """Return all that the templates of a report may name."""
+    values = {**VALUES, **topic_views.merged(report, attrgetter("values"))}
+    functions = {**FUNCTIONS, **topic_views.merged(report, attrgetter("functions"))}
     return {
         **{name: getattr(report, name) for name in PROPERTIES},
-        **{name: of(report) for name, of in VALUES.items()},
-        **{name: partial(called, report) for name, called in FUNCTIONS.items()},
+        **{name: of(report) for name, of in values.items()},
+        **{name: partial(called, report) for name, called in functions.items()},
     }
 
 

@@ -15,6 +15,7 @@ import numpy as np
 from reportgen.assignment import Assignment
 from reportgen.base.units import MM
 from reportgen.case import MachineAnalysis
+from reportgen.catalogue.topic_sections import sections_of
 from reportgen.derivation.loads import Polygon
 from reportgen.derivation.motion import links_in_plane_motion
 from reportgen.derivation.sides import scheme
@@ -24,7 +25,7 @@ from reportgen.formula import Symbol, ids, vocabulary
 from reportgen.formula.ledger import Ledger
 from reportgen.machine import GROUND, Crank, Mobility, mobility
 from reportgen.machine.analysis import Analysis, Machine, Position, analyse
-from reportgen.machine.flywheel import SAME_ANGLE, RegulatedCycle
+from reportgen.machine.cycle_torque import SAME_ANGLE
 from reportgen.machine.laws import FULL_TURN
 from reportgen.machine.loads import Applied, Piston, Torque
 from reportgen.report.extents import LEFT_OUT, OF_A_TURN, OPENING
@@ -77,10 +78,6 @@ class Report:
         """Every number as it is written down."""
         return self.case.printed
 
-    @property
-    def flywheel(self) -> RegulatedCycle | None:
-        return self.case.flywheel
-
     @cached_property
     def groups(self) -> tuple[GroupView, ...]:
         """The groups in the order of assembly."""
@@ -112,9 +109,18 @@ class Report:
 
     def parts(self, *names: str) -> list[str]:
         """Those of the sections or parts of sections that a report of this extent has, in order."""
-        left_out = LEFT_OUT[self.assignment.report.extent].difference(self.machine.essential)
-        left_out |= OF_A_TURN if self.instants else frozenset()
-        return [name for name in names if name not in left_out]
+        return [name for name in names if name not in self._left_out]
+
+    @cached_property
+    def _left_out(self) -> frozenset[str]:
+        """The sections and parts that a report of this extent goes without."""
+        topics = tuple(sections_of(self.machine.topics))
+        extent = self.assignment.report.extent
+        left_out = LEFT_OUT[extent]
+        if extent == "short":
+            left_out = left_out.union(*(section.not_in_short for section in topics))
+        left_out = left_out.difference(self.machine.essential)
+        return left_out.union(OF_A_TURN, *(section.of_a_turn for section in topics)) if self.instants else left_out
 
     @property
     def sections(self) -> list[str]:
@@ -273,9 +279,9 @@ class Report:
         declared = {
             id: words[what] + (subscripted(of) if what == "length" else of) for id, what, of in self.own["quantities"]
         }
-        heads = ("run.", "balance.")
-        further = {id: name for id, name in self.words["given_of_crank"].items() if id.startswith(heads)}
-        return {**declared, "unevenness": words["unevenness"], **further}
+        named = {id: name for id, name in words.items() if id in self.ledger and id not in declared}
+        of_topics = self.words["given_of_crank"].items()
+        return declared | named | {id: name for id, name in of_topics if id.partition(".")[0] in vocabulary.heads()}
 
     @property
     def mobility(self) -> Mobility:
@@ -320,11 +326,6 @@ class Report:
         return "omega.1" in self.computed
 
     @property
-    def has_flywheel(self) -> bool:
-        """Whether the assignment asks for a flywheel, and anything acts that it could even out."""
-        return "unevenness" in self.ledger and self.has_forces
-
-    @property
     def has_gas(self) -> bool:
         """Whether the pressure in any cylinder is other than that of the air outside."""
         return any(piston.name not in self.machine.idle for piston in self.pistons)
@@ -348,9 +349,8 @@ class Report:
 
     @property
     def further(self) -> frozenset[str]:
-        """The loads that the file gives beside those of its kind: declared ones, springs."""
-        declared, springs = self.own.get("declared", ()), self.own.get("springs", ())
-        return frozenset((*(row.id for row in declared), *(name for row in springs for name in row.loads)))
+        """The loads that the file gives beside those of its kind: declared ones, those of topics."""
+        return frozenset((*(row.id for row in self.own.get("declared", ())), *self.machine.beside))
 
     @property
     def has_own_load(self) -> bool:
@@ -376,11 +376,6 @@ class Report:
     def has_formulas(self) -> bool:
         """Whether closed formulas check the plans, and the report shows them."""
         return bool(self.machine.compared) and bool(self.parts("formulas-velocity"))
-
-    @property
-    def needs_flywheel(self) -> bool:
-        """Whether the links alone are too light to keep the speed even enough."""
-        return "omega.of" in self.ledger
 
     @cached_property
     def computed(self) -> frozenset[str]:

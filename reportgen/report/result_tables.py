@@ -9,17 +9,17 @@ import numpy as np
 
 from reportgen.base.units import MM
 from reportgen.derivation.sides import Side, image
-from reportgen.document import FIRST_COLUMN, TEXT_WIDTH, Column, InlineMath, Inlines, Paragraph, Table, Text
+from reportgen.document import FIRST_COLUMN, TEXT_WIDTH, Column, InlineMath, Inlines, Table, Text
 from reportgen.formula import Chain, Number, Power, Symbol, ids
 from reportgen.formula.sheet import ZERO
 from reportgen.formula.vocabulary import Chapter
 from reportgen.machine import Crank
-from reportgen.report import balancing, running
 from reportgen.report.comments import AT_REST
 from reportgen.report.groups import GroupView
 from reportgen.report.guide_couples import guide_couples
 from reportgen.report.report import Report
-from reportgen.report.tables import bare, list_table, side_by_side, tables
+from reportgen.report.tables import bare, list_table, side_by_side
+from reportgen.report.topic_views import VIEWS
 
 MOST_COORDINATES, MOST_WIDE = 10, 8
 """Columns of coordinates in one table; fewer where one of them is −100 mm or less."""
@@ -249,15 +249,6 @@ def balance(report: Report) -> list[str]:
     return ["M.eq", "M.vw", "M.difference", "M.share"]
 
 
-def flywheel(report: Report, key: str, caption: str, head: Sequence[str]) -> tuple[Table | Paragraph, ...]:
-    """Reduced torque and excess work; the reduced inertia if links have mass, the speed if there is a flywheel."""
-    words = report.words["tables"]["flywheel"]
-    inertia = words["inertia"] if report.has_reduced_inertia else ""
-    speed = words["speed"] if report.needs_flywheel else ""
-    columns = report.known(("M.r", "A.excess", "J.r", "omega.of"))
-    return tables(report, key, f"{caption}{inertia}{speed}", columns, report.all_positions)
-
-
 # --- checks
 
 
@@ -296,7 +287,9 @@ def residuals(report: Report) -> dict[str, float]:
         )
         if analysis.machine.cyclic:
             largest["energy"] = analysis.summary.energy_error
-    return largest | running.residuals(report) | balancing.residuals(report)
+    for hooks in VIEWS.among(analysis.machine.topics):
+        largest |= hooks.residuals(report)
+    return largest
 
 
 def _share(differences: Iterable[np.ndarray], values: Iterable[np.ndarray]) -> float:

@@ -7,8 +7,9 @@ in the namespace.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any
 
 from reportgen.catalogue.given_loads import ByOrdinates
 from reportgen.document import (
@@ -352,6 +353,41 @@ def lengths(report: Report, key: str, caption: str, head: Sequence[str]) -> tupl
     return side_by_side(
         report, key, caption, Column(TITLES, "left"), titles=titles, columns=columns, most=most, widest=22.0
     )
+
+
+# --- tables by the functions that give their contents
+
+
+@dataclass(frozen=True, slots=True)
+class QuantityTable:
+    """A table of the quantities whose ids a function gives, `at` the positions of that name in the report.
+
+    The words of a `group` of quantities, by the beginnings of their ids, follow the caption where it has a column.
+    """
+
+    ids: Callable[[Report], Sequence[str]]
+    at: str = "positions"
+    groups: Mapping[str, Collection[str]] = field(default_factory=dict)
+
+    def __call__(
+        self, report: Report, key: str, caption: str, head: Sequence[str], ids: Sequence[str] | None = None
+    ) -> tuple[Table | Paragraph, ...]:
+        quantities, positions = self.ids(report) if ids is None else ids, getattr(report, self.at)
+        shown = [id for id in quantities if not all(report.is_zero(id, k) for k in positions)]
+        words = report.words["tables"][key.removeprefix("tab.")]
+        further = [words[name] for name, of in self.groups.items() if any(id.startswith(tuple(of)) for id in shown)]
+        return tables(report, key, "".join((caption, *further)), quantities, positions)
+
+
+@dataclass(frozen=True, slots=True)
+class RowTable:
+    """A table of the rows that a function gives, in columns of these widths (mm)."""
+
+    rows: Callable[..., Iterable[Sequence[object]]]
+    widths: tuple[float, ...]
+
+    def __call__(self, report: Report, key: str, caption: str, head: Sequence[str], *shown: Any) -> Table:
+        return list_table(report, key, caption, head, self.rows(report, *shown), self.widths)
 
 
 # --- a declared linkage

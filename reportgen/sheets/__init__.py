@@ -14,9 +14,10 @@ from reportgen.base.words import as_error, word
 from reportgen.case import Case, CaseOfParts, MachineAnalysis
 from reportgen.drawing.plates import DrawingPlate
 from reportgen.drawing.sheet import DrawingSheet, PlacedScene, TooLargeError
+from reportgen.sheets.drawn import Sources
 from reportgen.sheets.frame import TitleBlock, blocks, fields_of, framed, numbered, read_block, room
 from reportgen.sheets.packing import Packing
-from reportgen.sheets.plates import Set, Sources, plates_of
+from reportgen.sheets.plates import plates_of, sets_of
 
 Plates = Mapping[str, Sequence[DrawingPlate]]
 """The plates of each set."""
@@ -61,9 +62,7 @@ def drawing_sheets(
 def plates_by_set(case: MachineAnalysis, sets: Collection[str] = (), every: bool = False) -> Plates:
     """The plates of some sets, all if none is named; without those of which there are none."""
     sources = Sources.of(case, every)
-    offered: tuple[Set, ...] = ("kinematics", *(("forces",) if sources.report.has_forces else ()))
-    offered += ("balancing",) if sources.report.case.balanced is not None else ()
-    return {name: list(plates_of(sources, name)) for name in offered if not sets or name in sets}
+    return {name: list(plates_of(sources, name)) for name in sets_of(sources) if not sets or name in sets}
 
 
 def on_sheets(

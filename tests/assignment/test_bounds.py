@@ -13,7 +13,8 @@ from reportgen.assignment.fields import Interval
 from reportgen.base.errors import Fault, Mark
 from reportgen.base.units import Language
 from reportgen.base.words import as_problem
-from reportgen.catalogue import given_loads, parameters
+from reportgen.catalogue import given_loads
+from reportgen.flywheel.topic import Unevenness
 
 DOCUMENT = Path(__file__).parents[2] / "docs" / "assignment.md"
 TYPES = {
@@ -37,7 +38,7 @@ TYPES = {
     "pressure": fields.Pressure,
     "ratio R/L": fields.RodRatio,
     "share": fields.Share,
-    "unevenness": parameters.Unevenness,
+    "unevenness": Unevenness,
 }
 
 

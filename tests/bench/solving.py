@@ -18,10 +18,11 @@ from typing import Any
 import numpy as np
 
 from reportgen import api, catalogue
+from reportgen.friction.joints import Friction
+from reportgen.friction.joints import with_friction as forces_with_friction
 from reportgen.machine import joints
 from reportgen.machine.analysis import Machine, analyse, motion_at
 from reportgen.machine.gas import StrokeIndicator
-from reportgen.machine.joint_friction import Friction
 
 from .closed_form import Cylinder, Engine, solve
 
@@ -77,8 +78,9 @@ def with_friction(path: Path, positions: int, rounds: int = ROUNDS) -> dict[str,
     angles = np.arange(positions, dtype=np.float64) * (2 * np.pi * bare.turns / positions)
     listed = joints(bare.linkage)
     circles = {joint.point: RADIUS for joint in listed if joint.kind == "R"}
-    rubbing = replace(bare, friction=Friction(circles, {joint.links[1]: 0.1 for joint in listed if joint.kind == "P"}))
-    tasks = {"without": lambda: analyse(bare, angles), "with": lambda: analyse(rubbing, angles).with_friction}
+    friction = Friction(circles, {joint.links[1]: 0.1 for joint in listed if joint.kind == "P"})
+    rubbing = replace(bare, topics={**bare.topics, "friction": friction})
+    tasks = {"without": lambda: analyse(bare, angles), "with": lambda: forces_with_friction(analyse(rubbing, angles))}
     return _medians(tasks, rounds)
 
 

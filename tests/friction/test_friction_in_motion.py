@@ -13,9 +13,9 @@ import pytest
 from reportgen import catalogue
 from reportgen.cases import MachineCase, open_case
 from reportgen.document import text_of
+from reportgen.flywheel.regulation import flywheel
 from reportgen.machine.analysis import Machine
-from reportgen.machine.flywheel import flywheel
-from reportgen.machine.true_motion import TrueMotion, true_motion
+from reportgen.motion.true_motion import TrueMotion, true_motion_of
 from tests.lanes import proof
 
 R, L, F = 0.1, 0.4, 500.0
@@ -42,9 +42,9 @@ def opened(f: float, small: float = 240.0) -> tuple[Machine, TrueMotion]:
     with TemporaryDirectory() as folder:
         assignment = catalogue.load(written(Path(folder), f, small))
     machine = catalogue.module(assignment.kind).machine(assignment)
-    assert machine.unevenness is not None
-    assert machine.true_motion is not None
-    return machine, true_motion(machine, machine.true_motion, flywheel(machine, machine.unevenness))
+    motion = true_motion_of(machine)
+    assert motion is not None
+    return machine, motion
 
 
 @pytest.mark.parametrize("f", [0.1, 0.6])

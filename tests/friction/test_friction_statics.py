@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from reportgen.exercise import friction_sheets
-from reportgen.exercise.friction_file import Parameters
+from reportgen.friction import exercise_sheets as friction_sheets
+from reportgen.friction.friction_file import Parameters
 
 SHEETS = {
     "incline": friction_sheets.incline_sheet,

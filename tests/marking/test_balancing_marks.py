@@ -7,10 +7,10 @@ from functools import cache
 import numpy as np
 import pytest
 
+from reportgen.balancing import balance_ids
 from reportgen.base.template_folders import search_path
 from reportgen.base.words import load_words
 from reportgen.cases import open_case, opened
-from reportgen.formula import balance_ids
 from reportgen.marking.marking import mark
 from reportgen.marking.marks import Verdict
 from reportgen.marking.mistakes import mistakes_in

@@ -7,6 +7,7 @@ import time
 import numpy as np
 import pytest
 
+from reportgen.motion.true_motion import motion_in
 from tests.lanes import proof
 from tests.page.browser import Browser
 from tests.page.made import Made, made
@@ -34,8 +35,7 @@ def driven() -> Made:
 
 def test_runs_are_those_of_the_solver(driven: Made) -> None:
     runs = {run.key: run for run in driven.animation.runs}
-    motion = driven.case.true_motion
-    assert motion is not None
+    motion = motion_in(driven.case.analysis)
     assert set(runs) == {"steady", "start", "stop"}
     assert runs["steady"].time[-1] == pytest.approx(motion.alone.period)
     assert runs["stop"].speed[-1] == 0

@@ -16,13 +16,14 @@ from reportgen.base.kinds import kinds
 from reportgen.cases import open_case
 from reportgen.derivation import write_ledger
 from reportgen.drawing import Polyline
+from reportgen.flywheel.regulation import flywheel, regulate, regulated_in
+from reportgen.flywheel.views import wittenbauer
 from reportgen.formula.sheet import Sheet
 from reportgen.machine.analysis import Machine, analyse, motion_at
-from reportgen.machine.flywheel import RegulatedCycle, flywheel, regulate
 from reportgen.machine.laws import FULL_TURN
 from reportgen.machine.quadrature import accumulated
 from reportgen.machine.reduction import reduced_inertia
-from reportgen.report.curves import wittenbauer
+from reportgen.machine.regulation import RegulatedCycle
 from reportgen.report.report import Report
 from tests.lanes import matrix
 
@@ -136,19 +137,19 @@ def test_a_constant_resistance_of_a_swinging_lever(tmp_path: Path) -> None:
     massless = "\n".join(line for line in text.splitlines() if not re.match(r"  (G2|G3|s3|J3):", line))
     file = tmp_path / "massless.yaml"
     file.write_text(massless, encoding="utf-8")
-    written = write_ledger(api.analyse(api.load(file)))
-    assert written.flywheel is not None
+    analysis = api.analyse(api.load(file))
+    written, regulated = write_ledger(analysis), regulated_in(analysis)
     theta, omega = math.asin(60 / 140), 150 * math.pi / 30
-    assert written.flywheel.constant == pytest.approx(24 * 4 * theta / (2 * math.pi), rel=1e-9)
+    assert regulated.constant == pytest.approx(24 * 4 * theta / (2 * math.pi), rel=1e-9)
     assert "J.r" not in written.ledger
     # Excess work by hand: M_c φ − 24·(the lever's way), φ from where the crank points away from the pivot.
     # The lever turns back at φ = 90° ∓ θ before and after; its way is 2θ on each side of the far end.
     phi = np.linspace(0, 2 * math.pi, 200001)
     lever = np.unwrap(np.angle(140j + 60 * np.exp(1j * (phi + math.pi / 2))))
     way = np.concatenate(([0.0], np.cumsum(np.abs(np.diff(lever)))))
-    excess = written.flywheel.constant * phi - 24 * way
+    excess = regulated.constant * phi - 24 * way
     expected = (excess.max() - excess.min()) / (omega**2 / 25)
-    assert written.flywheel.moment == pytest.approx(expected, rel=1e-6)
+    assert regulated.moment == pytest.approx(expected, rel=1e-6)
 
 
 def test_weights_alone_do_no_work(tmp_path: Path) -> None:
@@ -180,15 +181,14 @@ def with_unevenness(machine: Machine, delta: float) -> Machine:
         if family.id != "unevenness":
             sheet.enter(family)
     sheet.give("unevenness", delta, "δ", "ratio")
-    return replace(machine, unevenness=delta, sheet=sheet)
+    return replace(machine, topics={**machine.topics, "flywheel": delta}, sheet=sheet)
 
 
 def test_the_report_prints_what_was_found(machine: Machine) -> None:
     """The printed definitions of J_r and J_d, evaluated, are the arrays they stand for."""
     analysis = analyse(with_unevenness(machine, 1 / 50))
     written = write_ledger(analysis)
-    ledger, regulated = written.ledger, written.flywheel
-    assert regulated is not None
+    ledger, regulated = written.ledger, regulated_in(analysis)
     expected = reduced_inertia(analysis.machine, analysis.motion)
     if expected.any():
         assert ledger["J.r"].values == pytest.approx(expected, rel=1e-12)
@@ -250,4 +250,4 @@ def test_the_tangents_are_drawn_to_the_axis_at_their_inclinations(name: str) -> 
     # Both heights are printed with five figures.
     assert (upper[0] - lower[0]).imag * ledger.number("mu.A").value == pytest.approx(apart, rel=2e-4)
     reach = (upper[1] - upper[0]).real * ledger.number("mu.J").value
-    assert reach == pytest.approx(flywheel(case.analysis.machine, case.analysis.machine.unevenness).inertia.max())
+    assert reach == pytest.approx(regulated_in(case.analysis).inertia.max())

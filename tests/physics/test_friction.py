@@ -21,10 +21,10 @@ from lanes import proof
 from reportgen import api
 from reportgen.base.errors import AssignmentError
 from reportgen.document import text_of
+from reportgen.friction.joints import Friction, FrictionForces, relative_sense, solve_with_friction
 from reportgen.machine import Crank, Dyad, Guide, Linkage, joints
 from reportgen.machine.faces import Faces
 from reportgen.machine.forces import Load, inertia_loads, reaction_name, solve_forces, weights
-from reportgen.machine.joint_friction import Friction, FrictionForces, relative_sense, solve_with_friction
 from reportgen.machine.motion import Motion, cross, dot, solve_motion
 
 r, L, f = 0.1, 0.4, 0.12

@@ -8,15 +8,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from reportgen.balancing import balance_ids
+from reportgen.balancing.balance import seen_from_crank
+from reportgen.balancing.counterweights import crank_rods
+from reportgen.balancing.orders import BACKWARD, FORWARD, engine
+from reportgen.balancing.piston_orders import acceleration_factor
 from reportgen.cases import MachineCase, open_case
-from reportgen.formula import Ref, balance_ids
+from reportgen.formula import Ref
 from reportgen.formula.evaluation import evaluate
-from reportgen.formula.piston_orders import acceleration_factor
 from reportgen.machine import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
 from reportgen.machine.analysis import Machine
-from reportgen.machine.balance import seen_from_crank
-from reportgen.machine.counterweights import crank_rods
-from reportgen.machine.orders import BACKWARD, FORWARD, engine
 from tests.lanes import matrix
 from tests.physics.test_shaking import machine_of
 

@@ -14,21 +14,21 @@ from time_integration import integrate
 
 from reportgen import catalogue
 from reportgen.assignment.common import Positions
+from reportgen.flywheel.regulation import flywheel
 from reportgen.formula.sheet import Sheet
 from reportgen.machine import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
 from reportgen.machine.analysis import Machine, analyse, breaks
 from reportgen.machine.coils import Anchor
-from reportgen.machine.drives import ConstantDrive, Drive, Geared, KlossDrive, LinearDrive, Motor, TableDrive
-from reportgen.machine.energy import ReducedMachine
-from reportgen.machine.flywheel import flywheel
 from reportgen.machine.laws import FULL_TURN, AngleLaw, ConstantLaw, Law, Stroke, TableLaw, by_stroke, opposing
 from reportgen.machine.loads import Applied, Torque, course, crank_motion, fixed
-from reportgen.machine.motors import DriveDemand, judged
 from reportgen.machine.reduction import reduced
-from reportgen.machine.running import MotionRun, NoMotionError, mean_torque, steady
-from reportgen.machine.springs import SpringLaw
-from reportgen.machine.starting import start, stop
-from reportgen.machine.true_motion import at_positions, at_true_speeds
+from reportgen.motion.drives import ConstantDrive, Drive, Geared, KlossDrive, LinearDrive, Motor, TableDrive
+from reportgen.motion.energy import ReducedMachine
+from reportgen.motion.motors import DriveDemand, judged
+from reportgen.motion.running import MotionRun, NoMotionError, mean_torque, steady
+from reportgen.motion.starting import start, stop
+from reportgen.motion.true_motion import at_positions, at_true_speeds
+from reportgen.springs.laws import SpringLaw
 from tests.lanes import matrix, proof
 
 ASSIGNMENTS = Path(__file__).parents[2] / "assignments"

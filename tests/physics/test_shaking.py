@@ -10,13 +10,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from reportgen.cases import MachineCase, open_case
-from reportgen.formula import balance_ids
-from reportgen.formula.sheet import Sheet
-from reportgen.machine import GROUND, Crank, Dyad, Guide, Inertia, Linkage, LinkPoint, joints
-from reportgen.machine.analysis import Machine, analyse, motion_at
-from reportgen.machine.balance import (
+from reportgen.balancing import balance_ids
+from reportgen.balancing.balance import (
     CrankCurve,
+    balanced_in,
     balanced_turn,
     counterweight,
     frame_reactions,
@@ -25,7 +22,11 @@ from reportgen.machine.balance import (
     shaking_force,
     shaking_moment,
 )
-from reportgen.machine.counterweights import Balancing, Counterweight, Rule, balanced, crank_rods, force_balance
+from reportgen.balancing.counterweights import Balancing, Counterweight, Rule, balanced, crank_rods, force_balance
+from reportgen.cases import MachineCase, open_case
+from reportgen.formula.sheet import Sheet
+from reportgen.machine import GROUND, Crank, Dyad, Guide, Inertia, Linkage, LinkPoint, joints
+from reportgen.machine.analysis import Machine, analyse, motion_at
 from reportgen.machine.forces import inertia_loads, reaction_name, solve_forces
 from reportgen.machine.laws import FULL_TURN
 from reportgen.machine.motion import cross, solve_motion
@@ -35,7 +36,8 @@ ASSIGNMENTS = Path(__file__).parents[2] / "assignments"
 
 
 def machine_of(linkage: Linkage, speed: float, balancing: Balancing | None = None) -> Machine:
-    return Machine("linkage", linkage, 0.0, 1, speed, 12, 1, Sheet(), (), balancing=balancing)
+    topics = {} if balancing is None else {"balancing": balancing}
+    return Machine("linkage", linkage, 0.0, 1, speed, 12, 1, Sheet(), (), topics=topics)
 
 
 def slider_crank(r: float, l: float, e: float, share: complex, masses: tuple[float, float, float]) -> Linkage:  # noqa: E741
@@ -285,8 +287,7 @@ def test_the_ledger_says_the_same(case: MachineCase) -> None:
 
 def test_what_the_counterweights_change(case: MachineCase) -> None:
     """Force, R₀₁, M_cb and moment with them, against the whole analysis of the machine that has them as masses."""
-    turn = case.balanced
-    assert turn is not None
+    turn = balanced_in(case.analysis)
     after, ledger = analyse(turn.balanced), case.ledger
     expected = {
         balance_ids.AFTER_FORCE: np.abs(shaking_force(after.machine.linkage, after.motion)),
@@ -303,8 +304,7 @@ def test_what_the_counterweights_change(case: MachineCase) -> None:
 
 def test_products_of_the_rules(case: MachineCase) -> None:
     """U of each rule by the formulas of the report is that of the curve, and so is what it leaves."""
-    turn, ledger = case.balanced, case.ledger
-    assert turn is not None
+    turn, ledger = balanced_in(case.analysis), case.ledger
     speed = turn.machine.speed
     for rule, product in turn.products.items():
         parts = [

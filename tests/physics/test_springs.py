@@ -21,7 +21,7 @@ from reportgen.machine.coils import Anchor
 from reportgen.machine.forces import inertia_loads, solve_forces, weights
 from reportgen.machine.loads import Applied, Torque
 from reportgen.machine.motion import Motion, solve_motion
-from reportgen.machine.springs import SpringLaw, TorsionLaw
+from reportgen.springs.laws import SpringLaw, TorsionLaw
 from tests.lanes import proof
 
 TEXT = """

@@ -14,11 +14,11 @@ from time_integration import in_time, integrate
 
 from reportgen.machine import Inertia
 from reportgen.machine.analysis import Machine, breaks
-from reportgen.machine.drives import ConstantDrive, Drive, KlossDrive, LinearDrive, TableDrive
-from reportgen.machine.energy import ReducedMachine
 from reportgen.machine.laws import FULL_TURN, TableLaw, by_stroke
-from reportgen.machine.running import MotionRun, NoMotionError, levels, mean_torque, steady
-from reportgen.machine.starting import start, stop
+from reportgen.motion.drives import ConstantDrive, Drive, KlossDrive, LinearDrive, TableDrive
+from reportgen.motion.energy import ReducedMachine
+from reportgen.motion.running import MotionRun, NoMotionError, levels, mean_torque, steady
+from reportgen.motion.starting import start, stop
 from tests.lanes import matrix
 
 STRONG = LinearDrive(1000.0, 40.0)

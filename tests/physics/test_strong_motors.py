@@ -10,9 +10,10 @@ import numpy as np
 import pytest
 
 from reportgen import api
-from reportgen.machine.energy import ReducedMachine
-from reportgen.machine.running import steady
-from reportgen.machine.true_motion import at_positions
+from reportgen.motion.drives import MotionAsked
+from reportgen.motion.energy import ReducedMachine
+from reportgen.motion.running import steady
+from reportgen.motion.true_motion import at_positions
 
 SHAPER = (Path(__file__).parents[2] / "assignments" / "shaper-04.yaml").read_text(encoding="utf-8")
 RATIO, SLIP, SYNCHRONOUS = 1 / 16, 0.25, 1000 * math.pi / 30
@@ -37,7 +38,7 @@ def test_it_runs_near_its_synchronous_speed(tmp_path: Path) -> None:
     assert [one.code for one in api.check(file) if one.code.startswith("motion")] == []
     analysis = api.analyse(api.load(file))
     machine = analysis.machine
-    asked = machine.true_motion
+    asked = machine.topic("motion", MotionAsked)
     assert asked is not None
     assert asked.drive is not None
     own = [float(angle) for angle in machine.cycle_angles]

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 import reportgen
+from reportgen.faces.ends import at_ends
 from reportgen.machine.faces import Faces
 from reportgen.machine.forces import Load
 
@@ -62,7 +63,7 @@ def test_the_report_finds_them_from_the_plan() -> None:
     model = reportgen.open(TEXT)
     values = {id: family.values for id, family in model.case.ledger.families.items()}
     analysis = model.case.analysis
-    name, tilts, first, last = analysis.at_ends(3)
+    name, tilts, first, last = at_ends(analysis, 3)
     assert (name, tilts.any(), tilts.all()) == ("R03", True, False)
     for number, end in ((1, first), (2, last)):
         assert values[f"face.03.{number}"] == pytest.approx(end, nan_ok=True)

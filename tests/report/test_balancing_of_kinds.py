@@ -8,10 +8,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from reportgen.balancing import balance_ids
+from reportgen.balancing.balance import shaking_force
 from reportgen.cases import MachineCase, open_case
 from reportgen.document import Section
-from reportgen.formula import balance_ids
-from reportgen.machine.balance import shaking_force
 from tests.lanes import matrix
 
 ASSIGNMENTS = Path(__file__).parents[2] / "assignments"

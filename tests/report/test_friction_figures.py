@@ -14,9 +14,9 @@ from reportgen.cases import MachineCase, open_case
 from reportgen.document import text_of
 from reportgen.drawing import Circle, Label, Scene
 from reportgen.formula import Symbol
-from reportgen.machine.joint_friction import relative_sense
-from reportgen.report import joint_friction as friction
-from reportgen.report.face_friction import face_forces
+from reportgen.friction import views as friction
+from reportgen.friction.joints import relative_sense, with_friction
+from reportgen.friction.tilting import face_forces
 from reportgen.report.figures import drawing_scale
 from reportgen.report.report import Report
 from tests.lanes import matrix
@@ -92,8 +92,7 @@ def test_the_plans_with_friction_close(file: Path) -> None:
             assert abs(earlier.end - later.start) < RULER
         μ = float(report.ledger[f"mu.R{group.polygon.name}"].at(k))
         closing = moved[-1]
-        solved = report.analysis.with_friction
-        assert solved is not None
+        solved = with_friction(report.analysis)
         name = f"R{group.guide}"
         force = abs(
             complex(solved.forces.reactions[name].force[k - 1])

@@ -14,6 +14,7 @@ from jinja2 import Environment, meta, nodes
 from reportgen import api
 from reportgen.base.kinds import SAMPLE
 from reportgen.base.template_folders import search_path, templates
+from reportgen.base.topics import topics
 from reportgen.base.words import SECTION, load_words, sections
 from reportgen.cases import opened
 from reportgen.document import Block
@@ -21,22 +22,24 @@ from reportgen.document.prose import GLOBALS, Prose, _environment
 from reportgen.marking.key import key_of
 from reportgen.marking.paper import task_of
 from reportgen.report import named_tables, outline
+from reportgen.report.topic_views import VIEWS
 
 ROOT = templates()
 REPOSITORY = Path(__file__).parents[2]
 ASSIGNMENTS = REPOSITORY / "assignments"
 OTHERS = {
-    "plane-motion/01.yaml": {"plane-motion.md", "steps.md"},
-    "cam/roller-01.yaml": {"cam.md"},
-    "gears/pair-equal-sliding.yaml": {"gear-pair.md"},
-    "gears/train-motor.yaml": {"planetary-train.md"},
-    "friction/belt.yaml": {"friction.md"},
-    "rotor/rotor-two-planes.yaml": {"rotor.md"},
-    "engine-balance/v-six.yaml": {"engine-balance.md"},
+    "plane-motion/01.yaml": {"catalogue/plane-motion.md", "steps.md"},
+    "cam/roller-01.yaml": {"catalogue/cam.md"},
+    "gears/pair-equal-sliding.yaml": {"catalogue/gear-pair.md"},
+    "gears/train-motor.yaml": {"catalogue/planetary-train.md"},
+    "friction/belt.yaml": {"catalogue/friction.md"},
+    "rotor/rotor-two-planes.yaml": {"catalogue/rotor.md"},
+    "engine-balance/v-six.yaml": {"catalogue/engine-balance.md"},
 }
 """The files of words of each kind of work that is no machine, by one of its assignments."""
 Sections = Mapping[tuple[Path, str], nodes.Template]
-OF_REPORT = {*outline.PROPERTIES, *outline.VALUES, *outline.FUNCTIONS}
+OF_TOPICS = {name for hooks in VIEWS.among(topics()) for name in (*hooks.values, *hooks.functions)}
+OF_REPORT = {*outline.PROPERTIES, *outline.VALUES, *outline.FUNCTIONS, *OF_TOPICS}
 
 
 @cache
@@ -56,11 +59,16 @@ def parsed() -> Sections:
 
 
 def of_machines() -> Sections:
-    return {place: tree for place, tree in parsed().items() if place[0].name not in set().union(*OTHERS.values())}
+    return {place: tree for place, tree in parsed().items() if named(place[0]) not in set().union(*OTHERS.values())}
 
 
 def of_another(file: str) -> Sections:
-    return {place: tree for place, tree in parsed().items() if place[0].name in OTHERS[file]}
+    return {place: tree for place, tree in parsed().items() if named(place[0]) in OTHERS[file]}
+
+
+def named(path: Path) -> str:
+    """The place of a file in the folder of its language."""
+    return path.relative_to(path.parts[0]).as_posix()
 
 
 def used(trees: Sections) -> dict[str, tuple[Path, str]]:
@@ -108,7 +116,7 @@ def documented() -> set[str]:
 
 
 def test_every_name_that_a_template_uses_is_in_the_table() -> None:
-    known = handed("shaper-01.yaml") | bound(of_machines()) | set(GLOBALS)
+    known = handed("shaper-01.yaml") | OF_TOPICS | bound(of_machines()) | set(GLOBALS)
     assert {name: path for name, path in used(of_machines()).items() if name not in known} == {}
 
 
@@ -121,7 +129,8 @@ def test_every_name_that_is_explained_exists() -> None:
 
 
 def test_no_name_stands_in_two_tables() -> None:
-    own = [*outline.PROPERTIES, *outline.VALUES, *outline.FUNCTIONS, *GLOBALS]
+    of_topics = [name for hooks in VIEWS.among(topics()) for name in (*hooks.values, *hooks.functions)]
+    own = [*outline.PROPERTIES, *outline.VALUES, *outline.FUNCTIONS, *GLOBALS, *of_topics]
     assert len(own) == len(set(own))
 
 
@@ -138,6 +147,9 @@ def test_figures_and_tables_are_those_that_templates_name(kind: str) -> None:
     """A table of quantities by their ids has words of its own and no row."""
     named = set(called(kind))
     rows = set(outline.FIGURES if kind == "figure" else named_tables.TABLES)
+    rows.update(
+        name for hooks in VIEWS.among(topics()) for name in (hooks.figures if kind == "figure" else hooks.tables)
+    )
     assert rows - named == set()
     words = {name for path in search_paths() for name in load_words(path)["tables"]} if kind == "table" else set()
     assert named - rows <= words

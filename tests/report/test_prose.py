@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from reportgen.base.errors import TemplateError
 from reportgen.base.template_folders import search_path, templates
-from reportgen.base.words import home
+from reportgen.base.words import homes
 from reportgen.document import (
     BlankLine,
     Block,
@@ -292,7 +292,7 @@ def test_the_nearest_words_win(tmp_path: Path) -> None:
     """A school's section before the machine's, that before the common one; by the section's name."""
     path = search_path("vi", kind="engine", school="school", root=tmp_path)
     for place, names in zip(path, ("a", "ab", "abc"), strict=True):
-        file, _ = home("a", place)
+        file, _ = next(homes("a", place))
         file.parent.mkdir(parents=True, exist_ok=True)
         where = file.relative_to(tmp_path)
         file.write_text("\n".join(f"%% {name}\n{where}\n" for name in names), encoding="utf-8")
@@ -318,7 +318,7 @@ def test_words_that_come_nearer_are_seen(tmp_path: Path) -> None:
     """Also while the environment of the search path is kept."""
     path = search_path("vi", school="school", root=tmp_path)
     for place, word in ((path[1], "one"), (path[0], "two")):
-        file, _ = home("page", place)
+        file, _ = next(homes("page", place))
         file.parent.mkdir()
         file.write_text(f"%% page\n{word}\n", encoding="utf-8")
         assert Prose(path).render("page", {}) == (says(word),)

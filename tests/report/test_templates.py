@@ -14,7 +14,7 @@ from reportgen.base.words import SECTION, sections
 
 ROOT = templates()
 FILES = sorted(str(path.relative_to(ROOT)) for path in ROOT.rglob("*.md"))
-PARTS = {"balancing", "dyads", "comments", "steps"}
+PARTS = {"dyads", "comments", "steps"}
 """The files whose sections are asked for with the file's name before theirs."""
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from pathlib import Path
-from types import SimpleNamespace
 from unittest import mock
 
 import pytest
@@ -14,11 +13,11 @@ from reportgen.cases import MachineCase, open_case
 from reportgen.document import Table, Value, text_of
 from reportgen.drawing import Label
 from reportgen.formula import Number
-from reportgen.machine.true_motion import at_positions
-from reportgen.report import running
+from reportgen.motion import views as running
+from reportgen.motion.curves import stopping
+from reportgen.motion.true_motion import at_positions, motion_in
 from reportgen.report.report import Report
 from reportgen.report.result_tables import residuals
-from reportgen.report.running_curves import stopping
 from tests.lanes import proof
 from tests.report import built, trees
 from tests.report.calculator import misses
@@ -56,8 +55,7 @@ def test_what_stands_in_it(lines: list[str]) -> None:
 
 def test_the_ledger_has_the_values_of_the_solver() -> None:
     case = built.case(FILE, "en")
-    motion, machine = case.true_motion, case.analysis.machine
-    assert motion is not None
+    motion, machine = motion_in(case.analysis), case.analysis.machine
     for state, suffix in (("", ""), ("wheel", ".wheel")):
         steady = motion.states[state]
         at = at_positions(machine, steady)
@@ -129,7 +127,7 @@ def test_the_verdict_compares_what_is_printed(true: float, verdict: str) -> None
     report = Report(built.case(FILE, "en"))
     delta = Number(true, 6)
     with (
-        mock.patch.object(type(report), "machine", SimpleNamespace(unevenness=1 / 30)),
+        mock.patch.object(running, "_permitted", return_value=1 / 30),
         mock.patch.object(type(report.ledger), "number", return_value=delta),
     ):
         assert running.verdict(report) == verdict

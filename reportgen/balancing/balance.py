@@ -1,0 +1,380 @@
+"""What a machine's inertia does to its frame, and the counterweights that lessen it.
+
+The links at work shake the frame with the force F = −Σ m a_S and, about the crank's centre O, with the moment
+M = −Σ (r_S × m a_S + J ε).  Seen from a crank that turns evenly, F e^{−iφ}/ω² is a closed curve (kg·m), and a
+counterweight U = m_c r_c on the crank only shifts its origin: its centrifugal force is U ω² e^{iφ}.  So the least mean
+square is met by minus the mean of the curve, the least maximum by minus the centre of the smallest circle round it,
+whose touching points prove that nothing is better.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+from itertools import combinations
+
+import numpy as np
+
+from reportgen.balancing.counterweights import (
+    Balancing,
+    Counterweight,
+    Rule,
+    balanced,
+    force_balance,
+    reciprocating_part,
+    turning_part,
+)
+from reportgen.machine import DRIVER, GROUND, Crank, Linkage, joints
+from reportgen.machine.analysis import Analysis, Machine, analyse, motion_at
+from reportgen.machine.forces import inertia_loads, reaction_name, solve_forces
+from reportgen.machine.laws import FULL_TURN
+from reportgen.machine.motion import Complexes, Floats, Motion, cross, unit
+
+SAMPLES, MOST_SAMPLES = 1440, 46080
+"""Places of a turn, a quarter degree apart, of which the curve is made; twice and again as many of one with corners."""
+FADED = 1e-13
+"""The share of the greatest harmonic below which the last eighth of them shows that there are enough."""
+ROUNDING = 1e-15
+"""A harmonic below this share of the greatest is rounding."""
+ON_THE_CIRCLE = 1e-12
+"""How far outside a circle, as a share of its radius, a point may lie that counts as on it."""
+NEIGHBOURS = 1.5
+"""Places of the curve within so many steps belong to one point of touch."""
+REFINEMENTS = 40
+SETTLED = 1e-12
+"""A step (rad) below which a point of touch is found."""
+DIFFERENCE = 1e-6
+"""The step (rad) of a difference in place of a derivative: it only steers the search, its zero is exact."""
+
+
+# --- force and moment on the frame ------------------------------------------------------------------
+
+
+def shaking_force(linkage: Linkage, motion: Motion) -> Complexes:
+    """F = −Σ m a_S (N) [N], the force that the links' inertia exerts on the frame."""
+    total = np.zeros_like(motion.driver, dtype=np.complex128)
+    for body in linkage.inertias:
+        total -= body.mass * motion.points[body.centre].a
+    return total
+
+
+def shaking_moment(linkage: Linkage, motion: Motion) -> Floats:
+    """M = −Σ (r_S × m a_S + J ε) (N·m) [N] about the crank's centre, anticlockwise positive.
+
+    Raises `TypeError` for a driver that slides.
+    """
+    centre = motion.points[_crank(linkage).centre].p
+    total = np.zeros_like(motion.driver)
+    for body in linkage.inertias:
+        there = motion.points[body.centre]
+        total -= body.mass * cross(there.p - centre, there.a) + body.moment * motion.links[body.link].epsilon
+    return total
+
+
+def frame_reactions(linkage: Linkage, motion: Motion) -> Complexes:
+    """The sum of the forces (N) [N] on the frame in all its joints when nothing but inertia acts: F once more."""
+    reactions = solve_forces(linkage, motion, inertia_loads(linkage, motion)).reactions
+    on_frame = [joint.links[1] for joint in joints(linkage) if joint.links[0] == GROUND]
+    return sum(
+        (reactions[reaction_name(link, GROUND)].force for link in on_frame), np.zeros_like(motion.driver, complex)
+    )
+
+
+def _crank(linkage: Linkage) -> Crank:
+    if not isinstance(linkage.driver, Crank):
+        raise TypeError("a driver that slides has no centre")
+    return linkage.driver
+
+
+# --- the curve that the crank sees ------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class CrankCurve:
+    """The curve F e^{−iφ}/ω² (kg·m) over a turn as the sum of its harmonics, Σ c_k e^{ikθ}.
+
+    θ is the crank's way in its direction of rotation from position 1; `harmonics` c_k [N] stand in the order of the
+    discrete Fourier transform.
+    """
+
+    harmonics: Complexes
+
+    @property
+    def step(self) -> float:
+        """The way (rad) from one of the N even places of the curve to the next."""
+        return FULL_TURN / len(self.harmonics)
+
+    @cached_property
+    def places(self) -> Floats:
+        """The even places θ (rad) [N]."""
+        return np.asarray(np.arange(len(self.harmonics)) * self.step, dtype=np.float64)
+
+    @cached_property
+    def samples(self) -> Complexes:
+        """The curve at its even places [N]."""
+        return np.asarray(np.fft.ifft(self.harmonics) * len(self.harmonics))
+
+    @cached_property
+    def orders(self) -> Floats:
+        """The order k of each harmonic."""
+        return np.asarray(np.fft.fftfreq(len(self.harmonics), 1 / len(self.harmonics)), dtype=np.float64)
+
+    def at(self, angle: Floats | float, derivative: int = 0) -> Complexes:
+        """The curve, or a derivative by θ, at angles θ [N] (rad)."""
+        kept = self.harmonics != 0
+        orders = self.orders[kept]
+        waves = np.exp(1j * np.multiply.outer(np.asarray(angle), orders))
+        return np.asarray(waves @ (self.harmonics[kept] * (1j * orders) ** derivative))
+
+    @property
+    def mean(self) -> complex:
+        """The mean of the curve over the turn (kg·m)."""
+        return complex(self.harmonics[0])
+
+    def rms(self, counterweight: complex = 0j) -> float:
+        """The root of the mean square of |F|/ω² (kg·m) with a counterweight U on the crank (Parseval)."""
+        others = float(np.sum(np.abs(self.harmonics[1:]) ** 2))
+        return float(np.sqrt(others + abs(self.mean + counterweight) ** 2))
+
+    def farthest(self, centre: complex) -> tuple[float, Floats]:
+        """The greatest distance (kg·m) of the curve from a point, and all its places (rad) of greatest distance.
+
+        Those within a thousandth of the greatest distance are told, each refined.
+        """
+        away = np.abs(self.samples - centre)
+        peaks = (away >= np.roll(away, 1)) & (away >= np.roll(away, -1)) & (away >= away.max() * (1 - 1e-3))
+        angle = self.places[peaks]
+        if angle.size > len(away) // 4:
+            # A circle about this point is everywhere as far from it.
+            return float(away.max()), angle[:1]
+        low, high = angle - self.step, angle + self.step
+        for _ in range(REFINEMENTS):
+            arm, rate, rate2 = self.at(angle) - centre, self.at(angle, 1), self.at(angle, 2)
+            slope = np.real(np.conj(arm) * rate)
+            bend = np.real(np.conj(arm) * rate2) + np.abs(rate) ** 2
+            low, high = np.where(slope > 0, angle, low), np.where(slope < 0, angle, high)
+            newton = angle - slope / np.where(bend < 0, bend, 1.0)
+            inside = (bend < 0) & (newton > low) & (newton < high)
+            before, angle = angle, np.where(slope == 0, angle, np.where(inside, newton, (low + high) / 2))
+            if np.all(np.abs(angle - before) < SETTLED):
+                break
+        return float(np.abs(self.at(angle) - centre).max()), angle
+
+    def greatest(self, counterweight: complex = 0j) -> tuple[float, float]:
+        """The greatest |F|/ω² (kg·m) of the turn with a counterweight U on the crank, and its place θ (rad)."""
+        size, places = self.farthest(-counterweight)
+        first = places[int(np.abs(self.at(places) + counterweight).argmax())]
+        return size, float(np.mod(first, FULL_TURN))
+
+    @cached_property
+    def circle(self) -> SmallestCircle:
+        """The smallest circle round the curve."""
+        return smallest_round(self)
+
+
+def seen_from_crank(machine: Machine) -> CrankCurve:
+    """The curve F e^{−iφ}/ω² of a machine whose crank turns evenly, at so many places that its harmonics fade away."""
+    count = SAMPLES
+    while True:
+        motion = motion_at(machine, np.arange(count) * (FULL_TURN / count))
+        curve = shaking_force(machine.linkage, motion) * unit(-motion.driver) / machine.speed**2
+        harmonics = np.fft.fft(curve) / count
+        sizes = np.abs(harmonics)
+        last = sizes[count // 2 - count // 16 : count // 2 + count // 16]
+        if count >= MOST_SAMPLES or last.max() <= FADED * sizes.max():
+            return CrankCurve(np.where(sizes > ROUNDING * sizes.max(), harmonics, 0j))
+        count *= 2
+
+
+# --- the smallest circle ----------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class SmallestCircle:
+    """The smallest circle round a curve: centre and radius (kg·m), the two or three places θ (rad) where it touches."""
+
+    centre: complex
+    radius: float
+    touching: tuple[float, ...]
+
+
+def round_points(points: Complexes) -> tuple[complex, float, tuple[int, ...]]:
+    """Centre and radius of the smallest circle round points [N], and the two or three points that it is given by.
+
+    The farthest point outside enters the circle again and again; each time the circle grows, so it comes to an end.
+    """
+    support: tuple[int, ...] = (0,)
+    centre, radius = complex(points[0]), 0.0
+    spread = float(np.abs(points - points[0]).max())
+    while True:
+        away = np.abs(points - centre)
+        farthest = int(away.argmax())
+        if away[farthest] <= radius * (1 + ON_THE_CIRCLE) + ROUNDING * spread:
+            return centre, radius, support
+        entered = (*support, farthest)
+        grown = _round_few(points[list(entered)])
+        if grown[1] <= radius:
+            return centre, radius, support
+        centre, radius = grown[:2]
+        support = tuple(entered[place] for place in grown[2])
+
+
+def _round_few(points: Complexes) -> tuple[complex, float, tuple[int, ...]]:
+    """The smallest circle round up to four points, by all pairs and all triples of them."""
+    best: tuple[complex, float, tuple[int, ...]] = (0j, np.inf, ())
+    for few in (*combinations(range(len(points)), 2), *combinations(range(len(points)), 3)):
+        centre = through(points[list(few)])
+        radius = float(np.abs(points[list(few)] - centre).max())
+        if radius < best[1] and np.abs(points - centre).max() <= radius * (1 + ON_THE_CIRCLE):
+            best = centre, radius, few
+    return best
+
+
+def through(points: Complexes) -> complex:
+    """The centre of the circle on two points as a diameter, or through three; nan where the three lie in a line."""
+    if len(points) == 2:
+        return complex(points.mean())
+    first, second = points[1] - points[0], points[2] - points[0]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        arm = (abs(first) ** 2 * second - abs(second) ** 2 * first) / (2j * cross(first, second))
+    return complex(points[0] + arm)
+
+
+def smallest_round(curve: CrankCurve) -> SmallestCircle:
+    """The smallest circle round a whole curve: that of its samples, with the points of touch refined.
+
+    Where the curve leaves the circle between the samples, the places where it is farthest are taken among them.
+    """
+    points, angles = curve.samples, curve.places
+    for _ in range(REFINEMENTS):
+        centre, radius, support = round_points(points)
+        touching = _refined(curve, _merged(angles[list(support)], NEIGHBOURS * curve.step))
+        if len(touching) > 1:
+            met = curve.at(touching)
+            finer = through(met)
+            if abs(finer - centre) <= curve.step * radius:
+                centre, radius = finer, float(np.abs(met - finer).max())
+            else:
+                touching = angles[list(support)]
+        greatest, places = curve.farthest(centre)
+        if greatest <= radius * (1 + ON_THE_CIRCLE) + ROUNDING * abs(centre):
+            break
+        points, angles = np.append(points, curve.at(places)), np.append(angles, places)
+    return SmallestCircle(centre, radius, tuple(float(angle) for angle in np.sort(np.mod(touching, FULL_TURN))))
+
+
+def _merged(touching: Floats, near: float) -> Floats:
+    """Places θ (rad), those on both sides of one point of touch, which are `near` each other (rad), taken as one."""
+    kept: list[float] = []
+    for angle in np.sort(np.mod(touching, FULL_TURN)):
+        if kept and angle - kept[-1] < near:
+            kept[-1] = (kept[-1] + angle) / 2
+        else:
+            kept.append(float(angle))
+    if len(kept) > 1 and kept[0] + FULL_TURN - kept[-1] < near:
+        last = kept.pop()
+        kept[0] = (kept[0] + last - FULL_TURN) / 2
+    return np.array(kept)
+
+
+def _refined(curve: CrankCurve, touching: Floats) -> Floats:
+    """Places θ (rad) near these at which the circle on the curve's points there touches the curve.
+
+    Touching means (c − z) ⊥ c′ at each; Newton's method, with differences for its derivatives.
+    """
+
+    def slopes(angle: Floats) -> Floats:
+        points = curve.at(angle)
+        return np.real(np.conj(points - through(points)) * curve.at(angle, 1))
+
+    if len(touching) < 2:
+        return touching
+    angle, steps = touching, np.eye(len(touching)) * DIFFERENCE
+    for _ in range(REFINEMENTS):
+        rates = np.array([slopes(angle + step) - slopes(angle - step) for step in steps]).T / (2 * DIFFERENCE)
+        if not np.isfinite(rates).all():
+            return touching
+        # A curve that is itself a circle touches everywhere: the least step will do.
+        step = -np.linalg.lstsq(rates, slopes(angle), rcond=1e-9)[0]
+        angle = angle + np.clip(step, -curve.step, curve.step)
+        if np.all(np.abs(step) < SETTLED):
+            break
+    return angle
+
+
+# --- a turn with what balances it -------------------------------------------------------------------
+
+NOTHING = 1e-9
+"""A counterweight below this share of all masses at the crank's pin is none."""
+FINE = 720
+"""Places of a cycle's turn at which torques and moments with and without counterweights are compared."""
+
+
+@dataclass(frozen=True)
+class BalancedTurn:
+    """The curve that the crank sees, U (kg·m) by each rule asked for, and the counterweights that are carried out.
+
+    These are that of the first rule, or those of the whole balance of a four-bar; none where they come to nothing.
+    """
+
+    machine: Machine
+    curve: CrankCurve
+    products: Mapping[Rule, complex]
+    weights: tuple[Counterweight, ...]
+
+    @cached_property
+    def balanced(self) -> Machine:
+        """The machine with its counterweights."""
+        return replace(self.machine, linkage=balanced(self.machine.linkage, self.weights))
+
+    @cached_property
+    def cycles(self) -> tuple[Analysis, Analysis]:
+        """The whole analysis over the cycle, finely, without and with the counterweights."""
+        angles = np.arange(FINE * self.machine.turns) * (FULL_TURN / FINE)
+        return analyse(self.machine, angles), analyse(self.balanced, angles)
+
+    @cached_property
+    def left(self) -> float:
+        """The greatest force on the frame (N) that the counterweights leave at those places."""
+        after = self.cycles[1]
+        return float(np.abs(shaking_force(after.machine.linkage, after.motion)).max())
+
+
+def counterweight(machine: Machine, curve: CrankCurve, rule: Rule, share: float) -> complex:
+    """U (kg·m) of the counterweight on the crank by a rule, in the crank's frame."""
+    match rule:
+        case "rms":
+            return -curve.mean
+        case "max":
+            return -curve.circle.centre
+        case "rotating":
+            return -turning_part(machine.linkage)
+        case "share":
+            return -(turning_part(machine.linkage) + share * reciprocating_part(machine.linkage))
+
+
+def balanced_turn(machine: Machine) -> BalancedTurn:
+    """The balancing that a machine's report asks for; the machine's crank turns evenly."""
+    asked, curve = machine.topic("balancing", Balancing) or Balancing(), seen_from_crank(machine)
+    products = {rule: counterweight(machine, curve, rule, asked.share) for rule in asked.rules}
+    carried_out = force_balance(machine.linkage) if asked.links else {}
+    if products:
+        carried_out = {DRIVER: products[asked.rules[0]]}
+    # What counts as one: all masses at the crank's pin.
+    whole = _crank(machine.linkage).length * sum(body.mass for body in machine.linkage.inertias)
+    weights = (
+        Counterweight(link, product, asked.radius)
+        for link, product in carried_out.items()
+        if abs(product) > NOTHING * whole
+    )
+    return BalancedTurn(machine, curve, products, tuple(weights))
+
+
+def balanced_in(analysis: Analysis) -> BalancedTurn:
+    """Return the balancing of a machine whose file asks for it; it is computed once."""
+    return analysis.derived(_balanced)
+
+
+def _balanced(analysis: Analysis) -> BalancedTurn:
+    return balanced_turn(analysis.machine)

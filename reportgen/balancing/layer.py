@@ -1,0 +1,98 @@
+"""The force on the frame on a page: an arrow at the crank's centre with its trace, without and with counterweights."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import numpy as np
+
+from reportgen.balancing import balance_ids
+from reportgen.balancing.balance import BalancedTurn, balanced_in, shaking_force, shaking_moment
+from reportgen.balancing.counterweights import Counterweight
+from reportgen.drawing import Circle, Pen, Polyline, style
+from reportgen.drawing.animation import BarScale, MovingBody, MovingItem, MovingVector, Still, Track
+from reportgen.formula import Symbol, vocabulary
+from reportgen.machine.motion import Complexes, Floats, Motion, unit
+from reportgen.page.topic_layers import LayerHooks
+from reportgen.report.report import Report
+
+LAYERS = ("shaking", "balanced")
+"""Without counterweights and with them."""
+NOTHING = 1e-9
+"""A force below this share of what it was without counterweights is not drawn."""
+DISC = 2.4
+"""Radius of a counterweight as it is drawn (mm)."""
+
+
+def forces(turn: BalancedTurn, motion: Motion) -> list[tuple[str, str, Complexes]]:
+    """Layer, id and values (N) [N] of F without counterweights, and of F with the one on the crank."""
+    before = shaking_force(turn.machine.linkage, motion)
+    layers = [(LAYERS[0], balance_ids.FORCE, before)]
+    if turn.products and turn.weights:
+        (weight,) = turn.weights
+        after = before + weight.product * turn.machine.speed**2 * unit(motion.driver)
+        layers.append((LAYERS[1], balance_ids.AFTER_FORCE, after))
+    return layers
+
+
+def shown(
+    report: Report, motion: Motion, scale: float, longest: float, chosen: Callable[[str, Callable[[], Any]], Any]
+) -> tuple[list[MovingItem], list[BarScale]]:
+    """What shakes the frame, and its scale, on a drawing of `scale` mm to a metre; nothing where it is not asked for.
+
+    The greatest force is an arrow `longest` mm long, to a scale that is `chosen` once.
+    """
+    turn = balanced_in(report.analysis)
+    greatest = max(float(np.abs(force).max()) for *_, force in forces(turn, motion))
+    per = float(chosen("arrows of shaking", lambda: greatest / longest))
+    return list(_items(report, turn, motion, scale, per)), [BarScale(per, "force", LAYERS)]
+
+
+def _items(report: Report, turn: BalancedTurn, motion: Motion, scale: float, per: float) -> Iterator[MovingItem]:
+    """Arrows, traces and counterweights, `per` N to a millimetre."""
+    centre = motion.points[report.driver.centre].p * scale
+    arrows = forces(turn, motion)
+    greatest = float(np.abs(arrows[0][2]).max())
+    for layer, id, force in arrows:
+        if np.abs(force).max() <= NOTHING * greatest:
+            continue
+        end = centre + force / per
+        symbol = vocabulary.vector(report.ledger.symbol(id))
+        yield Still((Polyline(tuple(map(complex, end)), style.PATH),), layer)
+        yield MovingVector(Track(centre), Track(end), style.ACTIVE, label=symbol, name=id, layer=layer)
+    for weight in turn.weights:
+        at = Track(_place(weight, motion) * scale)
+        yield MovingBody((Circle(0j, DISC, Pen(0.35), style.TINT),), at, layer=LAYERS[1])
+
+
+def _place(weight: Counterweight, motion: Motion) -> Complexes:
+    """Where a counterweight is (m) [N]."""
+    return motion.origins[weight.link].p + weight.place * unit(motion.links[weight.link].angle)
+
+
+def with_room(report: Report, motion: Motion, scale: float, box: tuple[complex, complex]) -> tuple[complex, complex]:
+    """The corners of a drawing (mm) that holds the counterweights, too."""
+    turn = balanced_in(report.analysis)
+    places = [_place(weight, motion) * scale for weight in turn.weights]
+    if not places:
+        return box
+    low, high = box
+    x = np.concatenate([place.real for place in places])
+    y = np.concatenate([place.imag for place in places])
+    room = 2 * DISC
+    return (
+        complex(min(low.real, x.min() - room), min(low.imag, y.min() - room)),
+        complex(max(high.real, x.max() + room), max(high.imag, y.max() + room)),
+    )
+
+
+def values(report: Report, motion: Motion) -> Iterator[tuple[Symbol, str, Floats]]:
+    """The sizes of these forces and the moment on the frame: symbol, kind, values [N]; none if not asked for."""
+    turn, ledger = balanced_in(report.analysis), report.ledger
+    for _, id, force in forces(turn, motion):
+        yield ledger.symbol(id), "force", np.abs(force)
+    yield ledger.symbol(balance_ids.MOMENT), "torque", shaking_moment(turn.machine.linkage, motion)
+
+
+HOOKS = LayerHooks(layers=LAYERS, shown=shown, room=with_room, values=values)

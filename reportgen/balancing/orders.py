@@ -1,0 +1,89 @@
+"""The orders of an engine's inertia forces: those of one piston's acceleration, and how those of all pistons add up.
+
+A piston on a line through the crank's centre has a = −rω² Σ A_n cos nθ with A₁ = 1 and even orders further, θ the
+crank's angle from that line.  Cylinder j stands at the angle β_j and has its pin at ψ_j on the crank; its order n is a
+vector that turns forward with nφ, e^{i(β_j + n(ψ_j − β_j))}, and one that turns backward, e^{i(β_j − n(ψ_j − β_j))},
+each of half its size.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from reportgen.balancing.counterweights import CrankRod, crank_rods
+from reportgen.machine import GROUND, Crank, Guide, Linkage
+
+SAME = 1e-9
+"""Shares by which cylinders may differ that count as alike."""
+FORWARD, BACKWARD = 1, -1
+
+
+@dataclass(frozen=True, slots=True)
+class EngineCylinder:
+    """A cylinder in line with the crank's centre: its slider, its angle β and its pin's ψ on the crank (rad)."""
+
+    slider: int
+    bank: float
+    pin: float
+
+    def vector(self, order: int, sense: int) -> complex:
+        """Its vector of an order in the star that turns `FORWARD` or `BACKWARD`, at φ = 0, of the size 1."""
+        return complex(np.exp(1j * (self.bank + sense * order * (self.pin - self.bank))))
+
+
+@dataclass(frozen=True, slots=True)
+class Engine:
+    """Cylinders that are alike: crank r and rod l (m), the mass that goes to and fro in each (kg)."""
+
+    cylinders: tuple[EngineCylinder, ...]
+    crank: float
+    rod: float
+    mass: float
+    rods: tuple[CrankRod, ...]
+
+    @property
+    def in_line(self) -> bool:
+        """Whether all cylinders stand in one plane with the shaft."""
+        first = self.cylinders[0].bank
+        return all(abs(np.exp(1j * (each.bank - first)) - 1) < SAME for each in self.cylinders)
+
+    def star(self, order: int, sense: int) -> complex:
+        """The sum of the cylinders' vectors of an order."""
+        return sum(cylinder.vector(order, sense) for cylinder in self.cylinders)
+
+    def force(self, order: int) -> float:
+        """The greatest force of an order over m r ω² A_n: half of what both stars come to."""
+        return (abs(self.star(order, FORWARD)) + abs(self.star(order, BACKWARD))) / 2
+
+
+def engine(linkage: Linkage) -> Engine | None:
+    """The engine that a linkage is, None unless all its cylinders are alike and in line with the crank's centre."""
+    rods, cylinders, lengths = crank_rods(linkage), [], []
+    if not isinstance(linkage.driver, Crank):
+        return None
+    for rod, dyad in zip(rods, linkage.dyads, strict=False):
+        guide = dyad.end
+        assert isinstance(guide, Guide), "the rods of an engine end on guides"
+        offset = (guide.at - linkage.ground[linkage.driver.centre]) * np.exp(-1j * guide.angle)
+        if abs(offset.imag) > SAME * dyad.lengths[0]:
+            return None
+        bank = guide.angle if dyad.sign > 0 else guide.angle + np.pi
+        cylinders.append(EngineCylinder(rod.slider, float(bank), float(np.angle(rod.pin))))
+        lengths.append((abs(rod.pin), dyad.lengths[0], rod.reciprocating))
+    if not lengths or not _alike(lengths) or not lengths[0][2]:
+        return None
+    crank, length, mass = lengths[0]
+    return Engine(tuple(cylinders), float(crank), float(length), float(mass), rods)
+
+
+def _alike(lengths: Sequence[tuple[float, float, float]]) -> bool:
+    first = np.array(lengths[0])
+    return bool(all(np.all(np.abs(np.array(own) - first) <= SAME * np.abs(first)) for own in lengths))
+
+
+def on_sliders(linkage: Linkage) -> bool:
+    """Whether every group is a rod to a slider on the frame, as of an engine whose rods may hang on one another."""
+    return all(dyad.kind == "RRP" and isinstance(dyad.end, Guide) and dyad.end.link == GROUND for dyad in linkage.dyads)

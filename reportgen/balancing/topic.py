@@ -1,0 +1,128 @@
+"""Balancing as a file asks for it: what shakes the frame, a counterweight on the crank, a four-bar's whole balance."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Annotated
+
+from pydantic import Field
+
+from reportgen.assignment.common import Part
+from reportgen.assignment.fields import Length, Share
+from reportgen.balancing import balance_ids
+from reportgen.balancing.counterweights import Balancing, Rule, crank_rods, four_bar
+from reportgen.base.errors import Finding
+from reportgen.catalogue.declared_loads import Link, listed
+from reportgen.catalogue.topic_sections import Opening, TopicData, TopicParameters, TopicSection
+from reportgen.machine import DRIVER, Crank
+from reportgen.machine.analysis import Machine
+
+MOST_RULES = 4
+RODS = ("rotating", "share")
+"""Rules that tell what turns with the crank from what goes to and fro."""
+
+
+class CrankCounterweight(Part):
+    """A counterweight on the crank, some way from its centre, by the first of some rules; the others are compared."""
+
+    rules: Annotated[tuple[Rule, ...], Field(min_length=1, max_length=MOST_RULES)]
+    share: Share | None = None
+    radius: Length
+
+
+class BalancingTask(Part):
+    """The chapter on balancing, with a counterweight on the crank or with counterweights on the links of a four-bar."""
+
+    counterweight: CrankCounterweight | None = None
+    links: Annotated[tuple[Link, ...], Field(min_length=1, max_length=MOST_RULES)] | None = None
+    radius: Length | None = None
+
+    @property
+    def asked(self) -> Balancing:
+        """The same as the machine has it."""
+        if (weight := self.counterweight) is not None:
+            share = 0.0 if weight.share is None else weight.share.si
+            return Balancing(weight.rules, share, radius=weight.radius.si)
+        return Balancing(links=self.links or (), radius=0.0 if self.radius is None else self.radius.si)
+
+
+def enter(opening: Opening) -> TopicData:
+    """Enter the data of the counterweights."""
+    given, datum = opening.given.section("balancing", BalancingTask), opening.datum
+    assert given is not None, "the file asks for balancing"
+    weight = given.counterweight
+    radius = given.radius if weight is None else weight.radius
+    if radius is not None:
+        datum(balance_ids.RADIUS, radius, "", "")
+    if weight is not None and weight.share is not None:
+        datum(balance_ids.SHARE, weight.share, "", "")
+    return TopicData(given.asked)
+
+
+# --- faults -----------------------------------------------------------------------------------------
+
+
+def faults(parameters: TopicParameters, machine: Machine) -> Iterator[Finding]:
+    """There are masses to balance and a crank that turns evenly; what is asked for is said once, and can be had."""
+    given = parameters.section("balancing", BalancingTask)
+    if given is None:
+        return
+    where = ("parameters", "balancing")
+    linkage = machine.linkage
+    if not isinstance(linkage.driver, Crank):
+        yield Finding("balancing-of-slide", where, at="key")
+    elif not machine.cyclic:
+        yield Finding("balancing-without-turn", where, {"key": "at" if machine.instants else "epsilon1"}, at="key")
+    elif not any(body.mass and body.centre not in linkage.ground for body in linkage.inertias):
+        yield Finding("balancing-without-mass", where, at="key")
+    elif given.counterweight is not None:
+        for key in ("links", "radius"):
+            if getattr(given, key) is not None:
+                yield Finding("both-given", (*where, key), {"first": "counterweight", "second": key}, at="key")
+        yield from _of_rules(given.counterweight, machine)
+    else:
+        yield from _of_links(given, machine)
+
+
+def _of_rules(given: CrankCounterweight, machine: Machine) -> Iterator[Finding]:
+    """Each rule once; those of slider-cranks have their rods on the crank; a share is given where a rule takes it."""
+    where = ("parameters", "balancing", "counterweight")
+    offered = bool(crank_rods(machine.linkage))
+    for index, rule in enumerate(given.rules):
+        if rule in given.rules[:index]:
+            yield Finding("repeated", (*where, "rules", index), {"text": rule})
+        elif rule in RODS and not offered:
+            yield Finding("rule-of-slider-cranks", (*where, "rules", index), {"text": rule})
+    if "share" in given.rules and given.share is None:
+        yield Finding("missing-key", (*where, "share"), {"key": "share"})
+    if "share" not in given.rules and given.share is not None:
+        yield Finding("share-without-rule", (*where, "share"), at="key")
+
+
+def _of_links(given: BalancingTask, machine: Machine) -> Iterator[Finding]:
+    """Counterweights on crank and rocker of a four-bar, at a distance from their centres."""
+    where = ("parameters", "balancing")
+    if given.links is None:
+        if given.radius is not None:
+            yield Finding("missing-key", (*where, "links"), {"key": "counterweight | links"})
+        return
+    dyad = four_bar(machine.linkage)
+    if dyad is None:
+        yield Finding("balancing-of-four-bar", (*where, "links"), at="key")
+        return
+    wanted = (DRIVER, dyad.links[1])
+    if tuple(sorted(given.links)) != wanted:
+        about = {"text": listed(given.links), "known": listed(wanted)}
+        yield Finding("balancing-links", (*where, "links"), about, at="key")
+    if given.radius is None:
+        yield Finding("missing-key", (*where, "radius"), {"key": "radius"})
+
+
+HOOKS = TopicSection(
+    annotation=BalancingTask | None,
+    order=40,
+    chapter="balancing/chapter",
+    enter=enter,
+    faults=faults,
+    not_in_short=frozenset(("balancing/hodograph",)),
+)

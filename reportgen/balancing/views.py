@@ -1,0 +1,346 @@
+"""The chapter on balancing: the views that templates name, its lines, tables and figures."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from reportgen.balancing import balance_ids
+from reportgen.balancing import order_views as orders
+from reportgen.balancing.balance import BalancedTurn, balanced_in, frame_reactions, shaking_force
+from reportgen.balancing.counterweight_drawings import CounterweightDisc, with_discs
+from reportgen.balancing.ledger import AFTER, AXES, BEFORE, LETTERS
+from reportgen.balancing.order_views import factors_table
+from reportgen.base.shown import view
+from reportgen.document import Value
+from reportgen.drawing import Diagram, PlottedCurve, Scene, charts
+from reportgen.formula import Chain, Symbol, ids
+from reportgen.formula.vocabulary import KINDS
+from reportgen.machine import DRIVER
+from reportgen.machine.laws import FULL_TURN
+from reportgen.machine.motion import unit
+from reportgen.report.figures import FigureScenes, drawing_scale, looks, reduction, shown_at
+from reportgen.report.report import Report
+from reportgen.report.tables import QuantityTable, RowTable, bare
+from reportgen.report.topic_views import ViewHooks, always
+
+__all__ = ["FIGURES", "FUNCTIONS", "VALUES", "factors_table"]
+
+ROUND = 181
+"""Points of a circle that is drawn among curves."""
+
+
+def _turn(report: Report) -> BalancedTurn:
+    return balanced_in(report.analysis)
+
+
+# --- views and lines ----------------------------------------------------------------------------------
+
+
+@view("link", "parts", "lines")
+@dataclass(frozen=True, slots=True)
+class ShakenLink:
+    """A link whose inertia shakes the frame: the ids of its force's components, and of arms and moment."""
+
+    link: int
+    parts: list[str]
+    lines: list[str]
+
+
+@view("name", "lines", "masses")
+@dataclass(frozen=True, slots=True)
+class BalancingRule:
+    """A rule for the counterweight on the crank: the ids of what U follows from, of U itself and its angle.
+
+    `masses` are those of the rods at their pins, where the rule is the first that takes them.
+    """
+
+    name: str
+    masses: list[str]
+    lines: list[str]
+
+    def __str__(self) -> str:
+        return self.name
+
+
+def shaken(report: Report) -> tuple[ShakenLink, ...]:
+    """The links with a part in force or moment on the frame, in the order of the file."""
+    entered = []
+    for body in report.machine.linkage.inertias:
+        parts = report.known(balance_ids.force_of_link(body.link, axis) for axis in AXES)
+        arms = report.known(balance_ids.place(body.centre, axis) for axis in AXES)
+        moment = report.known([balance_ids.moment_of_link(body.link)])
+        if parts or moment:
+            entered.append(ShakenLink(body.link, parts, [*arms, *moment]))
+    return tuple(entered)
+
+
+def shaking_lines(report: Report) -> list[str]:
+    """F by its components, its direction, M."""
+    components = (balance_ids.component(axis) for axis in AXES)
+    return report.known([*components, balance_ids.FORCE, balance_ids.DIRECTION, balance_ids.MOMENT])
+
+
+def seen_lines(report: Report) -> list[str]:
+    """What the crank sees of F."""
+    return report.known(balance_ids.seen(axis) for axis in AXES)
+
+
+def balance_rules(report: Report) -> tuple[BalancingRule, ...]:
+    """The rules asked for, in their order, the first of them the one that is carried out."""
+    shown_before: set[str] = set()
+    rules = []
+    for rule in _turn(report).products:
+        masses = [id for id in report.ledger.families if id in balance_ids.point_mass] if rule in RODS else []
+        own = [id for id in masses if id not in shown_before]
+        shown_before.update(own)
+        before = {
+            "rms": [balance_ids.mean(axis) for axis in AXES],
+            "max": [id for id in report.ledger.families if id in balance_ids.touching],
+        }.get(rule, [])
+        lines = [
+            *before,
+            *(balance_ids.rule_component(rule, axis) for axis in AXES),
+            balance_ids.rule_product(rule),
+            balance_ids.rule_angle(rule),
+        ]
+        rules.append(BalancingRule(rule, own, report.known(lines)))
+    return tuple(rules)
+
+
+RODS = ("rotating", "share")
+
+
+def balancing_state(report: Report) -> str:
+    """What is asked for: "none", what shakes the "frame", a counterweight on the "crank", one in "vain" that comes to
+    nothing, or the whole balance by counterweights on the "links" of a four-bar."""
+    turn = balanced_in(report.analysis)
+    if turn.products:
+        return "crank" if turn.weights else "vain"
+    return "links" if turn.weights else "frame"
+
+
+def counterweight_lines(report: Report) -> list[str]:
+    """U of each counterweight that is carried out with its angle, its mass and its weight."""
+    turn = _turn(report)
+    lines: list[str] = []
+    for weight in turn.weights:
+        if not turn.products:
+            lines += [balance_ids.rule_component(str(weight.link), axis) for axis in AXES]
+        lines += [balance_ids.product(weight.link), balance_ids.angle(weight.link)]
+    masses = [name(weight.link) for weight in turn.weights for name in (balance_ids.mass, balance_ids.weight)]
+    return report.known([*lines, *masses, balance_ids.centrifugal(DRIVER)])
+
+
+def after_lines(report: Report) -> list[str]:
+    """What is left at a position with the counterweights: force, reaction, moments."""
+    weights = balanced_in(report.analysis).weights
+    arms = [balance_ids.place(f"W{weight.link}", "x") for weight in weights]
+    components = [balance_ids.after_component(axis) for axis in AXES]
+    holds = [balance_ids.hold(weight.link) for weight in weights]
+    rest = (balance_ids.AFTER_REACTION, balance_ids.AFTER_MOMENT, *arms, *holds, balance_ids.AFTER_TORQUE)
+    return report.known([*components, balance_ids.AFTER_FORCE, *rest])
+
+
+def on_link_lines(report: Report) -> list[str]:
+    """Where the mass centres of a four-bar lie on their links."""
+    return [id for id in report.ledger.families if id in balance_ids.on_link]
+
+
+def main_rule(report: Report) -> str:
+    """The rule that is carried out, as it stands in a sentence."""
+    return str(report.words["balancing"]["chosen"][next(iter(_turn(report).products))])
+
+
+def other_rules(report: Report) -> list[str]:
+    """The rules that are compared with it, in words."""
+    _, *others = _turn(report).products
+    return [report.words["balancing"]["told"][rule] for rule in others]
+
+
+def greatest_left(report: Report) -> Value:
+    """The greatest force that the counterweight which is carried out leaves."""
+    return Value(report.ledger.number(balance_ids.greatest("F", next(iter(_turn(report).products)))))
+
+
+# --- tables -------------------------------------------------------------------------------------------
+
+
+def balanced_table(report: Report) -> list[str]:
+    """What the counterweights change, each beside what it was."""
+    pairs = (
+        (balance_ids.FORCE, balance_ids.AFTER_FORCE),
+        ("R.01", balance_ids.AFTER_REACTION),
+        (balance_ids.MOMENT, balance_ids.AFTER_MOMENT),
+        ("M.eq", balance_ids.AFTER_TORQUE),
+    )
+    return [id for pair in pairs if pair[1] in report.ledger for id in pair]
+
+
+def rules_table(report: Report) -> Iterator[Sequence[object]]:
+    """Each rule with its U, angle, greatest and mean force, the first row without a counterweight."""
+    words, turn = report.words["balancing"]["rules"], _turn(report)
+    for state in (BEFORE, *turn.products):
+        named = (balance_ids.rule_product, balance_ids.rule_angle)
+        product = ["–", "–"] if state == BEFORE else [bare(report, name(state), None) for name in named]
+        forces = [bare(report, id, None) for id in (balance_ids.greatest("F", state), balance_ids.rms(state))]
+        yield words[state], *product, *forces
+
+
+def cost_table(report: Report) -> Iterator[Sequence[object]]:
+    """The greatest force, moments and the masses before and after."""
+    after = next(iter(_turn(report).products), AFTER)
+    for quantity, state in (("F", after), ("M", AFTER), ("cb", AFTER)):
+        pair = report.known(balance_ids.greatest(quantity, when) for when in (BEFORE, state))
+        if len(pair) == 2:
+            yield _compared(report, quantity, pair)
+    yield _compared(report, "mass", [balance_ids.whole_mass(state) for state in (BEFORE, AFTER)])
+
+
+def _compared(report: Report, name: str, pair: Sequence[str]) -> Sequence[object]:
+    unit_of = report.ledger.printed_unit(report.ledger[pair[0]].how.unit)
+    return report.words["balancing"]["costs"][name], *(bare(report, id, None) for id in pair), unit_of
+
+
+# --- checks -------------------------------------------------------------------------------------------
+
+
+def residuals(report: Report) -> dict[str, float]:
+    """How far, as a share, F is from the reactions on the frame by inertia alone, and a balanced four-bar's from 0."""
+    analysis, turn = report.analysis, balanced_in(report.analysis)
+    linkage, motion = analysis.machine.linkage, analysis.motion
+    off = np.abs(shaking_force(linkage, motion) - frame_reactions(linkage, motion)).max()
+    # The forces of inertia of all links together: their sum may be nothing.
+    greatest = sum(body.mass * float(np.abs(motion.points[body.centre].a).max()) for body in linkage.inertias)
+    entered = {"balance": float(off) / greatest}
+    if balancing_state(report) == "links":
+        left = turn.left / (turn.curve.greatest()[0] * turn.machine.speed**2)
+        entered["rest"] = left
+    return entered
+
+
+# --- figures ------------------------------------------------------------------------------------------
+
+
+def _of_turn(report: Report) -> tuple[np.ndarray, np.ndarray, tuple[int, ...], tuple[str, ...]]:
+    """F (N) at the samples of a turn, e^{iφ} there, which of them are the positions shown, and their names."""
+    cycle = report.dense_cycle
+    count = int(np.searchsorted(cycle.cycle_angle, FULL_TURN * (1 + 1e-9), side="right"))
+    force = shaking_force(report.machine.linkage, cycle.motion)[:count]
+    shown = [k for k in report.positions if k <= report.machine.count]
+    marks = np.searchsorted(cycle.cycle_angle, report.machine.cycle_angles[[k - 1 for k in shown]] - 1e-9)
+    return force, unit(cycle.motion.driver)[:count], tuple(map(int, marks)), tuple(map(str, shown))
+
+
+def hodograph(report: Report) -> FigureScenes:
+    """The ends of F, laid off from one pole, over the turn."""
+    force, _, marks, names = _of_turn(report)
+    curve = PlottedCurve("", force.real, force.imag, marks, names)
+    return FigureScenes((_polar(report, (curve,), balance_ids.component),))
+
+
+def balanced_hodograph(report: Report) -> FigureScenes:
+    """The hodographs of F without and with the counterweight that is carried out."""
+    force, crank, marks, names = _of_turn(report)
+    (weight,) = _turn(report).weights
+    left = force + weight.product * report.machine.speed**2 * crank
+    curves = (
+        PlottedCurve(report.ledger.symbol(balance_ids.FORCE), force.real, force.imag, marks, names),
+        PlottedCurve(report.ledger.symbol(balance_ids.AFTER_FORCE), left.real, left.imag, marks, names),
+    )
+    return FigureScenes((_polar(report, curves, balance_ids.component),))
+
+
+def discs(report: Report) -> FigureScenes:
+    """The scheme with the counterweights that are carried out."""
+    factor, index, motion = reduction(report), shown_at(report), report.analysis.motion
+    scale = drawing_scale(report) * factor
+    shown = []
+    for weight in _turn(report).weights:
+        pivot = complex(motion.origins[weight.link].p[index])
+        arm = weight.place * complex(unit(motion.links[weight.link].angle[index]))
+        shown.append(
+            CounterweightDisc(pivot + arm, pivot, weight.mass, report.ledger.symbol(balance_ids.mass(weight.link)))
+        )
+    linkage = report.machine.linkage
+    return FigureScenes((with_discs(linkage, motion, index, scale, looks(report, scale, factor), shown),))
+
+
+def seen_curve(report: Report) -> FigureScenes:
+    """What the crank sees of F, the smallest circle round it with its points of touch, the origin by each rule."""
+    turn = _turn(report)
+    force, crank, marks, names = _of_turn(report)
+    seen = force / crank / report.machine.speed**2
+    curves = [PlottedCurve(report.named(Symbol("u")), seen.real, seen.imag, marks, names)]
+    if "max" in turn.products:
+        round_it = turn.curve.circle
+        touching = turn.curve.at(np.array(round_it.touching))
+        # The points of touch are vertices of the drawn circle, so that they can be marked on it.
+        own = np.angle(touching - round_it.centre)
+        angles = np.sort(np.concatenate((np.linspace(-np.pi, np.pi, ROUND), own)))
+        circle = round_it.centre + round_it.radius * unit(angles)
+        at = tuple(int(np.flatnonzero(angles == angle)[0]) for angle in own)
+        labels = tuple(Symbol("T", str(number)) for number in range(1, len(own) + 1))
+        curves.append(PlottedCurve("", circle.real, circle.imag, at, labels))
+    origins = np.array([0j, *(-product for product in turn.products.values())])
+    called = (Symbol("O"), *(report.named(Symbol("O", LETTERS[rule])) for rule in turn.products))
+    every = tuple(range(origins.size))
+    curves.append(PlottedCurve("", origins.real, origins.imag, every, called, dots=True))
+    return FigureScenes((_polar(report, tuple(curves), balance_ids.seen),))
+
+
+def _polar(report: Report, curves: tuple[PlottedCurve, ...], component: ids.Name) -> Scene:
+    """Hodographs whose axes are called as these components are."""
+    ledger = report.ledger
+    across, up = (
+        Chain((ledger.symbol(component(axis)),), ledger.printed_unit(KINDS[ledger[component(axis)].kind].unit))
+        for axis in AXES
+    )
+    diagram = Diagram(curves, across, up, turn=False, equal=True)
+    return charts.polar(diagram, area=report.area)
+
+
+# --- the names of all that in templates ---------------------------------------------------------------
+
+VALUES: Mapping[str, Callable[[Report], Any]] = {
+    "after_lines": after_lines,
+    "balancing_state": balancing_state,
+    "on_link_lines": on_link_lines,
+    "seen_lines": seen_lines,
+    "shaken": shaken,
+    "shaking_lines": shaking_lines,
+    **orders.VALUES,
+}
+FUNCTIONS: Mapping[str, Callable[..., Any]] = {
+    "balance_rules": balance_rules,
+    "counterweight_lines": counterweight_lines,
+    "greatest_left": greatest_left,
+    "main_rule": main_rule,
+    "other_rules": other_rules,
+}
+FIGURES: Mapping[str, tuple[str, Callable[..., FigureScenes]]] = {
+    "hodograph": ("fig.hodograph", hodograph),
+    "seen": ("fig.seen", seen_curve),
+    "counterweights": ("fig.counterweights", discs),
+    "balanced": ("fig.balanced", balanced_hodograph),
+    **orders.FIGURES,
+}
+
+HOOKS = ViewHooks(
+    values=VALUES,
+    functions=FUNCTIONS,
+    figures=FIGURES,
+    tables={
+        "shaking": QuantityTable(shaking_lines, "all_positions"),
+        "rules": RowTable(rules_table, (58.0, 26.0, 22.0, 26.0, 26.0)),
+        "factors": RowTable(factors_table, (20.0, 36.0, 36.0, 30.0)),
+        "balanced": QuantityTable(balanced_table, "all_positions"),
+        "costs": RowTable(cost_table, (78.0, 28.0, 28.0, 22.0)),
+    },
+    passages={"conclusion": always("balancing/conclusion"), "task": always("balancing/task")},
+    residuals=residuals,
+    letters="uUψTθrγβ",
+)

@@ -1,0 +1,255 @@
+"""How the parameters of a machine take up the sections of topics, and what a topic does with its section.
+
+`with_topics` adds the sections to the parameters of a kind; a file is read with those that it names, the schema and
+the form show all.  A topic has its `TopicSection` as `HOOKS` in its module `topic`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cache
+from typing import Any, ClassVar, Literal, TypeVar
+
+from pydantic import create_model
+
+from reportgen.assignment.common import Check, Draft, Part
+from reportgen.base.errors import Finding
+from reportgen.base.topics import TOPIC_MODULE, HookModule
+from reportgen.base.units import Given
+from reportgen.formula import Ref, Symbol
+from reportgen.machine import Linkage
+from reportgen.machine.analysis import Machine
+from reportgen.machine.faces import Faces
+from reportgen.machine.laws import MotionAt
+from reportgen.machine.loads import Applied, Torque
+from reportgen.machine.shared_results import FACES, SharedResult
+
+Section = TypeVar("Section")
+Datum = Callable[[str, Given, Symbol | str, str], Ref]
+"""Enters a quantity as typed on a sheet: its id, the given value, its symbol, its kind."""
+Place = Literal["loads", "groups", "driver"]
+"""Where a chapter stands: behind the loads, behind the groups, behind the balance of the driver."""
+
+
+class TopicParameters(Part):
+    """Parameters that may have sections of topics."""
+
+    acceleration_key: ClassVar[tuple[str, ...]] = ()
+    """The place of the driver's acceleration in the file."""
+    load_keys: ClassVar[tuple[str, ...]] = ()
+    """The parameters that give a mass or a load."""
+    topic_names: ClassVar[tuple[str, ...]] = ()
+    """The topics whose sections have been added."""
+
+    def __init_subclass__(cls, extends: tuple[str, ...] = (), **rest: Any) -> None:
+        cls.topic_names = extends
+        super().__init_subclass__(**rest)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """A model that was made for some topics is found again by the model of its kind and their names."""
+        if not self.topic_names:
+            return super().__reduce__()  # type: ignore[return-value]
+        return _blank, (type(self).__base__, self.topic_names), self.__getstate__()
+
+    def section(self, topic: str, of: type[Section]) -> Section | None:
+        """Return the section of a topic, None if the file has none."""
+        given = getattr(self, topic, None)
+        assert given is None or isinstance(given, of), f"the section {topic} is not a {of.__name__}"
+        return given
+
+    def asked(self) -> tuple[str, ...]:
+        """Return the topics that the file has a section of, in the order in which their data are entered."""
+        return in_order(name for name in self.topic_names if getattr(self, name))
+
+    @property
+    def slides(self) -> bool:
+        """Whether the driver slides rather than turns."""
+        return False
+
+
+@dataclass(frozen=True)
+class Opening:
+    """A machine while its sheet is opened: what a topic may use to enter its data."""
+
+    given: TopicParameters
+    linkage: Linkage
+    datum: Datum
+    loads: tuple[Applied | Torque, ...]
+    """The loads of the kind and those that the file declares."""
+    motion_at: MotionAt
+    provided: Mapping[str, object] = field(default_factory=dict)
+    """What topics before have made for others, by the names of the shared results."""
+
+
+@dataclass(frozen=True)
+class TopicData:
+    """What a topic makes of its section: the subject that the machine then has, and loads that act on it."""
+
+    subject: object = None
+    loads: tuple[Applied | Torque, ...] = ()
+    provided: Mapping[str, object] = field(default_factory=dict)
+    """What topics behind may use, by the names of the shared results."""
+
+
+def _no_data(opening: Opening) -> TopicData:
+    return TopicData()
+
+
+def _no_speed(given: TopicParameters, datum: Datum) -> None:
+    """A topic without a datum about the driver's speed."""
+
+
+def _no_faults(given: TopicParameters, machine: Machine) -> Iterator[Finding]:
+    yield from ()
+
+
+def _no_failures(machine: Machine, worked: Sequence[int]) -> Iterator[Finding]:
+    yield from ()
+
+
+def _no_warnings(machine: Machine) -> Iterator[Finding]:
+    yield from ()
+
+
+def _no_checks(parameters: type[TopicParameters]) -> tuple[Check, ...]:
+    return ()
+
+
+@dataclass(frozen=True)
+class TopicSection:
+    """The section of a topic in the file of a machine, and its chapter in the report.
+
+    `annotation` and `default` are those of the field of the parameters.  Topics enter their data, and their chapters of
+    one place follow each other, by `order`.
+    """
+
+    annotation: object
+    order: int
+    chapter: str
+    place: Place = "driver"
+    default: object = None
+    not_in_short: frozenset[str] = frozenset()
+    """The parts of the chapter that a short report goes without."""
+    of_a_turn: frozenset[str] = frozenset()
+    """The parts of the chapter that a report of single instants goes without."""
+    acts: bool = False
+    """Whether it loads the machine."""
+    uses: tuple[SharedResult[object], ...] = ()
+    """The results of other topics that it uses where a machine has them."""
+    checks: Callable[[type[TopicParameters]], tuple[Check, ...]] = _no_checks
+    """Checks of the file alone."""
+    enter_speed: Callable[[TopicParameters, Datum], None] = _no_speed
+    """Enters data that stand beside the driver's speed."""
+    enter: Callable[[Opening], TopicData] = _no_data
+    faults: Callable[[TopicParameters, Machine], Iterator[Finding]] = _no_faults
+    """Finds what the machine does not have that the section names."""
+    failures: Callable[[Machine, Sequence[int]], Iterator[Finding]] = _no_failures
+    """Finds what goes wrong on the way of a machine in order; some positions are worked out."""
+    warnings: Callable[[Machine], Iterator[Finding]] = _no_warnings
+    """Finds what is allowed but hardly meant."""
+
+
+SECTIONS = HookModule(TOPIC_MODULE, TopicSection)
+
+
+def section_of(topic: str) -> TopicSection:
+    """Return the section of a topic."""
+    section = SECTIONS.of(topic)
+    assert section is not None, f"{topic} is a topic"
+    return section
+
+
+def in_order(names: Iterable[str]) -> tuple[str, ...]:
+    """Return the names of topics in the order in which their data are entered."""
+    return tuple(sorted(names, key=lambda name: section_of(name).order))
+
+
+def sections_of(names: Iterable[str]) -> Iterator[TopicSection]:
+    """Yield the sections of some topics in their order."""
+    return map(section_of, in_order(names))
+
+
+Model = TypeVar("Model", bound=TopicParameters)
+
+
+@cache
+def with_topics(model: type[Model], names: tuple[str, ...]) -> type[Model]:
+    """Return the parameters `model` with the sections of some topics."""
+    if not names:
+        return model
+    fields: dict[str, Any] = {name: (section_of(name).annotation, section_of(name).default) for name in in_order(names)}
+    return create_model(
+        model.__name__,
+        __base__=model,
+        __doc__=model.__doc__,
+        __module__=model.__module__,
+        __cls_kwargs__={"extends": names},
+        **fields,
+    )
+
+
+def _blank(model: type[TopicParameters], names: tuple[str, ...]) -> TopicParameters:
+    """Return parameters without values, to be filled from a pickle."""
+    made = with_topics(model, names)
+    blank: TopicParameters = object.__new__(made)
+    return blank
+
+
+def topic_checks(model: type[Part], names: tuple[str, ...]) -> tuple[Check, ...]:
+    """Return the checks of some topics in the file of a kind with the parameters `model`."""
+    if not issubclass(model, TopicParameters):
+        return ()
+    return tuple(check for section in sections_of(names) for check in section.checks(model))
+
+
+@dataclass(frozen=True)
+class EnteredTopics:
+    """The topics of a machine, once their data are entered."""
+
+    subjects: Mapping[str, object] = field(default_factory=dict)
+    loads: tuple[Applied | Torque, ...] = ()
+
+
+def entered(opening: Opening) -> EnteredTopics:
+    """Enter the data of all topics that the file asks for; a topic without a subject is left out."""
+    made: dict[str, TopicData] = {}
+    for name in opening.given.asked():
+        provided = {key: value for data in made.values() for key, value in data.provided.items()}
+        made[name] = section_of(name).enter(replace(opening, provided=provided))
+    return EnteredTopics(
+        {name: data.subject for name, data in made.items() if data.subject},
+        tuple(load for data in made.values() for load in data.loads),
+    )
+
+
+def faces_in(opening: Opening) -> dict[int, Faces]:
+    """Return the faces of wide sliders, which a topic before has entered; none if all sliders are narrow."""
+    faces = opening.provided.get(FACES.name, {})
+    assert isinstance(faces, dict), "faces are by their links"
+    return faces
+
+
+def on_whole_turns(topic: str) -> Callable[[type[TopicParameters]], tuple[Check, ...]]:
+    """Return the checks of a topic that asks for whole turns of a crank at a speed that is constant in the mean."""
+
+    def checks(parameters: type[TopicParameters]) -> tuple[Check, ...]:
+        def turns(draft: Draft) -> Iterator[Finding]:
+            given = draft.sections.get("parameters")
+            if isinstance(given, TopicParameters) and given.slides:
+                yield Finding(f"{topic}-of-slide", ("parameters", topic), at="key")
+
+        def steadily(draft: Draft) -> Iterator[Finding]:
+            keys = (parameters.acceleration_key, ("positions", "at"))
+            given = [place[-1] for place in keys if draft.at(*place) is not None]
+            if given:
+                yield Finding(f"{topic}-without-turn", ("parameters", topic), {"key": given[0]}, at="key")
+
+        return turns, steadily
+
+    return checks
+
+
+def chapters(names: Iterable[str], place: Place) -> tuple[str, ...]:
+    """Return the chapters of some topics at a place of the report."""
+    return tuple(section.chapter for section in sections_of(names) if section.place == place)

@@ -1,0 +1,57 @@
+"""What a topic enters into the ledger of a machine."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+from reportgen.base.topics import HookModule
+from reportgen.derivation.loads import EnterGuide, Statics
+from reportgen.formula import Expression, Ref
+from reportgen.formula.ledger import Ledger
+from reportgen.formula.sheet import Sheet
+from reportgen.machine.analysis import Analysis, Machine
+
+Changed = Mapping[str, Sequence[tuple[str, Expression]]]
+"""Other definitions of quantities, by id, with the names of the mistakes that they are."""
+
+
+def _enter_nothing(q: Sheet, analysis: Analysis) -> None:
+    """A topic without entries of this sort."""
+
+
+def _not_worked_out(q: Sheet, analysis: Analysis, worked: Sequence[int]) -> None:
+    """A topic that works nothing out at positions."""
+
+
+def _no_guide(statics: Statics, digits: str, link: int) -> None:
+    """A topic without entries of sliders."""
+
+
+def _not_reduced(q: Sheet, largest: float) -> Ref | None:
+    return None
+
+
+def _no_mistakes(ledger: Ledger, machine: Machine) -> Changed:
+    return {}
+
+
+@dataclass(frozen=True)
+class LedgerHooks:
+    """The entries of a topic, in the order in which they are made, and mistakes that marking looks for."""
+
+    enter_guide: EnterGuide = _no_guide
+    """Enters more of a slider in its guide, by the digits of its reaction and its link."""
+    enter_forces: Callable[[Sheet, Analysis, Sequence[int]], None] = _not_worked_out
+    """Enters what follows the forces at the positions, some of which are worked out."""
+    enter_cycle: Callable[[Sheet, Analysis], None] = _enter_nothing
+    """Enters what belongs to the cycle as a whole."""
+    enter_last: Callable[[Sheet, Analysis], None] = _enter_nothing
+    """Enters what stands on all other results."""
+    reduced: Callable[[Sheet, float], Ref | None] = _not_reduced
+    """Enters the part of the reduced torque (N·m) that the topic adds, compared with the largest torque."""
+    mistakes: Callable[[Ledger, Machine], Changed] = _no_mistakes
+    """Gives other definitions of those who make a common mistake."""
+
+
+LEDGER = HookModule("ledger", LedgerHooks)

@@ -1,0 +1,1 @@
+"""Topic: the flywheel that keeps the speed of a machine within bounds."""

@@ -1,0 +1,194 @@
+"""The flywheel in a report: what the words of its chapter name, its table and its figures."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from reportgen.base.shown import view
+from reportgen.catalogue.topic_sections import sections_of
+from reportgen.document import Paragraph, Table, Value
+from reportgen.drawing import Content, Scene, charts
+from reportgen.drawing.diagram import Diagram, Inclination, PlottedCurve
+from reportgen.flywheel.regulation import regulated_in
+from reportgen.formula import Symbol, ids
+from reportgen.machine.regulation import RegulatedCycle
+from reportgen.machine.shared_results import REGULATED_CYCLE
+from reportgen.report.comments import labels, shown
+from reportgen.report.curves import axis_of, driver_axis
+from reportgen.report.figures import FigureScenes
+from reportgen.report.report import Report
+from reportgen.report.tables import tables
+from reportgen.report.topic_views import ViewHooks, always
+
+THINNED = 4
+"""Every fourth of the samples is enough for a curve of the flywheel."""
+
+
+ARCS = 16.0, 26.0
+"""Radii of the arcs of ψ_max and ψ_min, mm."""
+
+
+def needs_flywheel(report: Report) -> bool:
+    """Return True if the links alone are too light to keep the speed even enough."""
+    return "omega.of" in report.ledger
+
+
+def _wheel(report: Report) -> RegulatedCycle:
+    return regulated_in(report.analysis)
+
+
+def _over_cycle(
+    report: Report,
+    values: np.ndarray,
+    title: Content,
+    levels: tuple[tuple[float, Symbol], ...] = (),
+    half: bool = False,
+) -> Scene:
+    last = values.size - 1
+    kept = np.append(np.arange(0, last, THINNED), last)
+    curve = PlottedCurve("", np.degrees(_wheel(report).angle[kept]), values[kept])
+    return charts.chart(Diagram((curve,), driver_axis(report), title, levels=levels), half=half, area=report.area)
+
+
+def flywheel_torque(report: Report) -> FigureScenes:
+    """M_r and the torque that balances its mean."""
+    wheel = _wheel(report)
+    level = (-wheel.constant, Symbol("−M", "c"))
+    return FigureScenes((_over_cycle(report, wheel.torque, axis_of(report, "M.r"), (level,)),))
+
+
+def flywheel_work(report: Report) -> FigureScenes:
+    """J_r, if moving links have mass, and A over the cycle."""
+    wheel = _wheel(report)
+    drawings = [(wheel.inertia, "J.r")] if report.has_reduced_inertia else []
+    drawings.append((wheel.work, "A.excess"))
+    half = len(drawings) > 1
+    return FigureScenes(tuple(_over_cycle(report, values, axis_of(report, id), half=half) for values, id in drawings))
+
+
+def wittenbauer(report: Report) -> FigureScenes:
+    """A over J_r from the axis J = 0 on, which the tangents of the two bounds of speed meet at a and b."""
+    wheel, ledger = _wheel(report), report.ledger
+    ends = np.array([0.0, wheel.inertia.max()])
+    bounds = (("max", "A.upper", wheel.upper, wheel.fastest), ("min", "A.lower", wheel.lower, wheel.slowest))
+    lines, angles = [], []
+    for radius, (name, height, at, speed) in zip(ARCS, bounds, strict=True):
+        shown, slope = ledger.symbol(ids.bound_of_speed(name)), speed**2 / 2
+        lines.append(PlottedCurve(shown, ends, at + slope * ends, (0,), (ledger.symbol(height),)))
+        angles.append(Inclination(ledger.symbol(ids.tangent(name)), 0.0, at, slope, radius))
+    curve = PlottedCurve(Symbol("A"), wheel.inertia, wheel.work, (wheel.high, wheel.low))
+    across, up = axis_of(report, "J.r"), axis_of(report, "A.excess")
+    scales = ledger.number("mu.J").value, ledger.number("mu.A").value
+    area = replace(report.area or charts.Area(mm=ledger.printed_unit("mm")), scales=scales)
+    diagram = Diagram((curve, *lines), across, up, turn=False, inclinations=tuple(angles))
+    return FigureScenes((charts.chart(diagram, area=area),))
+
+
+def flywheel_speed(report: Report) -> FigureScenes:
+    """How far the speed is from its mean, in percent, with the flywheel."""
+    wheel = _wheel(report)
+    mean = (wheel.fastest + wheel.slowest) / 2
+    return FigureScenes(
+        (_over_cycle(report, (wheel.speed / mean - 1) * 100, report.words["figure"]["speed_deviation"]),)
+    )
+
+
+def energy_bounds(report: Report) -> list[str]:
+    """Where the tangents of Wittenbauer's diagram meet its axis."""
+    return ["A.upper", "A.lower"]
+
+
+def tangent_lines(report: Report) -> list[str]:
+    """The scales of the energy–mass diagram and the inclinations of its tangents."""
+    return report.known(["mu.J", "mu.A", ids.tangent("max"), ids.tangent("min")])
+
+
+def constant_links(report: Report) -> list[str]:
+    """The moment of inertia of the links that belong to the flywheel's group in Mertsalov's method."""
+    return report.known(["J.0"])
+
+
+def constant_group(report: Report) -> list[str]:
+    """What Mertsalov's method comes to; nothing where it is not used."""
+    return report.known(["T.range", "J.I", "J.rest"])
+
+
+def stores(report: Report) -> str:
+    """What stores the excess work: the "links" with the flywheel, or the flywheel "alone"."""
+    return "links" if report.has_reduced_inertia else "alone"
+
+
+def speed_limits(report: Report) -> list[str]:
+    uneven = ["unevenness"] if "unevenness" in report.computed else []
+    return [*uneven, "omega.max", "omega.min"]
+
+
+def cycle_table(report: Report, key: str, caption: str, head: Sequence[str]) -> tuple[Table | Paragraph, ...]:
+    """Reduced torque and excess work; the reduced inertia if links have mass, the speed if there is a flywheel."""
+    words = report.words["tables"]["flywheel"]
+    inertia = words["inertia"] if report.has_reduced_inertia else ""
+    speed = words["speed"] if needs_flywheel(report) else ""
+    columns = report.known(("M.r", "A.excess", "J.r", "omega.of"))
+    return tables(report, key, f"{caption}{inertia}{speed}", columns, report.all_positions)
+
+
+@view()
+@dataclass(frozen=True, slots=True)
+class Range:
+    """The least and the greatest of a quantity over the cycle with their positions."""
+
+    least: Value
+    low: str
+    most: Value
+    high: str
+
+
+def work_range(report: Report) -> Range:
+    """Between which values the excess work of the flywheel's calculation goes."""
+    positions, values = report.all_positions, shown(report, "A.excess", report.all_positions)
+
+    def end(value: float) -> tuple[Value, str]:
+        there = [k for k, one in zip(positions, values, strict=True) if one == value]
+        return Value(report.ledger.number("A.excess", there[0])), labels(report, there)
+
+    return Range(*end(values.min()), *end(values.max()))
+
+
+def _verdict_here(report: Report) -> bool:
+    """Return True unless another topic, which takes the regulated cycle further, gives the verdict on it."""
+    return not any(REGULATED_CYCLE in section.uses for section in sections_of(report.machine.topics))
+
+
+def _overview(report: Report) -> Sequence[str]:
+    if not _verdict_here(report):
+        return ()
+    return () if needs_flywheel(report) else ("flywheel-overview",)
+
+
+def _conclusion(report: Report) -> Sequence[str]:
+    return ("flywheel-conclusion",) if needs_flywheel(report) else ("flywheel-conclusion-none",)
+
+
+HOOKS = ViewHooks(
+    values={
+        "constant_group": constant_group,
+        "constant_links": constant_links,
+        "energy_bounds": energy_bounds,
+        "needs_flywheel": needs_flywheel,
+        "speed_limits": speed_limits,
+        "stores": stores,
+        "tangent_lines": tangent_lines,
+    },
+    functions={"work_range": work_range},
+    figures={
+        "flywheel-torque": ("fig.Mr", flywheel_torque),
+        "flywheel-work": ("fig.Jr", flywheel_work),
+        "flywheel-speed": ("fig.speed", flywheel_speed),
+        "wittenbauer": ("fig.wittenbauer", wittenbauer),
+    },
+    tables={"flywheel": cycle_table},
+    passages={"overview": _overview, "conclusion": _conclusion, "task": always("flywheel-task")},
+)

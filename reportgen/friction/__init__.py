@@ -1,0 +1,1 @@
+"""Topic: friction in the joints of a machine, and the exercises on friction."""

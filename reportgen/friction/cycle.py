@@ -1,0 +1,98 @@
+"""What friction does over a whole cycle: the mean torque, and the places where a slider cannot move the crank."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from reportgen.friction.joints import Friction, friction_of, relative_motion, solve_with_friction, with_friction
+from reportgen.machine import Joint
+from reportgen.machine.analysis import ROUNDING, Machine, analyse, breaks, motion_at, possible
+from reportgen.machine.forces import Load
+from reportgen.machine.laws import FULL_TURN, STEPS, Stroke, halved, opposing
+from reportgen.machine.motion import Flags, Floats
+from reportgen.machine.quadrature import mean_over
+from reportgen.machine.senses import moving, pace
+
+HALVINGS = 40
+"""Past the spacing of floats beside an angle."""
+FARTHEST = np.radians(80.0)
+"""A slider that cannot move its crank so far from a dead centre moves it nowhere."""
+
+
+def turning_back(machine: Machine, joint: Joint) -> Iterator[float]:
+    """The cycle angles (rad) at which the links of a joint turn back, or slide back, against each other."""
+
+    def rate(angle: Floats) -> Floats:
+        motion = motion_at(machine, angle)
+        return moving(relative_motion(joint, motion)[0], pace(motion, joint.kind)[0])
+
+    if rate(np.linspace(0.0, FULL_TURN, 64)).any():
+        for turn in range(machine.turns):
+            yield from (turn * FULL_TURN + angle for angle in opposing(1.0, rate).reversals)
+
+
+def mean_torque(machine: Machine) -> float:
+    """The mean of the balancing torque with friction (N·m) over the cycle; nan where the mechanism locks anywhere.
+
+    Raises `ValueError` for a machine in which nothing rubs.
+    """
+    friction = friction_of(machine)
+    if friction is None:
+        raise ValueError("nothing rubs")
+    corners = [angle for joint in friction.joints(machine.linkage) for angle in turning_back(machine, joint)]
+
+    def torque(angle: Floats) -> Floats:
+        solved = with_friction(analyse(machine, angle))
+        if not solved.stands.all():
+            raise _LocksError
+        return solved.torque
+
+    whole = machine.turns * FULL_TURN
+    sampled = analyse(machine, np.linspace(0.0, whole, STEPS))
+    least = ROUNDING * possible(sampled.motion, sampled.loads)
+    try:
+        return mean_over(torque, np.mod([*corners, *breaks(machine)], whole), 0.0, whole, least)
+    except _LocksError:
+        return np.nan
+
+
+class _LocksError(Exception):
+    """The mechanism locks on its way."""
+
+
+@dataclass(frozen=True, slots=True)
+class DeadZone:
+    """How far (rad) `before` and `behind` the dead centre at cycle angle `centre` a slider cannot move its crank."""
+
+    centre: float
+    before: float
+    behind: float
+
+
+def dead_zones(machine: Machine, friction: Friction, stroke: Stroke) -> tuple[DeadZone, ...]:
+    """The dead zones of a slider that drives its crank with a constant force, all else without mass or load.
+
+    Within them friction takes all that the slider gives: the torque to be put on the crank is no longer against its
+    motion.  nan where the slider moves the crank nowhere.
+    """
+    bare = replace(machine, applied=(), torques=(), linkage=replace(machine.linkage, inertias=()))
+
+    def stuck(angle: Floats) -> Flags:
+        motion = motion_at(bare, angle.ravel())
+        pin = motion.points[stroke.pin]
+        along = stroke.inward * np.where(stroke.fraction_rate(motion) >= 0, 1.0, -1.0)
+        load = Load("P", stroke.link, along, pin.p, np.zeros(angle.size))
+        solved = solve_with_friction(friction, bare.linkage, motion, [load])
+        drives = np.asarray(machine.turn * solved.torque < 0)
+        return np.asarray(~drives.reshape(angle.shape))
+
+    def reach(centre: float, sense: int) -> float:
+        _, high = halved(np.array([0.0]), np.array([FARTHEST]), lambda way: stuck(centre + sense * way), HALVINGS)
+        moves = not stuck(centre + sense * np.array([FARTHEST]))[0]
+        return float(high[0]) if moves else np.nan
+
+    centres = [float(np.mod(angle - stroke.phase, FULL_TURN)) for angle in stroke.dead_centres[:2]]
+    return tuple(DeadZone(centre, reach(centre, -1), reach(centre, 1)) for centre in centres)

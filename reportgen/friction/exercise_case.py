@@ -1,0 +1,289 @@
+"""The tasks with friction as cases: report and task of each, its key, its results, its drawing sheet."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, ClassVar
+
+from reportgen.case import Misconceptions
+from reportgen.case.design import DesignCase, DesignPage
+from reportgen.case.result_entries import ResultEntries
+from reportgen.document import Figure
+from reportgen.document.prose import Prose
+from reportgen.drawing import Scene
+from reportgen.drawing.plates import DrawingPlate, enlargeable
+from reportgen.drawing.scales import IN_REPORT, FigureSize
+from reportgen.drawing.sheet import ENLARGED, lettered
+from reportgen.formula.sheet import Sheet
+from reportgen.friction import brakes as friction_brakes
+from reportgen.friction import exercise_drawings as friction_drawings
+from reportgen.friction import exercise_mistakes as friction_mistakes
+from reportgen.friction import exercise_sheets as friction_sheets
+
+
+@dataclass(frozen=True)
+class FrictionTask:
+    """What makes the numbers and the drawings of a task; the last are its force plans, of a task that has any."""
+
+    name: str
+    sheet: Callable[[Any], Sheet]
+    scheme: Callable[[FrictionCase], Scene]
+    plans: Callable[[FrictionCase, FigureSize], tuple[Scene, ...]] | None = None
+
+
+@dataclass(frozen=True)
+class FrictionPage(DesignPage["FrictionCase"]):
+    """A task as its templates name it."""
+
+    NAME = "friction"
+
+    def names(self) -> dict[str, Any]:
+        case, written = self.case, self.case.printed
+        return {
+            "words": case.words,
+            "data": self.data,
+            "sheet": {name: written.known(quantities) for name, quantities in written.lines.items()},
+            "quantity": self.quantity,
+            "lines": self.lines,
+            "math": self.math,
+            "figure": self.figure,
+            "holds": case.holds,
+        }
+
+    def figure(self, name: str) -> Figure:
+        caption = Prose(self.case.places).inlines(self.words["figures"][self.case.TASK.name][name])
+        return Figure(tuple(self.scenes(name)), caption, f"fig.{name}")
+
+    def scenes(self, name: str) -> Iterable[Scene]:
+        if name == "scheme":
+            return (self.case.TASK.scheme(self.case),)
+        draw = self.case.TASK.plans
+        return draw(self.case, IN_REPORT) if draw else super().scenes(name)
+
+
+@dataclass(frozen=True)
+class FrictionCase(DesignCase):
+    """A task with friction, as a `Case`."""
+
+    TASK: ClassVar[FrictionTask]
+
+    @property
+    def given(self) -> Any:
+        """The data of the task."""
+        return getattr(self.assignment.parameters, self.TASK.name)
+
+    @cached_property
+    def sheet(self) -> Sheet:
+        return self.TASK.sheet(self.given)
+
+    @property
+    @abstractmethod
+    def holds(self) -> Mapping[str, bool]:
+        """What holds of it that the text tells in words."""
+
+    @property
+    @abstractmethod
+    def locks(self) -> bool | None:
+        """Whether it holds by friction alone; None of what can only slip."""
+
+    def at(self, name: str) -> float:
+        """A result (SI) by the end of its id; 0 of one that the task has not."""
+        id = f"friction.{self.TASK.name}.{name}"
+        return float(self.ledger[id].at(1)) if id in self.ledger else 0.0
+
+    @cached_property
+    def entries(self) -> ResultEntries:
+        """All that is worked out, by the ends of the ids, and whether it locks itself where that is a question."""
+        head = f"friction.{self.TASK.name}."
+        results: dict[str, Any] = {
+            id.removeprefix(head): family.at(1)
+            for id, family in self.ledger.families.items()
+            if family.definition is not None and not family.hidden
+        }
+        if self.locks is not None:
+            results["self_locking"] = self.locks
+        return ResultEntries([{"number": 1, self.TASK.name: results}])
+
+    @cached_property
+    def misconceptions(self) -> Misconceptions:
+        return Misconceptions(changed=friction_mistakes.changed(self.TASK.name, self.sheet))
+
+    def plates(self, sets: Collection[str] = (), every: bool = False) -> Mapping[str, Sequence[DrawingPlate]]:
+        """Its scheme and its force plans; there are no sets of them to choose from."""
+        return {"friction": [*self._plates()]}
+
+    def _plates(self) -> Iterator[DrawingPlate]:
+        titles = self.words["friction"]["figures"][self.TASK.name]
+        scheme = lettered(self.TASK.scheme(self))
+        yield DrawingPlate(titles["scheme"], (), "scheme", (scheme,))
+        if (draw := self.TASK.plans) is not None:
+
+            def plate(steps: int) -> DrawingPlate:
+                size = FigureSize(steps, ENLARGED, self.words["plates"]["report"], self.assignment.language)
+                return DrawingPlate(titles["plan"], (), "plans", tuple(map(lettered, draw(self, size))))
+
+            yield enlargeable(plate)
+
+
+# --- each of them -----------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class InclinePage(FrictionPage):
+    TASK, SUMMARY = "incline-task", "incline-summary"
+    SECTIONS = (
+        *("incline-given", "incline-scheme", "incline-raising", "incline-lowering", "incline-efficiency"),
+        "incline-conclusion",
+    )
+
+
+@dataclass(frozen=True)
+class InclineCase(FrictionCase):
+    """A body on an inclined plane."""
+
+    PAGE = InclinePage
+    TASK = FrictionTask(
+        "incline", friction_sheets.incline_sheet, friction_drawings.incline_scheme, friction_drawings.incline_plans
+    )
+
+    @property
+    def locks(self) -> bool:
+        return self.at("alpha") <= self.at("phi")
+
+    @property
+    def holds(self) -> Mapping[str, bool]:
+        return {"locks": self.locks, "is_along": not self.at("beta"), "is_horizontal": self.given.beta is None}
+
+
+@dataclass(frozen=True)
+class WedgePage(FrictionPage):
+    TASK, SUMMARY = "wedge-task", "wedge-summary"
+    SECTIONS = (
+        *("wedge-given", "wedge-scheme", "wedge-raising", "wedge-lowering", "wedge-efficiency"),
+        "wedge-conclusion",
+    )
+
+
+@dataclass(frozen=True)
+class WedgeCase(FrictionCase):
+    """A wedge under a load."""
+
+    PAGE = WedgePage
+    TASK = FrictionTask(
+        "wedge", friction_sheets.wedge_sheet, friction_drawings.wedge_scheme, friction_drawings.wedge_plans
+    )
+
+    @property
+    def locks(self) -> bool:
+        return self.at("alpha") <= self.at("phi1") + self.at("phi2")
+
+    @property
+    def holds(self) -> Mapping[str, bool]:
+        leans_back = self.at("alpha") < self.at("phi1")
+        return {"locks": self.locks, "rough_guide": bool(self.at("phi3")), "leans_back": leans_back}
+
+
+@dataclass(frozen=True)
+class ScrewPage(FrictionPage):
+    TASK, SUMMARY = "screw-task", "screw-summary"
+    SECTIONS = (
+        *("screw-given", "screw-scheme", "screw-raising", "screw-lowering", "screw-efficiency"),
+        "screw-conclusion",
+    )
+
+
+@dataclass(frozen=True)
+class ScrewCase(FrictionCase):
+    """A screw under a load."""
+
+    PAGE = ScrewPage
+    TASK = FrictionTask("screw", friction_sheets.screw_sheet, friction_drawings.screw_scheme)
+
+    @property
+    def locks(self) -> bool:
+        return self.at("lowering.M") >= 0
+
+    @property
+    def holds(self) -> Mapping[str, bool]:
+        thread = self.at("gamma") <= self.at("phi")
+        return {
+            "thread_locks": thread,
+            "collar_holds": self.locks and not thread,
+            "has_collar": self.given.collar is not None,
+            "has_profile": bool(self.given.beta.si),
+        }
+
+
+@dataclass(frozen=True)
+class BeltPage(FrictionPage):
+    TASK, SUMMARY = "belt-task", "belt-summary"
+    SECTIONS = ("belt-given", "belt-scheme", "belt-tensions", "belt-axle", "belt-conclusion")
+
+
+@dataclass(frozen=True)
+class BeltCase(FrictionCase):
+    """A belt on a drum."""
+
+    PAGE = BeltPage
+    TASK = FrictionTask("belt", friction_sheets.belt_sheet, friction_brakes.belt_scheme)
+
+    @property
+    def locks(self) -> None:
+        """A belt slips as soon as the torque is larger."""
+
+    @property
+    def holds(self) -> Mapping[str, bool]:
+        return {"has_width": self.given.b is not None, "torque_given": self.given.M is not None}
+
+
+@dataclass(frozen=True)
+class BandPage(FrictionPage):
+    TASK, SUMMARY = "band-task", "band-summary"
+    SECTIONS = ("band-given", "band-scheme", "band-tensions", "band-lever", "band-conclusion")
+
+
+@dataclass(frozen=True)
+class BandCase(FrictionCase):
+    """A band brake."""
+
+    PAGE = BandPage
+    TASK = FrictionTask("band", friction_sheets.band_sheet, friction_brakes.band_scheme)
+
+    @property
+    def locks(self) -> bool:
+        return min(self.at("P"), self.at("backward.P")) <= 0
+
+    @property
+    def holds(self) -> Mapping[str, bool]:
+        return {"locks_forward": self.at("P") <= 0, "locks_backward": self.at("backward.P") <= 0}
+
+
+@dataclass(frozen=True)
+class ShoePage(FrictionPage):
+    TASK, SUMMARY = "shoe-task", "shoe-summary"
+    SECTIONS = ("shoe-given", "shoe-scheme", "shoe-forces", "shoe-lever", "shoe-conclusion")
+
+
+@dataclass(frozen=True)
+class ShoeCase(FrictionCase):
+    """A brake with one shoe."""
+
+    PAGE = ShoePage
+    TASK = FrictionTask("shoe", friction_sheets.shoe_sheet, friction_brakes.shoe_scheme)
+
+    @property
+    def locks(self) -> bool:
+        return self.at("P") <= 0
+
+    @property
+    def holds(self) -> Mapping[str, bool]:
+        return {"locks": self.locks}
+
+
+CASES: Mapping[str, type[FrictionCase]] = {
+    case.TASK.name: case for case in (InclineCase, WedgeCase, ScrewCase, BeltCase, BandCase, ShoeCase)
+}
+"""The cases by the keys of their tasks."""

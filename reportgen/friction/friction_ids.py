@@ -1,0 +1,58 @@
+"""What the ids of friction are called, and what they say: in the joints of machines, and in exercises."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from reportgen.formula.ids import Name
+from reportgen.formula.vocabulary import Chapter, QuantityKind, VocabularyRow
+from reportgen.friction import exercise_rows
+
+coefficient = Name("friction.f.{point}")  # of a pin
+coefficient_of_slider = Name("friction.f.{link}")
+pin_radius = Name("friction.r.{point}")
+circle = Name("friction.rho.{point}")
+angle = Name("friction.phi.{link}")
+turning = Name("friction.omega.{joint}")  # of the second link against the first, a size
+reaction = Name("friction.R.{joint}[.{round}]")
+"""Of a pin, or across a guide; with a round before it has come to stand."""
+couple = Name("friction.M.{joint}")
+force = Name("friction.F.{joint}")
+part = Name("friction.part.{joint}")
+"""Of the driver's torque: what overcomes the friction of a joint."""
+torque = "friction.M"
+reduced = "friction.reduced"
+"""What friction takes from the crank, as a reduced torque beside that of the loads."""
+torque_of_round = Name("friction.round.{round}")
+efficiency = "friction.eta"
+mean = "friction.mean"
+cycle_efficiency = "friction.eta.cycle"
+dead = Name("friction.dead.{link}.{number}.{side}")
+"""How far before or behind a dead centre a slider cannot move its crank."""
+dead_before = Name("friction.dead.{link}.{number}.before")
+dead_behind = Name("friction.dead.{link}.{number}.behind")
+
+KINDS: Mapping[str, QuantityKind] = exercise_rows.KINDS
+ROWS = (
+    VocabularyRow(coefficient, "f", "ratio", name="friction coefficient"),
+    VocabularyRow(coefficient_of_slider, "f", "ratio", name="slider friction"),
+    VocabularyRow(pin_radius, "r", "length", name="pin radius"),
+    VocabularyRow(circle, "ρ", "length", Chapter.forces, name="friction circle"),
+    VocabularyRow(angle, "φ", "angle", Chapter.forces, name="friction angle"),
+    VocabularyRow(turning, "ω", "angular velocity", Chapter.torque, name="turning in a joint"),
+    VocabularyRow(reaction, "R", "force", Chapter.torque, below="{joint}", above="fr", name="reaction with friction"),
+    VocabularyRow(couple, "M", "torque", Chapter.torque, below="fr{joint}", name="friction couple"),
+    VocabularyRow(force, "F", "force", Chapter.torque, below="fr{joint}", name="friction force"),
+    VocabularyRow(part, "ΔM", "torque", Chapter.torque, name="torque against friction"),
+    VocabularyRow(Name(torque), "M", "torque", Chapter.torque, below="cb", above="fr", name="torque with friction"),
+    VocabularyRow(
+        torque_of_round, "M", "torque", Chapter.torque, below="cb", above="({round})", name="torque with friction"
+    ),
+    VocabularyRow(Name(reduced), "M", "torque", Chapter.cycle, below="tt", above="fr", name="reduced friction torque"),
+    VocabularyRow(Name(efficiency), "η", "ratio", Chapter.torque, name="efficiency"),
+    VocabularyRow(Name(mean), "M", "torque", Chapter.cycle, below="m", above="fr", name="mean torque with friction"),
+    VocabularyRow(Name(cycle_efficiency), "η", "ratio", Chapter.cycle, below="m", name="efficiency over the cycle"),
+    VocabularyRow(dead_before, "Δφ", "angle", Chapter.cycle, below="{link}", name="dead zone before"),
+    VocabularyRow(dead_behind, "Δφ", "angle", Chapter.cycle, below="{link}", name="dead zone behind"),
+    *exercise_rows.ROWS,
+)

@@ -1,0 +1,28 @@
+"""A torque over the cycle as polynomials between cycle angles, cheap to take at any angle."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+SAME_ANGLE = 1e-9
+"""Angles nearer than this (rad) are one."""
+
+
+@dataclass(frozen=True)
+class CycleTorque:
+    """Legendre polynomials between rising cycle angles `edges` [n + 1] (rad), by their `coefficients` [n, k] (N·m)."""
+
+    edges: Floats
+    coefficients: Floats
+
+    def torque(self, angle: Floats) -> Floats:
+        """Return the torque (N·m) at cycle angles [N], which may go on beyond the cycle; at an edge, just behind it."""
+        within = np.mod(angle, self.edges[-1])
+        part = np.clip(np.searchsorted(self.edges, within + SAME_ANGLE, side="right") - 1, 0, len(self.edges) - 2)
+        low, high = self.edges[part], self.edges[part + 1]
+        place = np.polynomial.legendre.legvander(2 * (within - low) / (high - low) - 1, self.coefficients.shape[1] - 1)
+        return np.asarray((place * self.coefficients[part]).sum(axis=-1))

@@ -1,0 +1,36 @@
+"""The cycle of a machine whose speed a further moment of inertia on the crank keeps within bounds."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class RegulatedCycle:
+    """The regulated cycle over angles φ [N] (rad, in the direction of rotation).
+
+    `torque` M_r and `constant` M_c (N·m), `inertia` J_r and `moment` J_d (kg·m²), `work` A, `upper` a and
+    `lower` b (J), `speed` ω [N] and its bounds `fastest`, `slowest` (rad/s); `high`, `low` are the indices
+    where the speed reaches them.
+    """
+
+    angle: Floats
+    torque: Floats
+    constant: float
+    inertia: Floats
+    work: Floats
+    upper: float
+    lower: float
+    moment: float
+    speed: Floats
+    fastest: float
+    slowest: float
+    high: int
+    low: int
+    unevenness: float
+    """The permitted δ = (ω_max − ω_min)/ω_m."""

@@ -1,0 +1,64 @@
+"""Results that one topic of a machine provides and others use, such as the torque that friction takes from the crank.
+
+A topic that provides results names them in its module `physics`.  Others ask for a result by its name and do not know
+which topic it comes from: without one they get None.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Generic, TypeVar, cast
+
+from reportgen.base.topics import HookModule
+from reportgen.machine.analysis import Machine
+from reportgen.machine.cycle_torque import CycleTorque
+from reportgen.machine.faces import Faces
+from reportgen.machine.regulation import RegulatedCycle
+
+Result = TypeVar("Result", covariant=True)
+
+
+@dataclass(frozen=True)
+class SharedResult(Generic[Result]):
+    """A result by its name."""
+
+    name: str
+
+    def of(self, machine: Machine) -> Result | None:
+        """Return the result of a machine, None if none of its topics provides it."""
+        if self.name not in machine.results:
+            machine.results[self.name] = self._computed(machine)
+        return cast("Result | None", machine.results[self.name])
+
+    def _computed(self, machine: Machine) -> object:
+        for hooks in PHYSICS.among(machine.topics):
+            for provision in hooks.provides:
+                if provision.result.name == self.name:
+                    return provision.compute(machine)
+        return None
+
+
+@dataclass(frozen=True)
+class Provision(Generic[Result]):
+    """A result that a topic provides, and the function that computes it of a machine."""
+
+    result: SharedResult[Result]
+    compute: Callable[[Machine], Result | None]
+
+
+@dataclass(frozen=True)
+class PhysicsHooks:
+    """The results that a topic provides."""
+
+    provides: tuple[Provision[object], ...] = ()
+
+
+PHYSICS = HookModule("physics", PhysicsHooks)
+
+LOST_TORQUE = SharedResult[CycleTorque]("torque lost in the joints")
+"""The torque that friction takes from the driver over the cycle."""
+FACES = SharedResult[Mapping[int, Faces]]("faces of sliders")
+"""The faces along which guides hold wide sliders, by their links."""
+REGULATED_CYCLE = SharedResult[RegulatedCycle]("regulated cycle")
+"""The cycle whose speed a further moment of inertia keeps within bounds."""

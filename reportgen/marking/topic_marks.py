@@ -1,0 +1,32 @@
+"""What a topic adds to marking: errors of values that a student finds by a coarser rule than the key."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from reportgen.base.topics import HookModule
+from reportgen.formula.ledger import Ledger
+
+
+def _no_errors(ledger: Ledger) -> Mapping[str, np.ndarray]:
+    return {}
+
+
+def _itself(ledger: Ledger, id: str) -> str:
+    return id
+
+
+@dataclass(frozen=True)
+class MarkHooks:
+    """Values that a student finds from the positions alone, whereas the key integrates or reads a curve."""
+
+    errors_of_positions: Callable[[Ledger], Mapping[str, np.ndarray]] = _no_errors
+    """Gives how far such values lie from those of the ledger (SI), by id."""
+    stands_on: Callable[[Ledger, str], str] = _itself
+    """Gives the id of the integral that a quantity is found from, else its own."""
+
+
+MARKS = HookModule("marks", MarkHooks)

@@ -1,0 +1,47 @@
+"""The true motion of a machine on its page: steady running, start and stop in time, the working point of its drive."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from reportgen.drawing.animation import Chart, Curve, TimedRun, Track
+from reportgen.motion.curves import characteristic_chart
+from reportgen.motion.running import MotionRun
+from reportgen.motion.true_motion import motion_in
+from reportgen.page.topic_layers import LayerHooks
+from reportgen.report.report import Report
+
+MOST = 1500
+"""So many samples of a run go to the page; between them its angle is drawn along straight lines of time."""
+
+
+def timed_runs(report: Report) -> tuple[TimedRun, ...]:
+    """The motions that a page plays in time: that with the flywheel where start and stop have it."""
+    motion = motion_in(report.analysis)
+    runs = {"steady": motion.states[motion.shown].run}
+    if motion.started is not None:
+        runs["start"] = motion.started.run
+    if motion.stopped is not None:
+        runs["stop"] = motion.stopped
+    return tuple(_timed(key, run) for key, run in runs.items())
+
+
+def _timed(key: str, run: MotionRun) -> TimedRun:
+    last = len(run.angle) - 1
+    step = max(-(-last // MOST), 1)
+    kept = np.unique(np.append(np.arange(0, last, step), last))
+    return TimedRun(key, run.time[kept], np.degrees(run.angle[kept]), run.speed[kept], run.drive[kept])
+
+
+def working_point(report: Report) -> Iterator[Chart]:
+    """The characteristic, on which the working point of the drive moves; none of a constant torque."""
+    motion = motion_in(report.analysis)
+    if motion.drive.governs:
+        symbol = report.ledger.symbol("run.Md")
+        plotted = characteristic_chart(report, half=True)
+        yield Chart(plotted, (Curve(symbol, Track(np.zeros(1))),), of_run=True)
+
+
+HOOKS = LayerHooks(runs=timed_runs, charts=working_point)

@@ -1,0 +1,54 @@
+"""How far the true motion by the trapezoid rule over the positions lies from that by the whole curve."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from reportgen.formula import ids
+from reportgen.formula.ledger import Ledger
+from reportgen.marking.bands import DIGITS, half_unit
+from reportgen.marking.topic_marks import MarkHooks
+
+TRUE_MOTION = "run."
+
+
+OF_CURVE = frozenset({"max", "min", "mean", "delta"})
+
+
+def errors_of_positions(ledger: Ledger) -> Mapping[str, np.ndarray]:
+    """How far what stands on integrals of the true motion is from what the rule makes of the positions.
+
+    The bounds of the speed are those of its curve, wherever the positions lie.
+    """
+    rests = [id for id in ledger.families if (names := ids.rest.read(id)) and names["id"].startswith(TRUE_MOTION)]
+    if not rests:
+        return {}
+    following = [
+        id
+        for id, family in ledger.families.items()
+        if id.startswith(TRUE_MOTION) and not (family.residue or id.split(".")[1] in OF_CURVE)
+    ]
+    values = ledger.evaluate(dict.fromkeys(rests, 0.0))
+    errors = {id: np.abs(np.real(values[id]) - ledger[id].values.real) for id in following}
+    for id in following:
+        speed = id.replace(".Md", ".omega")
+        if ledger[id].definition is None and speed != id and speed in ledger:
+            # A torque is read off its characteristic at a speed that has so many figures.
+            read, at = ledger[id].values.real, ledger[speed].values.real
+            with np.errstate(all="ignore"):
+                slopes = np.abs(np.diff(read, append=read[:1]) / np.diff(at, append=at[:1]))
+            steepest = float(np.max(slopes, initial=0.0, where=np.isfinite(slopes)))
+            errors[id] = steepest * half_unit(at, DIGITS)
+    return {id: error for id, error in errors.items() if error.max() > 0}
+
+
+def stands_on(ledger: Ledger, id: str) -> str:
+    """Return the id of the work of all torques for what is found from it."""
+    if not id.startswith(TRUE_MOTION) or ledger[id].definition is None or id not in errors_of_positions(ledger):
+        return id
+    return f"{TRUE_MOTION}A{id[id.rindex('.') :]}" if id.count(".") > 1 else f"{TRUE_MOTION}A"
+
+
+HOOKS = MarkHooks(errors_of_positions=errors_of_positions, stands_on=stands_on)

@@ -1,0 +1,76 @@
+"""Which of some motors is strong enough for a machine: by heating, at the start, at its greatest load."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from reportgen.motion.drives import Motor
+from reportgen.motion.running import SteadyMotion
+
+
+@dataclass(frozen=True, slots=True)
+class DriveDemand:
+    """What a steady motion asks of its drive, at the crank (N·m).
+
+    `mean` over the angle and `effective`, the root of the mean square over time, of the torque of the drive; `most` of
+    it, and the greatest `resistance` of the loads, against which the machine is to start.
+    """
+
+    mean: float
+    effective: float
+    most: float
+    resistance: float
+
+    @classmethod
+    def of(cls, steady: SteadyMotion, whole: float) -> DriveDemand:
+        """That of a steady motion over a cycle of so many radians."""
+        run = steady.run
+        square = np.diff(run.time) @ (run.drive[1:] ** 2 + run.drive[:-1] ** 2) / 2
+        return cls(
+            mean=steady.work / whole,
+            effective=float(np.sqrt(square / steady.period)),
+            most=float(np.abs(run.drive).max()),
+            resistance=max(float((-run.torque).max()), 0.0),
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class MotorChecks:
+    """A motor with what it passes, its torques reduced to the crank (N·m)."""
+
+    motor: Motor
+    rated: float
+    start: float
+    breakdown: float
+    demand: DriveDemand
+
+    @property
+    def endures(self) -> bool:
+        """Whether it does not grow too hot: M_eff ≤ M_n."""
+        return self.demand.effective <= self.rated
+
+    @property
+    def starts(self) -> bool:
+        """Whether it starts against the greatest resistance."""
+        return self.start >= self.demand.resistance
+
+    @property
+    def holds(self) -> bool:
+        """Whether it is not overloaded at any moment: M_max ≤ M_k."""
+        return self.demand.most <= self.breakdown
+
+    @property
+    def fits(self) -> bool:
+        return self.endures and self.starts and self.holds
+
+
+def judged(motors: Sequence[Motor], demand: DriveDemand, ratio: float) -> list[MotorChecks]:
+    """The motors by rising power, behind a gear by which the crank turns `ratio` times as fast."""
+    rising = sorted(motors, key=lambda motor: motor.power)
+    return [
+        MotorChecks(motor, motor.rated / ratio, motor.start / ratio, motor.breakdown / ratio, demand)
+        for motor in rising
+    ]

@@ -1,0 +1,162 @@
+"""A machine's start from rest under a drive, and its run-down to rest under a brake."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from reportgen.motion.drives import Drive
+from reportgen.motion.energy import PARTS, SAME_ANGLE, ReducedMachine
+from reportgen.motion.running import MOST_CYCLES, MotionRun, NoMotionError, SteadyMotion, passage, run_in_time, stalled
+from reportgen.motion.time_steps import TimeStepper
+
+Floats = NDArray[np.float64]
+NEAR_STEADY = 0.01
+"""A start is over at the end of the first cycle whose last speed is as near to the steady one."""
+STALLS = "start-stalls"
+NEAR_ENOUGH = np.radians(1.0)
+"""To what the limit of the angles is found (rad) from which a machine starts."""
+MOST_SWINGS = 50
+
+
+@dataclass(frozen=True)
+class StartFromRest:
+    """A start from rest: its run, and the indices of the ends of its cycles among the samples.
+
+    Where the loads are stronger than the drive and push the crank back, `turns_back` are the cycle angles (rad) there.
+    """
+
+    run: MotionRun
+    ends: tuple[int, ...]
+    turns_back: tuple[float, ...] = ()
+
+    @property
+    def time(self) -> float:
+        return float(self.run.time[-1])
+
+
+def starting_ranges(body: ReducedMachine, drive: Drive) -> list[tuple[float, float]]:
+    """From which cycle angles to which (rad) a machine at rest starts and comes through a cycle.
+
+    The farther before a place where the loads are too strong it starts, the more energy it has there.
+    """
+    angle = np.linspace(0.0, body.whole, body.machine.turns * 2 * PARTS + 1)
+    moves = body.reduced(angle)[2] + drive.torque(np.zeros_like(angle)) > 0
+    edges = np.flatnonzero(np.diff(np.concatenate(([False], moves, [False])).astype(int)))
+    ranges = []
+    for first, last in zip(edges[::2], edges[1::2] - 1, strict=True):
+        low, high = float(angle[first]), float(angle[last])
+        if not _comes_through(body, drive, low):
+            continue
+        if not _comes_through(body, drive, high):
+            inside, outside = low, high
+            while outside - inside > NEAR_ENOUGH:
+                middle = (inside + outside) / 2
+                inside, outside = (middle, outside) if _comes_through(body, drive, middle) else (inside, middle)
+            high = inside
+        ranges.append((low, high))
+    return ranges
+
+
+def _comes_through(body: ReducedMachine, drive: Drive, angle: float) -> bool:
+    """Whether a machine that starts from rest at an angle (rad) comes through a cycle."""
+    if not _moves(body, drive, angle):
+        return False
+    try:
+        _first_cycle(body, drive, body.parted(angle))
+    except NoMotionError:
+        return False
+    return True
+
+
+def start(
+    body: ReducedMachine, drive: Drive, to: SteadyMotion, angle: float = 0.0, own: Sequence[float] = ()
+) -> StartFromRest:
+    """From rest at a cycle angle (rad) until the steady motion is as good as reached.
+
+    Raises `NoMotionError` where the machine does not start, or stalls on the way.
+    """
+    edges = body.parted(angle, own)
+    torque = float(body.reduced(edges[:1])[2][0] + drive.torque(np.zeros(1))[0])
+    if torque <= 0:
+        ranges = starting_ranges(body, drive)
+        code = "does-not-start" if ranges else "starts-nowhere"
+        raise NoMotionError(code, angle=angle, missing=-torque, ranges=ranges)
+    run, turns_back = _first_cycle(body, drive, edges)
+    wanted = float(to.run.speed[to.run.place(np.mod(angle, body.whole))])
+    cycles, path = [run], body.along(edges)
+    while abs(cycles[-1].speed[-1] - wanted) > NEAR_STEADY * wanted:
+        if len(cycles) >= MOST_CYCLES:
+            raise NoMotionError("starts-too-slowly", speed=float(cycles[-1].speed[-1]))
+        run, arrives = passage(body, edges, drive, float(cycles[-1].speed[-1]), path)
+        if not arrives:
+            raise stalled(body, run, STALLS)
+        cycles.append(run.shifted(len(cycles) * body.whole))
+    ends = np.cumsum([len(cycle.angle) - 1 for cycle in cycles])
+    return StartFromRest(cycles[0].joined(*cycles[1:]), tuple(map(int, ends)), turns_back)
+
+
+def _first_cycle(body: ReducedMachine, drive: Drive, edges: Floats) -> tuple[MotionRun, tuple[float, ...]]:
+    """From rest to the last of the edges (rad), swinging back where the loads push; and where it turns back.
+
+    A crank that swings back less far than where it last set out from comes less far at every further swing, since no
+    path of speed over angle crosses itself: it stalls.
+    """
+    turns_back: list[float] = []
+    run, arrives = passage(body, edges, drive, 0.0)
+    every, set_out = np.concatenate((edges[:-1] - body.whole, edges)), float(edges[0])
+    while not arrives:
+        at = float(run.angle[-1])
+        torque = float(body.reduced(np.array([at]), -1)[2][0] + run.drive[-1])
+        if not body.yields or torque >= 0 or len(turns_back) >= MOST_SWINGS:
+            raise stalled(body, run, STALLS)
+        behind = _swing(body, drive, at)
+        if behind is None or behind.angle[-1] >= set_out or not _moves(body, drive, float(behind.angle[-1])):
+            raise stalled(body, run, STALLS)
+        turns_back.append(at)
+        set_out = float(behind.angle[-1])
+        forward, arrives = passage(body, np.append(set_out, every[every > set_out + SAME_ANGLE]), drive, 0.0)
+        run = run.joined(behind, forward)
+    return run, tuple(turns_back)
+
+
+def _moves(body: ReducedMachine, drive: Drive, angle: float) -> bool:
+    """Whether the crank goes forward from rest at an angle (rad)."""
+    return bool(body.reduced(np.array([angle]))[2][0] + drive.torque(np.zeros(1))[0] > 0)
+
+
+def _swing(body: ReducedMachine, drive: Drive, at: float) -> MotionRun | None:
+    """From rest at an angle (rad) back to where the crank comes to rest again; None if that is a cycle behind."""
+    stepper, speed, runs = TimeStepper(body, drive, sense=-1), 0.0, list[MotionRun]()
+    end = at - body.whole
+    corners = np.concatenate([body.corners + turn * body.whole for turn in (-1, 0)])
+    for edge in [*corners[(corners > end) & (corners < at - SAME_ANGLE)][::-1], end]:
+        run, rests = run_in_time(stepper, at, speed, float(edge))
+        runs.append(run)
+        if rests:
+            return runs[0].joined(*runs[1:])
+        at, speed = float(edge), float(run.speed[-1])
+    return None
+
+
+def stop(body: ReducedMachine, brake: Drive, speed: float, angle: float = 0.0, own: Sequence[float] = ()) -> MotionRun:
+    """The run-down from a speed (rad/s) at a cycle angle (rad), the motor off, under a brake, to rest.
+
+    Raises `NoMotionError` where the loads keep the machine going.
+    """
+    edges = body.parted(angle, own)
+    path = body.along(edges)
+    first = speed**2 / 2 * float(path.at_edges[0][0])
+    runs: list[MotionRun] = []
+    for number in range(MOST_CYCLES):
+        run, goes_on = passage(body, edges, brake, speed, path)
+        runs.append(run.shifted(number * body.whole))
+        if not goes_on:
+            return runs[0].joined(*runs[1:])
+        if run.energy[-1] >= first:
+            break
+        first, speed = float(run.energy[-1]), float(run.speed[-1])
+    raise NoMotionError("does-not-stop")

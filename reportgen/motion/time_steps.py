@@ -1,0 +1,174 @@
+"""The motion of a machine integrated in time: for the way beside rest, and wherever the speed changes within a degree.
+
+With J reduced to the crank and M = M_r(φ) + M_d(ω) the torque on it,  dφ/dt = ω,  dω/dt = ε = (M − ½ω²J′)/J.  In each
+step ω is a polynomial of time that fulfils the equation at the places of Gauss and Legendre (collocation), so a drive
+that settles within microseconds takes no shorter steps than the speed itself asks for.  A step ends where its time is
+over, at an angle, or where the crank comes to rest.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from reportgen.motion.drives import Drive
+from reportgen.motion.energy import STAGES, A, B, C, ReducedMachine, tail
+
+Floats = NDArray[np.float64]
+SETTLED = 1e-13
+"""The rounds of a step end where ω moves by less than this share of its greatest value in the step."""
+MOST_ROUNDS = 30
+ACCURATE = 1e-9
+"""What the highest of the polynomials in a step may add to ω, as a share of it; the end of the step is far better."""
+LONGEST = 0.05
+"""The way of the first step (rad)."""
+GROWS, SHRINKS = 4.0, 0.1
+"""How many times as long as the step before it a step may be at most and at least."""
+MOST_STEPS = 3000
+CREEPS = 1e-9
+"""A crank slower than this share of its greatest speed on the way is at rest."""
+SPACING = 4 * float(np.finfo(float).eps)
+
+
+class UnsettledError(Exception):
+    """So many steps do not lead to an edge or to rest; `angle` (rad) where they end."""
+
+    def __init__(self, angle: float) -> None:
+        super().__init__(angle)
+        self.angle = angle
+
+
+@dataclass(frozen=True)
+class TimeStep:
+    """A step: its `duration` (s), φ (rad) and ω (rad/s) at its places [s] and its end, and the `error` of ω there."""
+
+    duration: float
+    angle: Floats
+    speed: Floats
+    end_angle: float
+    end_speed: float
+    error: float
+
+
+@dataclass(frozen=True)
+class Leg:
+    """The steps to the next edge, or to where the crank `rests` before it."""
+
+    steps: tuple[TimeStep, ...]
+    rests: bool
+
+
+@dataclass(frozen=True)
+class TimeStepper:
+    """A machine under a drive; its `sense` is +1 while the crank goes forward, −1 while it goes back."""
+
+    body: ReducedMachine
+    drive: Drive
+    sense: int = 1
+
+    def reduced(self, angle: Floats) -> tuple[Floats, Floats, Floats]:
+        """J, J′ and M_r at angles [N] in the order in which the crank comes to them."""
+        if self.sense > 0:
+            return self.body.reduced(angle)
+        inertia, slope, torque = (values[::-1] for values in self.body.reduced(angle[::-1], -1))
+        return inertia, slope, torque
+
+    def leg(self, angle: float, speed: float, edge: float) -> Leg:
+        """From an angle and a speed until the crank is at an edge (rad), or at rest.
+
+        Raises `UnsettledError`.
+        """
+        steps, most = list[TimeStep](), abs(speed)
+        length = self._first(angle, speed)
+        for _ in range(MOST_STEPS):
+            step = self._towards(angle, speed, length, edge)
+            if step is None or step.error > ACCURATE:
+                length *= SHRINKS if step is None else max(SHRINKS, 0.9 * (ACCURATE / step.error) ** (1 / STAGES))
+                continue
+            steps.append(step)
+            angle, speed = step.end_angle, step.end_speed
+            most = max(most, abs(speed))
+            if abs(speed) <= CREEPS * most:
+                return Leg(tuple(steps), rests=True)
+            if angle == edge:
+                return Leg(tuple(steps), rests=False)
+            factor = 0.9 * (ACCURATE / max(step.error, 1e-300)) ** (1 / STAGES)
+            length = step.duration * min(max(factor, SHRINKS), GROWS)
+        raise UnsettledError(angle)
+
+    def _first(self, angle: float, speed: float) -> float:
+        """How long the first step is tried (s): the way is short, the drive hardly changes."""
+        (J,), (slope,), (torque,) = self.reduced(np.array([angle]))
+        ω = np.array([speed])
+        ε = abs(float(torque + self.drive.torque(ω)[0] - speed**2 * slope / 2) / J)
+        fall = abs(float(self.drive.slope(ω)[0]) / J)
+        lengths = [LONGEST / abs(speed) if speed else np.inf, 1 / fall if fall else np.inf]
+        lengths += [np.sqrt(2 * LONGEST / ε)] if ε else []
+        return float(min(lengths))
+
+    def _towards(self, angle: float, speed: float, length: float, edge: float) -> TimeStep | None:
+        """A step of this length (s), or of less to the edge or to rest, whichever comes first."""
+        step = self._step(angle, speed, length)
+        if step is None:
+            return None
+        if self.sense * step.end_speed <= 0:
+            step = self._step(angle, speed, length / 2, to_rest=True)
+            if step is None:
+                return None
+        if self.sense * (step.end_angle - edge) > 0:
+            share = (edge - angle) / (step.end_angle - angle)
+            step = self._step(angle, speed, step.duration * share, edge=edge)
+        return step
+
+    def _step(
+        self, angle: float, speed: float, length: float, edge: float | None = None, *, to_rest: bool = False
+    ) -> TimeStep | None:
+        """A step by Newton's method for ω, the angles following it; None where it does not settle."""
+        ω, h = np.full(STAGES, speed), length
+        path = h * speed * C
+        before = np.inf
+        for _ in range(MOST_ROUNDS):
+            J, slope, torque = self.reduced(angle + path) if path[0] or path[-1] else self._beside(angle)
+            ε = (torque + self.drive.torque(ω) - ω**2 * slope / 2) / J
+            gain = (self.drive.slope(ω) - ω * slope) / J
+            moved = np.linalg.solve(np.eye(STAGES) - h * A * gain, speed + h * A @ ε - ω)
+            ω, ε = ω + moved, ε + gain * moved
+            end, size = speed + h * float(B @ ε), max(float(np.abs(ω).max()), abs(speed))
+            further = h * A @ ω
+            gone = h * float(B @ ω)
+            if not np.isfinite(size) or size == 0:
+                return None
+            off = max(float(np.abs(moved).max()) / size, float(np.abs(further - path).max()) / (h * size))
+            path = further
+            rounding = SPACING * max(abs(angle), abs(gone)) / (h * size)
+            change = 0.0
+            if to_rest:
+                change = -end / float(ε[-1]) if ε[-1] else np.nan
+            elif edge is not None:
+                change = (edge - angle - gone) / end if end else np.nan
+            off = max(off, abs(change) / h)
+            settled = off <= max(SETTLED, rounding) or (off <= 1e3 * max(SETTLED, rounding) and off >= before)
+            if settled:
+                error = h * tail(ε) / size
+                at_end = edge if edge is not None else angle + gone
+                return TimeStep(h, angle + path, ω, at_end, 0.0 if to_rest else end, error)
+            before = off
+            if not 0 < h + change < 4 * length:
+                return None
+            path, h = path * (1 + change / h), h + change
+        return None
+
+    def _beside(self, angle: float) -> tuple[Floats, Floats, Floats]:
+        """J, J′ and M_r just behind an angle, for all places of a step that leaves rest."""
+        J, slope, torque = self.reduced(np.full(STAGES, angle + self.sense * SPACING * max(abs(angle), 1.0)))
+        return J, slope, torque
+
+
+def times(steps: Sequence[TimeStep]) -> Floats:
+    """The times (s) at the beginning of the first step and at the places and the end of each [(s + 1) n + 1]."""
+    ends = np.cumsum([step.duration for step in steps])
+    within = [np.append(end - step.duration * (1 - C), end) for step, end in zip(steps, ends, strict=True)]
+    return np.concatenate(([0.0], *within))

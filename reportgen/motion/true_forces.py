@@ -1,0 +1,81 @@
+"""Accelerations, inertia forces and reactions of the true motion, beside those at constant speed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from reportgen.base.units import figure_decimals
+from reportgen.document import Table
+from reportgen.formula import Number, Symbol, ids, size
+from reportgen.formula.sheet import ZERO
+from reportgen.machine.analysis import Analysis, Position
+from reportgen.motion.curves import motion_of
+from reportgen.motion.true_motion import at_true_speeds, motion_in
+from reportgen.report.report import Report
+from reportgen.report.tables import list_table
+
+WIDTHS = (36.0, 40.0, 40.0, 30.0)
+
+
+def asks_forces(report: Report) -> bool:
+    """Whether the forces of the true motion are asked for."""
+    motion = motion_in(report.analysis)
+    return motion is not None and motion.asked.forces
+
+
+def forces_table(report: Report, key: str, caption: str, head: Sequence[str], k: Position) -> Table:
+    """What each is at a position at constant speed, and in the true motion, with its unit."""
+    motion = motion_of(report)
+    true = at_true_speeds(report.analysis, motion.states[motion.shown])
+    return list_table(report, key, caption, head, list(_rows(report, true, k)), WIDTHS)
+
+
+def _rows(report: Report, true: Analysis, k: Position) -> Iterator[Sequence[object]]:
+    """Of points, links, inertia and joints what the report has at constant speed, which is as it is written there."""
+    values = {id: course for id, course in _courses(report, true) if id in report.ledger}
+    greatest: dict[str, float] = {}
+    for id, course in values.items():
+        kind = report.ledger[id].kind
+        greatest[kind] = max(greatest.get(kind, 0.0), _greatest(course))
+    for id, course in values.items():
+        noise = ZERO * greatest[report.ledger[id].kind]
+        yield _row(report, id, np.where(np.abs(course) > noise, course, 0.0), k)
+
+
+def _courses(report: Report, true: Analysis) -> Iterator[tuple[str, np.ndarray]]:
+    """The ids of all that depends on the acceleration, with the true values (SI) [N]."""
+    for name, point in true.motion.points.items():
+        yield ids.acceleration(name), np.abs(point.a)
+    for number, link in true.motion.links.items():
+        yield ids.signed("eps", number), link.epsilon
+    for load in true.inertia:
+        yield load.name, np.abs(load.force)
+        yield ids.inertia_couple(load.link), np.abs(load.couple)
+    shown: set[frozenset[int]] = set()
+    for name, reaction in true.forces.reactions.items():
+        joint = frozenset(ids.links_of(name))
+        if joint not in shown and ids.of_force(name) in report.ledger:
+            shown.add(joint)
+            yield ids.of_force(name), np.abs(reaction.force)
+
+
+def _row(report: Report, id: str, true: np.ndarray, k: Position) -> tuple[object, ...]:
+    """A quantity with its value at constant speed and the true one of [N], in the decimals that the report has for it.
+
+    What is nothing at constant speed has the figures of its kind.
+    """
+    ledger = report.ledger
+    how, signed = ledger[id].how, ledger[id].is_signed_rotation
+    even, decimals = ledger.number(id, k, size=not signed), ledger.decimals[id]
+    if decimals is None or not _greatest(ledger[id].values):
+        decimals = figure_decimals(_greatest(true) / how.scale, how.digits) if how.decimals is None else how.decimals
+    symbol: Symbol = ledger.symbol(id)
+    there = float(true[k - 1]) / how.scale
+    shown = (Number(even.value, even.decimals), Number(there, decimals if there else None))
+    return (symbol if signed else size(symbol), *shown, ledger.units.get(how.unit, how.unit))
+
+
+def _greatest(values: np.ndarray) -> float:
+    return float(np.max(np.abs(values), initial=0.0, where=np.isfinite(values)))

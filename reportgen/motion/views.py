@@ -1,0 +1,415 @@
+"""The chapter on the true motion of a machine: what its words name, its curves and tables."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from reportgen.base.units import rounded, significant_decimals
+from reportgen.document import Equation, InlineMath, Inlines, Paragraph, Table, Text, Value, listed
+from reportgen.formula import NOTHING, Chain, Expression, Number, Symbol, plus
+from reportgen.machine.shared_results import REGULATED_CYCLE
+from reportgen.motion import motor_choice as running_motors
+from reportgen.motion import run_ids
+from reportgen.motion.curves import FIGURES, motion_of
+from reportgen.motion.drives import ConstantDrive, Geared, TableDrive
+from reportgen.motion.motor_choice import chosen_motor
+from reportgen.motion.running import MotionRun
+from reportgen.motion.true_forces import asks_forces, forces_table
+from reportgen.motion.true_motion import OFF_SPEED, motion_in
+from reportgen.report.report import Report
+from reportgen.report.tables import list_table, tables
+from reportgen.report.topic_views import ViewHooks, always
+
+RPM = 30 / math.pi
+"""Revolutions a minute of a radian a second."""
+MOST_CYCLES = 12
+"""Ends of the cycles of a start that its table shows, the last among them."""
+
+
+# --- what the words name ------------------------------------------------------------------------------
+
+
+def drive_form(report: Report) -> str:
+    """How the drive is given: "linear", a "load", "kloss", "table", a "constant" torque, or one that is "found"."""
+    motion = motion_in(report.analysis)
+    if not isinstance(motion.drive, ConstantDrive):
+        if "run.k" in report.ledger:
+            return "linear" if report.case.ledger["run.M0"].values[0] > 0 else "load"
+        return "kloss" if "run.Mk" in report.ledger else "table"
+    return "found" if motion.asked.drive is None else "constant"
+
+
+def governed(report: Report) -> bool:
+    """Whether the torque of the drive depends on the speed."""
+    return motion_in(report.analysis).drive.governs
+
+
+def inertia_slopes(report: Report) -> list[str]:
+    """The components of accelerations along the velocities, the shares of links in J′, and J′."""
+    points = (run_ids.along_velocity(body.centre) for body in report.machine.linkage.inertias)
+    shares = (run_ids.slope(link) for link in report.machine.linkage.links)
+    return report.known([*points, *shares, run_ids.slope()])
+
+
+def characteristic_lines(report: Report) -> list[str]:
+    """What the formula of the characteristic gives at a speed."""
+    return report.known(["run.slip", "run.Mc"])
+
+
+def steady_lines(report: Report, k: int | None = None) -> list[str]:
+    """Energy, speed, acceleration at a position."""
+    return report.known(["run.T", "run.omega", "run.eps"])
+
+
+def bound_lines(report: Report, state: str = "") -> list[str]:
+    """What the cycle comes to: the mean of the bounds of the speed, their distance, the power."""
+    names = ("mean", "delta", "period", "work", "power")
+    return report.known(run_ids.quantity(name, *([state] if state else [])) for name in names)
+
+
+def has_wheeled(report: Report) -> bool:
+    return motion_in(report.analysis).wheeled is not None
+
+
+def _permitted(report: Report) -> float | None:
+    """Return the permitted unevenness, None if the file does not name any."""
+    regulated = REGULATED_CYCLE.of(report.machine)
+    return None if regulated is None else regulated.unevenness
+
+
+def verdict(report: Report) -> str:
+    """Whether the true unevenness is "kept" within what is permitted, or "exceeded"; "" where nothing is permitted."""
+    if _permitted(report) is None:
+        return ""
+    return "exceeded" if _excess(report) > 0 else "kept"
+
+
+def _excess(report: Report) -> float:
+    """By what share the true unevenness exceeds the permitted one, both as they are printed; negative if it is less."""
+    motion, permitted = motion_in(report.analysis), _permitted(report)
+    assert permitted is not None, "a verdict names what is permitted"
+    printed = report.ledger.number(run_ids.in_state("delta", list(motion.states)[-1]))
+    allowed = permitted if printed.decimals is None else rounded(permitted, printed.decimals)
+    return float((printed.shown - allowed) / permitted)
+
+
+def exceeded_by(report: Report) -> Inlines:
+    """By how much the true unevenness exceeds the permitted one; nothing where it does not."""
+    return (_percent(_excess(report)),) if verdict(report) == "exceeded" else ()
+
+
+def off_speed(report: Report) -> Inlines:
+    """How far the mean speed is from the planned one; nothing where it is near."""
+    share = motion_in(report.analysis).off_speed(report.machine)
+    return (_percent(share),) if share > OFF_SPEED else ()
+
+
+def _percent(share: float) -> Value:
+    return Value(Number(float(f"{100 * share:.2g}"), max(significant_decimals(100 * share, 2), 0), "%"))
+
+
+def with_wheel_or_alone(report: Report) -> str:
+    """Which of the two steady motions the verdict is about."""
+    return "wheel" if has_wheeled(report) else "alone"
+
+
+def starts(report: Report) -> bool:
+    return motion_in(report.analysis).started is not None
+
+
+def stops(report: Report) -> bool:
+    return motion_in(report.analysis).stopped is not None
+
+
+def drive_takes(report: Report) -> bool:
+    """Whether the machine drives what its shaft is coupled to, as an engine does, rather than being driven."""
+    return motion_in(report.analysis).alone.work < 0
+
+
+def starts_with(report: Report) -> str:
+    """Whether start and stop are those of the machine "alone" or with its "wheel"."""
+    motion = motion_in(report.analysis)
+    return "wheel" if motion.shown else "alone"
+
+
+def swings(report: Report) -> Inlines:
+    """Where the loads push the crank back as it starts; nothing where they do not."""
+    motion = motion_in(report.analysis)
+    if motion.started is None:
+        return ()
+    return listed(Value(_degrees(angle)) for angle in motion.started.turns_back)
+
+
+def cycles(report: Report) -> str:
+    """How many cycles the start takes."""
+    motion = motion_in(report.analysis)
+    return "" if motion.started is None else str(len(motion.started.ends))
+
+
+def start_angle(report: Report) -> Inlines:
+    return _angle_of(motion_in(report.analysis).asked.start_from)
+
+
+def stop_angle(report: Report) -> Inlines:
+    return _angle_of(motion_in(report.analysis).asked.stop_from)
+
+
+def _angle_of(angle: float | None) -> Inlines:
+    return () if angle is None else (Value(_degrees(angle)),)
+
+
+def _degrees(angle: float) -> Number:
+    return Number(math.degrees(angle), 1, "°")
+
+
+def extreme_places(report: Report, state: str = "") -> Mapping[str, Inlines]:
+    """Where the crank is fastest and slowest: its turn from the first position."""
+    motion = motion_of(report)
+    steady = motion.states["wheel" if state else ""]
+    return {"fastest": _angle_of(steady.fastest.angle), "slowest": _angle_of(steady.slowest.angle)}
+
+
+def motion_equations(report: Report) -> Equation:
+    """The equation of motion, the equation of energy and what it gives, in symbols."""
+    ledger = report.ledger
+    parts = [ledger.symbol(id) for id in ("J.r", "run.J") if id in ledger]
+    J = plus(*parts)
+    ω, ε = ledger.symbol("run.omega"), ledger.symbol("run.eps")
+    M = ledger.symbol("M.r") + ledger.symbol("run.Md")
+    T = ledger.symbol("run.T")
+    slope: Expression = ledger.symbol("run.dJ") if "run.dJ" in ledger else NOTHING
+    turning = ε * J if len(parts) > 1 else J * ε
+    left = turning if slope == NOTHING else turning + ω**2 * slope / 2
+    rate = Symbol("d" + T.base, T.sub) / Symbol("dφ")
+    half = ω**2 * J / 2 if len(parts) > 1 else J * ω**2 / 2
+    time = Symbol("dt") / Symbol("dφ")
+    return Equation((Chain((left, M)), Chain((T, half)), Chain((rate, M)), Chain((time, 1 / ω))))
+
+
+def drive_equations(report: Report) -> Equation:
+    """The characteristic of the drive in symbols, as it acts on the crank."""
+    ledger = report.ledger
+    M, ω = ledger.symbol("run.Md"), Symbol("ω")
+    i = ledger.symbol("run.i") if "run.i" in ledger else None
+    if "run.k" in ledger:
+        falling = ledger.symbol("run.M0") - ledger.symbol("run.k") * (ω if i is None else ω / i)
+        return Equation((Chain((M, falling if i is None else falling / i)),))
+    s, s_k = ledger.symbol("run.slip"), ledger.symbol("run.sk")
+    shares, ω0 = s / s_k + s_k / s, ledger.symbol("run.omega0")
+    kloss = 2 * ledger.symbol("run.Mk") / (shares if i is None else i * shares)
+    return Equation((Chain((M, kloss)), Chain((s, 1 - ω / (ω0 if i is None else i * ω0)))))
+
+
+def drive_formula(report: Report) -> Inlines:
+    """The same within a sentence; nothing of a drive without a formula."""
+    if drive_form(report) not in ("linear", "load", "kloss"):
+        return ()
+    chains = (InlineMath(chain, slashed=True) for chain in drive_equations(report).rows if isinstance(chain, Chain))
+    return listed(chains)
+
+
+def drive_points(report: Report) -> Inlines:
+    """The torques of a characteristic that is a table, at its speeds; nothing of another one."""
+    motion = motion_in(report.analysis)
+    drive = motion.drive
+    motor = drive.motor if isinstance(drive, Geared) else drive
+    if not isinstance(motor, TableDrive):
+        return ()
+    pairs = zip(motor.speeds, motor.torques, strict=True)
+    rpm = report.ledger.units.get("rpm", "rpm")
+    points = (
+        (
+            Value(_short(torque, report.ledger.printed_unit("N·m"))),
+            Text(f" {report.words['figure']['at_speed']} "),
+            Value(_short(speed * RPM, rpm)),
+        )
+        for speed, torque in pairs
+    )
+    return tuple(part for number, point in enumerate(points) for part in (*((Text("; "),) if number else ()), *point))
+
+
+def _short(value: float, unit: str) -> Number:
+    return Number(float(f"{value:.9g}"), None, unit)
+
+
+def step_equation(report: Report) -> Equation:
+    """How the speed goes on from a position to the next one, in symbols."""
+    ω, J, M = Symbol("ω", "b"), Symbol("J"), Symbol("M")
+    after = M * Symbol("Δφ") / (J * ω) + (3 * J - Symbol("J", "", "+")) * ω / (2 * J)
+    return Equation((Chain((Symbol("ω", "b", "+"), after)),))
+
+
+def inertia_apart(report: Report) -> bool:
+    """Return True if the reduced moment of inertia has not been worked out in a chapter before."""
+    return report.has_reduced_inertia and reduced_here(report)
+
+
+def reduced_here(report: Report) -> bool:
+    """Return True unless a chapter before has reduced torque and inertia to the crank."""
+    return REGULATED_CYCLE.of(report.machine) is None
+
+
+def inertia_form(report: Report) -> str:
+    """Whether the reduced moment of inertia "varies", is "even", or there is only that of the motor, "none"."""
+    if not report.has_reduced_inertia:
+        return "none"
+    return "varies" if inertia_slopes(report) else "even"
+
+
+def residuals(report: Report) -> dict[str, float]:
+    """How far the drive is from its characteristic, and a steady cycle from its beginning, as shares."""
+    motion, families = motion_in(report.analysis), report.case.ledger.families
+    closing = [abs(steady.run.energy[-1] / steady.run.energy[0] - 1) for steady in motion.states.values()]
+    readings = [
+        families[id].values[0]
+        for id in (run_ids.in_state("reading", state) for state in motion.states)
+        if id in families
+    ]
+    result = {"run_energy": float(max(closing))}
+    return {"drive": float(max(readings)), **result} if readings else result
+
+
+def _of_shown(name: str) -> Callable[[Report], str]:
+    """The id of a quantity of the motion that starts, stops and has its forces shown."""
+
+    def of(report: Report) -> str:
+        motion = motion_in(report.analysis)
+        return run_ids.in_state(name, motion.shown)
+
+    return of
+
+
+VALUES: Mapping[str, Callable[[Report], Any]] = {
+    "forces_omega": _of_shown("omega"),
+    "forces_eps": _of_shown("eps"),
+    "inertia_apart": inertia_apart,
+    "reduced_here": reduced_here,
+    "inertia_form": inertia_form,
+    "drive_form": drive_form,
+    "governed": governed,
+    "inertia_slopes": inertia_slopes,
+    "characteristic_lines": characteristic_lines,
+    "motion_verdict": verdict,
+    "verdict_of": with_wheel_or_alone,
+    "exceeded_by": exceeded_by,
+    "off_speed": off_speed,
+    "has_wheeled": has_wheeled,
+    "starts": starts,
+    "stops": stops,
+    "drive_takes": drive_takes,
+    "starts_with": starts_with,
+    "swings": swings,
+    "start_cycles": cycles,
+    "start_angle": start_angle,
+    "stop_angle": stop_angle,
+    "drive_formula": drive_formula,
+    "drive_points": drive_points,
+    **running_motors.VALUES,
+    "asks_forces": asks_forces,
+}
+FUNCTIONS: Mapping[str, Callable[..., Any]] = {
+    "bound_lines": bound_lines,
+    "steady_lines": steady_lines,
+    "extreme_places": extreme_places,
+    "motion_equations": motion_equations,
+    "drive_equations": drive_equations,
+    "step_equation": step_equation,
+}
+
+# --- tables -----------------------------------------------------------------------------------------------
+
+Head = Sequence[str]
+
+
+def steady_table(report: Report, key: str, caption: str, head: Head) -> tuple[Table | Paragraph, ...]:
+    """The steady motion at the positions."""
+    shared = ["J.r", "run.dJ", "M.r"]
+    own = [run_ids.in_state(name, "") for name in ("Md", "T", "omega", "eps", "t")]
+    shown = [id for id in report.known([*shared, *own]) if len(report.ledger[id].values) > 1]
+    return tables(report, key, caption, shown, report.all_positions)
+
+
+def wheel_table(report: Report, key: str, caption: str, head: Head) -> tuple[Table | Paragraph, ...]:
+    """The same with the flywheel."""
+    own = report.known(run_ids.in_state(name, "wheel") for name in ("Md", "T", "omega", "eps", "t"))
+    return tables(report, key, caption, own, report.all_positions)
+
+
+def steps_table(report: Report, key: str, caption: str, head: Head) -> tuple[Table | Paragraph, ...]:
+    """The speed by steps beside the true one."""
+    return tables(report, key, caption, ["run.omega", "run.step"], report.all_positions)
+
+
+def start_table(report: Report, key: str, caption: str, head: Head) -> Table:
+    """The start at the positions of its first cycle and at the ends of the others."""
+    started = motion_of(report).started
+    assert started is not None, "a start has a table where it is asked for"
+    run, begin = started.run, float(started.run.angle[0])
+    whole = report.machine.turns * 2 * math.pi
+    places = sorted(begin + np.mod(angle - begin, whole) for angle in report.machine.cycle_angles)
+    # Of a crank that swings back the last time at a place counts.
+    first = [_last_at(run, at, started.ends[0]) for at in places if not np.isclose(at, begin)]
+    ends = list(started.ends)
+    step = -(-len(ends) // MOST_CYCLES)
+    shown = [0, *first, *dict.fromkeys([*ends[::step], ends[-1]])]
+    return list_table(report, key, caption, head, _rows(report, run, shown), (40.0, 40.0, 40.0, 40.0))
+
+
+def _last_at(run: MotionRun, angle: float, end: int) -> int:
+    near = np.flatnonzero(np.abs(run.angle[: end + 1] - angle) < 1e-8)
+    return int(near[-1]) if near.size else int(np.abs(run.angle[: end + 1] - angle).argmin())
+
+
+def stop_table(report: Report, key: str, caption: str, head: Head) -> Table:
+    """The run-down at the positions that it passes, and its end."""
+    run = motion_of(report).stopped
+    assert run is not None, "a stop has a table where it is asked for"
+    whole = report.machine.turns * 2 * math.pi
+    turns = math.ceil(float(run.angle[-1]) / whole)
+    every = (angle + turn * whole for turn in range(turns) for angle in report.machine.cycle_angles)
+    passed = [angle for angle in every if run.angle[0] < angle < run.angle[-1]]
+    step = -(-len(passed) // MOST_CYCLES) if passed else 1
+    shown = [0, *(run.place(angle) for angle in passed[::step]), len(run.angle) - 1]
+    return list_table(report, key, caption, head, _rows(report, run, shown), (40.0, 40.0, 40.0, 40.0))
+
+
+def _rows(report: Report, run: MotionRun, places: Sequence[int]) -> Iterator[Sequence[object]]:
+    decimals = report.ledger.decimals
+    speeds, times, rates = (decimals[id] for id in ("run.omega", "run.t", "run.eps"))
+    for place in dict.fromkeys(places):
+        yield (
+            Number(math.degrees(float(run.angle[place])), 2),
+            Number(float(run.time[place]), times),
+            Number(float(run.speed[place]), speeds),
+            Number(float(run.acceleration[place]), rates),
+        )
+
+
+TABLES: Mapping[str, Callable[..., Any]] = {
+    "run": steady_table,
+    "run.wheel": wheel_table,
+    "run.steps": steps_table,
+    "run.start": start_table,
+    "run.stop": stop_table,
+    "run.forces": forces_table,
+    **running_motors.TABLES,
+}
+
+
+def _overview(report: Report) -> Sequence[str]:
+    motor = ("motion-overview-motor",) if chosen_motor(report) else ()
+    return (*motor, "motion-overview-verdict") if verdict(report) else motor
+
+
+HOOKS = ViewHooks(
+    values=VALUES,
+    functions=FUNCTIONS,
+    figures=FIGURES,
+    tables=TABLES,
+    passages={"overview": _overview, "conclusion": always("motion-conclusion"), "task": always("motion-task")},
+    residuals=residuals,
+)

@@ -1,0 +1,72 @@
+"""What a topic adds to the moving page of a machine."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from reportgen.base.topics import HookModule
+from reportgen.drawing.animation import BarScale, Chart, MovingItem, TimedRun
+from reportgen.formula import Symbol
+from reportgen.machine.analysis import Analysis
+from reportgen.machine.motion import Motion
+from reportgen.report.report import Report
+
+Box = tuple[complex, complex]
+"""The lower left and the upper right corner of a drawing (mm)."""
+Chosen = Callable[[str, Callable[[], float]], float]
+"""Gives a number that is chosen once for a page, by its name."""
+
+
+def _no_items(report: Report, analysis: Analysis, scale: float, per: float, turn: int) -> Iterator[MovingItem]:
+    yield from ()
+
+
+def _nothing_shown(
+    report: Report, motion: Motion, scale: float, longest: float, chosen: Chosen
+) -> tuple[Sequence[MovingItem], Sequence[BarScale]]:
+    return (), ()
+
+
+def _no_more_room(report: Report, motion: Motion, scale: float, box: Box) -> Box:
+    return box
+
+
+def _no_runs(report: Report) -> Sequence[TimedRun]:
+    return ()
+
+
+def _no_charts(report: Report) -> Iterator[Chart]:
+    yield from ()
+
+
+def _no_values(report: Report, motion: Motion) -> Iterator[tuple[Symbol, str, np.ndarray]]:
+    yield from ()
+
+
+@dataclass(frozen=True)
+class LayerHooks:
+    """Items, curves, runs and numbers of a topic on the page.
+
+    `with_forces` gives items at the samples of an analysis, `scale` mm a metre and `per` newtons a millimetre, of which
+    the first `turn` samples are one turn; `shown` gives items over one turn with bars of their own scale.
+    """
+
+    layers: tuple[str, ...] = ()
+    """The layers of the topic."""
+    force_layers: tuple[str, ...] = ()
+    """Those whose arrows have the scale of the forces."""
+    with_forces: Callable[[Report, Analysis, float, float, int], Iterator[MovingItem]] = _no_items
+    shown: Callable[[Report, Motion, float, float, Chosen], tuple[Sequence[MovingItem], Sequence[BarScale]]] = (
+        _nothing_shown
+    )
+    room: Callable[[Report, Motion, float, Box], Box] = _no_more_room
+    """Gives the corners of a drawing that holds the items, too."""
+    runs: Callable[[Report], Sequence[TimedRun]] = _no_runs
+    charts: Callable[[Report], Iterator[Chart]] = _no_charts
+    values: Callable[[Report, Motion], Iterator[tuple[Symbol, str, np.ndarray]]] = _no_values
+
+
+LAYERS = HookModule("layer", LayerHooks)

@@ -1,0 +1,59 @@
+"""Wide sliders in the figures of a report: their faces, and the reactions at both ends where they tilt."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from reportgen.drawing import Item, Line, style
+from reportgen.drawing.forces import LEAST_ARM
+from reportgen.drawing.geometry import unit
+from reportgen.formula import Symbol, constructions, ids, vocabulary
+from reportgen.machine.faces import Faces
+from reportgen.machine.loads import carriers
+from reportgen.machine.shared_results import FACES
+from reportgen.report.report import Report
+
+
+def faces_of(report: Report) -> Mapping[int, Faces]:
+    """Return the faces of wide sliders by their links, none if all sliders are narrow."""
+    return FACES.of(report.machine) or {}
+
+
+def tilts(report: Report, digits: str, k: int) -> bool:
+    """Whether a slider tilts at a position, as it is printed."""
+    first = ids.face_reaction(digits, 1)
+    return first in report.ledger and bool(np.isfinite(report.ledger[first].at(k)))
+
+
+def ends_of(report: Report, link: int, k: int) -> tuple[complex, complex]:
+    """Where the face of a slider begins and ends (m)."""
+    faces, motion = faces_of(report)[link], report.analysis.motion
+    along = complex(motion.slides[carriers(report.machine.linkage)[link], link].direction[k - 1])
+    first, last = (x - 1j * faces.below for x in (faces.first, faces.last))
+    pin = complex(motion.origins[link].p[k - 1])
+    return pin + first * along, pin + last * along
+
+
+def face(report: Report, link: int, k: int, scale: float) -> list[Item]:
+    """The face of a slider with what holds it at its pin, in paper millimetres."""
+    first, last = (place * scale for place in ends_of(report, link, k))
+    pin = complex(report.analysis.motion.origins[link].p[k - 1]) * scale
+    foot = complex(constructions.foot(pin, first, unit(last - first)))
+    arm = [Line(pin, foot, style.THIN)] if abs(foot - pin) > LEAST_ARM else []
+    return [Line(first, last, style.VISIBLE), *arm]
+
+
+def at_ends(report: Report, digits: str, link: int, k: int) -> list[tuple[Symbol, complex, complex, str]]:
+    """The reactions at both ends of a slider that tilts: vector, place (m), direction, id."""
+    if link not in faces_of(report) or not tilts(report, digits, k):
+        return []
+    along = complex(report.analysis.motion.slides[carriers(report.machine.linkage)[link], link].direction[k - 1])
+    found = []
+    for number, place in enumerate(ends_of(report, link, k), 1):
+        id = ids.face_reaction(digits, number)
+        size = float(np.real(report.ledger[id].at(k)))
+        shown = vocabulary.vector(report.ledger.symbol(id))
+        found.append((shown, place, size * 1j * along, id))
+    return found

@@ -1,0 +1,59 @@
+"""What a topic adds to the report of a machine: names for its words, figures, tables, passages in shared chapters."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from reportgen.base.topics import HookModule
+from reportgen.report.figures import FigureScenes
+from reportgen.report.report import Report
+
+Passages = Callable[[Report], Sequence[str]]
+"""The sections of words that a topic puts at a place of a shared chapter, none if it has nothing to say there."""
+DrawnFigure = tuple[str, Callable[..., FigureScenes]]
+"""The beginning of the keys of a figure, and the function that draws it."""
+
+
+def always(*sections: str) -> Passages:
+    """Return passages that stand wherever the machine has the topic."""
+    return lambda report: sections
+
+
+def _no_residuals(report: Report) -> Mapping[str, float]:
+    return {}
+
+
+@dataclass(frozen=True)
+class ViewHooks:
+    """What templates may name of a topic, by the names in templates."""
+
+    values: Mapping[str, Callable[[Report], object]] = field(default_factory=dict)
+    functions: Mapping[str, Callable[..., object]] = field(default_factory=dict)
+    figures: Mapping[str, DrawnFigure] = field(default_factory=dict)
+    tables: Mapping[str, Callable[..., object]] = field(default_factory=dict)
+    passages: Mapping[str, Passages] = field(default_factory=dict)
+    """What the topic adds to shared chapters, by the names of the places there."""
+    residuals: Callable[[Report], Mapping[str, float]] = _no_residuals
+    """Independent checks with the largest residual of each as a share of the greatest value."""
+    letters: str = ""
+    """Letters of diagrams that stand for nothing of the machine."""
+
+
+VIEWS = HookModule("views", ViewHooks)
+
+
+def passages(report: Report, place: str) -> list[str]:
+    """Return the sections of words that the topics of a machine put at a place of a shared chapter."""
+    found = (hooks.passages[place](report) for hooks in VIEWS.among(report.machine.topics) if place in hooks.passages)
+    return [section for sections in found for section in sections]
+
+
+def merged(report: Report, part: Callable[[ViewHooks], Mapping[str, Any]]) -> dict[str, Any]:
+    """Return a part of the hooks of all topics of a machine as one table."""
+    return _united(part(hooks) for hooks in VIEWS.among(report.machine.topics))
+
+
+def _united(tables: Iterable[Mapping[str, Any]]) -> dict[str, Any]:
+    return {name: of for table in tables for name, of in table.items()}

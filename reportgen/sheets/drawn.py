@@ -1,0 +1,122 @@
+"""What plates of drawing sheets are made from: a report, the same drawn small, scenes with their words, tables."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from reportgen.case import MachineAnalysis
+from reportgen.document import Text, plain
+from reportgen.document.unspaced import set_out
+from reportgen.drawing import Content, Scene
+from reportgen.drawing.sheet import ENLARGED, grid, widths
+from reportgen.formula import Number
+from reportgen.report.groups import GroupView
+from reportgen.report.report import Report
+
+WIDEST, MOST_ROWS = 180.0, 24
+"""A table is so wide (mm) and has so many positions at most; then another stands beside it."""
+
+
+SEGMENT = 2
+"""Decimals of lengths on paper, mm."""
+
+
+@dataclass(frozen=True)
+class Sources:
+    """What plates are drawn from: a report, and the same one whose figures are drawn small, to be enlarged.
+
+    Of `every` plan there is a plate, those of velocities and accelerations to the scales of the worked ones.
+    """
+
+    report: Report
+    small: Report
+    every: bool = False
+
+    @classmethod
+    def of(cls, case: MachineAnalysis, every: bool = False) -> Sources:
+        return cls(Report(case), Report(case, enlarged=ENLARGED), every)
+
+    @property
+    def words(self) -> Mapping[str, Any]:
+        words: Mapping[str, Any] = self.report.words["plates"]
+        return words
+
+    def called(self, group: GroupView) -> str:
+        """Group (2,3)."""
+        return str(self.report.words["figure"]["group"]).format(i=group.i, j=group.j)
+
+    def place(self, k: int, of: str = "") -> str:
+        """Position 2, or of a part: Group (2,3), position 2."""
+        word = f"{self.report.words['table']['position']} {self.report.machine.position(k)}"
+        language = self.report.assignment.language
+        line = Text(f"{of}, {word[0].lower()}{word[1:]}" if of else word)
+        return plain(set_out((line,), language), language)
+
+
+@dataclass(frozen=True, slots=True)
+class Drawn:
+    """The scenes of a plate, drawn small: its name among the words, its layer, and as in `DrawingPlate`."""
+
+    name: str
+    layer: str
+    scenes: Sequence[Scene]
+    lines: tuple[Content, ...] = ()
+    family: str = ""
+    larger: Callable[[], Drawn] | None = None
+    """The same at the next larger standard scale, if it may be drawn at one."""
+
+
+Listed = Callable[[Report], Sequence[str]]
+
+
+def table_of(sources: Sources, name: str, listed: Sequence[Listed], cycle: bool = False) -> Iterator[Drawn]:
+    yield Drawn(name, "tables", grids(sources.report, listed, cycle))
+
+
+def grids(report: Report, listed: Sequence[Listed], cycle: bool = False) -> list[Scene]:
+    """Quantities at the positions of one turn or of the cycle, as many tables as they need."""
+    at = report.all_positions if cycle else report.positions
+    tabulated = dict.fromkeys(id for columns in listed for id in columns(report))
+    shown = [id for id in tabulated if not all(report.is_zero(id, k) for k in at)]
+    parts = -(-len(at) // MOST_ROWS)
+    rows = [at[len(at) * n // parts : len(at) * (n + 1) // parts] for n in range(parts)]
+    head, every = _quantities(report, shown, at)
+    first, *across = widths([*head, *every])
+    columns: list[list[str]] = []
+    right = math.inf
+    for id, width in zip(shown, across, strict=True):
+        right += ENLARGED * width
+        if right > WIDEST:
+            columns.append([])
+            right = ENLARGED * (first + width)
+        columns[-1].append(id)
+    return [grid(*_quantities(report, some, at)) for some in columns for at in rows]
+
+
+def _quantities(
+    report: Report, quantities: Sequence[str], positions: Sequence[int]
+) -> tuple[list[list[Content]], list[list[Content]]]:
+    """The head of a table of quantities and its rows."""
+    head: list[list[Content]] = [
+        [report.words["table"]["position"], *(report.ledger.symbol(id) for id in quantities)],
+        ["", *(unit_of(report, id) for id in quantities)],
+    ]
+    return head, [[str(report.machine.position(k)), *(bare(report, id, k) for id in quantities)] for k in positions]
+
+
+def unit_of(report: Report, id: str) -> str:
+    unit = report.ledger[id].how.unit
+    return str(report.ledger.units.get(unit, unit))
+
+
+def bare(report: Report, id: str, k: int | None) -> Content:
+    """A number without its unit, a dash for what does not exist."""
+    family, number = report.ledger[id], report.ledger.number(id, k)
+    if family.kind == "segment" and number.value:
+        return Number(number.value, SEGMENT)
+    if math.isnan(number.value) or (family.is_of_vector and report.is_zero(family.of, k)):
+        return "–"
+    return Number(number.value, number.decimals)

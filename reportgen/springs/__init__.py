@@ -1,0 +1,1 @@
+"""Topic: springs that act on the links of a machine."""

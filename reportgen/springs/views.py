@@ -1,0 +1,93 @@
+"""Springs in a report: what the words of their chapter name, their table and their figure."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from reportgen.base.units import significant_decimals
+from reportgen.document import Inlines, Value, listed
+from reportgen.formula import Number
+from reportgen.machine.analysis import motion_at
+from reportgen.machine.laws import FULL_TURN
+from reportgen.report.curves import Shown, axis, over_the_cycle
+from reportgen.report.figures import FigureScenes
+from reportgen.report.report import Report
+from reportgen.report.tables import QuantityTable
+from reportgen.report.topic_views import ViewHooks, always
+from reportgen.springs.laws import SpringLaw, TorsionLaw
+from reportgen.springs.topic import SpringRow
+
+FIGURES = 5
+"""Significant figures of the work of a spring."""
+
+
+def rows_of(report: Report) -> tuple[SpringRow, ...]:
+    """Return the springs of a machine as words tell of them."""
+    return report.machine.topic("springs", tuple) or ()
+
+
+def spring_lines(report: Report) -> list[str]:
+    """The lengths of springs, or the angles that they are turned by, with their loads."""
+    return report.known(id for row in rows_of(report) for id in (*row.lines, *row.loads))
+
+
+def spring_works(report: Report) -> Inlines:
+    """The works of the springs (J) over the way of a sliding driver, in the order of their numbers; of a crank none."""
+    machine = report.machine
+    if not machine.span:
+        return ()
+    ends = motion_at(machine, np.array([0.0, FULL_TURN]))
+    laws = {load.law.number: load.law for load in machine.loads if isinstance(load.law, SpringLaw | TorsionLaw)}
+    unit = report.ledger.printed_unit("J")
+    falls = (float(-np.diff(law.energy(ends))[0]) for _, law in sorted(laws.items()))
+    return listed(
+        Value(Number(float(f"{work:.{FIGURES}g}") + 0.0, max(significant_decimals(work, FIGURES), 0), unit))
+        for work in falls
+    )
+
+
+def linear_springs(report: Report) -> list[str]:
+    """Return the loads of springs between two points."""
+    return report.known(id for row in rows_of(report) if not row.twists for id in row.loads)
+
+
+def torsion_springs(report: Report) -> list[str]:
+    """Return the loads of torsion springs."""
+    return report.known(id for row in rows_of(report) if row.twists for id in row.loads)
+
+
+def spring_loads(report: Report) -> list[str]:
+    """The loads of springs."""
+    return report.known(id for row in rows_of(report) for id in row.loads)
+
+
+def loads_over_cycle(report: Report) -> FigureScenes:
+    """The forces of springs over the cycle, those of torsion springs in a diagram of their own."""
+    by_kind: dict[str, list[Shown]] = {}
+    analysed = {load.name: load.law for load in report.loads}
+    cycle = report.dense_cycle
+    for row in rows_of(report):
+        # Both ends of a spring have one force.
+        name = row.loads[0]
+        values = analysed[name].value(cycle.cycle_angle, cycle.motion)
+        by_kind.setdefault(report.ledger[name].kind, []).append((report.ledger.symbol(name), values))
+    drawn = (over_the_cycle(report, shown, axis(report, shown[0][0], kind)).scene for kind, shown in by_kind.items())
+    return FigureScenes(tuple(drawn))
+
+
+HOOKS = ViewHooks(
+    values={
+        "linear_springs": linear_springs,
+        "spring_lines": spring_lines,
+        "spring_rows": rows_of,
+        "spring_works": spring_works,
+        "torsion_springs": torsion_springs,
+    },
+    figures={"springs": ("fig.springs", loads_over_cycle)},
+    tables={
+        "springs": QuantityTable(
+            spring_lines, "load_positions", groups={"lengths": ("spring.l.",), "turns": ("spring.turn.",)}
+        )
+    },
+    passages={"given": always("springs-given"), "task": always("springs-task")},
+)
