@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from pathlib import Path
 
 import pymupdf
@@ -32,8 +33,13 @@ SHORT_ENDED = [
 """Tasks of LaTeX of which some page once had two rows or three lines alone."""
 
 
+@cache
+def task_files(name: str, engine: Engine, language: Language) -> dict[str, bytes]:
+    return api.task_files(ASSIGNMENTS / name, engine, language)
+
+
 def put_task(name: str, folder: Path, engine: Engine = "typst", language: Language = "en") -> dict[str, Path]:
-    made = api.task_files(ASSIGNMENTS / name, engine, language)
+    made = task_files(name, engine, language)
     for file, content in made.items():
         (folder / file).write_bytes(content)
     return {file: folder / file for file in made}
