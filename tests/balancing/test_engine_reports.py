@@ -37,6 +37,7 @@ from tests.gears.test_train_reports import chains
 from tests.lanes import matrix, proof
 from tests.marking import demo, students
 from tests.marking.designs import named
+from tests.report import built
 
 FOLDER = Path(__file__).parents[2] / "assignments" / "engine-balance"
 NAMES = sorted(file.stem for file in FOLDER.glob("*.yaml"))
@@ -46,7 +47,7 @@ TELLING = [("inline-four", "vi"), ("v-six", "en"), ("v-twin", "vi")]
 
 
 def case_of(name: str, language: Language = "en") -> EngineCase:
-    case = open_case(FOLDER / f"{name}.yaml", language)
+    case = built.case(FOLDER / f"{name}.yaml", language)
     assert isinstance(case, EngineCase)
     return case
 
@@ -240,7 +241,7 @@ def test_the_usual_mistakes_have_names(name: str, mistake: str, where: tuple[str
 @pytest.mark.parametrize("written_down", [True, False], ids=["A₂ on the sheet", "A₂ used only"])
 def test_the_first_term_of_the_series_is_known_by_name(accepted: bool, written_down: bool) -> None:
     """A₂ = λ and A₄ = −λ³/4 as in textbooks, and all that stands on them: right or wrong as the policy says."""
-    case = open_case(FOLDER / "v-twin.yaml", "en")
+    case = built.case(FOLDER / "v-twin.yaml", "en")
     scheme = marking_scheme(case, Policy(approximations=accepted))
     λ = scheme.ledger["orders.lambda"].values[0]
     factors = {orders_ids.factor(2): np.array([λ]), orders_ids.factor(4): np.array([-(λ**3) / 4])}
@@ -269,7 +270,7 @@ def off(scheme: MarkingScheme, id: str, world: students.World) -> float:
 
 
 def test_what_the_sheet_asks_for() -> None:
-    key = Ask().of(marking_scheme(open_case(FOLDER / "inline-four.yaml", "en")).key)
+    key = Ask().of(marking_scheme(built.case(FOLDER / "inline-four.yaml", "en")).key)
     of_orders = {family(n) for family in (orders_ids.force, orders_ids.couple) for n in ORDERS}
     of_stars = {orders_ids.resultant(letter, n) for letter in "fp" for n in ORDERS}
     masses = {"orders.mA", "orders.mB", "orders.m"}

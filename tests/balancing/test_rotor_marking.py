@@ -17,6 +17,7 @@ from reportgen.marking.scheme import marking_scheme
 from tests.lanes import proof
 from tests.marking import students
 from tests.marking.designs import STUDENTS, drawn_class, graded_class, named, telling_and_texts, with_ranges
+from tests.report import built
 
 FOLDER = Path(__file__).parents[2] / "assignments" / "rotor"
 DRAWN = {
@@ -66,7 +67,7 @@ def test_the_task_holds_no_answer(drawn: Path) -> None:
 
 def test_what_the_sheet_asks_for() -> None:
     """Products, corrections with angles and masses, bearing forces, the grade; no components, no lengths on paper."""
-    scheme = marking_scheme(open_case(FOLDER / "rotor-two-planes.yaml", "en"))
+    scheme = marking_scheme(built.case(FOLDER / "rotor-two-planes.yaml", "en"))
     masses = [family(str(k)) for family in (rotor_ids.unbalance, rotor_ids.moment) for k in (1, 2, 3, 4)]
     corrections = [
         family(plane) for family in (rotor_ids.unbalance, rotor_ids.direction, rotor_ids.mass) for plane in "AB"
@@ -101,7 +102,7 @@ MISTAKES = [
 
 @pytest.mark.parametrize(("name", "mistake", "where"), MISTAKES, ids=lambda one: str(one))
 def test_the_usual_mistakes_have_names(name: str, mistake: str, where: tuple[str, ...]) -> None:
-    scheme = marking_scheme(open_case(FOLDER / f"{name}.yaml", "en"))
+    scheme = marking_scheme(built.case(FOLDER / f"{name}.yaml", "en"))
     sheet = students.written(scheme, students.worked_out(scheme, named(scheme, mistake, *where)))
     first = mark(scheme, sheet).first_errors
     assert first
@@ -111,7 +112,7 @@ def test_the_usual_mistakes_have_names(name: str, mistake: str, where: tuple[str
 
 def test_values_by_components_and_off_a_plan_are_right_alike() -> None:
     """Drawn by hand: a side off by half a millimetre, an angle by a degree."""
-    scheme = marking_scheme(open_case(FOLDER / "rotor-two-planes.yaml", "en"))
+    scheme = marking_scheme(built.case(FOLDER / "rotor-two-planes.yaml", "en"))
     world = dict(students.worked_out(scheme))
     μ = scheme.ledger["rotor.mu.U"].values[0]
     world[A] = world[A] + 0.4e-3 * μ
@@ -124,7 +125,7 @@ def test_values_by_components_and_off_a_plan_are_right_alike() -> None:
 @pytest.mark.parametrize("name", ["rotor-two-planes", "rotor-one-plane", "disc"])
 def test_mistakes_have_words_in_every_language(name: str) -> None:
     for language in languages():
-        case = open_case(FOLDER / f"{name}.yaml", language)
+        case = built.case(FOLDER / f"{name}.yaml", language)
         names = {name for many in case.misconceptions.changed.values() for name, _ in many}
         assert names
         for mistake in names:

@@ -14,9 +14,10 @@ from reportgen.balancing import rotor_ids
 from reportgen.balancing.rotor_file import BEARINGS, Parameters
 from reportgen.balancing.rotor_sheet import AFTER, BEFORE, RotorSheet
 from reportgen.base.errors import AssignmentError
-from reportgen.cases import open_case, opened
+from reportgen.cases import opened
 from reportgen.document import text_of
 from reportgen.formula.model import model
+from tests.report import built
 
 FOLDER = Path(__file__).parents[2] / "assignments" / "rotor"
 LEAST = 1e-12
@@ -25,7 +26,7 @@ LEAST = 1e-12
 
 def test_the_reference_rotor() -> None:
     """R4e: planes at 0 and 0.6 m, four masses; 0.08347177 kg·m at 267.25744° in one plane."""
-    ledger = open_case(FOLDER / "rotor-two-planes.yaml").ledger
+    ledger = built.case(FOLDER / "rotor-two-planes.yaml").ledger
     for plane, size, angle in (("A", 0.09111108, 228.19868), ("B", 0.05880376, 344.76089)):
         assert ledger[rotor_ids.unbalance(plane)].at(1) == pytest.approx(size, abs=0.5e-8)
         assert math.degrees(ledger[rotor_ids.direction(plane)].at(1)) == pytest.approx(angle, abs=0.5e-5)

@@ -17,12 +17,12 @@ from reportgen.cam.drawings import inversion
 from reportgen.cam.laws import FollowerMotion, law
 from reportgen.cam.profile import Cam
 from reportgen.cam.sheets import CHORD, contour
-from reportgen.cases import open_case
 from reportgen.drawing import Arc, Circle, Label
 from reportgen.drawing.style import arc_with_head
 from reportgen.formula import Chain, Number, Symbol
 from reportgen.sheets import drawing_sheets
 from tests.lanes import matrix
+from tests.report import built
 
 FOLDER = Path(__file__).parents[2] / "assignments" / "cam"
 NAMES = sorted(file.stem for file in FOLDER.glob("*.yaml"))
@@ -30,7 +30,7 @@ MM = 1e3
 
 
 def case_of(name: str) -> CamCase:
-    case = open_case(FOLDER / f"{name}.yaml", "en")
+    case = built.case(FOLDER / f"{name}.yaml", "en")
     assert isinstance(case, CamCase)
     return case
 
@@ -101,7 +101,7 @@ def test_the_arrow_of_the_rotation_has_a_tip(name: str) -> None:
 @pytest.mark.parametrize("name", NAMES)
 def test_the_follower_touches_the_turning_cam(name: str) -> None:
     """On the page the point of contact, turned into the cam's frame, lies on the profile that turns."""
-    case = open_case(FOLDER / f"{name}.yaml", "en")
+    case = built.case(FOLDER / f"{name}.yaml", "en")
     (animation,) = case.animations()
     assert animation.errors.place < 0.05
     cam = cam_of(name)
@@ -150,7 +150,7 @@ def test_the_least_cam_is_that_of_a_search() -> None:
 @pytest.mark.parametrize("name", ["roller-01", "shaper-feed", "flat-01"])
 def test_sheets_print_their_own_scales(name: str) -> None:
     """On the drawing sheet the base circle times the scale below it is r₀, in each plate that shows it."""
-    (sheet, profile) = drawing_sheets(open_case(FOLDER / f"{name}.yaml", "en"))
+    (sheet, profile) = drawing_sheets(built.case(FOLDER / f"{name}.yaml", "en"))
     met = 0
     for part in sheet.parts:
         scales = [

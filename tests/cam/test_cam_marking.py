@@ -20,6 +20,7 @@ from reportgen.marking.marking import mark
 from reportgen.marking.scheme import marking_scheme
 from tests.marking import students
 from tests.marking.designs import STUDENTS, drawn_class, graded_class, named, telling_and_texts, with_ranges
+from tests.report import built
 
 FOLDER = Path(__file__).parents[2] / "assignments" / "cam"
 DRAWN = {
@@ -107,7 +108,7 @@ MISTAKES = [
 
 @pytest.mark.parametrize(("name", "mistake", "where"), MISTAKES, ids=lambda one: str(one))
 def test_the_usual_mistakes_have_names(name: str, mistake: str, where: tuple[str, ...]) -> None:
-    scheme = marking_scheme(open_case(FOLDER / f"{name}.yaml", "en"))
+    scheme = marking_scheme(built.case(FOLDER / f"{name}.yaml", "en"))
     sheet = students.written(scheme, students.worked_out(scheme, named(scheme, mistake, *where)))
     first = mark(scheme, sheet).first_errors
     assert first
@@ -117,7 +118,7 @@ def test_the_usual_mistakes_have_names(name: str, mistake: str, where: tuple[str
 
 def test_the_wrong_sign_is_far_off() -> None:
     """The feed cam's ψ′ with the other sign: the pressure angle is more than 38° off where the arm is fastest."""
-    case = open_case(FOLDER / "shaper-feed.yaml", "en")
+    case = built.case(FOLDER / "shaper-feed.yaml", "en")
     wrong = dict(case.misconceptions.changed)["cam.k"][0][1]
     values = case.ledger.evaluate({"cam.k": lambda _, before: np.atleast_1d(evaluate(wrong, before))})
     right = case.ledger["cam.alpha"].values
@@ -127,7 +128,7 @@ def test_the_wrong_sign_is_far_off() -> None:
 
 def test_mistakes_have_words_in_both_languages() -> None:
     for language in languages():
-        case = open_case(FOLDER / "roller-01.yaml", language)
+        case = built.case(FOLDER / "roller-01.yaml", language)
         misconceptions = case.misconceptions
         names = {
             name for many in (*misconceptions.changed.values(), *misconceptions.readings.values()) for name, _ in many
@@ -147,7 +148,7 @@ def test_a_misread_stroke_costs_one_value(tmp_path: Path, name: str, stroke: int
     assert f"h: {stroke} mm" in text
     file = tmp_path / f"{name}.yaml"
     file.write_text(text.replace(f"h: {stroke} mm", f"h: {taken} mm"), encoding="utf-8")
-    scheme, other = marking_scheme(open_case(FOLDER / f"{name}.yaml", "en")), open_case(file, "en").ledger
+    scheme, other = marking_scheme(built.case(FOLDER / f"{name}.yaml", "en")), open_case(file, "en").ledger
     kept = () if anew else ("cam.r0", "cam.e", "cam.roller")
     read = {id: one.values for id, one in other.families.items() if one.definition is None and id not in kept}
     values = follow(scheme.ledger, {id: lambda _, __, own=own: own for id, own in read.items() if id in scheme.ledger})

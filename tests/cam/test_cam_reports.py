@@ -16,6 +16,7 @@ from reportgen.formula import Chain, Number, Symbol, walk
 from reportgen.formula.evaluation import evaluate
 from reportgen.marking.key import key_of
 from tests.lanes import matrix
+from tests.report import built
 
 FILES = sorted((Path(__file__).parents[2] / "assignments" / "cam").glob("*.yaml"))
 CASES = [(file.stem, language) for file in FILES for language in ("vi", "en")]
@@ -53,7 +54,7 @@ def recomputes(chain: Chain) -> bool | None:
 
 @pytest.mark.parametrize(("name", "language"), matrix(CASES, TELLING))
 def test_every_line_recomputes(name: str, language: Language) -> None:
-    case = open_case(file_of(name), language)
+    case = built.case(file_of(name), language)
     found = [recomputes(chain) for chain in chains(case.document().blocks)]
     assert found.count(True) >= 10
     assert False not in found
@@ -62,7 +63,7 @@ def test_every_line_recomputes(name: str, language: Language) -> None:
 @pytest.mark.parametrize("name", [file.stem for file in FILES])
 def test_every_value_recomputes_from_printed_ones(name: str) -> None:
     """Each quantity at each position, from the printed values of what its line names; and the ledger is the cam's."""
-    case = open_case(file_of(name), "en")
+    case = built.case(file_of(name), "en")
     written = case.printed
     for id, family in written.families.items():
         if family.definition is None or family.hidden:

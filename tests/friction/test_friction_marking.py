@@ -16,6 +16,7 @@ from reportgen.marking.scheme import marking_scheme
 from tests.lanes import proof
 from tests.marking import demo, students
 from tests.marking.designs import named, telling_and_texts
+from tests.report import built
 
 FOLDER = Path(__file__).parents[2] / "assignments" / "friction"
 NAMES = sorted(file.stem for file in FOLDER.glob("*.yaml"))
@@ -69,7 +70,7 @@ def of_task(name: str, *ends: str) -> tuple[str, ...]:
 def test_the_usual_mistakes_have_names(name: str, mistake: str, ends: tuple[str, ...]) -> None:
     """Whoever makes one and goes on rightly has that error alone, by its name."""
     where = of_task(name, *ends)
-    scheme = marking_scheme(open_case(FOLDER / f"{name}.yaml", "en"))
+    scheme = marking_scheme(built.case(FOLDER / f"{name}.yaml", "en"))
     sheet = students.written(scheme, students.worked_out(scheme, named(scheme, mistake, *where)))
     first = mark(scheme, sheet).first_errors
     assert {cell.mistake for cell in first} == {mistake}
@@ -79,7 +80,7 @@ def test_the_usual_mistakes_have_names(name: str, mistake: str, ends: tuple[str,
 def test_what_the_sheet_asks_for() -> None:
     """All that is worked out; no scale of a drawing, which everybody chooses."""
     for name in NAMES:
-        scheme = marking_scheme(open_case(FOLDER / f"{name}.yaml", "en"))
+        scheme = marking_scheme(built.case(FOLDER / f"{name}.yaml", "en"))
         worked = {id for id, family in scheme.ledger.families.items() if family.definition is not None}
         assert {row.id for row in Ask().of(scheme.key).asked} == worked
 

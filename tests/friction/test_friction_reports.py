@@ -21,6 +21,7 @@ from reportgen.sheets import drawing_sheets
 from tests.gears.test_pair_reports import recomputes
 from tests.gears.test_train_reports import chains
 from tests.lanes import matrix, proof
+from tests.report import built
 
 FOLDER = Path(__file__).parents[2] / "assignments" / "friction"
 NAMES = sorted(file.stem for file in FOLDER.glob("*.yaml"))
@@ -29,7 +30,7 @@ TELLING = [("incline", "vi"), ("wedge", "en"), ("screw-jack", "vi"), ("belt", "e
 
 
 def case_of(name: str, language: str = "en"):  # type: ignore[no-untyped-def]
-    return open_case(FOLDER / f"{name}.yaml", language)  # type: ignore[arg-type]
+    return built.case(FOLDER / f"{name}.yaml", language)  # type: ignore[arg-type]
 
 
 def of_text(text: str, folder: Path, language: str = "en"):  # type: ignore[no-untyped-def]

@@ -23,6 +23,7 @@ from reportgen.marking.working import Change
 from tests.lanes import matrix
 from tests.marking import students
 from tests.marking.designs import STUDENTS, drawn_class, graded_class, named, telling_and_texts
+from tests.report import built
 
 FOLDER = Path(__file__).parents[2] / "assignments" / "gears"
 PARAMETERS = "parameters: {m: [3 mm, 4 mm, 5 mm], z1: {from: 12, to: 16, step: 1}, z2: {from: 28, to: 40, step: 1}}\n"
@@ -93,7 +94,7 @@ def test_a_mistake_is_named_by_its_own_result(
     name: str, mistake: str, id: str, taken: Callable[[Any], np.ndarray], goes_on: bool
 ) -> None:
     """The reference circle for the base circle, u upside down, a_w = a: written down, and gone on from or not."""
-    scheme = marking_scheme(open_case(FOLDER / f"{name}.yaml", "en"))
+    scheme = marking_scheme(built.case(FOLDER / f"{name}.yaml", "en"))
     right = students.worked_out(scheme)
     wrong = taken(right)
     world = {**right, id: wrong}
@@ -117,7 +118,7 @@ def test_a_round_value_of_a_mistake_is_no_rounded_one(tmp_path: Path) -> None:
     (first,) = mark(scheme, students.written(scheme, {**right, "gears.a_w": right["gears.a"]})).first_errors
     assert (first.id, first.mistake) == ("gears.a_w", "gear-standard-angle")
     # So is d_w = d of 70 mm, which comes to 70.02 mm from d_b in three figures.
-    scheme = marking_scheme(open_case(FOLDER / "pair-least-shift.yaml", "en"))
+    scheme = marking_scheme(built.case(FOLDER / "pair-least-shift.yaml", "en"))
     right = students.worked_out(scheme)
     (first,) = mark(scheme, students.written(scheme, {**right, "gears.d_w.1": right["gears.d.1"]})).first_errors
     assert (first.id, first.mistake) == ("gears.d_w.1", "gear-standard-angle")
@@ -127,7 +128,7 @@ def test_who_compares_is_told_of_doubts_and_of_columns_that_nobody_asks_for(tmp_
     """Notes of reading disagree with nothing, but a value that was not read has not been compared."""
     sheet = tmp_path / "sheet.csv"
     sheet.write_text("id;value;position 99\ngears.a;135.000;\ngears.d.1;70;3\n", encoding="utf-8")
-    lines, agrees = compare(open_case(FOLDER / "pair-least-shift.yaml", "en"), sheet)
+    lines, agrees = compare(built.case(FOLDER / "pair-least-shift.yaml", "en"), sheet)
     assert agrees
     assert [line.split(" ")[1] for line in lines[:2]] == ["note[cell-no-position]:", "note[cell-thousands]:"]
     assert "135 or as 135000" in lines[1]
@@ -138,7 +139,7 @@ def test_other_ways_to_a_value_are_as_right() -> None:
 
     Each mistake costs one mark, and is told alone.
     """
-    scheme = marking_scheme(open_case(FOLDER / "pair-equal-sliding.yaml", "en"))
+    scheme = marking_scheme(built.case(FOLDER / "pair-equal-sliding.yaml", "en"))
 
     def gone_on(**own: float) -> Marking:
         changes: dict[str, Change] = {f"gears.{id}": lambda was, _, f=factor: was * f for id, factor in own.items()}
@@ -165,7 +166,7 @@ def test_other_ways_to_a_value_are_as_right() -> None:
 def test_another_way_stands_on_nothing_that_stands_on_its_result() -> None:
     """Else a wrong value would follow from what was worked out from it."""
     for name in ("pair-equal-sliding", "pair-centre-distance", "pair-least-shift"):
-        case = open_case(FOLDER / f"{name}.yaml", "en")
+        case = built.case(FOLDER / f"{name}.yaml", "en")
         for id, ways in case.misconceptions.ways.items():
             for way in ways:
                 value = np.atleast_1d(evaluate(way, {ref: case.ledger[ref].values for ref in refs(way)}))
@@ -176,7 +177,7 @@ def test_another_way_stands_on_nothing_that_stands_on_its_result() -> None:
 
 @pytest.mark.parametrize(("name", "mistake", "where"), MISTAKES, ids=lambda one: str(one))
 def test_the_usual_mistakes_have_names(name: str, mistake: str, where: tuple[str, ...]) -> None:
-    scheme = marking_scheme(open_case(FOLDER / f"{name}.yaml", "en"))
+    scheme = marking_scheme(built.case(FOLDER / f"{name}.yaml", "en"))
     sheet = students.written(scheme, students.worked_out(scheme, named(scheme, mistake, *where)))
     first = mark(scheme, sheet).first_errors
     assert first
@@ -186,7 +187,7 @@ def test_the_usual_mistakes_have_names(name: str, mistake: str, where: tuple[str
 
 def test_mistakes_have_words_in_both_languages() -> None:
     for language in ("vi", "en"):
-        case = open_case(FOLDER / "pair-equal-sliding.yaml", language)
+        case = built.case(FOLDER / "pair-equal-sliding.yaml", language)
         for name in {name for many in case.misconceptions.changed.values() for name, _ in many}:
             assert "{symbol}" in case.words["mistakes"][name]
             assert case.words["mistake_names"][name]

@@ -23,6 +23,7 @@ from reportgen.gears.pair_drawings import mesh
 from reportgen.marking.key import key_of
 from reportgen.sheets import drawing_sheets
 from tests.lanes import matrix
+from tests.report import built
 
 FILES = sorted((Path(__file__).parents[2] / "assignments" / "gears").glob("pair-*.yaml"))
 CASES = [(file.stem, language) for file in FILES for language in ("vi", "en")]
@@ -35,7 +36,7 @@ def file_of(name: str) -> Path:
 
 
 def pair_case(name: str, language: str = "en") -> PairCase:
-    case = open_case(file_of(name), language)  # type: ignore[arg-type]
+    case = built.case(file_of(name), language)  # type: ignore[arg-type]
     assert isinstance(case, PairCase)
     return case
 

@@ -14,6 +14,7 @@ from reportgen.marking.mistakes import Mistake
 from reportgen.marking.scheme import marking_scheme
 from tests.marking import students
 from tests.marking.designs import STUDENTS, drawn_class, graded_class, named, telling_and_texts, with_ranges
+from tests.report import built
 
 FOLDER = Path(__file__).parents[2] / "assignments" / "gears"
 DRAWN = {"u: 14.5": "u: {from: 8, to: 14.5, step: 0.1}", "n_in: 1440 rpm": "n_in: [960 rpm, 1440 rpm, 2880 rpm]"}
@@ -72,7 +73,7 @@ MISTAKES = [
 
 @pytest.mark.parametrize(("name", "mistake", "where"), MISTAKES, ids=lambda one: str(one))
 def test_the_usual_mistakes_have_names(name: str, mistake: str, where: tuple[str, ...]) -> None:
-    scheme = marking_scheme(open_case(FOLDER / f"{name}.yaml", "en"))
+    scheme = marking_scheme(built.case(FOLDER / f"{name}.yaml", "en"))
     sheet = students.written(scheme, students.worked_out(scheme, named(scheme, mistake, *where)))
     first = mark(scheme, sheet).first_errors
     assert first
@@ -83,7 +84,7 @@ def test_the_usual_mistakes_have_names(name: str, mistake: str, where: tuple[str
 @pytest.mark.parametrize("goes_on", [True, False])
 def test_a_ratio_upside_down_has_its_name(goes_on: bool) -> None:
     """Written down, and gone on from or not."""
-    scheme = marking_scheme(open_case(FOLDER / "train-double.yaml", "en"))
+    scheme = marking_scheme(built.case(FOLDER / "train-double.yaml", "en"))
     right = students.worked_out(scheme)
     turned = 1 / right["train.u1H"]
     slip = Mistake("", "train.u1H", {"train.u1H": lambda *_: turned})
@@ -94,7 +95,7 @@ def test_a_ratio_upside_down_has_its_name(goes_on: bool) -> None:
 
 def test_mistakes_have_words_in_both_languages() -> None:
     for language in ("vi", "en"):
-        case = open_case(FOLDER / "train-double.yaml", language)  # type: ignore[arg-type]
+        case = built.case(FOLDER / "train-double.yaml", language)  # type: ignore[arg-type]
         misconceptions = case.misconceptions
         names = {
             name for many in (*misconceptions.changed.values(), *misconceptions.readings.values()) for name, _ in many

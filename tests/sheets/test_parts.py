@@ -12,7 +12,6 @@ import pytest
 
 from reportgen.cam.solved import SolvedCam
 from reportgen.case import Case
-from reportgen.cases import open_case
 from reportgen.drawing import Label, Polyline, Scene
 from reportgen.drawing.sheet import DrawingSheet
 from reportgen.formula import Chain, Number, Symbol
@@ -21,6 +20,7 @@ from reportgen.gears.train_solution import pole_distance
 from reportgen.marking.key import key_of
 from reportgen.sheets import drawing_sheets
 from tests.lanes import matrix
+from tests.report import built
 from tests.sheets.laid import ROOT
 
 FOLDER = ROOT / "assignments"
@@ -34,9 +34,8 @@ TELLING = ["cam/roller-01", "gears/train-double", "gears/pair-equal-sliding", "c
 STANDARD = (1.0, 2.0, 2.5, 4.0, 5.0)
 
 
-@cache
 def opened(name: str) -> Case:
-    return open_case(FOLDER / f"{name}.yaml")
+    return built.case(FOLDER / f"{name}.yaml")
 
 
 @cache
