@@ -1,8 +1,9 @@
 """What the keys of assignment files are called: name, remark and group of each, in every language.
 
 The keys of a kind's own parameters stand with its words, in the section `fields`; those of all kinds, and the words of
-choices and groups, in `fields.yaml` of the language.  Keys are told by their paths without the numbers of lists and
-without names that the user gives: `groups.guide.at`.
+choices and groups, in `fields.yaml` of the language.  A topic names the keys of its section, and the values among which
+they choose, in the sections `fields` and `choices` of its words.  Keys are told by their paths without the numbers of
+lists and without names that the user gives: `groups.guide.at`.
 """
 
 from __future__ import annotations
@@ -17,11 +18,13 @@ from typing import Any
 from reportgen.base.errors import TemplateError
 from reportgen.base.languages import setting_of
 from reportgen.base.source import MappingNode, plain, read_own, read_words
-from reportgen.base.template_folders import MACHINES, languages, told_in
+from reportgen.base.template_folders import MACHINES, languages, told_in, topic_file
+from reportgen.base.topics import topics
 from reportgen.base.units import Language
 from reportgen.base.words import sections
 
 SECTION, FILE = "fields", "fields.yaml"
+CHOICES = "choices"
 PARAMETERS = "parameters"
 
 
@@ -51,22 +54,24 @@ def field_words(kind: str, language: Language) -> Mapping[str, FieldWords]:
     A kind without the section has the common ones.  Raises `TemplateError` for a section that is no table.
     """
     own, common = told_in(language, f"{MACHINES}/{kind}.md"), told_in(language, FILE)
-    return _found(own, common, own.stat().st_mtime_ns, common.stat().st_mtime_ns)
+    of_topics = _of_topics(language)
+    return _found(own, common, of_topics, *(file.stat().st_mtime_ns for file in (own, common, *of_topics)))
 
 
 def shared_keys(language: Language) -> frozenset[str]:
     """The parameters that are called alike in every kind that has them."""
     common = told_in(language, FILE)
-    groups: Mapping[str, Any] = _common(common, common.stat().st_mtime_ns)[PARAMETERS]
-    return frozenset(key for keys in groups.values() for key in keys)
+    tables = [_common(common, common.stat().st_mtime_ns)[PARAMETERS], *map(_own, _of_topics(language))]
+    return frozenset(key for groups in tables for keys in groups.values() for key in keys)
 
 
 def choice_words(language: Language) -> Mapping[str, str]:
     """What the values are called among which a key may choose."""
     common = told_in(language, FILE)
     table: Mapping[str, str] = _common(common, common.stat().st_mtime_ns)["choices"]
+    of_topics = {key: said for file in _of_topics(language) for key, said in _own(file, CHOICES).items()}
     # Each language by its own name, unless this one has another for it.
-    return {**{name: setting_of(name).name for name in languages()}, **table}
+    return {**{name: setting_of(name).name for name in languages()}, **of_topics, **table}
 
 
 def group_titles(language: Language) -> list[str]:
@@ -81,19 +86,26 @@ def also(language: Language) -> str:
     return str(_common(common, common.stat().st_mtime_ns)["or"])
 
 
+def _of_topics(language: Language) -> tuple[Path, ...]:
+    """Return the files of words of all topics; those of reference where the language has none."""
+    files = (told_in(language, topic_file(topic)) for topic in topics())
+    return tuple(file for file in files if file.is_file())
+
+
 @lru_cache(maxsize=64)
-def _found(own: Path, common: Path, *_: int) -> Mapping[str, FieldWords]:
+def _found(own: Path, common: Path, of_topics: tuple[Path, ...], *_: int) -> Mapping[str, FieldWords]:
     shared = _common(common, common.stat().st_mtime_ns)
     groups: Mapping[str, str] = shared["groups"]
     words = {path: _words(said) for path, said in shared["file"].items()}
-    parameters = [*_grouped(_own(own), groups), *_grouped(shared[PARAMETERS], groups)]
+    tables = (_own(own), shared[PARAMETERS], *map(_own, of_topics))
+    parameters = [entry for table in tables for entry in _grouped(table, groups)]
     # What a kind says of a key itself comes before what is said of it in general.
     return words | {f"{PARAMETERS}.{path}": said for path, said in reversed(dict(reversed(parameters)).items())}
 
 
-def _own(file: Path) -> Mapping[str, Any]:
-    """The table of a kind's own keys by their groups."""
-    section = sections(file).get(SECTION)
+def _own(file: Path, name: str = SECTION) -> Mapping[str, Any]:
+    """Return a section of the words of a kind or a topic: the table of its own keys by their groups."""
+    section = sections(file).get(name)
     if section is None:
         return {}
     top = read_own(section.text, str(file)).top

@@ -108,8 +108,13 @@ def kind_file(language: Language, kind: str, root: Path | None = None) -> Path:
 
 
 def topic_files(language: Path) -> list[Path]:
-    """Return the files of the topics in the folder of a language."""
-    return [language / TOPICS / f"{topic}.md" for topic in topics()]
+    """Return the files of the topics in the folder of a language, whether they exist or not."""
+    return [language / topic_file(topic) for topic in topics()]
+
+
+def topic_file(topic: str) -> str:
+    """Return the path of the words of a topic in the folder of a language."""
+    return f"{TOPICS}/{topic}.md"
 
 
 def told_in(language: Language, name: str) -> Path:

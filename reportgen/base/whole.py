@@ -1,4 +1,4 @@
-"""Which kinds of work a language has whole words for: a language may be partial, a document never.
+"""Which kinds of work and topics a language has whole words for: a language may be partial, a document never.
 
 Words are whole that have every section and every key of the language of reference; `reportgen words` says what else of
 them differs.
@@ -12,9 +12,9 @@ from pathlib import Path
 from typing import Any
 
 from reportgen.base.kinds import kinds
-from reportgen.base.template_folders import DEFAULT_LANGUAGE, REFERENCE, kind_file, templates, topic_files
+from reportgen.base.template_folders import DEFAULT_LANGUAGE, REFERENCE, kind_file, templates, topic_file
 from reportgen.base.units import Language
-from reportgen.base.words import FILE, SECTION, load_words, sections
+from reportgen.base.words import FILE, SECTION, load_words, sections, words_alone
 
 UNTOLD = frozenset({"units", "symbols", "months"})
 """Words that a language may do without."""
@@ -22,8 +22,15 @@ UNTOLD = frozenset({"units", "symbols", "months"})
 
 @cache
 def is_whole(language: Language, kind: str) -> bool:
-    """Whether nothing that a report of this kind says is missing in the language."""
+    """Whether nothing that a report of this kind says is missing in the language, apart from the words of topics."""
     return _has_all(language) and not any(_missing(kind_file(language, kind), kind_file(REFERENCE, kind)))
+
+
+@cache
+def is_topic_whole(language: Language, topic: str) -> bool:
+    """Return True if a language has all words of a topic."""
+    own, reference = (templates() / one / topic_file(topic) for one in (language, REFERENCE))
+    return not any(_missing(own, reference))
 
 
 def offered(language: Language) -> list[str]:
@@ -33,15 +40,14 @@ def offered(language: Language) -> list[str]:
 
 @cache
 def _has_all(language: Language) -> bool:
-    """Whether a language has all that the reports of all kinds say."""
+    """Whether a language has all that the reports of all kinds say, whatever their topics."""
     if language in (DEFAULT_LANGUAGE, REFERENCE):
         # The program's own tests hold these whole, and a file is checked sooner.
         return True
     own, reference = templates() / language, templates() / REFERENCE
-    if not (own / FILE).is_file() or any(_absent(load_words((own,)), load_words((reference,)))):
+    if not (own / FILE).is_file() or any(_absent(words_alone(own), words_alone(reference))):
         return False
-    files = (*reference.glob("*.md"), *topic_files(reference))
-    return not any(name for file in files for name in _missing(own / file.relative_to(reference), file))
+    return not any(name for file in reference.glob("*.md") for name in _missing(own / file.name, file))
 
 
 def _missing(own: Path, reference: Path) -> Iterator[str]:

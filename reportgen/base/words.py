@@ -2,7 +2,7 @@
 
 They are YAML in `templates/`: `<language>/messages.yaml` has what the program itself says, `<language>/words.yaml`
 what its documents say; those of a school and of one kind of machine, sections `words` of their files, go before the
-common ones.
+common ones.  A topic adds its own in the sections `words` and `messages` of its file.
 """
 
 from __future__ import annotations
@@ -54,6 +54,7 @@ LONGEST_SHOWN = 40
 
 FILE = "words.yaml"
 SECTION = "words"
+MESSAGES_FILE, MESSAGES_SECTION = "messages.yaml", "messages"
 LONGEST = 2000
 """Characters of a school's word; the program's own have up to 340."""
 FILES = 32
@@ -110,7 +111,27 @@ def _words_in(place: Path, of_others: bool) -> Mapping[str, Any] | None:
     if place.suffix == ".md":
         section = sections(place).get(SECTION)
         return None if section is None else _as_written(section, place, of_others)
-    return _read(place / FILE) if (place / FILE).is_file() else None
+    return _with_topics(place, FILE, SECTION) if (place / FILE).is_file() else None
+
+
+def words_alone(language: Path) -> Mapping[str, Any]:
+    """Return the words of the folder of a language without those that topics add."""
+    return _read(language / FILE)
+
+
+def _with_topics(language: Path, name: str, section: str) -> Mapping[str, Any]:
+    """Return a file of words of a language with what the topics add in a section; a word in the file goes before."""
+    further = of_topics(language, section)
+    return _beneath(further, _read(language / name)) if further else _read(language / name)
+
+
+def of_topics(language: Path, section: str = SECTION) -> Mapping[str, Any]:
+    """Return the words that all topics have in a section of their files in the folder of a language."""
+    table: Mapping[str, Any] = {}
+    for file in topic_files(language):
+        if (passage := sections(file).get(section)) is not None:
+            table = _beneath(_as_written(passage, file, False), table)
+    return table
 
 
 def _read(path: Path) -> Mapping[str, Any]:
@@ -255,7 +276,7 @@ def spoken() -> Language:
 @cache
 def messages(language: Language) -> Mapping[str, Any]:
     """The message table: `faults`, `hints`, `words` (kinds of value, reasons), `columns` and `cli`."""
-    return _with_reference(language, "messages.yaml")
+    return _with_reference(language, MESSAGES_FILE, MESSAGES_SECTION)
 
 
 @cache
@@ -267,15 +288,15 @@ def helps(language: Language) -> Mapping[str, Any]:
 @cache
 def common_words(language: Language) -> Mapping[str, Any]:
     """The short words of a language that no kind and no school changes."""
-    return _with_reference(language, FILE)
+    return _with_reference(language, FILE, SECTION)
 
 
-def _with_reference(language: Language, name: str) -> Mapping[str, Any]:
-    """A file of words; what a language does not have of it comes in that of reference."""
-    file, reference = (templates() / one / name for one in (language, REFERENCE))
-    if language == REFERENCE or not file.is_file():
-        return _read(reference)
-    return _beneath(_read(reference), _read(file))
+def _with_reference(language: Language, name: str, section: str = "") -> Mapping[str, Any]:
+    """Return a file of words with the sections of topics; what a language does not have comes in that of reference."""
+    folder, reference = (templates() / one for one in (language, REFERENCE))
+    if language == REFERENCE or not (folder / name).is_file():
+        return _with_topics(reference, name, section)
+    return _beneath(_with_topics(reference, name, section), _with_topics(folder, name, section))
 
 
 def _beneath(below: Mapping[str, Any], above: Mapping[str, Any]) -> Mapping[str, Any]:

@@ -18,6 +18,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
+from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
 from types import ModuleType
@@ -38,7 +39,7 @@ from reportgen.base.source_text import put, text_of
 from reportgen.base.template_folders import MACHINES, samples, told_in
 from reportgen.base.topics import topics
 from reportgen.base.units import Language, QuantityFault, measures, read_quantity, read_unit
-from reportgen.base.whole import is_whole, offered
+from reportgen.base.whole import is_topic_whole, is_whole, offered
 from reportgen.base.words import as_error, as_problem, language_of, sections, spoken, word
 from reportgen.catalogue import assembly, declared_loads
 from reportgen.catalogue.parameters import Driven
@@ -152,18 +153,25 @@ def _in_order(source: Source, path: Path, language: Language | None) -> Assignme
     if assignment is None or faults:
         raise as_error(faults, language or language_of(source))
     spoken = language or assignment.language
-    if (partial := next((kind for kind in _kinds_of(assignment) if not is_whole(spoken, kind)), None)) is not None:
-        words = {"kind": partial, "language": spoken, "known": ", ".join(offered(spoken)) or "–"}
-        # It is the file's own language or the kind that another one may be taken for.
-        where = ("report", "language") if not language and node_at(source.top, ("report", "language")) else ("kind",)
-        raise as_error(reading.placed(source, [Finding("language-partial", where, words)]), spoken)
+    if (partial := next(_untold(assignment, spoken), None)) is not None:
+        # It is the file's own language or the kind or topic that another one may be taken for.
+        if not language and node_at(source.top, ("report", "language")):
+            partial = replace(partial, where=("report", "language"), at="value")
+        raise as_error(reading.placed(source, [partial]), spoken)
     return assignment.with_language(language) if language else assignment
 
 
-def _kinds_of(assignment: Assignment) -> Iterator[str]:
-    yield assignment.kind
-    for part in assignment.parts:
-        yield part.within(assignment).kind
+def _untold(assignment: Assignment, language: Language) -> Iterator[Finding]:
+    """Find the kinds and the topics of an assignment that a language has not all words of."""
+    for one in (assignment, *(part.within(assignment) for part in assignment.parts)):
+        if not is_whole(language, one.kind):
+            words = {"kind": one.kind, "language": language, "known": ", ".join(offered(language)) or "–"}
+            yield Finding("language-partial", ("kind",), words)
+        asked = one.parameters.asked() if isinstance(one.parameters, TopicParameters) else ()
+        for topic in asked:
+            if not is_topic_whole(language, topic):
+                words = {"kind": topic, "language": language}
+                yield Finding("language-partial", ("parameters", topic), words, at="key")
 
 
 def check(path: Path | str, language: Language | None = None) -> list[Problem]:

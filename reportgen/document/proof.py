@@ -18,7 +18,7 @@ from jinja2 import Environment, StrictUndefined
 from reportgen.base.kinds import SAMPLE
 from reportgen.base.template_folders import MACHINES, REFERENCE, templates
 from reportgen.base.units import Language
-from reportgen.base.words import SECTION, sections
+from reportgen.base.words import sections
 from reportgen.document import (
     Block,
     Cell,
@@ -38,7 +38,7 @@ from reportgen.document import (
 from reportgen.document import Section as Heading
 from reportgen.document.insertions import inlines
 from reportgen.document.numbering import number
-from reportgen.document.translation import FIELDS, read_table, read_words_in
+from reportgen.document.translation import TABLES, read_table, read_words_in
 from reportgen.formula import Symbol
 
 NUMBER_WIDTH = 12.0
@@ -157,7 +157,7 @@ def _section(
     if name == SAMPLE:
         return
     yield (Cell((Strong((Text(f"%% {name}"),)),), 3),)
-    if name in (SECTION, FIELDS):
+    if name in TABLES:
         yield from _words(read_words_in(there), read_words_in(here) if here else {}, numbers)
         return
     first, second = readers[0].paragraphs(there.text), readers[1].paragraphs(here.text if here else "")

@@ -17,16 +17,18 @@ from typing import Any
 from jinja2 import Environment, nodes
 
 from reportgen.base.errors import Fault, Mark, TemplateError
+from reportgen.base.field_words import CHOICES
+from reportgen.base.field_words import SECTION as FIELDS
 from reportgen.base.gaps import gaps
 from reportgen.base.kinds import SAMPLE
 from reportgen.base.languages import MobilityNotation, read_setting
 from reportgen.base.source import MappingNode, Node, Scalar, SequenceNode, Source, plain, read_own, text_in
-from reportgen.base.template_folders import LANGUAGE_FILE, MACHINES, REFERENCE, templates
-from reportgen.base.words import SECTION, Passage, sections
+from reportgen.base.template_folders import LANGUAGE_FILE, MACHINES, REFERENCE, TOPICS, templates
+from reportgen.base.words import MESSAGES_SECTION, SECTION, Passage, sections
 
 GLOSSARY = "glossary.yaml"
-FIELDS = "fields"
-"""The section of what the keys of a kind's file are called."""
+TABLES = frozenset({SECTION, FIELDS, CHOICES, MESSAGES_SECTION})
+"""The sections that are tables of words: short words, names of keys and of choices, messages."""
 MESSAGES = frozenset({"messages.yaml", "help.yaml", "fields.yaml"})
 """Files whose words come in the language of reference where another one does not have them."""
 MOBILITY = "mobility_line()"
@@ -54,13 +56,13 @@ Lacking = Callable[[str], str]
 def faults(folder: Path, lacking: Lacking | None = None) -> Iterator[Fault]:
     """What a language's folder does not say as the language of reference does.
 
-    Files of kinds that are not begun are no fault; a kind that is begun is compared whole.  Raises `TemplateError` for
-    what cannot be read.
+    Files of kinds and of topics that are not begun are no fault; one that is begun is compared whole.  Raises
+    `TemplateError` for what cannot be read.
     """
     letters = frozenset((*read_setting(folder / LANGUAGE_FILE).mobility.letters, *MobilityNotation().letters))
     reference = templates() / REFERENCE
     own, wanted = _files(folder), _files(reference)
-    needed = {name for name in wanted if not name.startswith(f"{MACHINES}/")} - MESSAGES
+    needed = {name for name in wanted if not name.startswith((f"{MACHINES}/", f"{TOPICS}/"))} - MESSAGES
     yield from _differences("file", own, needed | own & wanted, Mark(str(folder)))
     terms = _terms(folder.name)
     for name in sorted(own & wanted - {LANGUAGE_FILE}):
@@ -100,8 +102,9 @@ def _sections(file: Path, model: Path, terms: Terms, free: Set[str]) -> Iterator
     yield from _differences("section", own.keys(), wanted.keys(), Mark(str(file)))
     for name in (name for name in wanted if name in own):
         here, there = own[name], wanted[name]
-        if name in (SECTION, FIELDS):
-            yield from _tables(_read_in(here), _read_in(there), here.line)
+        if name in TABLES:
+            differences = _tables(_read_in(here), _read_in(there), here.line)
+            yield from map(_untranslated, differences) if name == MESSAGES_SECTION else differences
         elif name != SAMPLE:
             yield from _compared(here, there, free)
             yield from terms.faults(here, there)

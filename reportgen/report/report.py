@@ -270,7 +270,8 @@ class Report:
         """What is given, in words, by id; a declared linkage names its own quantities."""
         if "quantities" not in self.own:
             names = dict(self.words.get("given", {}))
-            further = {id: name for id, name in self.words["given_of_crank"].items() if id not in names}
+            beside = {**self.words["given_of_crank"], **self.words["given_of_topics"]}
+            further = {id: name for id, name in beside.items() if id not in names}
             # The acceleration of the crank is told behind its speed.
             places = [*names].index("omega.1") + 1 if "omega.1" in names else len(names)
             told = list(names.items())
@@ -280,8 +281,7 @@ class Report:
             id: words[what] + (subscripted(of) if what == "length" else of) for id, what, of in self.own["quantities"]
         }
         named = {id: name for id, name in words.items() if id in self.ledger and id not in declared}
-        of_topics = self.words["given_of_crank"].items()
-        return declared | named | {id: name for id, name in of_topics if id.partition(".")[0] in vocabulary.heads()}
+        return {**declared, **named, **self.words["given_of_topics"]}
 
     @property
     def mobility(self) -> Mobility:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 from collections import defaultdict
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import Any
 
-from reportgen.base.template_folders import kind_file
+from reportgen.base.template_folders import kind_file, templates
 from reportgen.base.units import (
     LARGE,
     MM,
@@ -18,7 +18,7 @@ from reportgen.base.units import (
     significant_decimals,
     write,
 )
-from reportgen.base.words import load_words, word
+from reportgen.base.words import load_words, of_topics, word
 from reportgen.catalogue import module
 from reportgen.formula import ids
 
@@ -43,7 +43,9 @@ def print_tables(results: Mapping[str, Any], language: Language) -> None:
     # Numbers are never cut to the width of a terminal; `MOST_COLUMNS` keeps the tables within most.
     console = Console(width=500)
     titles = load_words((kind_file(language, results["kind"]),)).get("results", {})
-    found = tables(results["positions"], _rows_of(results["kind"], titles))
+    topics = of_topics(templates() / language).get("results", {})
+    found = tables(results["positions"], _rows_of(results["kind"], titles, topics))
+    titles = {**topics, **titles}
     scales = _scales(found, results["positions"])
     for name, rows in found.items():
         for headings in _split(rows[0]):
@@ -68,14 +70,18 @@ def _split(row: Row) -> list[list[str]]:
     return [[*lead, *others[at : at + MOST_COLUMNS]] for at in range(0, len(others), MOST_COLUMNS)]
 
 
-def _rows_of(kind: str, titles: Mapping[str, str]) -> RowsOf:
-    """A kind's own rows of a position: from its `table_rows`, else the entries that its words have titles for."""
+def _rows_of(kind: str, titles: Collection[str], topics: Collection[str]) -> RowsOf:
+    """Return what gives the rows that a kind and topics add to a position.
+
+    Those of the kind are from its `table_rows`, else the entries that its words have titles for.  Those of topics are
+    the entries that their words have titles for.
+    """
 
     def as_they_are(position: Mapping[str, Any]) -> Mapping[str, Mapping[str, float | None]]:
         return {name: position.get(name, {}) for name in titles}
 
     rows_of: RowsOf = getattr(module(kind), "table_rows", as_they_are)
-    return rows_of
+    return lambda position: {**rows_of(position), **{name: position.get(name, {}) for name in topics}}
 
 
 def tables(positions: Sequence[Mapping[str, Any] | None], own: RowsOf = lambda position: {}) -> dict[str, list[Row]]:

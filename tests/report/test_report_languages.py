@@ -214,7 +214,7 @@ def test_every_word_is_used() -> None:
     assert words["groups"].keys() == set(get_args(DyadKind))
     assert words["joints"].keys() == {"R", "P"}
     computed = {"document", "groups", "joints", "zero", "meanings", "main_figures", "symbols", "quantities", "positive"}
-    computed |= {"acting_loads", "given_of_crank", "speech"}
+    computed |= {"acting_loads", "given_of_crank", "given_of_topics", "speech"}
     # A direction along or across a slide, which is a slot or a guide.
     slides = {("vector", f"{how}_{slide}") for how in ("along", "across") for slide in ("slot", "guide")}
     assert slides <= {keys for keys, _ in leaves(words)}

@@ -8,7 +8,7 @@ import pytest
 
 from reportgen.base.errors import TemplateError
 from reportgen.base.template_folders import search_path
-from reportgen.base.words import load_words
+from reportgen.base.words import load_words, words_alone
 
 
 def test_words_of_a_school_stand_before_the_common_ones(tmp_path: Path) -> None:
@@ -66,3 +66,18 @@ def test_words_changed_between_reports_are_read_again(tmp_path: Path) -> None:
     assert load_words((tmp_path,)) == {"yes": "Yes"}
     file.write_text("yes: Indeed\n", encoding="utf-8")
     assert load_words((tmp_path,)) == {"yes": "Indeed"}
+
+
+def test_a_topic_adds_words_to_the_common_ones(tmp_path: Path) -> None:
+    """They stand behind the common ones, which none of them changes; those of a kind go before both."""
+    (tmp_path / "words.yaml").write_text("tables: {lengths: Lengths}\nyes: Yes\n", encoding="utf-8")
+    (tmp_path / "topics").mkdir()
+    topic = tmp_path / "topics" / "friction.md"
+    topic.write_text("%% words\ntables: {wear: Wear, lengths: Other}\nresults: {wear: Wear}\n", encoding="utf-8")
+    kind = tmp_path / "catalogue" / "pump.md"
+    kind.parent.mkdir()
+    kind.write_text("%% words\ntables: {wear: Of pins}\n", encoding="utf-8")
+    added = {"tables": {"lengths": "Lengths", "wear": "Wear"}, "yes": "Yes", "results": {"wear": "Wear"}}
+    assert load_words((tmp_path,)) == added
+    assert load_words((kind, tmp_path)) == {**added, "tables": {"lengths": "Lengths", "wear": "Of pins"}}
+    assert words_alone(tmp_path) == {"tables": {"lengths": "Lengths"}, "yes": "Yes"}
