@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib.util
 import json
+import math
 import os
 import re
 import shutil
@@ -13,6 +14,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
 from pathlib import Path
+from typing import Any
 
 import pytest
 import typer
@@ -53,8 +55,8 @@ def fences(document: str, language: str) -> list[str]:
 
 
 def section(text: str, heading: str) -> str:
-    """What stands between a heading and the next one of any level."""
-    found = re.search(rf"^{re.escape(heading)}\n(.*?)(?=^##+ |\Z)", text, re.MULTILINE | re.DOTALL)
+    """What stands between a heading and the next one of any level; one in a block of code is none."""
+    found = re.search(rf"^{re.escape(heading)}\n((?:^```.*?^```$|.)*?)(?=^##+ |\Z)", text, re.MULTILINE | re.DOTALL)
     assert found, heading
     return found[1]
 
@@ -263,18 +265,131 @@ def test_a_mistake_added_as_described_is_named(tmp_path: Path) -> None:
     assert (english.split(": ")[1], vietnamese.split(": ")[1]) == ("cosine for sine", "cos thay sin")
 
 
+WORN = """
+import json
+from pathlib import Path
+
+from reportgen import api, catalogue
+from reportgen.base.field_words import field_words
+from reportgen.base.whole import is_whole
+from reportgen.cases import opened
+from reportgen.formula import ids
+from reportgen.marking.marking import mark
+from reportgen.marking.mistakes import mistakes_in
+from reportgen.marking.scheme import marking_scheme
+from tests.marking import students
+
+names = ("slider-crank-worn", "unloaded", "dense", "coarse")
+file, unloaded, dense, coarse = (Path(f"worn/{name}.yaml") for name in names)
+text = file.read_text(encoding="utf-8")
+unloaded.write_text("".join(line for line in text.splitlines(True) if "force:" not in line), encoding="utf-8")
+dense.write_text(text.replace("parameters:", "positions: {count: 360}\\nparameters:"), encoding="utf-8")
+rising = text.replace("[1000, 1000]", "[0, 2000]").replace("[-1000, -1000]", "[-2000, 0]").replace("[3]", "all")
+coarse.write_text(rising.replace("parameters:", "positions: {count: 24}\\nparameters:"), encoding="utf-8")
+found = {}
+for language in ("en", "vi"):
+    case = opened(api.load(file, language))
+    (fault,) = catalogue.check(unloaded, language)
+    found[language] = {
+        "document": repr(case.document()),
+        "key": [row.what for row in marking_scheme(case).key.rows if row.id == "wear.p.12"],
+        "field": field_words("slider-crank", language)["parameters.wear.pins.k"].whole,
+        "fault": [fault.code, fault.message, fault.hint],
+    }
+found["partial"] = [[one.code, one.mark.line] for one in catalogue.check(file, "ru")]
+found["whole"] = is_whole("ru", "slider-crank")
+found["results"], found["dense"] = api.solve(api.load(file)), api.solve(api.load(dense))
+
+
+def first_errors(scheme, world):
+    marked = mark(scheme, students.written(scheme, world))
+    return sorted({f"{cell.id} {cell.mistake}" for cell in marked.first_errors})
+
+
+scheme = marking_scheme(opened(api.load(file)))
+found["right"] = first_errors(scheme, students.worked_out(scheme))
+(change,) = (one for one in mistakes_in(scheme, "wear.p.12", {}) if one.name == "radius-for-diameter")
+found["mistake"] = first_errors(scheme, students.worked_out(scheme, change))
+scheme = marking_scheme(opened(api.load(coarse)))
+by_positions = scheme.ledger.evaluate({ids.rest(id): 0.0 for id in ("wear.pv.01", "wear.pv.12")})
+found["asked"] = [row.id for row in scheme.key.asked]
+found["off"] = float(by_positions["wear.h.12"].real[0] / scheme.ledger["wear.h.12"].values.real[0] - 1)
+found["positions"] = first_errors(scheme, by_positions)
+print(json.dumps(found))
+"""
+"""What the reports, the key, the results and the marks say of the wear of pins."""
+
+
+@proof
+def test_a_topic_added_as_described_is_in_all_that_is_made(tmp_path: Path) -> None:
+    place = copy_of_repository(tmp_path)
+    files = dict(_FILE.findall(section(text_of("docs/extending.md"), "## A topic of a machine")))
+    for name, content in files.items():
+        (place / name).parent.mkdir(exist_ok=True)
+        (place / name).write_text(content, encoding="utf-8")
+    assert lint(place, *(name for name in files if name.endswith(".py"))) == ""
+    done = subprocess.run(
+        [sys.executable, "-c", WORN],
+        cwd=place,
+        env={**os.environ, "PYTHONPATH": f"{place}{os.pathsep}{ROOT}"},
+        capture_output=True,
+        text=True,
+        encoding="utf-8",
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    found = json.loads(done.stdout)
+    for language, title, key, field, fault in (
+        ("en", "Wear of the pins", "pressure between link 1 and link 2", "wear factor", "nothing loads the pins"),
+        ("vi", "Mòn chốt", "áp suất giữa khâu 1 và khâu 2", "hệ số mòn", "không có tải nào"),
+    ):
+        said = found[language]
+        assert title in said["document"]
+        assert "tab.wear" in said["document"]
+        assert key in str(said["key"])
+        assert said["field"] == field
+        assert said["fault"][0] == "wear-without-loads"
+        assert said["fault"][1].startswith(fault)
+        assert said["fault"][2]
+    assert found["partial"] == [["language-partial", 9]]
+    assert found["whole"]
+    _pressures_follow_the_reactions(found["results"], found["dense"])
+    assert "wear.h.12" in found["asked"]
+    assert 0.05 < abs(found["off"]) < 0.1
+    assert (found["right"], found["positions"]) == ([], [])
+    assert found["mistake"] == ["wear.p.12 radius-for-diameter"]
+
+
+def _pressures_follow_the_reactions(results: Any, dense: Any) -> None:
+    """p = R/(2rb) at each position, and h = k · 2π/ω₁ times the mean of p·v by the rectangle rule."""
+    pins = {"01": (0.020, 0.040), "12": (0.015, 0.030)}
+    for entry in results["positions"]:
+        for joint, (r, b) in pins.items():
+            expected = math.hypot(*entry["reactions"][f"R{joint}"]) / (2 * r * b)
+            assert entry["wear"][f"p{joint}"] == pytest.approx(expected, rel=1e-12)
+        assert entry["wear"]["v12"] == pytest.approx(0.015 * abs(entry["links"]["2"]["omega"] - 10), rel=1e-12)
+    for joint in pins:
+        rates = [entry["wear"][f"p{joint}"] * entry["wear"][f"v{joint}"] for entry in dense["positions"]]
+        depth = 1e-15 * sum(rates) / len(rates) * 2 * math.pi / 10
+        # The rule is off by (2π/360)² at the corners of p, of its size at most.
+        assert results["wear"][f"h{joint}"] == pytest.approx(depth, rel=3e-4)
+
+
 @pytest.mark.parametrize(
-    ("what", "document", "count"),
-    [("| a machine", "CONTRIBUTING.md", 5), ("| [a kind of work", "docs/extending.md", 4)],
+    ("what", "document", "heading", "count"),
+    [
+        ("| a machine", "CONTRIBUTING.md", "## A machine", 5),
+        ("| [a topic", "docs/extending.md", "## A topic of a machine", 8),
+        ("| [a kind of work", "docs/extending.md", "## A kind of work that is no machine", 4),
+    ],
 )
-def test_a_machine_and_a_further_kind_of_work_have_the_files_that_the_table_says(
-    what: str, document: str, count: int
-) -> None:
+def test_what_is_added_has_the_files_that_the_table_says(what: str, document: str, heading: str, count: int) -> None:
     """So many of its own, all that the page prints, and no file that was there before names it."""
     (row,) = (line for line in text_of("CONTRIBUTING.md").splitlines() if line.startswith(what))
     _, _, new, changed, _ = row.split("|")
     files = re.findall(r"`([\w/.-]+)`", new)
-    printed = [name for name, _ in _FILE.findall(text_of(document)) if not name.startswith("jacks/")]
+    own = ("jacks/", "worn/")
+    printed = [name for name, _ in _FILE.findall(section(text_of(document), heading)) if not name.startswith(own)]
     assert sorted(files) == sorted(printed)
     assert len(files) == count
     assert changed.strip() == "none"
