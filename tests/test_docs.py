@@ -292,7 +292,7 @@ for language in ("en", "vi"):
     (fault,) = catalogue.check(unloaded, language)
     found[language] = {
         "document": repr(case.document()),
-        "key": [row.what for row in marking_scheme(case).key.rows if row.id == "wear.p.12"],
+        "key": [[row.what, row.part] for row in marking_scheme(case).key.rows if row.id == "wear.p.12"],
         "field": field_words("slider-crank", language)["parameters.wear.pins.k"].whole,
         "fault": [fault.code, fault.message, fault.hint],
     }
@@ -346,7 +346,8 @@ def test_a_topic_added_as_described_is_in_all_that_is_made(tmp_path: Path) -> No
         said = found[language]
         assert title in said["document"]
         assert "tab.wear" in said["document"]
-        assert key in str(said["key"])
+        ((what, chapter),) = said["key"]
+        assert (what, chapter) == (key, "wear")
         assert said["field"] == field
         assert said["fault"][0] == "wear-without-loads"
         assert said["fault"][1].startswith(fault)

@@ -64,7 +64,7 @@ after_component = Name("balance.after.F.{axis}")
 
 KINDS: Mapping[str, QuantityKind] = {"counterweight product": QuantityKind("kg·m")}
 
-_B = Chapter.balancing
+_B = Chapter("balancing")
 
 ROWS: tuple[VocabularyRow, ...] = (
     VocabularyRow(Name(FORCE), "F", "force", _B, below="qt"),

@@ -64,7 +64,7 @@ def enter(q: Sheet, analysis: Analysis) -> None:
     """Enter force and moment on the frame, and the counterweights that are asked for with what they change."""
     turn = balanced_in(analysis)
     entry = _Entry(q, analysis, turn)
-    with q.within(Chapter.balancing):
+    with q.within(Chapter("balancing")):
         entry.shaking()
         if turn.products:
             entry.rules()

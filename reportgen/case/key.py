@@ -8,18 +8,27 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from enum import StrEnum
-from functools import cached_property
+from functools import cache, cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from reportgen.base.template_folders import REFERENCE
 from reportgen.base.units import Language
+from reportgen.base.words import common_words
 from reportgen.document import InlineMath, Inlines, Text
 from reportgen.formula import Chain, Expression, Symbol
 from reportgen.formula.vocabulary import Chapter
 
 if TYPE_CHECKING:
     import numpy as np
+
+
+@cache
+def headed_chapters() -> tuple[Chapter, ...]:
+    """Return the chapters that a key may have: those with a heading in the words."""
+    headings = common_words(REFERENCE)["parts"]
+    return tuple(chapter for chapter in Chapter if chapter in headings)
 
 
 class Role(StrEnum):

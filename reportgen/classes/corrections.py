@@ -23,7 +23,7 @@ from reportgen.base.template_folders import languages
 from reportgen.base.typed import plain_signs
 from reportgen.base.units import NUMBER, Language, write
 from reportgen.base.words import as_error, as_problem, close_or_known, common_words, messages, word
-from reportgen.case.key import Key
+from reportgen.case.key import Key, headed_chapters
 from reportgen.classes.roster import Record, columns, comparable, folded, folder_name, heading_row, records
 from reportgen.document import InlineMath, Inlines, Text
 from reportgen.formula.vocabulary import Chapter
@@ -204,7 +204,7 @@ def _named(key: Key, text: str) -> tuple[Inlines, Callable[[str], bool]] | None:
     part = next((one for one in key.parts if folded(text) in (folded(one.name), folded(one.title))), None)
     if part is not None:
         return (Text(part.title),), lambda id: key.owner(id) == part.name
-    chapter = next((one for one in Chapter if folded(text) in _titles(one)), None)
+    chapter = next((one for one in headed_chapters() if folded(text) in _titles(one)), None)
     if chapter is not None:
         return (Text(words_of(key)["parts"][chapter]),), lambda id: key.row(id).part is chapter
     return None

@@ -19,6 +19,7 @@ from pathlib import Path
 
 import numpy as np
 
+from reportgen.base.topics import topics
 from reportgen.formula import Symbol, ids
 from reportgen.formula.constructions import Value
 from reportgen.formula.ids import Name
@@ -190,7 +191,10 @@ def drawn_length(first: str, second: str) -> Symbol:
 
 
 class Chapter(StrEnum):
-    """The chapters of a key, in their order; `words.yaml` has their headings under `parts`."""
+    """The chapters of a key, in their order; `words.yaml` has their headings under `parts`.
+
+    Behind the common ones stand those of topics, `Chapter("balancing")`: a topic has one if its words have a heading.
+    """
 
     data = "data"
     geometry = "geometry"
@@ -201,7 +205,7 @@ class Chapter(StrEnum):
     forces = "forces"
     torque = "torque"
     cycle = "cycle"
-    balancing = "balancing"
+    vars().update({name: name for name in topics()})
 
 
 @dataclass(frozen=True)

@@ -20,7 +20,7 @@ from reportgen.base.template_folders import search_path
 from reportgen.base.units import Language
 from reportgen.base.words import as_error, close_or_known, load_words
 from reportgen.case import Case, CaseOfParts
-from reportgen.case.key import Key, KeyRow, Role
+from reportgen.case.key import Key, KeyRow, Role, headed_chapters
 from reportgen.case.wording import BY_FORMULA, OPEN, definition_of, phrase
 from reportgen.formula import Expression, Number, ids, refs, substitute
 from reportgen.formula.ledger import Ledger
@@ -249,8 +249,8 @@ class Ask:
         """
         if self.file is None:
             return
-        left = {index: one for index, one in enumerate(self.patterns) if one.removeprefix(NOT) not in set(Chapter)}
-        known: dict[str, None] = dict.fromkeys(Chapter)
+        left = {index: one for index, one in enumerate(self.patterns) if one.removeprefix(NOT) not in headed_chapters()}
+        known: dict[str, None] = dict.fromkeys(headed_chapters())
         tried = False
         for key in keys if left else ():
             tried = True
@@ -268,13 +268,13 @@ class Ask:
 def _fits(pattern: str, row: KeyRow) -> bool:
     """Whether a pattern, with or without `NOT`, is the section of a row or fits its id."""
     bare = pattern.removeprefix(NOT)
-    return bare == row.part or (bare not in set(Chapter) and fnmatchcase(row.id, bare))
+    return bare == row.part or (bare not in headed_chapters() and fnmatchcase(row.id, bare))
 
 
 def _about(pattern: str, known: Sequence[str]) -> dict[str, str]:
     """What to say of a pattern that fits nothing: what it was probably meant to be, or the sections."""
     close = close_or_known(pattern.removeprefix(NOT), known)
-    return {"text": pattern, **(close if "close" in close else {"known": ", ".join(Chapter)})}
+    return {"text": pattern, **(close if "close" in close else {"known": ", ".join(headed_chapters())})}
 
 
 def _whole(patterns: Sequence[str]) -> Sequence[str]:
