@@ -15,11 +15,10 @@ from dataclasses import dataclass, replace
 from enum import StrEnum
 from functools import cache, lru_cache
 from importlib import import_module
-from pathlib import Path
 
 import numpy as np
 
-from reportgen.base.topics import topics
+from reportgen.base.topics import PACKAGE, topics
 from reportgen.formula import Symbol, ids
 from reportgen.formula.constructions import Value
 from reportgen.formula.ids import Name
@@ -191,10 +190,7 @@ def drawn_length(first: str, second: str) -> Symbol:
 
 
 class Chapter(StrEnum):
-    """The chapters of a key, in their order; `words.yaml` has their headings under `parts`.
-
-    Behind the common ones stand those of topics, `Chapter("balancing")`: a topic has one if its words have a heading.
-    """
+    """The chapters of a key, in their order, those of topics last; the words have the headings under `parts`."""
 
     data = "data"
     geometry = "geometry"
@@ -379,9 +375,8 @@ _NO_ROW = VocabularyRow(Name(""))
 @cache
 def heads() -> Mapping[str, str]:
     """The modules of ids that kinds of work bring, dotted, by the word that those ids begin with."""
-    package = Path(__file__).parents[1]
-    modules = sorted(package.glob(f"*/*{OWN_IDS}.py"))
-    return {path.stem.removesuffix(OWN_IDS): f"{package.name}.{path.parent.name}.{path.stem}" for path in modules}
+    modules = sorted(PACKAGE.glob(f"*/*{OWN_IDS}.py"))
+    return {path.stem.removesuffix(OWN_IDS): f"{PACKAGE.name}.{path.parent.name}.{path.stem}" for path in modules}
 
 
 @cache
