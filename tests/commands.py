@@ -1,7 +1,7 @@
 """Run the command line inside the test process.
 
 A process of its own spends most of its time on loading the program. `process` starts one for tests of what only a
-process shows: signals, limits of memory, what is loaded.
+process shows: signals, limits of memory, what is loaded, the workers of a batch.
 """
 
 from __future__ import annotations

@@ -18,7 +18,7 @@ from reportgen.base.units import Language
 from reportgen.classes.run import Order, locked, run_batch, watching
 from tests.classes.classes import Batch, here, tree, write_class
 from tests.classes.little import little
-from tests.commands import reportgen
+from tests.commands import process, reportgen
 from tests.lanes import proof
 
 ROOT = Path(__file__).parents[2]
@@ -259,7 +259,7 @@ def test_a_terminal_sees_a_bar(tmp_path: Path) -> None:
 @proof
 def test_the_command_tells_events_failures_and_the_manifest(tmp_path: Path) -> None:
     roster, given = write_class(tmp_path, {"K1": "kind: ship\n"})
-    done = reportgen("batch", roster, "--assignments", given, "--out", tmp_path / "out", "--jobs", 1, "--lang", "en")
+    done = process("batch", roster, "--assignments", given, "--out", tmp_path / "out", "--jobs", 1, "--lang", "en")
     assert (done.returncode, done.stdout) == (1, f"{tmp_path / 'out' / 'manifest.json'}\n")
     lines = done.stderr.splitlines()
     assert lines[:3] == [f"K1\t{product}\tfailed" for product in ("task", "report", "key")]

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from reportgen.base.template_folders import samples
-from tests.commands import ROOT, reportgen
+from tests.commands import ROOT, process, reportgen
 from tests.lanes import matrix, proof
 
 SAMPLE = ROOT / "assignments" / "engine-twin-05.yaml"
@@ -235,8 +235,8 @@ def test_a_batch_takes_the_words_beside_its_files_along(own: Path) -> None:
     assert reportgen("variants", place / "spec.yaml", place / "roster.csv", "-o", place / "class").returncode == 0
     batch = ("batch", place / "roster.csv", "--assignments", place / "class", "--make", "page", "--out", place / "made")
     page = place / "made" / "K1" / "report.html"
-    assert reportgen(*batch).returncode == 0
+    assert process(*batch).returncode == 0
     assert "As we have it." in page.read_text(encoding="utf-8")
     (place / "class" / "words" / "en.md").write_text(WORDS.replace("have", "had"), encoding="utf-8")
-    assert reportgen(*batch).returncode == 0
+    assert process(*batch).returncode == 0
     assert "As we had it." in page.read_text(encoding="utf-8")
