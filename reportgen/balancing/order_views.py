@@ -11,8 +11,8 @@ from reportgen.balancing.order_entries import EXACT, OF_ALL, ORDERS, SENSES
 from reportgen.balancing.orders import Engine, engine
 from reportgen.balancing.stars import star
 from reportgen.document import Value
+from reportgen.document.paper import FigureScenes
 from reportgen.formula import Number, vocabulary
-from reportgen.report.figures import FigureScenes
 from reportgen.report.report import Report
 from reportgen.report.tables import bare
 

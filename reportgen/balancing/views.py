@@ -16,13 +16,14 @@ from reportgen.balancing.ledger import AFTER, AXES, BEFORE, LETTERS
 from reportgen.balancing.order_views import factors_table
 from reportgen.base.shown import view
 from reportgen.document import Value
+from reportgen.document.paper import FigureScenes
 from reportgen.drawing import Diagram, PlottedCurve, Scene, charts
 from reportgen.formula import Chain, Symbol, ids
 from reportgen.formula.vocabulary import KINDS
 from reportgen.machine import DRIVER
 from reportgen.machine.laws import FULL_TURN
 from reportgen.machine.motion import unit
-from reportgen.report.figures import FigureScenes, drawing_scale, looks, reduction, shown_at
+from reportgen.report.figures import drawing_scale, looks, reduction, shown_at
 from reportgen.report.report import Report
 from reportgen.report.tables import QuantityTable, RowTable, bare
 from reportgen.report.topic_views import ViewHooks, always

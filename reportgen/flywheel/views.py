@@ -10,6 +10,7 @@ import numpy as np
 from reportgen.base.shown import view
 from reportgen.catalogue.topic_sections import sections_of
 from reportgen.document import Paragraph, Table, Value
+from reportgen.document.paper import FigureScenes
 from reportgen.drawing import Content, Scene, charts
 from reportgen.drawing.diagram import Diagram, Inclination, PlottedCurve
 from reportgen.flywheel.regulation import regulated_in
@@ -18,7 +19,6 @@ from reportgen.machine.regulation import RegulatedCycle
 from reportgen.machine.shared_results import REGULATED_CYCLE
 from reportgen.report.comments import labels, shown
 from reportgen.report.curves import axis_of, driver_axis
-from reportgen.report.figures import FigureScenes
 from reportgen.report.report import Report
 from reportgen.report.tables import tables
 from reportgen.report.topic_views import ViewHooks, always

@@ -12,6 +12,7 @@ from reportgen.base.shown import view
 from reportgen.base.units import MM
 from reportgen.derivation.loads import Edge, Polygon
 from reportgen.document import FIRST_COLUMN, Column, Inlines, Table, Text
+from reportgen.document.paper import FigureScenes, beside_one_another, on_paper
 from reportgen.document.prose import NamedPoint, subscripted
 from reportgen.drawing import Arc, Circle, Item, Line, Scene, style
 from reportgen.drawing.canvas import Canvas, finish
@@ -29,7 +30,7 @@ from reportgen.friction.tilting import FaceForce, Leaning, any_tilts, at_both_en
 from reportgen.machine import GROUND
 from reportgen.machine.forces import reaction_name
 from reportgen.report import equations
-from reportgen.report.figures import FigureScenes, as_large_as_asked, beside_one_another, drawing_scale, looks, on_paper
+from reportgen.report.figures import as_large_as_asked, drawing_scale, looks
 from reportgen.report.groups import GroupView
 from reportgen.report.plans import force_plan
 from reportgen.report.report import Report

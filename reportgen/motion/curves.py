@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from reportgen.document.paper import FigureScenes
 from reportgen.drawing import Content, Diagram, PlottedCurve, Scene, charts
 from reportgen.drawing.geometry import moved
 from reportgen.formula import Chain, Symbol
@@ -14,7 +15,6 @@ from reportgen.motion import run_ids
 from reportgen.motion.running import MotionRun
 from reportgen.motion.true_motion import TrueMotion, motion_in
 from reportgen.report.curves import axis
-from reportgen.report.figures import FigureScenes
 from reportgen.report.report import Report
 
 THINNED = 3

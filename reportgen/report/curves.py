@@ -12,6 +12,7 @@ import numpy as np
 
 from reportgen.base.units import MM
 from reportgen.derivation.sides import scheme
+from reportgen.document.paper import FigureScenes
 from reportgen.document.prose import subscripted
 from reportgen.drawing import Diagram, PlottedCurve, Scene, charts
 from reportgen.formula import Chain, Symbol, ids
@@ -21,7 +22,6 @@ from reportgen.machine.cycle_torque import SAME_ANGLE
 from reportgen.machine.laws import FULL_TURN
 from reportgen.report.comments import sliders
 from reportgen.report.equations import heading_words
-from reportgen.report.figures import FigureScenes
 from reportgen.report.report import Report
 
 # --- axes

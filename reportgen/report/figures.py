@@ -1,4 +1,4 @@
-"""Figures: their names, paper, scale and looks; then those of the mechanism.
+"""Figures: their scale and looks; then those of the mechanism.
 
 A figure is a function of a report and of what it shows; its name in templates stands in the namespace.  Those
 of the mechanism are its scheme, groups and positions, the gas beside the cylinder, Coriolis acceleration.
@@ -7,7 +7,7 @@ of the mechanism are its scheme, groups and positions, the gas beside the cylind
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -15,8 +15,8 @@ import numpy as np
 from reportgen.base.units import MM
 from reportgen.derivation.motion import NEAREST, centre_symbol
 from reportgen.derivation.sides import Side
-from reportgen.document import TEXT_WIDTH
-from reportgen.document.layout import FIGURE_HEIGHT, in_rows
+from reportgen.document.layout import in_rows
+from reportgen.document.paper import A3_ACROSS, A3_UPRIGHT, FigureScenes, close, fits, in_text, on_paper
 from reportgen.drawing import Scene
 from reportgen.drawing import indicator as indicator_figure
 from reportgen.drawing import scheme as scheme_figure
@@ -24,7 +24,6 @@ from reportgen.drawing.canvas import Canvas
 from reportgen.drawing.forces import Sliding, link_and_plan
 from reportgen.drawing.forces import coriolis as coriolis_figure
 from reportgen.drawing.forces import inclination as inclination_figure
-from reportgen.drawing.geometry import moved
 from reportgen.drawing.positions import (
     DrawnCentre,
     PlaneMotion,
@@ -35,7 +34,6 @@ from reportgen.drawing.positions import (
     swing_marks,
 )
 from reportgen.drawing.scheme import Looks
-from reportgen.drawing.sheet import sheets
 from reportgen.formula import Chain, Number, Symbol, ids, vocabulary
 from reportgen.formula.constructions import circle_circle
 from reportgen.machine import DRIVER, Crank
@@ -47,25 +45,6 @@ from reportgen.machine.motion import Motion, solve_motion
 from reportgen.report.groups import GroupView, PlaneLink
 from reportgen.report.report import DENSE, Report
 
-A3_UPRIGHT, A3_ACROSS = (297.0, 420.0), (420.0, 297.0)
-LARGER = tuple(
-    size for short, long in ((420.0, 594.0), (594.0, 841.0), (841.0, 1189.0)) for size in ((long, short), (short, long))
-)
-"""Sheets A2, A1, A0, lying and standing."""
-PLATES = (A3_ACROSS, A3_UPRIGHT, *LARGER)
-FIGURE_ROOM = (TEXT_WIDTH, FIGURE_HEIGHT)
-"""What of an A4 page a figure may fill."""
-TURNED_ROOM = (254.0, 150.5)
-"""What of it a figure may fill that is turned by 90°."""
-PAPERS = {297.0: "A3", 420.0: "A2", 594.0: "A1", 841.0: "A0"}
-"""The names of sheets by their shorter side (mm)."""
-WHITE = (34.0, 64.0)
-"""What of a plate's page (mm) its margins, header and caption take."""
-HALF = 0.5
-CLOSE = 5.5
-"""What of their margins (mm) scenes of one figure give up to stand side by side."""
-LEAST_MARGIN = 0.5
-"""The white (mm) that remains around a scene."""
 SCHEME_BOX = (120.0, 75.0)
 HALF_PAGE = 100.0
 """The height (mm) up to which a figure leaves about half a page to the text."""
@@ -76,76 +55,6 @@ LEGIBLE = 0.4
 """Of the scheme's size: groups drawn smaller yet would be hard to read."""
 SHOWN_AT = 1
 """The position (from 0) at which schemes are drawn: the first one away from the start."""
-
-
-@dataclass(frozen=True, slots=True)
-class FigureScenes:
-    """The scenes of a figure; `paper` (mm) asks for a page of its own for each, `turned` for one of A4 across."""
-
-    scenes: tuple[Scene, ...]
-    paper: tuple[float, float] | None = None
-    note: Chain | None = None
-    """A scale to print behind the caption."""
-    turned: bool = False
-    smaller: float = 1.0
-    """How many times smaller than to the scales of the text it is shown, which its caption says."""
-
-
-def in_text(*scenes: Scene) -> bool:
-    """Whether a figure is one scene that fits a text block in true size."""
-    return len(scenes) == 1 and scenes[0].width <= FIGURE_ROOM[0] and scenes[0].height <= FIGURE_ROOM[1]
-
-
-def across(scene: Scene) -> bool:
-    """Whether a scene fits a text block that is turned by 90°."""
-    return scene.width <= TURNED_ROOM[0] and scene.height <= TURNED_ROOM[1]
-
-
-def close(scene: Scene) -> Scene:
-    """A scene without the outer part of the white around it."""
-    trim = scene.margin - LEAST_MARGIN
-    if trim <= 0.0:
-        return scene
-    items = tuple(moved(item, complex(-trim, -trim)) for item in scene.items)
-    width, height = scene.width - 2 * trim, scene.height - 2 * trim
-    return replace(scene, width=width, height=height, items=items, margin=LEAST_MARGIN)
-
-
-def fits(width: float, height: float, paper: tuple[float, float]) -> bool:
-    """Whether a drawing of a width and height (mm) has room on a plate."""
-    return width <= paper[0] - WHITE[0] and height <= paper[1] - WHITE[1]
-
-
-def on_paper(*scenes: Scene) -> FigureScenes:
-    """Scenes in the text if they fit there in true size, else turned, else each on a page large enough for all."""
-    for shown in (scenes, tuple(map(close, scenes))):
-        if all(map(in_text, shown)):
-            return FigureScenes(shown)
-        if len(shown) == 1 and across(shown[0]):
-            return FigureScenes(shown, turned=True)
-    width, height = max(scene.width for scene in scenes), max(scene.height for scene in scenes)
-    papers = (paper for paper in PLATES if fits(width, height, paper))
-    return FigureScenes(scenes, next(papers, (width + WHITE[0], height + WHITE[1])))
-
-
-def beside_one_another(*scenes: Scene) -> FigureScenes:
-    """Scenes close together if they fit a text block so, else as they are; on a page of their own if they must.
-
-    That is one for all, turned or as large as they need: what is small takes no large page for itself.
-    """
-    together = sheets(scenes, *FIGURE_ROOM, trim=CLOSE)
-    if in_text(*together):
-        return FigureScenes(together)
-    if all(map(in_text, scenes)):
-        return FigureScenes(scenes)
-    turned = sheets(scenes, *TURNED_ROOM, trim=CLOSE)
-    if len(turned) == 1 and across(turned[0]):
-        return FigureScenes(turned, turned=True)
-    for paper in PLATES:
-        shown = sheets(scenes, paper[0] - WHITE[0], paper[1] - WHITE[1], trim=CLOSE)
-        if len(shown) == 1 and fits(shown[0].width, shown[0].height, paper):
-            return FigureScenes(shown, paper)
-    return on_paper(*scenes)
 
 
 def drawing_scale(report: Report) -> float:

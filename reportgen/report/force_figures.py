@@ -10,6 +10,7 @@ import numpy as np
 
 from reportgen.base.units import MM
 from reportgen.derivation.loads import Polygon
+from reportgen.document.paper import FigureScenes, beside_one_another, on_paper
 from reportgen.drawing import Circle, Item, Line, Scene
 from reportgen.drawing.canvas import Canvas
 from reportgen.drawing.forces import ArmOf, Couple, Force
@@ -22,7 +23,7 @@ from reportgen.formula import Chain, Expression, Symbol, constructions, ids, siz
 from reportgen.machine import DRIVER
 from reportgen.machine.forces import Load, as_single_force
 from reportgen.report import guide_couples, percussion
-from reportgen.report.figures import HALF, FigureScenes, beside_one_another, drawing_scale, looks, on_paper
+from reportgen.report.figures import drawing_scale, looks
 from reportgen.report.groups import GroupView
 from reportgen.report.plans import force_plan, motion_plan
 from reportgen.report.report import Report
@@ -178,7 +179,7 @@ def bodies(report: Report, k: int, group: GroupView) -> FigureScenes:
 def separated(report: Report, k: int, group: GroupView) -> list[Scene]:
     """The scenes of a group's separated links."""
     assert group.polygon is not None
-    both = _Bodies(report, k, (group.i, group.j), HALF)
+    both = _Bodies(report, k, (group.i, group.j), share=0.5)
     forces = [
         *both.loads(),
         *both.found_before(group.polygon),

@@ -31,6 +31,7 @@ from reportgen.document import (
     Text,
 )
 from reportgen.document.layout import contents
+from reportgen.document.paper import PAPERS, FigureScenes, close
 from reportgen.document.used_symbols import used_symbols
 from reportgen.machine.analysis import Position
 from reportgen.report import (
@@ -51,7 +52,6 @@ from reportgen.report import (
 from reportgen.report import chapters as overview
 from reportgen.report import figures as centres
 from reportgen.report import phrases as steps
-from reportgen.report.figures import PAPERS, FigureScenes, close
 from reportgen.report.groups import GroupView
 from reportgen.report.named_tables import table
 from reportgen.report.report import Report

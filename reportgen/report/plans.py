@@ -18,6 +18,7 @@ from reportgen.derivation.motion import POLES, What
 from reportgen.derivation.sides import Side, image
 from reportgen.document import Inlines
 from reportgen.document.layout import SCENE_GAP
+from reportgen.document.paper import A3_ACROSS, FIGURE_ROOM, FigureScenes, on_paper
 from reportgen.drawing import Scene
 from reportgen.drawing.plan import (
     Construction,
@@ -34,7 +35,7 @@ from reportgen.drawing.plan import (
 from reportgen.drawing.scheme import thumbnail
 from reportgen.drawing.sheet import sheets
 from reportgen.formula import Chain, Symbol, ids, vocabulary
-from reportgen.report.figures import A3_ACROSS, FIGURE_ROOM, FigureScenes, on_paper, scale_note
+from reportgen.report.figures import scale_note
 from reportgen.report.groups import GroupView
 from reportgen.report.phrases import counted
 from reportgen.report.report import Report

@@ -6,11 +6,11 @@ import numpy as np
 
 from reportgen.base.units import significant_decimals
 from reportgen.document import Inlines, Value, listed
+from reportgen.document.paper import FigureScenes
 from reportgen.formula import Number
 from reportgen.machine.analysis import motion_at
 from reportgen.machine.laws import FULL_TURN
 from reportgen.report.curves import Shown, axis, over_the_cycle
-from reportgen.report.figures import FigureScenes
 from reportgen.report.report import Report
 from reportgen.report.tables import QuantityTable
 from reportgen.report.topic_views import ViewHooks, always

@@ -12,13 +12,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from reportgen.document.paper import FigureScenes
 from reportgen.drawing import Arc, Arrow, Circle, Hatch, Label, Line, Pen, Polyline, Scene, style
 from reportgen.drawing.geometry import on_one_line
 from reportgen.drawing.plan import Plan, PlanVector, plan, set_apart
 from reportgen.drawing.scheme import ARROWS, LINES, line_styles
 from reportgen.drawing.style import clip_hatch
 from reportgen.formula import Symbol
-from reportgen.report.figures import FigureScenes
 from reportgen.report.outline import FIGURES
 from reportgen.report.report import Report
 from tests.lanes import matrix

@@ -15,6 +15,7 @@ from reportgen.assignment.common import Extent
 from reportgen.base.units import MM
 from reportgen.cases import MachineCase
 from reportgen.document import Document, Figure, Paragraph, Plate, plain
+from reportgen.document.paper import FigureScenes, in_text
 from reportgen.drawing import Circle, Label, Line, Scene, style
 from reportgen.drawing.canvas import Canvas, finish
 from reportgen.drawing.geometry import coincident
@@ -46,12 +47,12 @@ def report(made: Assignment) -> Report:
     return Report(MachineCase(made))
 
 
-def drawn(name: str, kind: str) -> tuple[Report, list[figures.FigureScenes]]:
+def drawn(name: str, kind: str) -> tuple[Report, list[FigureScenes]]:
     """The plans of a report, alone and beside the gas; of a sheet before it is enlarged."""
     shown = report(assignment(name, "short" if kind == "short" else "full"))
     if kind == "sheet":
         shown = Sources.of(shown.case).small
-        return shown, [figures.FigureScenes((figures.positions_scene(shown),))]
+        return shown, [FigureScenes((figures.positions_scene(shown),))]
     return shown, [figures.positions(shown), *([figures.indicator(shown)] if shown.has_gas else [])]
 
 
@@ -121,7 +122,7 @@ def test_a_short_plan_that_has_room_in_the_text_takes_no_page_of_its_own() -> No
     """A slider-crank is 194 mm long at the scale of the text; half as large it has room for all its letters."""
     _, (plan,) = drawn("slider-crank-01", "short")
     assert (plan.smaller, plan.turned) == (2.0, False)
-    assert figures.in_text(*plan.scenes)
+    assert in_text(*plan.scenes)
 
 
 def blocks(document: Document, key: str) -> Figure | Plate:

@@ -1,0 +1,101 @@
+"""Scenes on paper: in the text if they fit there in true size, else turned, else on a page of their own."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from reportgen.document import TEXT_WIDTH
+from reportgen.document.layout import FIGURE_HEIGHT
+from reportgen.drawing import Scene
+from reportgen.drawing.geometry import moved
+from reportgen.drawing.sheet import sheets
+from reportgen.formula import Chain
+
+A3_UPRIGHT, A3_ACROSS = (297.0, 420.0), (420.0, 297.0)
+LARGER = tuple(
+    size for short, long in ((420.0, 594.0), (594.0, 841.0), (841.0, 1189.0)) for size in ((long, short), (short, long))
+)
+"""Sheets A2, A1, A0, lying and standing."""
+PLATES = (A3_ACROSS, A3_UPRIGHT, *LARGER)
+FIGURE_ROOM = (TEXT_WIDTH, FIGURE_HEIGHT)
+"""What of an A4 page a figure may fill."""
+TURNED_ROOM = (254.0, 150.5)
+"""What of it a figure may fill that is turned by 90°."""
+PAPERS = {297.0: "A3", 420.0: "A2", 594.0: "A1", 841.0: "A0"}
+"""The names of sheets by their shorter side (mm)."""
+WHITE = (34.0, 64.0)
+"""What of a plate's page (mm) its margins, header and caption take."""
+CLOSE = 5.5
+"""What of their margins (mm) scenes of one figure give up to stand side by side."""
+LEAST_MARGIN = 0.5
+"""The white (mm) that remains around a scene."""
+
+
+@dataclass(frozen=True, slots=True)
+class FigureScenes:
+    """The scenes of a figure; `paper` (mm) asks for a page of its own for each, `turned` for one of A4 across."""
+
+    scenes: tuple[Scene, ...]
+    paper: tuple[float, float] | None = None
+    note: Chain | None = None
+    """A scale to print behind the caption."""
+    turned: bool = False
+    smaller: float = 1.0
+    """How many times smaller than to the scales of the text it is shown, which its caption says."""
+
+
+def in_text(*scenes: Scene) -> bool:
+    """Whether a figure is one scene that fits a text block in true size."""
+    return len(scenes) == 1 and scenes[0].width <= FIGURE_ROOM[0] and scenes[0].height <= FIGURE_ROOM[1]
+
+
+def across(scene: Scene) -> bool:
+    """Whether a scene fits a text block that is turned by 90°."""
+    return scene.width <= TURNED_ROOM[0] and scene.height <= TURNED_ROOM[1]
+
+
+def close(scene: Scene) -> Scene:
+    """A scene without the outer part of the white around it."""
+    trim = scene.margin - LEAST_MARGIN
+    if trim <= 0.0:
+        return scene
+    items = tuple(moved(item, complex(-trim, -trim)) for item in scene.items)
+    width, height = scene.width - 2 * trim, scene.height - 2 * trim
+    return replace(scene, width=width, height=height, items=items, margin=LEAST_MARGIN)
+
+
+def fits(width: float, height: float, paper: tuple[float, float]) -> bool:
+    """Whether a drawing of a width and height (mm) has room on a plate."""
+    return width <= paper[0] - WHITE[0] and height <= paper[1] - WHITE[1]
+
+
+def on_paper(*scenes: Scene) -> FigureScenes:
+    """Scenes in the text if they fit there in true size, else turned, else each on a page large enough for all."""
+    for shown in (scenes, tuple(map(close, scenes))):
+        if all(map(in_text, shown)):
+            return FigureScenes(shown)
+        if len(shown) == 1 and across(shown[0]):
+            return FigureScenes(shown, turned=True)
+    width, height = max(scene.width for scene in scenes), max(scene.height for scene in scenes)
+    papers = (paper for paper in PLATES if fits(width, height, paper))
+    return FigureScenes(scenes, next(papers, (width + WHITE[0], height + WHITE[1])))
+
+
+def beside_one_another(*scenes: Scene) -> FigureScenes:
+    """Scenes close together if they fit a text block so, else as they are; on a page of their own if they must.
+
+    That is one for all, turned or as large as they need: what is small takes no large page for itself.
+    """
+    together = sheets(scenes, *FIGURE_ROOM, trim=CLOSE)
+    if in_text(*together):
+        return FigureScenes(together)
+    if all(map(in_text, scenes)):
+        return FigureScenes(scenes)
+    turned = sheets(scenes, *TURNED_ROOM, trim=CLOSE)
+    if len(turned) == 1 and across(turned[0]):
+        return FigureScenes(turned, turned=True)
+    for paper in PLATES:
+        shown = sheets(scenes, paper[0] - WHITE[0], paper[1] - WHITE[1], trim=CLOSE)
+        if len(shown) == 1 and fits(shown[0].width, shown[0].height, paper):
+            return FigureScenes(shown, paper)
+    return on_paper(*scenes)
