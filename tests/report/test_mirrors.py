@@ -8,8 +8,9 @@ import pytest
 
 from reportgen.cases import open_case
 from reportgen.derivation.motion import What
+from reportgen.drawing.mirrors import mirrored
 from reportgen.drawing.plan import Plan, PlanVector
-from reportgen.report.plans import mirrored, motion_plan
+from reportgen.report.plans import motion_plan
 from reportgen.report.report import Report
 
 ASSIGNMENTS = Path(__file__).parents[2] / "assignments"

@@ -1,0 +1,64 @@
+"""Plans that are mirror images of others and are told, not drawn again.
+
+The positions k and N + 2 − k of a centric slider-crank mirror each other in the line of its slide.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from itertools import combinations
+
+import numpy as np
+
+from reportgen.drawing.plan import Plan
+
+SAME_END = 0.01
+"""Ends of vectors nearer than this (mm), the last digit of a measured length, are one for any reader."""
+FEWEST = 2
+"""Pairs of positions, less of which are not worth a sentence."""
+SAME_MIRROR = 1e-3
+"""Two lines of mirroring whose directions differ by no more (radians, twice) are one."""
+
+
+@dataclass(frozen=True, slots=True)
+class Mirrored:
+    """Positions (numbers) and, in the same order, the earlier ones of whose plans theirs are the mirror images."""
+
+    at: tuple[int, ...]
+    of: tuple[int, ...]
+
+
+def mirrored(plans: Mapping[int, Plan]) -> Mirrored:
+    """Which of the plans, at their positions, mirror one at an earlier position in parallel lines.
+
+    Of several such lines the one with most pairs counts; a single pair, as of the two dead centres, is drawn.
+    """
+    ends = {k: np.array([end for v in plan.vectors for end in (v.start, v.end)]) for k, plan in plans.items()}
+    turns = [
+        (one, other, turn)
+        for one, other in combinations(sorted(ends), 2)
+        if (turn := _turn(ends[one], ends[other])) is not None
+    ]
+    best: dict[int, int] = {}
+    for *_, line in turns:
+        pairs: dict[int, int] = {}
+        for earlier, later, turn in turns:
+            if abs(turn - line) < SAME_MIRROR and not {earlier, later} & {*pairs, *pairs.values()}:
+                pairs[earlier] = later
+        best = max(best, pairs, key=len)
+    if len(best) < FEWEST:
+        return Mirrored((), ())
+    return Mirrored(tuple(best.values()), tuple(best))
+
+
+def _turn(ends: np.ndarray, mirrored_ends: np.ndarray) -> complex | None:
+    """What turns the conjugates of some points into others, if anything does; None if both are one without it."""
+    if not ends.size or abs(ends - mirrored_ends).max() < SAME_END:
+        return None
+    largest = int(abs(ends).argmax())
+    turn = complex(mirrored_ends[largest] / ends[largest].conjugate())
+    if abs(abs(ends[largest]) * (abs(turn) - 1)) > SAME_END:
+        return None
+    turn /= abs(turn)
+    return turn if abs(mirrored_ends - turn * ends.conj()).max() < SAME_END else None
