@@ -14,6 +14,7 @@ from reportgen.derivation.loads import Edge, Polygon
 from reportgen.document import FIRST_COLUMN, Column, Inlines, Table, Text
 from reportgen.document.paper import FigureScenes, beside_one_another, on_paper
 from reportgen.document.prose import NamedPoint, subscripted
+from reportgen.document.tables import side_by_side
 from reportgen.drawing import Arc, Circle, Item, Line, Scene, style
 from reportgen.drawing.canvas import Canvas, finish
 from reportgen.drawing.description import PaperLength, fact, turning
@@ -35,7 +36,7 @@ from reportgen.report.groups import GroupView
 from reportgen.report.plans import force_plan
 from reportgen.report.report import Report
 from reportgen.report.slider_faces import face
-from reportgen.report.tables import QuantityTable, RowTable, bare, side_by_side
+from reportgen.report.tables import QuantityTable, RowTable, bare
 from reportgen.report.topic_views import Passages, ViewHooks
 
 ENLARGED = 8.0
@@ -180,7 +181,9 @@ def rounds(report: Report, key: str, caption: str, head: Sequence[str], k: int) 
     kind = ledger["M.eq"].how
     columns.append([report.balance_symbol(), ledger.printed_unit(kind.unit), *(bare(report, id, k) for id in torques)])
     titles = [report.words["tables"]["friction.rounds"]["round"], "", *(str(n) for n in range(len(torques)))]
-    return side_by_side(report, key, caption, Column(FIRST_COLUMN), titles=titles, columns=columns, most=8, heads=2)
+    return side_by_side(
+        report.prose, key, caption, Column(FIRST_COLUMN), titles=titles, columns=columns, most=8, heads=2
+    )
 
 
 def dead_rows(report: Report) -> Iterator[Sequence[object]]:

@@ -8,11 +8,11 @@ from typing import Any
 
 from reportgen.base.units import significant_decimals
 from reportgen.document import Inline, Inlines, Table, Text, Value
+from reportgen.document.tables import list_table
 from reportgen.formula import Number
 from reportgen.motion.motors import MotorChecks
 from reportgen.motion.true_motion import motion_in
 from reportgen.report.report import Report
-from reportgen.report.tables import list_table
 
 WIDTHS = (24.0, 22.0, 34.0, 34.0, 34.0, 14.0)
 FIGURES = 4
@@ -60,7 +60,7 @@ def demand_lines(report: Report) -> list[str]:
 
 def motors_table(report: Report, key: str, caption: str, head: Sequence[str]) -> Table:
     """Each motor with its torques at the crank, and whether they suffice."""
-    return list_table(report, key, caption, head, _rows(report), WIDTHS)
+    return list_table(report.prose, key, caption, head, _rows(report), WIDTHS)
 
 
 def _rows(report: Report) -> Iterator[Sequence[object]]:

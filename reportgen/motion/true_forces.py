@@ -8,13 +8,13 @@ import numpy as np
 
 from reportgen.base.units import figure_decimals
 from reportgen.document import Table
+from reportgen.document.tables import list_table
 from reportgen.formula import Number, Symbol, ids, size
 from reportgen.formula.sheet import ZERO
 from reportgen.machine.analysis import Analysis, Position
 from reportgen.motion.curves import motion_of
 from reportgen.motion.true_motion import at_true_speeds, motion_in
 from reportgen.report.report import Report
-from reportgen.report.tables import list_table
 
 WIDTHS = (36.0, 40.0, 40.0, 30.0)
 
@@ -29,7 +29,7 @@ def forces_table(report: Report, key: str, caption: str, head: Sequence[str], k:
     """What each is at a position at constant speed, and in the true motion, with its unit."""
     motion = motion_of(report)
     true = at_true_speeds(report.analysis, motion.states[motion.shown])
-    return list_table(report, key, caption, head, list(_rows(report, true, k)), WIDTHS)
+    return list_table(report.prose, key, caption, head, list(_rows(report, true, k)), WIDTHS)
 
 
 def _rows(report: Report, true: Analysis, k: Position) -> Iterator[Sequence[object]]:

@@ -10,6 +10,7 @@ import numpy as np
 
 from reportgen.base.units import rounded, significant_decimals
 from reportgen.document import Equation, InlineMath, Inlines, Paragraph, Table, Text, Value, listed
+from reportgen.document.tables import list_table
 from reportgen.formula import NOTHING, Chain, Expression, Number, Symbol, plus
 from reportgen.machine.shared_results import REGULATED_CYCLE
 from reportgen.motion import motor_choice as running_motors
@@ -21,7 +22,7 @@ from reportgen.motion.running import MotionRun
 from reportgen.motion.true_forces import asks_forces, forces_table
 from reportgen.motion.true_motion import OFF_SPEED, motion_in
 from reportgen.report.report import Report
-from reportgen.report.tables import list_table, tables
+from reportgen.report.tables import tables
 from reportgen.report.topic_views import ViewHooks, always
 
 RPM = 30 / math.pi
@@ -356,7 +357,7 @@ def start_table(report: Report, key: str, caption: str, head: Head) -> Table:
     ends = list(started.ends)
     step = -(-len(ends) // MOST_CYCLES)
     shown = [0, *first, *dict.fromkeys([*ends[::step], ends[-1]])]
-    return list_table(report, key, caption, head, _rows(report, run, shown), (40.0, 40.0, 40.0, 40.0))
+    return list_table(report.prose, key, caption, head, _rows(report, run, shown), (40.0, 40.0, 40.0, 40.0))
 
 
 def _last_at(run: MotionRun, angle: float, end: int) -> int:
@@ -374,7 +375,7 @@ def stop_table(report: Report, key: str, caption: str, head: Head) -> Table:
     passed = [angle for angle in every if run.angle[0] < angle < run.angle[-1]]
     step = -(-len(passed) // MOST_CYCLES) if passed else 1
     shown = [0, *(run.place(angle) for angle in passed[::step]), len(run.angle) - 1]
-    return list_table(report, key, caption, head, _rows(report, run, shown), (40.0, 40.0, 40.0, 40.0))
+    return list_table(report.prose, key, caption, head, _rows(report, run, shown), (40.0, 40.0, 40.0, 40.0))
 
 
 def _rows(report: Report, run: MotionRun, places: Sequence[int]) -> Iterator[Sequence[object]]:

@@ -10,6 +10,7 @@ import numpy as np
 from reportgen.base.units import MM
 from reportgen.derivation.sides import Side, image
 from reportgen.document import FIRST_COLUMN, TEXT_WIDTH, Column, InlineMath, Inlines, Table, Text
+from reportgen.document.tables import list_table, side_by_side
 from reportgen.formula import Chain, Number, Power, Symbol, ids
 from reportgen.formula.sheet import ZERO
 from reportgen.formula.vocabulary import Chapter
@@ -18,7 +19,7 @@ from reportgen.report.comments import AT_REST
 from reportgen.report.groups import GroupView
 from reportgen.report.guide_couples import guide_couples
 from reportgen.report.report import Report
-from reportgen.report.tables import bare, list_table, side_by_side
+from reportgen.report.tables import bare
 from reportgen.report.topic_views import VIEWS
 
 MOST_COORDINATES, MOST_WIDE = 10, 8
@@ -55,7 +56,9 @@ def coordinates(report: Report, key: str, caption: str, head: Sequence[str]) -> 
     columns = [(shown, *(values[index] for index in at)) for shown, values in written]
     titles = [report.words["table"]["position"], *map(str, report.positions)]
     first, most = Column(FIRST_COLUMN), MOST_WIDE if wide else MOST_COORDINATES
-    return side_by_side(report, key, caption, first, titles=titles, columns=columns, most=most, widest=22.0, together=2)
+    return side_by_side(
+        report.prose, key, caption, first, titles=titles, columns=columns, most=most, widest=22.0, together=2
+    )
 
 
 def _as_written(report: Report, point: str, course: np.ndarray) -> list[Number]:
@@ -206,10 +209,10 @@ def strokes(report: Report, key: str, caption: str, head: Sequence[str]) -> Tabl
     if width < NARROWEST:
         down = zip(stretches, *of_pistons, strict=True)
         widths = (30.0, *(40.0,) * len(pistons))
-        return list_table(report, key, caption, (positions, *pistons), down, widths)
+        return list_table(report.prose, key, caption, (positions, *pistons), down, widths)
     across = [(piston, *row) for piston, row in zip(pistons, of_pistons, strict=True)]
     widths = (30.0, *(min(width, 30.0),) * len(starts))
-    return list_table(report, key, caption, (positions, *stretches), across, widths)
+    return list_table(report.prose, key, caption, (positions, *stretches), across, widths)
 
 
 def gas(report: Report) -> list[str]:

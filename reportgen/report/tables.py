@@ -1,4 +1,4 @@
-"""Tables of what is given, and what all tables of a report are made with.
+"""Tables of what is given, and of quantities at positions.
 
 A table is a function of a report, its key, caption and head, and of what it shows; its name in templates stands
 in the namespace.
@@ -15,7 +15,6 @@ from reportgen.catalogue.given_loads import ByOrdinates
 from reportgen.document import (
     FIRST_COLUMN,
     TEXT_WIDTH,
-    Cell,
     Column,
     InlineMath,
     Inlines,
@@ -26,13 +25,13 @@ from reportgen.document import (
     listed,
 )
 from reportgen.document.prose import subscripted
+from reportgen.document.tables import WIDEST_COLUMN, cell, exact, folded, in_blocks, list_table, side_by_side
 from reportgen.drawing.label_size import box
 from reportgen.formula import Chain, Expression, Fraction, Number, Symbol, ids, refs, size, vocabulary
 from reportgen.formula.vocabulary import KINDS
 from reportgen.machine.laws import Law
 from reportgen.report.report import Report
 
-WIDEST_COLUMN = 26.0
 MOST_COLUMNS = 9
 TITLES = 40.0
 """The column that says what the rows of lengths are (mm)."""
@@ -40,34 +39,10 @@ TABLE_SIZE = 10.0
 """The size of type in tables, points."""
 PADDING = 2.2
 """The white beside what stands in a column (mm)."""
-LONG_WORDS = 10
-"""A column with a text this long is one of words and set flush left."""
-
-
 LENGTHS = (ids.length, ids.drawn)
 """The two rows of a table of lengths."""
 
 # --- what tables are made with
-
-
-def cell(content: object) -> Cell:
-    """A table cell from text, a symbol, a number or inlines."""
-    return Cell(_inlines(content))
-
-
-def _inlines(content: object) -> Inlines:
-    match content:
-        case str():
-            return (Text(content),) if content else ()
-        case Number():
-            return (Value(content),)
-        case tuple():
-            return tuple(inline for part in content for inline in _inlines(part))
-        case Text() | Value() | InlineMath():
-            return (content,)
-    if isinstance(content, Expression):
-        return (InlineMath(content),)
-    raise TypeError(f"a {type(content).__name__} has no place in a table")
 
 
 def bare(report: Report, id: str, position: int | None, size: bool = False) -> Inlines:
@@ -103,7 +78,7 @@ def tables(
     widths = [] if report.parts("usual-type") else [column_width(report, id, at) for id in shown]
     fitting = bool(widths) and sum(widths) <= room
     parts = side_by_side(
-        report,
+        report.prose,
         key,
         caption,
         Column(FIRST_COLUMN),
@@ -126,68 +101,6 @@ def column_width(report: Report, id: str, at: Iterable[int | None]) -> float:
     return max(box(one, TABLE_SIZE).width for one in shown) + PADDING
 
 
-def side_by_side(
-    report: Report,
-    key: str,
-    caption: str,
-    first: Column,
-    titles: Sequence[object],
-    columns: Sequence[Sequence[object]],
-    most: int,
-    heads: int = 1,
-    widest: float = WIDEST_COLUMN,
-    together: int = 1,
-    widths: Sequence[float] = (),
-) -> tuple[Table, ...]:
-    """Columns beside one of titles, each with its `heads` on top; several tables where there are too many.
-
-    Each table has at most so many columns, and keeps so many `together`; the key names the first.  The columns of one
-    table alone may have `widths` (mm) of their own.
-    """
-    count = max(-(-len(columns) // most), 1)
-    size = together * -(-len(columns) // (together * count))
-    parts = [columns[start : start + size] for start in range(0, len(columns), size or 1)]
-    tables = []
-    for number, part in enumerate(parts, start=1):
-        width = min((TEXT_WIDTH - first.width) / len(part), widest)
-        rows = [tuple(map(cell, row)) for row in zip(titles, *part, strict=True)]
-        title = f"{caption} ({number}/{len(parts)})" if len(parts) > 1 else caption
-        tables.append(
-            Table(
-                (first, *(map(Column, widths) if widths else (Column(width),) * len(part))),
-                tuple(rows[:heads]),
-                tuple(rows[heads:]),
-                report.prose.inlines(title),
-                f"{key}.{number}" if number > 1 else key,
-            )
-        )
-    return tuple(tables)
-
-
-def list_table(
-    report: Report,
-    key: str,
-    caption: str,
-    head: Sequence[object],
-    rows: Iterable[Sequence[object]],
-    widths: Sequence[float],
-) -> Table:
-    """A free table: cells are texts, symbols, numbers or inlines; widths in mm; columns of words flush left."""
-    body = [tuple(row) for row in rows]
-    words = [any(_is_wordy(row[i]) for row in body) for i in range(len(widths))]
-    return Table(
-        tuple(Column(width, "left" if wordy else "center") for width, wordy in zip(widths, words, strict=True)),
-        (tuple(map(cell, head)),),
-        tuple(tuple(map(cell, row)) for row in body),
-        report.prose.inlines(caption),
-        key,
-    )
-
-
-def _is_wordy(content: object) -> bool:
-    return isinstance(content, str) and len(content) >= LONG_WORDS
-
-
 # --- given data
 
 
@@ -207,7 +120,7 @@ def given_table(report: Report, key: str, caption: str, names: Mapping[str, str]
         if id in report.ledger and _is_given(report, id)
     ]
     return list_table(
-        report, key, caption, (heads["quantity"], heads["symbol"], heads["value"]), rows, (92.0, 28.0, 40.0)
+        report.prose, key, caption, (heads["quantity"], heads["symbol"], heads["value"]), rows, (92.0, 28.0, 40.0)
     )
 
 
@@ -287,51 +200,15 @@ def _law_table(
     unit = KINDS["pressure"].scale if law.symbol else report.ledger[name].how.scale
     rows = [[value / unit for value in row] for row in given.rows]
     if len(rows) > 1:
-        head = (cell(given.over), *map(_exact, given.nodes))
-        lines = [(cell(called), *map(_exact, row)) for called, row in zip(names, rows, strict=False)]
-        return _blocks(report, key, caption, head, lines, FIRST_COLUMN + 8)
+        head = (cell(given.over), *map(exact, given.nodes))
+        lines = [(cell(called), *map(exact, row)) for called, row in zip(names, rows, strict=False)]
+        return in_blocks(report.prose, key, caption, head, lines, FIRST_COLUMN + 8)
     columns: list[tuple[Expression, Sequence[float]]] = [
         (given.over, [node / KINDS[given.kind].scale for node in given.nodes]),
         *(((Symbol("y"), heights),) if heights else ()),
         (law.symbol or shown or report.ledger.symbol(name), rows[0]),
     ]
-    return _beside(report, key, caption, columns)
-
-
-def _exact(value: float) -> Cell:
-    return Cell((Value(Number(float(f"{value:.10g}"))),))
-
-
-def _beside(report: Report, key: str, caption: str, columns: Sequence[tuple[Expression, Sequence[float]]]) -> Table:
-    """Long columns, folded into sets side by side."""
-    head = tuple(cell(shown) for shown, _ in columns)
-    sets = [tuple(map(_exact, row)) for row in zip(*(values for _, values in columns), strict=False)]
-    beside = 3 if len(columns) > 2 else 4
-    rows_count = -(-len(sets) // beside)
-    filled = sets + [(Cell(),) * len(columns)] * (rows_count * beside - len(sets))
-    body = tuple(
-        tuple(one for block in range(beside) for one in filled[block * rows_count + row]) for row in range(rows_count)
-    )
-    width = Column(TEXT_WIDTH / beside / len(columns) - 2.0)
-    return Table((width,) * (beside * len(columns)), (head * beside,), body, report.prose.inlines(caption), key)
-
-
-def _blocks(
-    report: Report, key: str, caption: str, head: tuple[Cell, ...], rows: Sequence[tuple[Cell, ...]], first: float
-) -> Table:
-    """A wide table; more than 13 columns are set below one another in blocks of at most 12 values."""
-    most = 12
-    width = min((TEXT_WIDTH - first) / min(len(head) - 1, most), 14.0)
-    body: list[tuple[Cell, ...]] = []
-    for start in range(1, len(head), most):
-        stop = min(start + most, len(head))
-        pad = (Cell(),) * (most - (stop - start)) if len(head) - 1 > most else ()
-        if start > 1:
-            body.append((head[0], *head[start:stop], *pad))
-        body += [(row[0], *row[start:stop], *pad) for row in rows]
-    count = min(len(head) - 1, most)
-    columns = (Column(first, "left"), *(Column(width),) * count)
-    return Table(columns, ((head[0], *head[1 : count + 1]),), tuple(body), report.prose.inlines(caption), key)
+    return folded(report.prose, key, caption, columns)
 
 
 def joints(report: Report) -> Iterator[Sequence[object]]:
@@ -351,7 +228,7 @@ def lengths(report: Report, key: str, caption: str, head: Sequence[str]) -> tupl
     before, _, after = head[1].partition("{l}")
     titles = (head[0], (Text(before), InlineMath(Symbol("l")), Text(after)), *head[2:])
     return side_by_side(
-        report, key, caption, Column(TITLES, "left"), titles=titles, columns=columns, most=most, widest=22.0
+        report.prose, key, caption, Column(TITLES, "left"), titles=titles, columns=columns, most=most, widest=22.0
     )
 
 
@@ -387,7 +264,7 @@ class RowTable:
     widths: tuple[float, ...]
 
     def __call__(self, report: Report, key: str, caption: str, head: Sequence[str], *shown: Any) -> Table:
-        return list_table(report, key, caption, head, self.rows(report, *shown), self.widths)
+        return list_table(report.prose, key, caption, head, self.rows(report, *shown), self.widths)
 
 
 # --- a declared linkage

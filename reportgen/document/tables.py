@@ -1,0 +1,131 @@
+"""Tables by their cells: in columns side by side, free ones, long and wide ones folded."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from reportgen.document import TEXT_WIDTH, Cell, Column, InlineMath, Inlines, Table, Text, Value
+from reportgen.document.prose import Prose
+from reportgen.formula import Expression, Number
+
+WIDEST_COLUMN = 26.0
+LONG_WORDS = 10
+"""A column with a text this long is one of words and set flush left."""
+
+
+def cell(content: object) -> Cell:
+    """A table cell from text, a symbol, a number or inlines."""
+    return Cell(_inlines(content))
+
+
+def _inlines(content: object) -> Inlines:
+    match content:
+        case str():
+            return (Text(content),) if content else ()
+        case Number():
+            return (Value(content),)
+        case tuple():
+            return tuple(inline for part in content for inline in _inlines(part))
+        case Text() | Value() | InlineMath():
+            return (content,)
+    if isinstance(content, Expression):
+        return (InlineMath(content),)
+    raise TypeError(f"a {type(content).__name__} has no place in a table")
+
+
+def side_by_side(
+    prose: Prose,
+    key: str,
+    caption: str,
+    first: Column,
+    titles: Sequence[object],
+    columns: Sequence[Sequence[object]],
+    most: int,
+    heads: int = 1,
+    widest: float = WIDEST_COLUMN,
+    together: int = 1,
+    widths: Sequence[float] = (),
+) -> tuple[Table, ...]:
+    """Columns beside one of titles, each with its `heads` on top; several tables where there are too many.
+
+    Each table has at most so many columns, and keeps so many `together`; the key names the first.  The columns of one
+    table alone may have `widths` (mm) of their own.
+    """
+    count = max(-(-len(columns) // most), 1)
+    size = together * -(-len(columns) // (together * count))
+    parts = [columns[start : start + size] for start in range(0, len(columns), size or 1)]
+    tables = []
+    for number, part in enumerate(parts, start=1):
+        width = min((TEXT_WIDTH - first.width) / len(part), widest)
+        rows = [tuple(map(cell, row)) for row in zip(titles, *part, strict=True)]
+        title = f"{caption} ({number}/{len(parts)})" if len(parts) > 1 else caption
+        tables.append(
+            Table(
+                (first, *(map(Column, widths) if widths else (Column(width),) * len(part))),
+                tuple(rows[:heads]),
+                tuple(rows[heads:]),
+                prose.inlines(title),
+                f"{key}.{number}" if number > 1 else key,
+            )
+        )
+    return tuple(tables)
+
+
+def list_table(
+    prose: Prose,
+    key: str,
+    caption: str,
+    head: Sequence[object],
+    rows: Iterable[Sequence[object]],
+    widths: Sequence[float],
+) -> Table:
+    """A free table: cells are texts, symbols, numbers or inlines; widths in mm; columns of words flush left."""
+    body = [tuple(row) for row in rows]
+    words = [any(_is_wordy(row[i]) for row in body) for i in range(len(widths))]
+    return Table(
+        tuple(Column(width, "left" if wordy else "center") for width, wordy in zip(widths, words, strict=True)),
+        (tuple(map(cell, head)),),
+        tuple(tuple(map(cell, row)) for row in body),
+        prose.inlines(caption),
+        key,
+    )
+
+
+def _is_wordy(content: object) -> bool:
+    return isinstance(content, str) and len(content) >= LONG_WORDS
+
+
+def exact(value: float) -> Cell:
+    return Cell((Value(Number(float(f"{value:.10g}"))),))
+
+
+def folded(prose: Prose, key: str, caption: str, columns: Sequence[tuple[Expression, Sequence[float]]]) -> Table:
+    """Long columns, folded into sets side by side."""
+    head = tuple(cell(shown) for shown, _ in columns)
+    sets = [tuple(map(exact, row)) for row in zip(*(values for _, values in columns), strict=False)]
+    beside = 3 if len(columns) > 2 else 4
+    rows_count = -(-len(sets) // beside)
+    filled = sets + [(Cell(),) * len(columns)] * (rows_count * beside - len(sets))
+    body = tuple(
+        tuple(one for block in range(beside) for one in filled[block * rows_count + row]) for row in range(rows_count)
+    )
+    width = Column(TEXT_WIDTH / beside / len(columns) - 2.0)
+    return Table((width,) * (beside * len(columns)), (head * beside,), body, prose.inlines(caption), key)
+
+
+def in_blocks(
+    prose: Prose, key: str, caption: str, head: tuple[Cell, ...], rows: Sequence[tuple[Cell, ...]], first: float
+) -> Table:
+    """A wide table; more than 13 columns are set below one another in blocks of at most 12 values."""
+    most = 12
+    width = min((TEXT_WIDTH - first) / min(len(head) - 1, most), 14.0)
+    body: list[tuple[Cell, ...]] = []
+    for start in range(1, len(head), most):
+        stop = min(start + most, len(head))
+        pad = (Cell(),) * (most - (stop - start)) if len(head) - 1 > most else ()
+        if start > 1:
+            body.append((head[0], *head[start:stop], *pad))
+        body += [(row[0], *row[start:stop], *pad) for row in rows]
+    count = min(len(head) - 1, most)
+    columns = (Column(first, "left"), *(Column(width),) * count)
+    return Table(columns, ((head[0], *head[1 : count + 1]),), tuple(body), prose.inlines(caption), key)
