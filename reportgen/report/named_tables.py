@@ -8,15 +8,15 @@ from typing import Any
 
 from reportgen.document import Paragraph, Table
 from reportgen.machine.analysis import Position
-from reportgen.report import chapters, result_tables, tables, topic_views
+from reportgen.report import overview, result_tables, tables, topic_views
 from reportgen.report.report import Report
 from reportgen.report.tables import QuantityTable, RowTable
 
 TABLES: Mapping[str, Callable[..., Any]] = {
     # results at the front, symbols
-    "extremes": chapters.extremes,
-    "main.figures": RowTable(chapters.main_figures, (74.0, 22.0, 36.0, 28.0)),
-    "symbols": RowTable(chapters.symbols, (40.0, 92.0, 28.0)),
+    "extremes": overview.extremes,
+    "main.figures": RowTable(overview.main_figures, (74.0, 22.0, 36.0, 28.0)),
+    "symbols": RowTable(overview.symbols, (40.0, 92.0, 28.0)),
     # given data
     "given": tables.given_data,
     "indicator": tables.indicator,

@@ -10,7 +10,7 @@ import pytest
 
 from reportgen.document import Block, Paragraph, Table, plain
 from reportgen.formula import vocabulary
-from reportgen.report import chapters, comments
+from reportgen.report import comments, overview
 from reportgen.report.report import Report
 from tests.lanes import matrix
 from tests.report import built
@@ -115,7 +115,7 @@ def test_every_report_remarks_on_its_main_tables(written: built.Written) -> None
 def test_each_kind_of_symbol_has_its_meaning(written: built.Written) -> None:
     """What the vocabulary has a letter for is in the list, but for what stands in the table of given data."""
     report = Report(written.case)
-    listed = {id for ids in chapters.symbol_kinds(report).values() for id in ids}
+    listed = {id for ids in overview.symbol_kinds(report).values() for id in ids}
     own = {"lambda", "theta", "K", "H", "e", "D", "s", "scale"}
     parts = re.compile(r"f\..*|ic\..*|v\.(work|back)|.*\.lone.*|alpha.*|psi.*|q\..*|[AB]\..*|d[AB]\..*|frame\..*")
     missing = [

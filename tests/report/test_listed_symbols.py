@@ -11,7 +11,7 @@ from reportgen.document import Block, Equation, InlineMath, Paragraph, Plate, Se
 from reportgen.document import Figure as Drawn
 from reportgen.drawing import Label, Scene
 from reportgen.formula.plain import formula
-from reportgen.report.chapters import symbol_kinds
+from reportgen.report.overview import symbol_kinds
 from reportgen.report.report import Report
 from tests.report.built import Written, walk
 

@@ -1,0 +1,101 @@
+"""The closed formulas of a machine as a program of its own."""
+
+from __future__ import annotations
+
+import math
+import textwrap
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+
+from reportgen.base.errors import NotOfferedError
+from reportgen.base.words import word
+from reportgen.document import Listing
+from reportgen.document.python_lines import (
+    DRAWN,
+    KINDS_SI,
+    LONGEST,
+    TABULATED,
+    assigned,
+    comment,
+    given_values,
+    python_name,
+)
+from reportgen.formula.plain import python
+from reportgen.formula.vocabulary import Chapter
+from reportgen.machine.laws import FULL_TURN
+from reportgen.report.report import Report
+
+CURVES = ("s", "v", "a", "M"), ("x", "y", "v", "a", "M"), ("ω", "ε")
+"""Letters of what is drawn: the first of these sets that begins with a letter which the formulas give."""
+
+
+def program(report: Report) -> Listing:
+    """The closed formulas as a program of its own: given data, the formulas in their order, a table of all they give.
+
+    It ends with their curves over the way of the driver.  Its quantities are in SI units and rad, none is rounded.
+    What no formula gives stands with its values.  Raises `NotOfferedError` for a machine without closed formulas.
+    """
+    ledger, kind = report.case.ledger, report.assignment.kind
+    changing = [id for id, one in ledger.families.items() if one.chapter is Chapter.formulas and len(one.values) > 1]
+    changing_lines = [id for id in changing if ledger[id].definition is not None and not ledger[id].hidden]
+    if not changing_lines:
+        raise NotOfferedError(word("no_listing", report.assignment.language, kind=kind))
+    needed = {other for id in changing_lines for other in (id, *ledger.ancestors(id))}
+    data: list[str] = []
+    formulas: list[str] = []
+    names: dict[str, str] = {}
+    for id, family in ledger.families.items():
+        if id not in needed:
+            continue
+        names[id] = name = python_name(id, names.values())
+        note = f"  {comment(', '.join(filter(None, (KINDS_SI.get(family.kind, ''), report.given_names.get(id, '')))))}"
+        try:
+            assert family.definition is not None
+            formulas += assigned(name, python(family.definition, names), note)
+        except (AssertionError, KeyError):
+            data += assigned(name, given_values(family.values, report.machine.count), note)
+    table = textwrap.wrap(", ".join(f"{names[id]}={names[id]}" for id in changing_lines), LONGEST - 4)
+    title, given, worked, shown, drawn = report.words["listing"]
+    return Listing(
+        (
+            comment(title.format(machine=report.case.title, id=report.assignment.id)),
+            "import numpy as np",
+            "",
+            f"N = {report.cycle_count}",
+            comment(given),
+            *data,
+            comment(worked),
+            *formulas,
+            comment(shown),
+            "table = dict(",
+            *(f"    {line}" for line in table),
+            ")",
+            *TABULATED.splitlines(),
+            comment(drawn),
+            *_curves(report, {id: names[id] for id in changing_lines}),
+            *DRAWN.splitlines(),
+        )
+    )
+
+
+def _curves(report: Report, names: Mapping[str, str]) -> Iterator[str]:
+    """What the curves of a program are drawn over, and which they are, by their units."""
+    ledger, machine = report.case.ledger, report.machine
+    bases = {id: ledger.symbol(id).base for id in names}
+    letters = next((one for one in CURVES if one[0] in bases.values()), CURVES[-1])
+    # What slides is told by its displacement; v and a of other points only lead to its own.
+    points = {ledger.symbol(id).sub for id in names if bases[id] == letters[0]}
+    own = {letter for letter in letters if any(bases[id] == letter and ledger.symbol(id).sub in points for id in names)}
+    by_unit: dict[str, list[str]] = {}
+    for letter in letters:
+        for id, name in names.items():
+            if bases[id] == letter and (letter not in own or ledger.symbol(id).sub in points):
+                by_unit.setdefault(KINDS_SI.get(ledger[id].kind, ""), []).append(name)
+    gone = machine.cycle_angles * (machine.span / FULL_TURN if machine.span else math.degrees(1.0))
+    step = float(f"{gone[1]:.12g}")
+    even = step * np.arange(len(gone))
+    law = f"{step!r} * np.arange(N)" if np.allclose(gone, even, rtol=1e-12) else given_values(gone, len(gone))
+    yield from assigned("driver", law, "")
+    yield f"DRIVER = {'s (m)' if machine.span else 'phi (deg)'!r}"
+    yield from assigned("curves", repr(by_unit), "")

@@ -1,0 +1,117 @@
+"""The page of results at the front of a report, and its list of symbols."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import islice
+
+from reportgen.document import Cell, Column, Inline, InlineMath, Inlines, Table, Text, Value, listed
+from reportgen.formula import Expression, Number, Symbol, ids, size, vocabulary
+from reportgen.report.comments import Peak, each_peak, reaction_ids, slider_rates, turning_rates
+from reportgen.report.guide_couples import guide_couples
+from reportgen.report.phrases import sign
+from reportgen.report.report import Report
+
+BESIDE = 2
+"""Sets of columns side by side."""
+SET = (24.0, 34.0, 22.0)
+"""Columns of one set (mm): the quantity, its greatest value, the positions."""
+EXAMPLES = 3
+"""Symbols of one kind that stand for all of it."""
+MOST_PLACES = 12
+"""Letters that a list of positions may have in its column."""
+
+# --- the page of results
+
+
+def extremes(report: Report, key: str, caption: str, head: Sequence[str]) -> Table:
+    """The greatest sizes of velocities, accelerations and reactions with their positions, in sets side by side."""
+    peaks = list(_extremes(report))
+    height = -(-len(peaks) // BESIDE)
+    cells = [tuple(Cell(part) for part in _row(peak)) for peak in peaks]
+    cells += [(Cell(),) * len(SET)] * (BESIDE * height - len(cells))
+    body = (tuple(cell for line in cells[start::height] for cell in line) for start in range(height))
+    titles = tuple(Cell((Text(title),)) for title in head) * BESIDE
+    return Table(tuple(map(Column, SET)) * BESIDE, (titles,), tuple(body), report.prose.inlines(caption), key)
+
+
+def _extremes(report: Report) -> Iterator[Peak]:
+    """Of points in translation, else of all that a plan seeks; then of links, then of joints."""
+    for what, rotation in (("v", "omega"), ("a", "eps")):
+        points = slider_rates(report, what) or report.known(ids.POINT_RATE[what](group.M) for group in report.groups)
+        yield from each_peak(report, [*points, *turning_rates(report, rotation)], report.positions)
+    couples = [slide.moment for slide in guide_couples(report)]
+    yield from each_peak(report, [*reaction_ids(report), *couples], report.all_positions)
+
+
+def _row(top: Peak) -> tuple[Inlines, Inlines, Inlines]:
+    places = top.at if len(top.at) <= MOST_PLACES else f"{top.at.split(',')[0]}, …"
+    return top.symbols, (top.value,), (Text(places),)
+
+
+def main_figures(report: Report) -> Iterator[Sequence[object]]:
+    """The scales, how far the balancing torque goes, its mean and power, the flywheel: words, symbol, value, place."""
+    for figure, name in report.words["main_figures"].items():
+        if id := of_kind(report, figure):
+            yield *_figure(report, id, name), extreme_place(report, id)
+
+
+def _figure(report: Report, id: str, name: str | Mapping[str, str]) -> tuple[str, Expression, Value]:
+    """Words, symbol and value; an extreme of the balance is called by its sense, and its size is shown."""
+    symbol, sense = report.ledger.symbol(id), sign(report, id)
+    if isinstance(name, str):
+        return name, symbol, Value(report.ledger.number(id))
+    return name[sense], size(symbol) if sense == "negative" else symbol, Value(report.ledger.number(id, size=True))
+
+
+def of_kind(report: Report, name: str) -> str:
+    """The id of a quantity that is named so, or with its kind as in `M.eq:torque`; "" for one that is not there."""
+    return next((id for id, one in report.ledger.families.items() if name in (id, f"{id}:{one.kind}")), "")
+
+
+def extreme_place(report: Report, id: str) -> Inlines:
+    """Where over the cycle `M.least` or `M.greatest` is: the crank's turn from position 1, a sliding driver's way."""
+    if id not in ("M.least", "M.greatest"):
+        return ()
+    (low, _), (high, _) = report.analysis.summary.extremes
+    angle, span = low if id == "M.least" else high, report.machine.span
+    if span:
+        return InlineMath(Symbol("s")), Text(" = "), Value(Number(angle / (2 * math.pi) * span * 1e3, 1, "mm"))
+    return InlineMath(Symbol("φ")), Text(" = "), Value(Number(math.degrees(angle), 1, "°"))
+
+
+# --- the list of symbols
+
+
+def symbols(report: Report) -> Iterator[Sequence[object]]:
+    """The kinds of quantities that this report has: some of their symbols, the meaning, the unit."""
+    for name, alike in symbol_kinds(report).items():
+        shown = tuple(dict.fromkeys(report.ledger.symbol(id) for id in alike))
+        units = dict.fromkeys(_unit(report, id) for id in alike)
+        yield _some(shown), name, ", ".join(unit or "–" for unit in units)
+
+
+def _unit(report: Report, id: str) -> str:
+    unit = report.ledger[id].how.unit
+    return report.ledger.units.get(unit, unit)
+
+
+def _some(shown: Sequence[Symbol]) -> Inlines:
+    first: list[Inline] = [InlineMath(one) for one in shown[:EXAMPLES]]
+    return listed([*first, Text("…")] if len(shown) > EXAMPLES else first)
+
+
+def symbol_kinds(report: Report) -> Mapping[str, list[str]]:
+    """The ids of the report's quantities under the meaning that `words.yaml` gives to their kind.
+
+    A quantity that no kind fits is explained where it stands.
+    """
+    meanings: Mapping[str, str] = report.words["meanings"]
+    kinds: dict[str, list[str]] = {name: [] for name in meanings.values()}
+    used = report.used_symbols
+    for id, family in report.ledger.families.items():
+        if not (family.hidden or family.is_plane) and (used is None or family.symbol in used):
+            for name in islice(vocabulary.words_of(meanings, id, family.kind, family.symbol), 1):
+                kinds[name].append(id)
+    return {name: alike for name, alike in kinds.items() if alike}
