@@ -8,6 +8,7 @@ from typing import Annotated
 from reportgen.assignment.common import Check, Draft, Part
 from reportgen.assignment.fields import Interval, Ratio
 from reportgen.base.errors import Finding
+from reportgen.base.topics import topics
 from reportgen.base.units import Given
 from reportgen.catalogue.topic_sections import (
     Datum,
@@ -34,9 +35,9 @@ def checks(parameters: type[TopicParameters]) -> tuple[Check, ...]:
     """Check that a mass or a load is given to even out, and that the crank makes whole turns."""
 
     def loaded(draft: Draft) -> Iterator[Finding]:
-        acting = [name for name in parameters.topic_names if name in draft.raw["parameters"]]
+        given = [topic for topic in topics() if draft.at("parameters", topic)]
         loads = any(draft.at("parameters", key) for key in parameters.load_keys)
-        if not loads and not any(section.acts for section in sections_of(acting)):
+        if not loads and not any(section.acts for section in sections_of(given)):
             yield Finding("flywheel-without-loads", ("parameters", "flywheel"), at="key")
 
     return loaded, *on_whole_turns("flywheel")(parameters)
