@@ -83,7 +83,7 @@ class MachineCase(MachineAnalysis):
     def families(self) -> Mapping[str, Family]:
         from reportgen.derivation import enter_plans
 
-        return enter_plans(self.analysis, (), self.analysis.machine.formulas)[0].families
+        return enter_plans(self.analysis, (), self.analysis.machine.closed_formulas.write)[0].families
 
     @property
     def used(self) -> frozenset[Symbol]:

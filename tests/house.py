@@ -234,6 +234,52 @@ def _called(call: ast.Call) -> str:
     return ""
 
 
+def topic_names_elsewhere(house: House) -> Counted:
+    """Modules outside the topics that import a topic or name one, as an identifier or in a text without blanks.
+
+    A word of the field that is also the name of a topic is left out: any machine moves.  So are `OFFERED`, the places
+    where the program's public interface has such a word.
+    """
+    topics = {module.parts[1] for module in house.modules.values() if module.parts[2:] == ["topic"]}
+    words = topics - {"motion"}
+    found = []
+    for module in house.modules.values():
+        if len(module.parts) > 1 and module.parts[1] in topics:
+            continue
+        found += [
+            f"{module.path} imports {name}"
+            for name in sorted(house.imports[module.name])
+            if len(name.split(".")) > 1 and name.split(".")[1] in topics
+        ]
+        named = {name for name in _identifiers(module.tree) if words & set(re.split(r"[^a-z]+", name))}
+        found += [f"{module.path} {name}" for name in sorted(named - OFFERED.get(module.name, frozenset()))]
+    return found
+
+
+OFFERED: Mapping[str, frozenset[str]] = {
+    # A set of drawing sheets, an option of the command line.
+    "reportgen.cli.student": frozenset({"balancing"}),
+    # The torque that balances the loads has this name in the results of any machine.
+    "reportgen.case.result_entries": frozenset({"balancing_force", "balancing_torque"}),
+    "reportgen.results.tables": frozenset({"balancing_force", "balancing_torque"}),
+    # A chapter of the key.
+    "reportgen.formula.vocabulary": frozenset({"balancing"}),
+}
+
+
+def _identifiers(tree: ast.Module) -> Iterator[str]:
+    """Names, attributes, parameters, keywords, and texts without blanks that are no docstrings."""
+    docstrings = {id(node.value) for node in ast.walk(tree) if isinstance(node, ast.Expr)}
+    for node in ast.walk(tree):
+        match node:
+            case ast.Name(id=name) | ast.Attribute(attr=name) | ast.arg(arg=name) | ast.keyword(arg=str(name)):
+                yield name
+            case ast.FunctionDef(name=name) | ast.ClassDef(name=name):
+                yield name
+            case ast.Constant(value=str(text)) if " " not in text and id(node) not in docstrings:
+                yield text
+
+
 def vague_names(house: House) -> Counted:
     """Variables, parameters and attributes with a vague name.
 
@@ -276,6 +322,7 @@ LIMITS: Mapping[Callable[[House], Counted], int | None] = {
     words_of_architecture: 1200,
     ids_by_f_string: 0,
     class_names_twice: 0,
+    topic_names_elsewhere: 0,
     longest_positional_call: 6,
     vague_names: None,
 }

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -10,8 +10,10 @@ from reportgen.assignment.common import Assignment
 from reportgen.catalogue import declared_loads
 from reportgen.catalogue.given_sheet import GivenSheet
 from reportgen.catalogue.topic_sections import Opening, chapters, entered
+from reportgen.formula import Chain
+from reportgen.formula.sheet import Sheet
 from reportgen.machine import DRIVER, Crank, Linkage
-from reportgen.machine.analysis import Machine
+from reportgen.machine.analysis import ClosedFormulas, Machine, no_formulas
 from reportgen.machine.loads import LoadsByKind, crank_motion
 
 OPENING = ("contents", "given", "scheme", "overview", "foreword", "symbols", "structure", "motion")
@@ -93,12 +95,16 @@ def driven(
     linkage: Linkage,
     start: float,
     sections: KindSections | None = None,
+    *,
+    formulas: Callable[[Sheet], None] = no_formulas,
+    compared: tuple[tuple[str, str], ...] = (),
+    equations: Mapping[str, tuple[Chain, ...]] | None = None,
     **own: Any,
 ) -> Machine:
     """The machine of an assignment whose crank stands at the angle `start` (rad) in position 1.
 
-    `sections` go to `outline`, all further fields of its `Machine` are given by name; loads that are zero throughout
-    are left out.
+    `sections` go to `outline`; `formulas`, `compared` and `equations` are its `ClosedFormulas`; all further fields of
+    its `Machine` are given by name.  Loads that are zero throughout are left out.
     """
     given, positions = assignment.parameters, assignment.positions
     q.set_out("places")
@@ -137,6 +143,7 @@ def driven(
         speed=given.speed,
         acceleration=given.acceleration,
         sheet=q,
+        closed_formulas=ClosedFormulas(formulas, compared, equations or {}),
         topics=topics.subjects,
         beside=tuple(load.name for load in topics.loads),
         applied=loads.applied,

@@ -204,7 +204,6 @@ def machine(assignment: Assignment) -> Machine:
         KindSections(sizes="synthesis", load="cycle"),
         formulas=lambda q: offset_slider(q, geometry.turn, angles, offset, True),
         count=len(places),
-        pistons=(piston,),
         applied=gas_forces((piston,)),
         sliders=(piston,),
         paths=("S2",),

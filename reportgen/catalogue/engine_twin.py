@@ -164,7 +164,6 @@ def machine(assignment: Assignment) -> Machine:
         positions.start_or(UP),
         KindSections(sizes="synthesis", load="cycle"),
         formulas=formulas,
-        pistons=pistons,
         applied=gas_forces(pistons),
         sliders=pistons,
         positive={piston.pin: -1j for piston in pistons},

@@ -199,7 +199,6 @@ def machine(assignment: Assignment) -> Machine:
         formulas=formulas,
         count=len(places),
         turns=given.turns,
-        pistons=pistons,
         applied=gas_forces(pistons) if pistons else _constant(given),
         sliders=courses,
         positive={"C": -cmath.exp(1j * given.alpha.si), "E": -cmath.exp(1j * given.beta.si)},

@@ -30,7 +30,7 @@ from reportgen.formula import Symbol, ids, turned
 from reportgen.formula.sheet import Sheet
 from reportgen.formula.vocabulary import drawn_length
 from reportgen.machine import Linkage
-from reportgen.machine.analysis import Machine, lettered
+from reportgen.machine.analysis import ClosedFormulas, Machine, lettered
 from reportgen.machine.laws import FULL_TURN, Floats, GasLaw, MotionAt, TableLaw, by_stroke
 from reportgen.machine.loads import Applied, LoadsByKind, Torque, course, fixed, rails
 from reportgen.machine.motion import Motion, solve_motion
@@ -118,9 +118,7 @@ def machine(assignment: Assignment) -> Machine:
         sheet=q,
         topics=topics.subjects,
         beside=tuple(load.name for load in topics.loads),
-        formulas=loops.write,
-        compared=tuple(loops.compared),
-        equations=loops.equations,
+        closed_formulas=ClosedFormulas(loops.write, tuple(loops.compared), loops.equations),
         applied=loads.applied,
         torques=loads.torques,
         idle=loads.idle,

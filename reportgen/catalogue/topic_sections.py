@@ -20,10 +20,9 @@ from reportgen.base.units import Given
 from reportgen.formula import Ref, Symbol
 from reportgen.machine import Linkage
 from reportgen.machine.analysis import Machine
-from reportgen.machine.faces import Faces
 from reportgen.machine.laws import MotionAt
 from reportgen.machine.loads import Applied, Torque
-from reportgen.machine.shared_results import FACES, SharedResult
+from reportgen.machine.shared_results import SharedResult
 
 Section = TypeVar("Section")
 Datum = Callable[[str, Given, Symbol | str, str], Ref]
@@ -221,13 +220,6 @@ def entered(opening: Opening) -> EnteredTopics:
         {name: data.subject for name, data in made.items() if data.subject},
         tuple(load for data in made.values() for load in data.loads),
     )
-
-
-def faces_in(opening: Opening) -> dict[int, Faces]:
-    """Return the faces of wide sliders, which a topic before has entered; none if all sliders are narrow."""
-    faces = opening.provided.get(FACES.name, {})
-    assert isinstance(faces, dict), "faces are by their links"
-    return faces
 
 
 def on_whole_turns(topic: str) -> Callable[[type[TopicParameters]], tuple[Check, ...]]:

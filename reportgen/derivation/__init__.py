@@ -48,7 +48,7 @@ def write_ledger(
     The plans of the `worked` positions fill their paper, of all positions if none is named.
     """
     machine = analysis.machine
-    q, polygons = enter_plans(analysis, worked, machine.formulas)
+    q, polygons = enter_plans(analysis, worked, machine.closed_formulas.write)
     if analysis.loads:
         topics = tuple(LEDGER.among(machine.topics))
         for hooks in topics:

@@ -16,7 +16,6 @@ import numpy as np
 
 from reportgen.base.units import nice_up
 from reportgen.drawing import Circle, Content, Item, Label, Line, Pen, Polyline, style
-from reportgen.drawing import coils as springs
 from reportgen.drawing.charts import Plotted
 from reportgen.drawing.geometry import bounds
 from reportgen.drawing.plan import BEYOND, PENS, Construction
@@ -323,17 +322,17 @@ def spring_items(
         turned = np.angle(end - start)
         known = np.isfinite(turned)
         turned[known] = np.unwrap(turned[known])
-        behind = Track(start - springs.OUTER * np.exp(1j * turned))
+        behind = Track(start - coils.OUTER * np.exp(1j * turned))
         return [
-            MovingBody((springs.spiral(),), Track(start), Track(turned)),
-            MovingName(springs.named(coil), behind, (Track(start),)),
+            MovingBody((coils.spiral(),), Track(start), Track(turned)),
+            MovingName(coils.named(coil), behind, (Track(start),)),
         ]
-    corners = list(map(Track, springs.zigzag(start, end)))
-    ground = springs.mounts(coil, linkage, complex(start[at]), complex(end[at]), pivots)
+    corners = list(map(Track, coils.zigzag(start, end)))
+    ground = coils.mounts(coil, linkage, complex(start[at]), complex(end[at]), pivots)
     return [
         Still(tuple(ground)),
         *(MovingVector(*ends, style.VISIBLE, 0.0) for ends in pairwise(corners)),
-        MovingName(springs.named(coil), Track((start + end) / 2), (corners[0], corners[-1]), springs.SIDE + 0.5),
+        MovingName(coils.named(coil), Track((start + end) / 2), (corners[0], corners[-1]), coils.SIDE + 0.5),
     ]
 
 

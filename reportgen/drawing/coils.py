@@ -59,7 +59,7 @@ def mounts(coil: Coil, linkage: Linkage, start: complex, end: complex, pivots: C
     return items
 
 
-def springs(
+def coil_symbols(
     coils: Sequence[Coil], linkage: Linkage, motion: Motion, index: int, scale: float, pivots: Collection[str]
 ) -> Canvas:
     """All springs at position `index`, `scale` mm of paper per m, with what they are called."""

@@ -14,7 +14,7 @@ import numpy as np
 from reportgen.base.settled import settled
 from reportgen.drawing import Arc, Arrow, Circle, Content, Item, Label, Line, Pen, Scene, style
 from reportgen.drawing.canvas import Canvas, finish, settle
-from reportgen.drawing.coils import springs
+from reportgen.drawing.coils import coil_symbols
 from reportgen.drawing.description import Fact, PaperLength, alignment, direction, fact, listed, turning
 from reportgen.drawing.geometry import Complexes, Floats, clusters, polar
 from reportgen.drawing.labels import Request, joined, label
@@ -180,7 +180,7 @@ def scheme(linkage: Linkage, motion: Motion, index: int, scale: float, looks: Lo
     """The kinematic scheme at position `index`, `scale` mm of paper per m."""
     bones = skeleton(linkage, motion, index, scale)
     draft = mechanism(bones, (GROUND, *linkage.links), looks) + driver_marks(linkage, motion, bones)
-    hung = springs(looks.coils, linkage, motion, index, scale, bones.pivots)
+    hung = coil_symbols(looks.coils, linkage, motion, index, scale, bones.pivots)
     return finish(hung + draft, notes=looks.notes)
 
 

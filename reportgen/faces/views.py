@@ -10,7 +10,7 @@ from reportgen.document.prose import NamedPoint
 from reportgen.formula import ids
 from reportgen.machine.loads import carriers
 from reportgen.report.report import Report
-from reportgen.report.slider_faces import faces_of, tilts
+from reportgen.report.slider_faces import tilts, wide_sliders_of
 from reportgen.report.tables import RowTable, bare
 from reportgen.report.topic_views import ViewHooks, always
 
@@ -46,7 +46,7 @@ def wide_sliders(report: Report) -> tuple[WideSlider, ...]:
     """The sliders whose faces are given, in the order of the file."""
     linkage, sliders = report.machine.linkage, []
     pins = {link: dyad.middle for dyad in linkage.dyads for link in dyad.links}
-    for link in faces_of(report):
+    for link in wide_sliders_of(report):
         digits = ids.joint(carriers(linkage)[link], link)
         below = ids.face_below(link) if ids.face_below(link) in report.ledger else ""
         pin = NamedPoint(pins[link])

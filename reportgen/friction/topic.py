@@ -13,13 +13,14 @@ from reportgen.assignment.fields import Interval, Ratio, quantity
 from reportgen.base.errors import Finding
 from reportgen.base.units import Given
 from reportgen.catalogue.declared_loads import MOST_LOADS, Link, Name, listed
-from reportgen.catalogue.topic_sections import Opening, TopicData, TopicParameters, TopicSection, faces_in, sections_of
+from reportgen.catalogue.topic_sections import Opening, TopicData, TopicParameters, TopicSection, sections_of
 from reportgen.formula import ids
 from reportgen.friction import friction_ids
 from reportgen.friction.joints import Friction, with_friction
 from reportgen.friction.loss import LocksError, friction_loss
 from reportgen.machine import joints
 from reportgen.machine.analysis import Machine, analyse
+from reportgen.machine.faces import Faces
 from reportgen.machine.shared_results import FACES, LOST_TORQUE
 
 Coefficient = Annotated[Given, Ratio(Interval(least=0, most=2, tiny=1e-6))]
@@ -81,7 +82,7 @@ def enter(opening: Opening) -> TopicData:
     friction = Friction(
         {name: pin.circle for name, pin in given.pins.items() if pin.circle > 0},
         {link: f.si for link, f in given.sliders.items() if f.si > 0},
-        faces_in(opening),
+        _faces(opening),
     )
     rubbing = friction.joints(linkage)
     for name in dict.fromkeys(joint.point for joint in rubbing if joint.kind == "R"):
@@ -118,6 +119,13 @@ def failures(machine: Machine, worked: Sequence[int]) -> Iterator[Finding]:
     except LocksError as error:
         words = {"angle": f"{math.degrees(error.angle):.1f}"}
         yield Finding("locks-in-cycle", ("parameters", "friction"), words, at="key")
+
+
+def _faces(opening: Opening) -> dict[int, Faces]:
+    """Return the faces of wide sliders, which a topic before has entered; none if all sliders are narrow."""
+    faces = opening.provided.get(FACES.name, {})
+    assert isinstance(faces, dict), "faces are by their links"
+    return faces
 
 
 HOOKS = TopicSection(

@@ -253,13 +253,25 @@ def no_formulas(q: Sheet) -> None:
 
 
 @dataclass(frozen=True, slots=True)
+class ClosedFormulas:
+    """The closed formulas of a machine: `write` enters them on the sheet once the plans are there.
+
+    `compared` are pairs of a plan's quantity and its closed formula, compared in the report; `equations` those that the
+    words of the analytic method show, by name.
+    """
+
+    write: Callable[[Sheet], None] = no_formulas
+    compared: tuple[tuple[str, str], ...] = ()
+    equations: Mapping[str, tuple[Chain, ...]] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
 class Machine:
     """A mechanism with its drive, its loads and the outline of its report.
 
     A turn has `count` positions, numbered from driver angle `start` in the direction `turn` (+1
     anticlockwise); the cycle of loads takes `turns` turns of the driver.  `sheet` holds the given data and what
-    follows from them; `formulas` writes the closed formulas on it once the plans are there.  `outline` names the
-    report's sections in order.
+    follows from them; `outline` names the report's sections in order.
     """
 
     kind: str
@@ -271,8 +283,7 @@ class Machine:
     turns: int
     sheet: Sheet
     outline: tuple[str, ...]
-    formulas: Callable[[Sheet], None] = no_formulas
-    pistons: tuple[Piston, ...] = ()
+    closed_formulas: ClosedFormulas = ClosedFormulas()
     applied: tuple[Applied, ...] = ()
     """All forces that are neither weight nor inertia, the gas on `pistons` among them."""
     torques: tuple[Torque, ...] = ()
@@ -280,15 +291,11 @@ class Machine:
     idle: tuple[str, ...] = ()
     """Names of loads that the file gives as zero throughout; they are in neither of the two above."""
     sliders: tuple[Stroke, ...] = ()
-    """Sliders with dead centres, the pistons among them."""
+    """Sliders with dead centres, the pistons of cylinders with gas among them."""
     positive: Mapping[str, complex] = field(default_factory=dict)
     """Unit vectors along which the motion of sliders counts as positive, by their pins; else along their guides."""
     paths: tuple[str, ...] = ()
     """Points whose paths the position plan shows."""
-    compared: tuple[tuple[str, str], ...] = ()
-    """Pairs of a plan's quantity and its closed formula, compared in the report."""
-    equations: Mapping[str, tuple[Chain, ...]] = field(default_factory=dict)
-    """Equations by name that the words of its analytic method show."""
     topics: Mapping[str, object] = field(default_factory=dict)
     """The subjects of its topics, by the names of the topics."""
     beside: tuple[str, ...] = ()
@@ -315,6 +322,11 @@ class Machine:
         subject = self.topics.get(name)
         assert subject is None or isinstance(subject, of), f"the subject of {name} is not a {of.__name__}"
         return subject
+
+    @property
+    def pistons(self) -> tuple[Piston, ...]:
+        """The sliders on which gas acts."""
+        return tuple(slider for slider in self.sliders if isinstance(slider, Piston))
 
     @property
     def loads(self) -> tuple[Applied | Torque, ...]:

@@ -8,13 +8,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Generic, TypeVar, cast
+from typing import TYPE_CHECKING, Generic, TypeVar, cast
 
 from reportgen.base.topics import HookModule
-from reportgen.machine.analysis import Machine
-from reportgen.machine.cycle_torque import CycleTorque
-from reportgen.machine.faces import Faces
-from reportgen.machine.regulation import RegulatedCycle
+
+if TYPE_CHECKING:
+    from reportgen.machine.analysis import Machine
+    from reportgen.machine.cycle_torque import CycleTorque
+    from reportgen.machine.faces import Faces
+    from reportgen.machine.regulation import RegulatedCycle
 
 Result = TypeVar("Result", covariant=True)
 
@@ -56,9 +58,9 @@ class PhysicsHooks:
 
 PHYSICS = HookModule("physics", PhysicsHooks)
 
-LOST_TORQUE = SharedResult[CycleTorque]("torque lost in the joints")
+LOST_TORQUE: SharedResult[CycleTorque] = SharedResult("torque lost in the joints")
 """The torque that friction takes from the driver over the cycle."""
-FACES = SharedResult[Mapping[int, Faces]]("faces of sliders")
+FACES: SharedResult[Mapping[int, Faces]] = SharedResult("faces of sliders")
 """The faces along which guides hold wide sliders, by their links."""
-REGULATED_CYCLE = SharedResult[RegulatedCycle]("regulated cycle")
+REGULATED_CYCLE: SharedResult[RegulatedCycle] = SharedResult("regulated cycle")
 """The cycle whose speed a further moment of inertia keeps within bounds."""

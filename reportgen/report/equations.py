@@ -265,7 +265,7 @@ def equations(report: Report, name: str, position: int | None = None) -> Equatio
     def in_words(node: Expression) -> Expression:
         return report.named(node) if isinstance(node, Symbol) else rebuild(node, in_words)
 
-    return Equation(tuple(in_words(substitute(row, shown)) for row in report.machine.equations[name]))
+    return Equation(tuple(in_words(substitute(row, shown)) for row in report.machine.closed_formulas.equations[name]))
 
 
 ω, ε = Symbol("ω"), Symbol("ε")

@@ -27,7 +27,7 @@ from reportgen.report.figures import drawing_scale, looks
 from reportgen.report.groups import GroupView
 from reportgen.report.plans import force_plan, motion_plan
 from reportgen.report.report import Report
-from reportgen.report.slider_faces import at_ends, face, faces_of
+from reportgen.report.slider_faces import at_ends, face, wide_sliders_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,15 +51,15 @@ class _Bodies:
     def scene(self, forces: Sequence[Force], extra: Canvas | None = None, **more: Any) -> Scene:
         report, look = self.report, looks(self.report, self.scale, self.share)
         machine, motion = report.machine.linkage, report.analysis.motion
-        shown = self.faces() + (extra or Canvas())
+        shown = self.wide_sliders() + (extra or Canvas())
         return bodies_figure(
             machine, motion, self.k - 1, self.scale, self.links, forces, looks=look, extra=shown, **more
         )
 
-    def faces(self) -> Canvas:
+    def wide_sliders(self) -> Canvas:
         """The faces of the links that are sliders as wide as is given, each with what holds it at its pin."""
         items: list[Item] = []
-        for link in (link for link in self.links if link in faces_of(self.report)):
+        for link in (link for link in self.links if link in wide_sliders_of(self.report)):
             items += face(self.report, link, self.k, self.scale)
         return Canvas(tuple(items))
 

@@ -375,7 +375,7 @@ class Report:
     @property
     def has_formulas(self) -> bool:
         """Whether closed formulas check the plans, and the report shows them."""
-        return bool(self.machine.compared) and bool(self.parts("formulas-velocity"))
+        return bool(self.machine.closed_formulas.compared) and bool(self.parts("formulas-velocity"))
 
     @cached_property
     def computed(self) -> frozenset[str]:

@@ -271,7 +271,7 @@ def residuals(report: Report) -> dict[str, float]:
         differences = [
             float(np.max(np.abs(np.abs(values[printed_id].values) - np.abs(values[formula_id].values))))
             / float(np.max(np.abs(values[printed_id].values)))
-            for printed_id, formula_id in analysis.machine.compared
+            for printed_id, formula_id in analysis.machine.closed_formulas.compared
             if values[printed_id].chapter is chapter
         ]
         if differences:

@@ -16,7 +16,7 @@ from reportgen.machine.shared_results import FACES
 from reportgen.report.report import Report
 
 
-def faces_of(report: Report) -> Mapping[int, Faces]:
+def wide_sliders_of(report: Report) -> Mapping[int, Faces]:
     """Return the faces of wide sliders by their links, none if all sliders are narrow."""
     return FACES.of(report.machine) or {}
 
@@ -29,9 +29,9 @@ def tilts(report: Report, digits: str, k: int) -> bool:
 
 def ends_of(report: Report, link: int, k: int) -> tuple[complex, complex]:
     """Where the face of a slider begins and ends (m)."""
-    faces, motion = faces_of(report)[link], report.analysis.motion
+    wide, motion = wide_sliders_of(report)[link], report.analysis.motion
     along = complex(motion.slides[carriers(report.machine.linkage)[link], link].direction[k - 1])
-    first, last = (x - 1j * faces.below for x in (faces.first, faces.last))
+    first, last = (x - 1j * wide.below for x in (wide.first, wide.last))
     pin = complex(motion.origins[link].p[k - 1])
     return pin + first * along, pin + last * along
 
@@ -47,7 +47,7 @@ def face(report: Report, link: int, k: int, scale: float) -> list[Item]:
 
 def at_ends(report: Report, digits: str, link: int, k: int) -> list[tuple[Symbol, complex, complex, str]]:
     """The reactions at both ends of a slider that tilts: vector, place (m), direction, id."""
-    if link not in faces_of(report) or not tilts(report, digits, k):
+    if link not in wide_sliders_of(report) or not tilts(report, digits, k):
         return []
     along = complex(report.analysis.motion.slides[carriers(report.machine.linkage)[link], link].direction[k - 1])
     found = []

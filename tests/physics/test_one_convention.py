@@ -67,7 +67,7 @@ def test_formulas_have_the_sign_of_tables_and_curves(name: str, direction: str, 
     machine, motion, values = report.machine, report.analysis.motion, report.case.ledger.families
     assert machine.turn == (1 if direction == "anticlockwise" else -1)
     compared = []
-    for plan, formula in machine.compared:
+    for plan, formula in machine.closed_formulas.compared:
         what, _, of = plan.partition(".")
         if what in ("omega", "eps"):
             link = motion.links[int(of)]

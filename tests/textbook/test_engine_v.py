@@ -70,7 +70,7 @@ def test_closed_formulas_give_the_plans(published: Analysis) -> None:
     from reportgen.derivation import write_ledger
 
     ledger = write_ledger(published).ledger
-    for plan, formula in published.machine.compared:
+    for plan, formula in published.machine.closed_formulas.compared:
         one, other = (np.abs(ledger[id].values) for id in (plan, formula))
         assert one == pytest.approx(other, abs=1e-9 * other.max()), plan
 

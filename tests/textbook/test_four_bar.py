@@ -79,7 +79,7 @@ def test_matrices_hold_and_give_the_plans_rates(tmp_path: Path, lengths: str, di
         assert epsilon[:, row, 0] == pytest.approx(swing, abs=EXACT * 100 * abs(swing).max())
         assert values[f"f.omega.{link}"] == pytest.approx(speed, abs=EXACT * 10 * abs(speed).max())
         assert values[f"f.eps.{link}"] == pytest.approx(swing, abs=EXACT * 100 * abs(swing).max())
-    for plan, formula in analysis.machine.compared:
+    for plan, formula in analysis.machine.closed_formulas.compared:
         assert np.abs(values[plan]) == pytest.approx(
             np.abs(values[formula]), abs=EXACT * 100 * np.abs(values[plan]).max()
         )
