@@ -200,7 +200,7 @@ def machine(assignment: Assignment) -> Machine:
         count=len(places),
         turns=given.turns,
         applied=gas_forces(pistons) if pistons else _constant(given),
-        sliders=courses,
+        sliders=pistons or courses,
         positive={"C": -cmath.exp(1j * given.alpha.si), "E": -cmath.exp(1j * given.beta.si)},
         paths=("D",) if on_rod else (),
         facts={"joint": given.joint, "top": given.second_top - 1, "form": "articulated" if on_rod else "common"},

@@ -15,7 +15,7 @@ from types import MappingProxyType
 import numpy as np
 
 from reportgen.base.units import nice_up
-from reportgen.drawing import Circle, Content, Item, Label, Line, Pen, Polyline, style
+from reportgen.drawing import Circle, Content, Item, Label, Line, Pen, Polyline, coils, style
 from reportgen.drawing.charts import Plotted
 from reportgen.drawing.geometry import bounds
 from reportgen.drawing.plan import BEYOND, PENS, Construction
