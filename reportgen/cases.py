@@ -189,12 +189,12 @@ class MachineCase(MachineAnalysis):
             return "not-finite-results"
 
     def document(self) -> Document:
-        from reportgen.report.outline import compose
+        from reportgen.report.composing import compose
 
         return self.bounded(compose)
 
     def question(self, asked: AskedFor) -> tuple[Sequence[Block], Sequence[Block]]:
-        from reportgen.report.outline import names
+        from reportgen.report.template_names import names
 
         report = self._report
         prose = report.prose

@@ -46,8 +46,8 @@ from reportgen.marking.key import key_of
 from reportgen.marking.paper import task_of
 from reportgen.marking.policy import read_policy
 from reportgen.marking.sheet import answer_book, read_submission
-from reportgen.report.outline import names
 from reportgen.report.report import Report
+from reportgen.report.template_names import names
 from reportgen.sheets.frame import FIELDS, blocks, read_block
 from reportgen.workbook import write_csv, write_xlsx
 from reportgen.workbook.letterhead import read_letterhead

@@ -71,7 +71,7 @@ def proof_sheet(folder: Path, language: Language) -> bytes:
 
 def _names(kind: str, language: Language) -> Mapping[str, object]:
     """The names that the templates of a kind see, of its first example; none of a kind that is no machine."""
-    from reportgen.report.outline import names
+    from reportgen.report.template_names import names
 
     examples = catalogue.examples(kind or COMMON)
     try:

@@ -221,7 +221,7 @@ LOADED = (
     "reportgen.catalogue.sliders",
     "reportgen.machine.analysis",
     "reportgen.derivation",
-    "reportgen.report.outline",
+    "reportgen.report.composing",
     "reportgen.drawing.charts",
     "reportgen.writers.latex",
     "reportgen.writers.pdflatex",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import groupby
 
@@ -226,3 +226,22 @@ def in_rows(scenes: Sequence[Scene]) -> list[list[Scene]]:
             rows.append([scene])
             used = scene.width
     return rows
+
+
+def plates_last(blocks: Iterable[Block], said: Callable[[Plate], Paragraph]) -> Iterator[Block]:
+    """Yield the blocks with the plates of each chapter at its end; where one was called for, `said` tells that.
+
+    A page of text ends early before a plate: so once in a chapter at most.
+    """
+    plates: list[Plate] = []
+    for block in blocks:
+        if isinstance(block, Plate):
+            plates.append(block)
+            if not block.continues:
+                yield said(block)
+            continue
+        if isinstance(block, Section) and block.level == 1:
+            yield from plates
+            plates.clear()
+        yield block
+    yield from plates

@@ -32,7 +32,7 @@ STEPS = {
     "reportgen.case.printed": "values as written down",
     "reportgen.marking.key.drawn_bands": "tolerance bands",
     "reportgen.marking.key.computed_bands": "tolerance bands",
-    "reportgen.report.outline.compose": "text and figures",
+    "reportgen.report.composing.compose": "text and figures",
     "reportgen.drawing.labels.place": "places of labels",
     "reportgen.writers.typst.write": "source",
     "reportgen.writers.typst_compiler.compile": "typesetting",

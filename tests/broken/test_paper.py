@@ -11,7 +11,7 @@ from reportgen import api
 from reportgen.cases import MachineCase
 from reportgen.catalogue import check
 from reportgen.document import Plate
-from reportgen.report import outline
+from reportgen.report.composing import compose
 from tests.lanes import matrix
 
 FOUR_BAR = """\
@@ -57,7 +57,7 @@ def test_the_longest_drawn_crank_is_named_and_fits(tmp_path: Path, name: str) ->
     if "drawing" not in text:
         text += f"drawing: {{crank: {named[1]} mm}}\n"
     assert check(put(tmp_path, text), "en") == []
-    report = outline.compose(MachineCase(api.load(put(tmp_path, text))))
+    report = compose(MachineCase(api.load(put(tmp_path, text))))
     papers = {tuple(sorted(block.paper)) for block in report.blocks if isinstance(block, Plate)}
     assert papers <= SHEETS
 
@@ -68,6 +68,6 @@ def test_the_longest_drawn_crank_is_named_and_fits(tmp_path: Path, name: str) ->
 @pytest.mark.parametrize("drawn", matrix([60, 100, 150], [150]))
 def test_a_larger_drawing_takes_a_larger_sheet_of_the_series(tmp_path: Path, text: str, old: str, drawn: int) -> None:
     file = put(tmp_path, text, old, f"crank: {drawn} mm")
-    report = outline.compose(MachineCase(api.load(file)))
+    report = compose(MachineCase(api.load(file)))
     papers = {tuple(sorted(block.paper)) for block in report.blocks if isinstance(block, Plate)}
     assert papers <= SHEETS

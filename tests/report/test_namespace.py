@@ -21,7 +21,7 @@ from reportgen.document import Block
 from reportgen.document.prose import GLOBALS, Prose, _environment
 from reportgen.marking.key import key_of
 from reportgen.marking.paper import task_of
-from reportgen.report import named_tables, outline
+from reportgen.report import named_figures, named_tables, template_names
 from reportgen.report.topic_views import VIEWS
 
 ROOT = templates()
@@ -39,7 +39,7 @@ OTHERS = {
 """The files of words of each kind of work that is no machine, by one of its assignments."""
 Sections = Mapping[tuple[Path, str], nodes.Template]
 OF_TOPICS = {name for hooks in VIEWS.among(topics()) for name in (*hooks.values, *hooks.functions)}
-OF_REPORT = {*outline.PROPERTIES, *outline.VALUES, *outline.FUNCTIONS, *OF_TOPICS}
+OF_REPORT = {*template_names.PROPERTIES, *template_names.VALUES, *template_names.FUNCTIONS, *OF_TOPICS}
 
 
 @cache
@@ -130,7 +130,7 @@ def test_every_name_that_is_explained_exists() -> None:
 
 def test_no_name_stands_in_two_tables() -> None:
     of_topics = [name for hooks in VIEWS.among(topics()) for name in (*hooks.values, *hooks.functions)]
-    own = [*outline.PROPERTIES, *outline.VALUES, *outline.FUNCTIONS, *GLOBALS, *of_topics]
+    own = [*template_names.PROPERTIES, *template_names.VALUES, *template_names.FUNCTIONS, *GLOBALS, *of_topics]
     assert len(own) == len(set(own))
 
 
@@ -146,7 +146,7 @@ def test_the_templates_of_other_work_use_the_names_that_they_get_and_all_of_them
 def test_figures_and_tables_are_those_that_templates_name(kind: str) -> None:
     """A table of quantities by their ids has words of its own and no row."""
     named = set(called(kind))
-    rows = set(outline.FIGURES if kind == "figure" else named_tables.TABLES)
+    rows = set(named_figures.FIGURES if kind == "figure" else named_tables.TABLES)
     rows.update(
         name for hooks in VIEWS.among(topics()) for name in (hooks.figures if kind == "figure" else hooks.tables)
     )

@@ -11,7 +11,7 @@ import pytest
 from reportgen import api
 from reportgen.cases import MachineCase
 from reportgen.document import text_of
-from reportgen.report.outline import compose
+from reportgen.report.composing import compose
 from tests.lanes import matrix
 
 SAMPLES = Path("assignments")

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from reportgen.document import Paragraph, Plate, Section, Text
+from reportgen.document.layout import plates_last
 from reportgen.drawing import Scene
-from reportgen.report.outline import plates_last
 
 
 def heading(level: int) -> Section:

@@ -17,8 +17,8 @@ from reportgen.cases import open_case
 from reportgen.document import text_of
 from reportgen.document.prose import Prose
 from reportgen.formula import Symbol
-from reportgen.report.outline import names
 from reportgen.report.report import Report
+from reportgen.report.template_names import names
 from reportgen.sheets import frame
 from reportgen.writers import latex, pdflatex, typst_math
 from tests.lanes import matrix, proof

@@ -11,7 +11,7 @@ import pytest
 from reportgen import api
 from reportgen.base.units import Language
 from reportgen.document import Document
-from reportgen.report import outline
+from reportgen.report.composing import compose
 from reportgen.writers import latex, typst
 from tests.derivation.random_variants import cases
 from tests.exercise.test_exercise_equations import OF_SEVERAL, by_equations
@@ -108,7 +108,7 @@ def test_one_corrupted_digit_is_caught(tmp_path: Path) -> None:
 
 def assert_variants_hold(path: Path, count: int, folder: Path) -> None:
     for case in cases(path, count, folder):
-        chains = (*trees.chains(outline.compose(case)), *trees.every_chain(case.printed))
+        chains = (*trees.chains(compose(case)), *trees.every_chain(case.printed))
         lines = trees.lines(chains, "en")
         assert misses(lines) == []
         assert len(lines) > 200

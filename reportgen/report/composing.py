@@ -1,0 +1,52 @@
+"""The finished report of a machine: cover, contents and the sections that the machine's outline names."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import partial
+from itertools import chain
+
+from reportgen.case import MachineAnalysis
+from reportgen.case.finished import finished
+from reportgen.document import Block, Document, PageBreak, Paragraph, Plate, Reference
+from reportgen.document.layout import contents, plates_last
+from reportgen.document.paper import PAPERS
+from reportgen.document.used_symbols import used_symbols
+from reportgen.report import phrases
+from reportgen.report.named_tables import table
+from reportgen.report.report import Report
+from reportgen.report.template_names import names
+
+LISTING = "symbols"
+"""The section of what all others use."""
+OWN_LETTERS = "structure"
+"""The section of the formula of mobility, whose letters are its own and told below it: its W is no work."""
+
+
+def compose(case: MachineAnalysis) -> Document:
+    """The finished, numbered report of a machine; raises `TemplateError` for a fault in its words."""
+    report = Report(case)
+    words, named = report.words, names(report)
+    written: dict[str, Sequence[Block]] = {}
+    # The list of symbols comes last: it lists those of all other sections.
+    for section in sorted(report.sections, key=LISTING.__eq__):
+        if section == "contents":
+            continue
+        if section == LISTING:
+            others = (blocks for name, blocks in written.items() if name != OWN_LETTERS)
+            whole = replace(report, used_symbols=used_symbols(chain.from_iterable(others)))
+            named["table"] = partial(table, whole)
+        written[section] = report.prose.render(section, named)
+    if "contents" in report.sections:
+        brief = not report.parts("contents-page")
+        every = chain.from_iterable(written.values())
+        written["contents"] = [PageBreak(), contents(words["document"]["contents"], every, brief)]
+    blocks = [case.cover, *chain.from_iterable(written[section] for section in report.sections)]
+    return finished(case, plates_last(blocks, partial(_plate_is_last, report)), close=not report.parts("usual-type"))
+
+
+def _plate_is_last(report: Report, plate: Plate) -> Paragraph:
+    """Says where a plate stands."""
+    paper = PAPERS.get(min(plate.paper), "")
+    return Paragraph(phrases.say(report, report.words["plate"], figure=(Reference(plate.key),), paper=paper))

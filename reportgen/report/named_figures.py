@@ -1,0 +1,96 @@
+"""The figures of reports by their names in templates."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from operator import attrgetter
+from typing import Any
+
+from reportgen.document import Figure, InlineMath, Inlines, Plate, Text
+from reportgen.document.paper import FigureScenes, close
+from reportgen.machine.analysis import Position
+from reportgen.report import curves, figures, force_figures, phrases, plans, topic_views
+from reportgen.report.groups import GroupView
+from reportgen.report.report import Report
+from reportgen.report.topic_views import DrawnFigure
+
+VELOCITY, ACCELERATION = plans.MotionFigures("v"), plans.MotionFigures("a")
+
+FIGURES: Mapping[str, tuple[str, Callable[..., FigureScenes]]] = {
+    "line-styles": ("fig.line-styles", figures.line_styles),
+    # the machine
+    "scheme": ("fig.scheme", figures.scheme),
+    "groups": ("fig.groups", figures.groups),
+    "positions": ("fig.positions", figures.positions),
+    "extremes": ("fig.extremes", figures.extremes),
+    "swing": ("fig.swing", figures.swing),
+    # motion
+    "velocity": ("fig.v", VELOCITY.whole),
+    "velocity-stages": ("fig.v.stages", VELOCITY.in_stages),
+    "velocity-plates": ("fig.v.plates", VELOCITY.on_plates),
+    "acceleration": ("fig.a", ACCELERATION.whole),
+    "acceleration-stages": ("fig.a.stages", ACCELERATION.in_stages),
+    "acceleration-plates": ("fig.a.plates", ACCELERATION.on_plates),
+    "coriolis": ("fig.coriolis", figures.coriolis),
+    "inclination": ("fig.inclination", figures.inclination),
+    "two-equations": ("fig.twice", figures.two_equations),
+    "similarity": ("fig.similarity", figures.similarity),
+    "centres": ("fig.centres", figures.centres),
+    "motion": ("fig.motion", curves.motion),
+    # forces
+    "indicator": ("fig.indicator", figures.indicator),
+    "bodies": ("fig.bodies", force_figures.bodies),
+    "forces": ("fig.R", plans.forces),
+    "force-stages": ("fig.R.stages", plans.force_stages),
+    "force-plates": ("fig.R.plates", plans.force_plates),
+    "crank": ("fig.crank", force_figures.driver),
+    "slide": ("fig.slide", force_figures.driver),
+    "lever": ("fig.lever", force_figures.lever),
+    "polar": ("fig.polar", curves.polar),
+    "torque": ("fig.M", curves.torque),
+}
+"""What the keys of a figure begin with, and who draws it; its caption stands in `words.yaml` under `captions`."""
+
+
+def figure(report: Report, name: str, *arguments: Any, words: str = "") -> tuple[Figure | Plate, ...]:
+    """A figure by its name: `figure(name, …)`, or `figure(name, key, caption, …)` with words of its own;
+    `words` names other ones of `words.yaml`.
+
+    A figure on plates is a block for each of them; the first has key and caption.  Raises `KeyError` for a
+    name that nobody draws.
+    """
+    key, draw = _drawn(report, name)
+    at = ""
+    if arguments and isinstance(arguments[0], str):
+        key, caption, *shown = arguments
+    else:
+        shown = list(arguments)
+        group = next((one for one in shown if isinstance(one, GroupView)), None)
+        position = next((one for one in shown if isinstance(one, Position)), None)
+        key = ".".join(str(part) for part in (key, group, position) if part is not None)
+        at = "" if position is None else str(position)
+        links = {"i": group.i, "j": group.j} if group else None
+        caption = report.words["captions"][words or name].format(k=position, g=links)
+    drawn = draw(report, *shown)
+    if drawn.paper is None and not drawn.turned and not report.parts("usual-type"):
+        drawn = replace(drawn, scenes=tuple(map(close, drawn.scenes)))
+    inlines = report.prose.inlines(caption)
+    inlines = (*inlines, *phrases.shown_smaller(report, drawn.smaller, "caption"))
+    if drawn.note is not None:
+        inlines = (*inlines, Text("; "), InlineMath(drawn.note))
+    if drawn.paper is None:
+        return (Figure(drawn.scenes, inlines, key, turned=drawn.turned, at=at),)
+    first, *others = drawn.scenes
+    further = (Plate(scene, drawn.paper, continues=True) for scene in others)
+    return Plate(first, drawn.paper, inlines, key, at=at), *further
+
+
+def _drawn(report: Report, name: str) -> DrawnFigure:
+    """Return the key of a figure, and the function that draws it.  Raises `KeyError` for a name that is not known."""
+    return FIGURES[name] if name in FIGURES else topic_views.merged(report, attrgetter("figures"))[name]
+
+
+def smaller(report: Report, name: str) -> Inlines:
+    """What the text says of a figure by its name that is shown smaller than to the scales of the text."""
+    return phrases.shown_smaller(report, _drawn(report, name)[1](report).smaller, name)
