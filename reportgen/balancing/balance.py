@@ -25,11 +25,12 @@ from reportgen.balancing.counterweights import (
     reciprocating_part,
     turning_part,
 )
+from reportgen.base.arrays import Complexes, Floats
 from reportgen.machine import DRIVER, GROUND, Crank, Linkage, joints
 from reportgen.machine.analysis import Analysis, Machine, analyse, motion_at
 from reportgen.machine.forces import inertia_loads, reaction_name, solve_forces
 from reportgen.machine.laws import FULL_TURN
-from reportgen.machine.motion import Complexes, Floats, Motion, cross, unit
+from reportgen.machine.motion import Motion, cross, unit
 
 SAMPLES, MOST_SAMPLES = 1440, 46080
 """Places of a turn, a quarter degree apart, of which the curve is made; twice and again as many of one with corners."""

@@ -10,10 +10,11 @@ import numpy as np
 from reportgen.balancing import balance_ids
 from reportgen.balancing.balance import BalancedTurn, balanced_in, shaking_force, shaking_moment
 from reportgen.balancing.counterweights import Counterweight
+from reportgen.base.arrays import Complexes, Floats
 from reportgen.drawing import Circle, Pen, Polyline, style
 from reportgen.drawing.animation import BarScale, MovingBody, MovingItem, MovingVector, Still, Track
 from reportgen.formula import Symbol, vocabulary
-from reportgen.machine.motion import Complexes, Floats, Motion, unit
+from reportgen.machine.motion import Motion, unit
 from reportgen.page.topic_layers import LayerHooks
 from reportgen.report.report import Report
 

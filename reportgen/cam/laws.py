@@ -15,10 +15,10 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from reportgen.base.arrays import Floats
 from reportgen.formula import PI, Expression, Negative, Operand, Ref, as_expression, cos, sin
 from reportgen.formula.evaluation import evaluate
 
-Floats = NDArray[np.float64]
 Formula = Callable[[Expression], Operand]
 NODE = 1e-12
 """Places of a turn (rad), or of a law, that are no farther apart are one."""

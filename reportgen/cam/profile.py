@@ -13,19 +13,18 @@ import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from reportgen.base.arrays import Complexes, Floats
 from reportgen.base.settled import ALIKE, first_greatest
 from reportgen.cam import cam_ids
 from reportgen.cam.formulas import CamKind, enter_lengths, enter_lowest, enter_profile
-from reportgen.cam.laws import NODE, Floats, FollowerMotion
+from reportgen.cam.laws import NODE, FollowerMotion
 from reportgen.formula.model import model
 from reportgen.formula.sheet import Sheet
 
-Complexes = NDArray[np.complexfloating[Any, Any]]
 Numbers = NDArray[np.intp]
 
 

@@ -13,12 +13,13 @@ from functools import cached_property
 
 import numpy as np
 
+from reportgen.base.arrays import Floats
 from reportgen.base.units import MM, Given, nice_up
 from reportgen.cam import cam_ids, formulas
 from reportgen.cam.design import NoCamError, Touch
 from reportgen.cam.file import Designed, Parameters, designed, positions_of
 from reportgen.cam.formulas import enter_lengths, enter_lowest, enter_profile, factor
-from reportgen.cam.laws import Floats, FollowerMotion, LawInterval
+from reportgen.cam.laws import FollowerMotion, LawInterval
 from reportgen.cam.profile import Cam, CamProfile
 from reportgen.case import Misconceptions, with_another
 from reportgen.formula import PI, Expression, Number, Operand, Ref, Symbol, acos, as_expression, branch, tan

@@ -32,6 +32,7 @@ from reportgen.assignment.fields import (
     fault,
     quantity,
 )
+from reportgen.base.arrays import Floats
 from reportgen.base.errors import Finding, Where
 from reportgen.base.shown import view
 from reportgen.base.units import Given
@@ -39,7 +40,7 @@ from reportgen.catalogue.typed import as_typed, size_of
 from reportgen.formula import Number, ids
 from reportgen.formula.ids import Name as Family
 from reportgen.machine import DRIVER, Crank, Guide, Linkage
-from reportgen.machine.laws import AngleLaw, ConstantLaw, Floats, Law, MotionAt, Resistance, WayLaw, opposing
+from reportgen.machine.laws import AngleLaw, ConstantLaw, Law, MotionAt, Resistance, WayLaw, opposing
 from reportgen.machine.loads import Applied, Torque, fixed
 from reportgen.machine.motion import Motion
 from reportgen.machine.senses import moving, pace

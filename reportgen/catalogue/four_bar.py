@@ -18,6 +18,7 @@ from typing import Literal
 from reportgen.assignment.checks import of_turning
 from reportgen.assignment.common import Assignment, Part
 from reportgen.assignment.fields import Angle, Coordinate, ForceSize, Length
+from reportgen.base.arrays import Floats
 from reportgen.base.errors import Finding
 from reportgen.base.units import Given
 from reportgen.catalogue import assembly
@@ -51,7 +52,7 @@ from reportgen.formula import (
 from reportgen.formula.sheet import Sheet
 from reportgen.machine import Crank, Dyad, Linkage, LinkPoint
 from reportgen.machine.analysis import Machine
-from reportgen.machine.laws import ConstantLaw, Floats
+from reportgen.machine.laws import ConstantLaw
 from reportgen.machine.loads import Applied, fixed
 
 FLAT = 0.01

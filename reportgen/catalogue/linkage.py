@@ -14,6 +14,7 @@ import numpy as np
 
 from reportgen.assignment.checks import one_of
 from reportgen.assignment.common import ROMAN, Assignment, Draft, Positions
+from reportgen.base.arrays import Floats
 from reportgen.base.errors import Finding
 from reportgen.base.units import nice_up
 from reportgen.catalogue import assembly, declared_loads, linkage_checks
@@ -31,7 +32,7 @@ from reportgen.formula.sheet import Sheet
 from reportgen.formula.vocabulary import drawn_length
 from reportgen.machine import Linkage
 from reportgen.machine.analysis import ClosedFormulas, Machine, lettered
-from reportgen.machine.laws import FULL_TURN, Floats, GasLaw, MotionAt, TableLaw, by_stroke
+from reportgen.machine.laws import FULL_TURN, GasLaw, MotionAt, TableLaw, by_stroke
 from reportgen.machine.loads import Applied, LoadsByKind, Torque, course, fixed, rails
 from reportgen.machine.motion import Motion, solve_motion
 

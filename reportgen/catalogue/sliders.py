@@ -22,6 +22,7 @@ from functools import partial
 
 import numpy as np
 
+from reportgen.base.arrays import Floats
 from reportgen.catalogue.given_sheet import accelerated, accelerating, driver_acceleration
 from reportgen.formula import (
     Chain,
@@ -42,7 +43,7 @@ from reportgen.formula import (
 )
 from reportgen.formula.sheet import BELOW_A_TURN, Sheet
 from reportgen.machine import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
-from reportgen.machine.laws import FULL_TURN, Floats, Stroke, halved
+from reportgen.machine.laws import FULL_TURN, Stroke, halved
 
 HALVINGS = 60
 """π halved so often is below the spacing of floats there."""

@@ -14,6 +14,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from reportgen.base.arrays import Floats
 from reportgen.catalogue.given_sheet import accelerated, accelerating, driver_acceleration, natural_lines
 from reportgen.formula import (
     NOTHING,
@@ -40,7 +41,7 @@ from reportgen.formula import (
 )
 from reportgen.formula.sheet import BELOW_A_TURN, Sheet
 from reportgen.machine import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
-from reportgen.machine.laws import FULL_TURN, Floats, Stroke
+from reportgen.machine.laws import FULL_TURN, Stroke
 
 DRAWN_CRANKS = (0.05, 0.04, 0.03, 0.025, 0.02, 0.015)
 """Drawn lengths of a crank (m on paper), the best first."""

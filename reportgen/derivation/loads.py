@@ -12,6 +12,7 @@ from enum import IntEnum
 
 import numpy as np
 
+from reportgen.base.arrays import Complexes
 from reportgen.derivation.motion import NOWHERE, Sizes, longest
 from reportgen.derivation.scales import LEAST_FORCES, Scaling, extents, own_scales
 from reportgen.derivation.sides import Scheme, image
@@ -20,7 +21,6 @@ from reportgen.formula.evaluation import evaluate
 from reportgen.formula.sheet import Sheet
 from reportgen.formula.vocabulary import segment
 from reportgen.machine import DRIVER, GROUND, Crank, Guide, Inertia
-from reportgen.machine.motion import Complexes
 
 FAINT = 1e-12
 """A reaction below this share of the loads is rounding and has no line of action."""

@@ -7,10 +7,11 @@ from collections.abc import Collection, Sequence
 
 import numpy as np
 
+from reportgen.base.arrays import Complexes
 from reportgen.drawing import Circle, Item, Polyline, style
 from reportgen.drawing.canvas import Canvas
 from reportgen.drawing.description import Fact, PaperLength, direction, fact
-from reportgen.drawing.geometry import Complexes, polar, unit
+from reportgen.drawing.geometry import polar, unit
 from reportgen.drawing.labels import Request, label
 from reportgen.formula import Symbol
 from reportgen.machine import Linkage

@@ -12,13 +12,11 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from reportgen.base.arrays import Complexes, Flags
 from reportgen.base.settled import settled
 from reportgen.drawing import Arc, Arrow, Circle, Hatch, Item, Label, Line, Pen, Polyline
 from reportgen.drawing.label_size import box
 
-Complexes = NDArray[np.complex128]
-Floats = NDArray[np.float64]
-Flags = NDArray[np.bool_]
 Part = TypeVar("Part")
 
 CIRCLE_SIDES = 24

@@ -7,8 +7,9 @@ from dataclasses import replace
 
 import numpy as np
 
+from reportgen.base.arrays import Complexes
 from reportgen.drawing import Content, Item, Label, Scene
-from reportgen.drawing.geometry import Complexes, corners_of, frame, moved, overlap, segments
+from reportgen.drawing.geometry import corners_of, frame, moved, overlap, segments
 from reportgen.drawing.label_size import box
 from reportgen.drawing.spots import CLEAR
 

@@ -11,12 +11,13 @@ from itertools import combinations
 
 import numpy as np
 
+from reportgen.base.arrays import Complexes, Floats
 from reportgen.base.settled import settled
 from reportgen.drawing import Arc, Arrow, Circle, Content, Item, Label, Line, Pen, Scene, style
 from reportgen.drawing.canvas import Canvas, finish, settle
 from reportgen.drawing.coils import coil_symbols
 from reportgen.drawing.description import Fact, PaperLength, alignment, direction, fact, listed, turning
-from reportgen.drawing.geometry import Complexes, Floats, clusters, polar
+from reportgen.drawing.geometry import clusters, polar
 from reportgen.drawing.labels import Request, joined, label
 from reportgen.drawing.spots import distances
 from reportgen.formula import Symbol, vocabulary

@@ -8,8 +8,9 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from reportgen.base.arrays import Complexes, Flags, Floats
 from reportgen.base.settled import settled
-from reportgen.drawing.geometry import Complexes, Flags, Floats, Ink, overlap
+from reportgen.drawing.geometry import Ink, overlap
 
 Indices = NDArray[np.intp]
 

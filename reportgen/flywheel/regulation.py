@@ -10,8 +10,8 @@ J_d = (a − b)/(δ ω_m²).
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from reportgen.base.arrays import Floats
 from reportgen.machine.analysis import Analysis, Machine, analyse, breaks, possible
 from reportgen.machine.laws import FULL_TURN
 from reportgen.machine.quadrature import accumulated
@@ -19,7 +19,6 @@ from reportgen.machine.reduction import reduced_inertia, reduced_torque
 from reportgen.machine.regulation import RegulatedCycle
 from reportgen.machine.shared_results import LOST_TORQUE, REGULATED_CYCLE
 
-Floats = NDArray[np.float64]
 ORDER = 8
 """Gauss nodes between neighbouring angles: exact to rounding for a degree or less of a smooth torque."""
 

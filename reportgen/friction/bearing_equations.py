@@ -18,9 +18,7 @@ from itertools import chain, combinations, islice
 import numpy as np
 from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
-Flags = NDArray[np.bool_]
+from reportgen.base.arrays import Complexes, Flags, Floats
 
 MOST_STEPS = 40
 """Newton's method settles in ten steps or not at all."""

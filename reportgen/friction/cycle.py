@@ -7,12 +7,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from reportgen.base.arrays import Flags, Floats
 from reportgen.friction.joints import Friction, friction_of, relative_motion, solve_with_friction, with_friction
 from reportgen.machine import Joint
 from reportgen.machine.analysis import ROUNDING, Machine, analyse, breaks, motion_at, possible
 from reportgen.machine.forces import Load
 from reportgen.machine.laws import FULL_TURN, STEPS, Stroke, halved, opposing
-from reportgen.machine.motion import Flags, Floats
 from reportgen.machine.quadrature import mean_over
 from reportgen.machine.senses import moving, pace
 

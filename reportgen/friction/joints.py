@@ -20,13 +20,14 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from reportgen.base.arrays import Complexes, Flags, Floats
 from reportgen.formula import ids
 from reportgen.friction.bearing_equations import BearingEquations
 from reportgen.machine import GROUND, Joint, Linkage, joints
 from reportgen.machine.analysis import Analysis, Machine
 from reportgen.machine.faces import Faces
 from reportgen.machine.forces import Equilibrium, Forces, Load, Reaction, reaction_name
-from reportgen.machine.motion import Complexes, Flags, Floats, LinkMotion, Motion, cross
+from reportgen.machine.motion import LinkMotion, Motion, cross
 from reportgen.machine.senses import pace, sense_of
 
 STANDS = 1e-12

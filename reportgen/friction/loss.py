@@ -11,15 +11,14 @@ speed that differs by a few hundredths change the friction by twice as much of t
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from reportgen.base.arrays import Floats
 from reportgen.friction.cycle import turning_back
 from reportgen.friction.joints import friction_of, with_friction
 from reportgen.machine.analysis import Machine, analyse, breaks
 from reportgen.machine.cycle_torque import SAME_ANGLE, CycleTorque
 from reportgen.machine.laws import FULL_TURN
 
-Floats = NDArray[np.float64]
 PARTS = 180
 """Parts of a turn at least."""
 ORDER = 6

@@ -14,13 +14,11 @@ from functools import cached_property
 
 import numpy as np
 
+from reportgen.base.arrays import Complexes, Floats
 from reportgen.formula.constructions import Value
 from reportgen.formula.model import model
 from reportgen.gears import gears_ids
 from reportgen.gears.formulas import Rack, pair_sheet
-
-Floats = np.ndarray
-Complexes = np.ndarray
 
 CHORD = 1e-6
 """How far a polyline of a profile may lie from it (m)."""

@@ -12,12 +12,13 @@ from functools import cached_property
 
 import numpy as np
 
+from reportgen.base.arrays import Floats
 from reportgen.formula.constructions import Value
 from reportgen.formula.model import model
 from reportgen.formula.sheet import Sheet
 from reportgen.gears import gears_ids
 from reportgen.gears.formulas import WHEELS, Rack, pair_sheet, sum_of_shifts
-from reportgen.gears.involute import Floats, Wheel, crossing
+from reportgen.gears.involute import Wheel, crossing
 
 HUNDREDTH = 0.01
 """Shifts are chosen in hundredths of the module."""

@@ -9,6 +9,7 @@ from functools import cached_property, partial
 
 import numpy as np
 
+from reportgen.base.arrays import Floats
 from reportgen.base.units import MM
 from reportgen.case.result_entries import ResultEntries
 from reportgen.case.shafts import Shaft
@@ -35,7 +36,6 @@ from reportgen.formula import Symbol
 from reportgen.gears import gears_ids
 from reportgen.gears import pair_views as views
 from reportgen.gears.formulas import WHEELS
-from reportgen.gears.involute import Floats
 from reportgen.gears.pair import GearPair
 from reportgen.gears.pair_drawings import (
     FLANK,

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from reportgen.base.arrays import Complexes, Floats
 from reportgen.base.units import MM, nice_up
 from reportgen.drawing import (
     Arc,
@@ -33,7 +34,6 @@ from reportgen.formula import Chain, Number, Symbol
 from reportgen.formula.model import model
 from reportgen.gears import gears_ids
 from reportgen.gears.formulas import WHEELS
-from reportgen.gears.involute import Complexes, Floats
 from reportgen.gears.pair import GearPair, PairLimits
 from reportgen.gears.pair_solution import SolvedPair
 
@@ -123,7 +123,8 @@ def mesh(case: SolvedPair, size: FigureSize = IN_REPORT) -> Scene:
     outlines, drawn = _shown(pair)
     usual, with_ends = mesh_scale(case)
     at = size.per_unit(usual) * MM
-    low, high = _corners(np.append(drawn, ends) * at if with_ends else drawn * at)
+    points: Complexes = np.append(drawn, np.array(ends, np.complex128)) if with_ends else drawn
+    low, high = _corners(points * at)
     items: list[Item] = []
     requests: list[Request] = []
     for number in (0, 1):

@@ -18,13 +18,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from reportgen.base.arrays import Flags
 from reportgen.base.shown import shown
 from reportgen.formula.evaluation import inv
 from reportgen.gears import train_formulas as formulas
 from reportgen.gears.train_formulas import TrainScheme, over_teeth
 
 Wholes = NDArray[np.int64]
-Flags = NDArray[np.bool_]
 
 ALPHA = math.radians(20)
 """The angle of the basic rack; its addendum is the module."""

@@ -6,9 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from reportgen.base.arrays import Complexes
 from reportgen.formula import Ref, ids
 from reportgen.formula.sheet import Sheet
-from reportgen.machine.motion import Complexes, Motion
+from reportgen.machine.motion import Motion
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from reportgen.base.arrays import Floats
+
 SAME_ANGLE = 1e-9
 """Angles nearer than this (rad) are one."""
 

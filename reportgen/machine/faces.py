@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from reportgen.machine.motion import Floats
+from reportgen.base.arrays import Floats
 
 
 @dataclass(frozen=True, slots=True)

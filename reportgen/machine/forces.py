@@ -15,9 +15,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from reportgen.base.arrays import Complexes, Flags, Floats
 from reportgen.formula import ids
 from reportgen.machine import DRIVER, GROUND, Dyad, Joint, Linkage, joints
-from reportgen.machine.motion import Complexes, Flags, Floats, Motion, cross, dot, solve2
+from reportgen.machine.motion import Motion, cross, dot, solve2
 
 
 @dataclass(frozen=True, slots=True)

@@ -17,10 +17,10 @@ from typing import Literal, get_args
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from reportgen.base.arrays import Floats
 from reportgen.formula import Expression, Fraction, Symbol
 from reportgen.machine.quadrature import gauss
 
-Floats = NDArray[np.float64]
 Stroke = Literal["intake", "compression", "expansion", "exhaust"]
 STROKES: tuple[Stroke, ...] = get_args(Stroke)
 OUTWARD = (1, -1, 1, -1)

@@ -15,16 +15,14 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from reportgen.base.arrays import Flags, Floats
 from reportgen.formula import Expression, Symbol, ids
 from reportgen.formula.sheet import Sheet
 from reportgen.machine.coils import Coil
 from reportgen.machine.gas import AngleIndicator, Bracket, Indicator, StrokeIndicator, Tabled, crossings
 from reportgen.machine.motion import Motion
 
-Floats = NDArray[np.float64]
-Flags = NDArray[np.bool_]
 FULL_TURN = 2 * np.pi
 STEPS = 720
 """Places in a turn, half a degree apart: whether a machine gets there, whether a link turns back."""

@@ -9,12 +9,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from reportgen.assignment.common import Positions
+from reportgen.base.arrays import Complexes, Floats
 from reportgen.formula import ids
 from reportgen.machine import GROUND, Dyad, Guide, Linkage
 from reportgen.machine.forces import Load
 from reportgen.machine.gas import Indicator
-from reportgen.machine.laws import BEFORE_A_TURN, FULL_TURN, Floats, GasLaw, Law, MotionAt, Stroke, opposing
-from reportgen.machine.motion import Complexes, Motion, solve_motion
+from reportgen.machine.laws import BEFORE_A_TURN, FULL_TURN, GasLaw, Law, MotionAt, Stroke, opposing
+from reportgen.machine.motion import Motion, solve_motion
 from reportgen.machine.senses import moving, pace
 
 # --- sliders of a linkage ---------------------------------------------------------------------------

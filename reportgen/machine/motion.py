@@ -14,12 +14,9 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from reportgen.base.arrays import Complexes, Flags, Floats
 from reportgen.formula.constructions import SquareRoot, along_line, circle_circle
 from reportgen.machine import DRIVER, GROUND, Crank, Dyad, DyadKind, Guide, Linkage
-
-Floats = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
-Flags = NDArray[np.bool_]
 
 SINGULAR = 1e-5
 """Sine of the angle below which two directions count as parallel.

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from reportgen.base.arrays import Floats
+
 ORDER = 16
 CONVERGED = 1e-12
 AT_ALL = 1e-9

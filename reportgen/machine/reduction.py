@@ -9,13 +9,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from reportgen.base.arrays import Floats
 from reportgen.machine.analysis import Machine
 from reportgen.machine.forces import Load, virtual_work_torque, weights
 from reportgen.machine.motion import Motion, dot, solve_motion
-
-Floats = NDArray[np.float64]
 
 
 def reduced_inertia(machine: Machine, motion: Motion) -> Floats:

@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from reportgen.machine.motion import Complexes, Floats, Motion
+from reportgen.base.arrays import Complexes, Floats
+from reportgen.machine.motion import Motion
 
 STILL = 1e-12
 """A speed below this share of the mechanism's own is rounding."""

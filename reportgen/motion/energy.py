@@ -16,6 +16,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from reportgen.base.arrays import Floats
 from reportgen.machine.analysis import Machine, breaks
 from reportgen.machine.cycle_torque import CycleTorque
 from reportgen.machine.laws import FULL_TURN
@@ -23,7 +24,6 @@ from reportgen.machine.quadrature import gauss
 from reportgen.machine.reduction import reduced
 from reportgen.motion.drives import Drive
 
-Floats = NDArray[np.float64]
 PARTS = 180
 """Parts of a turn at least: two degrees each."""
 STAGES = 6

@@ -13,6 +13,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from reportgen.base.arrays import Floats
 from reportgen.motion.drives import ConstantDrive, Drive
 from reportgen.motion.energy import (
     LEAST_ENERGY,
@@ -35,7 +36,6 @@ from reportgen.motion.energy import (
 )
 from reportgen.motion.time_steps import TimeStepper, UnsettledError, times
 
-Floats = NDArray[np.float64]
 BALANCED = 1e-9
 """A mean torque below this share of the mean of its size is none."""
 MOST_CYCLES = 400

@@ -6,14 +6,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from reportgen.base.arrays import Floats
 from reportgen.motion.drives import Drive
 from reportgen.motion.energy import PARTS, SAME_ANGLE, ReducedMachine
 from reportgen.motion.running import MOST_CYCLES, MotionRun, NoMotionError, SteadyMotion, passage, run_in_time, stalled
 from reportgen.motion.time_steps import TimeStepper
 
-Floats = NDArray[np.float64]
 NEAR_STEADY = 0.01
 """A start is over at the end of the first cycle whose last speed is as near to the steady one."""
 STALLS = "start-stalls"

@@ -12,12 +12,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from reportgen.base.arrays import Floats
 from reportgen.motion.drives import Drive
 from reportgen.motion.energy import STAGES, A, B, C, ReducedMachine, tail
 
-Floats = NDArray[np.float64]
 SETTLED = 1e-13
 """The rounds of a step end where ω moves by less than this share of its greatest value in the step."""
 MOST_ROUNDS = 30

@@ -8,12 +8,13 @@ from typing import TypeVar
 
 import numpy as np
 
+from reportgen.base.arrays import Complexes, Floats
 from reportgen.formula import PI, Expression, Number, arg, cis, ids, quotient
 from reportgen.formula.sheet import Sheet
 from reportgen.machine.coils import Anchor, Coil
-from reportgen.machine.laws import Floats, Law, MotionAt
+from reportgen.machine.laws import Law, MotionAt
 from reportgen.machine.loads import Direction
-from reportgen.machine.motion import Complexes, Motion
+from reportgen.machine.motion import Motion
 
 Size = TypeVar("Size", Floats, Expression)
 """An array over positions, or a quantity on a sheet."""

@@ -10,9 +10,9 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
+from reportgen.base.arrays import Complexes
 from reportgen.drawing import Arc, Circle, Hatch, Label, Line, Polyline
 from reportgen.drawing.canvas import finish
-from reportgen.drawing.geometry import Complexes
 from reportgen.drawing.indicator import Branch, Frame, Reading, beside, indicator
 from reportgen.drawing.positions import PositionPlan, position_plan
 from reportgen.drawing.scheme import Looks, driver_arrow, groups, scheme, skeleton

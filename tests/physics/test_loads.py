@@ -14,13 +14,14 @@ import pytest
 
 import reportgen
 from reportgen import api
+from reportgen.base.arrays import Complexes
 from reportgen.derivation import enter_plans
 from reportgen.machine import laws
 from reportgen.machine.analysis import Machine, analyse
 from reportgen.machine.gas import Indicator, StrokeIndicator
 from reportgen.machine.laws import AngleLaw, ConstantLaw, GasLaw, Law, Opposing, Stroke, TableLaw, WayLaw, by_stroke
 from reportgen.machine.loads import Applied
-from reportgen.machine.motion import Complexes, Motion
+from reportgen.machine.motion import Motion
 
 ROOMS = Path(reportgen.__file__).parent
 FOUR_BAR = ROOMS.parent / "assignments" / "four-bar-01.yaml"
