@@ -8,8 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from reportgen.balancing import balance_ids
-from reportgen.balancing import order_views as orders
+from reportgen.balancing import balance_ids, order_views
 from reportgen.balancing.balance import BalancedTurn, balanced_in, frame_reactions, shaking_force
 from reportgen.balancing.counterweight_drawings import CounterweightDisc, with_discs
 from reportgen.balancing.ledger import AFTER, AXES, BEFORE, LETTERS
@@ -313,7 +312,7 @@ VALUES: Mapping[str, Callable[[Report], Any]] = {
     "seen_lines": seen_lines,
     "shaken": shaken,
     "shaking_lines": shaking_lines,
-    **orders.VALUES,
+    **order_views.VALUES,
 }
 FUNCTIONS: Mapping[str, Callable[..., Any]] = {
     "balance_rules": balance_rules,
@@ -327,7 +326,7 @@ FIGURES: Mapping[str, tuple[str, Callable[..., FigureScenes]]] = {
     "seen": ("fig.seen", seen_curve),
     "counterweights": ("fig.counterweights", discs),
     "balanced": ("fig.balanced", balanced_hodograph),
-    **orders.FIGURES,
+    **order_views.FIGURES,
 }
 
 HOOKS = ViewHooks(

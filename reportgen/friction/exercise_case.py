@@ -18,10 +18,7 @@ from reportgen.drawing.plates import DrawingPlate, enlargeable
 from reportgen.drawing.scales import IN_REPORT, FigureSize
 from reportgen.drawing.sheet import ENLARGED, lettered
 from reportgen.formula.sheet import Sheet
-from reportgen.friction import brakes as friction_brakes
-from reportgen.friction import exercise_drawings as friction_drawings
-from reportgen.friction import exercise_mistakes as friction_mistakes
-from reportgen.friction import exercise_sheets as friction_sheets
+from reportgen.friction import brakes, exercise_drawings, exercise_mistakes, exercise_sheets
 
 
 @dataclass(frozen=True)
@@ -109,7 +106,7 @@ class FrictionCase(DesignCase):
 
     @cached_property
     def misconceptions(self) -> Misconceptions:
-        return Misconceptions(changed=friction_mistakes.changed(self.TASK.name, self.sheet))
+        return Misconceptions(changed=exercise_mistakes.changed(self.TASK.name, self.sheet))
 
     def plates(self, sets: Collection[str] = (), every: bool = False) -> Mapping[str, Sequence[DrawingPlate]]:
         """Its scheme and its force plans; there are no sets of them to choose from."""
@@ -146,7 +143,7 @@ class InclineCase(FrictionCase):
 
     PAGE = InclinePage
     TASK = FrictionTask(
-        "incline", friction_sheets.incline_sheet, friction_drawings.incline_scheme, friction_drawings.incline_plans
+        "incline", exercise_sheets.incline_sheet, exercise_drawings.incline_scheme, exercise_drawings.incline_plans
     )
 
     @property
@@ -173,7 +170,7 @@ class WedgeCase(FrictionCase):
 
     PAGE = WedgePage
     TASK = FrictionTask(
-        "wedge", friction_sheets.wedge_sheet, friction_drawings.wedge_scheme, friction_drawings.wedge_plans
+        "wedge", exercise_sheets.wedge_sheet, exercise_drawings.wedge_scheme, exercise_drawings.wedge_plans
     )
 
     @property
@@ -200,7 +197,7 @@ class ScrewCase(FrictionCase):
     """A screw under a load."""
 
     PAGE = ScrewPage
-    TASK = FrictionTask("screw", friction_sheets.screw_sheet, friction_drawings.screw_scheme)
+    TASK = FrictionTask("screw", exercise_sheets.screw_sheet, exercise_drawings.screw_scheme)
 
     @property
     def locks(self) -> bool:
@@ -228,7 +225,7 @@ class BeltCase(FrictionCase):
     """A belt on a drum."""
 
     PAGE = BeltPage
-    TASK = FrictionTask("belt", friction_sheets.belt_sheet, friction_brakes.belt_scheme)
+    TASK = FrictionTask("belt", exercise_sheets.belt_sheet, brakes.belt_scheme)
 
     @property
     def locks(self) -> None:
@@ -250,7 +247,7 @@ class BandCase(FrictionCase):
     """A band brake."""
 
     PAGE = BandPage
-    TASK = FrictionTask("band", friction_sheets.band_sheet, friction_brakes.band_scheme)
+    TASK = FrictionTask("band", exercise_sheets.band_sheet, brakes.band_scheme)
 
     @property
     def locks(self) -> bool:
@@ -272,7 +269,7 @@ class ShoeCase(FrictionCase):
     """A brake with one shoe."""
 
     PAGE = ShoePage
-    TASK = FrictionTask("shoe", friction_sheets.shoe_sheet, friction_brakes.shoe_scheme)
+    TASK = FrictionTask("shoe", exercise_sheets.shoe_sheet, brakes.shoe_scheme)
 
     @property
     def locks(self) -> bool:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from reportgen.drawing.plan import plan
-from reportgen.friction import views as friction
+from reportgen.friction import views
 from reportgen.sheets.drawn import Drawn, Sources
 from reportgen.sheets.topic_plates import PlateHooks
 
@@ -13,21 +13,21 @@ from reportgen.sheets.topic_plates import PlateHooks
 def _friction(sources: Sources) -> Iterator[Drawn]:
     """At the worked positions the machine with its friction circles, and each of them enlarged."""
     report, small = sources.report, sources.small
-    if not friction.rubbing(report):
+    if not views.rubbing(report):
         return
     for k in report.worked_forces:
-        scenes = (friction.scheme_scene(small, k), *friction.joints(small, k).scenes)
+        scenes = (views.scheme_scene(small, k), *views.joints(small, k).scenes)
         yield Drawn("friction", "forces", scenes, (sources.place(k),))
 
 
 def _friction_plans(sources: Sources) -> Iterator[Drawn]:
     """The force plans with friction of the worked positions."""
     report, small = sources.report, sources.small
-    for k in report.worked_forces if friction.rubbing(report) else ():
+    for k in report.worked_forces if views.rubbing(report) else ():
         polygons = [(sources.called(group), group.polygon) for group in reversed(report.groups)]
         for called, polygon in (*polygons, (str(report.words["figure"]["driver"]), report.driver_polygon)):
             if polygon is not None:
-                scene = plan(friction.force_plan_with_friction(small, polygon, k))
+                scene = plan(views.force_plan_with_friction(small, polygon, k))
                 yield Drawn("friction-plan", "forces", (scene,), (sources.place(k, called),))
 
 

@@ -33,8 +33,7 @@ from reportgen.drawing.plates import MOST_STEPS, DrawingPlate, enlargeable
 from reportgen.drawing.scales import FigureSize
 from reportgen.drawing.sheet import DrawingSheet, PlacedScene, lettered
 from reportgen.formula import Symbol
-from reportgen.gears import gears_ids
-from reportgen.gears import pair_views as views
+from reportgen.gears import gears_ids, pair_views
 from reportgen.gears.formulas import WHEELS
 from reportgen.gears.pair import GearPair
 from reportgen.gears.pair_drawings import (
@@ -57,7 +56,7 @@ from reportgen.sheets.plates import drawn, on_sheet
 class PairCase(SolvedPair):
     """A gear pair, as a `Case`."""
 
-    PAGE = views.PairPage
+    PAGE = pair_views.PairPage
 
     def fault(self) -> str:
         return "gear-limits" if any(self.chosen.broken()) else ""
@@ -187,7 +186,7 @@ AXES = Pen(0.18, style.GRAY, (5.0, 1.0, 0.8, 1.0))
 
 def _plates(case: PairCase) -> Iterator[DrawingPlate]:
     """The mesh, the curves, the tables."""
-    captions, page = case.words["pair"]["captions"], views.PairPage(case)
+    captions, page = case.words["pair"]["captions"], pair_views.PairPage(case)
 
     def of_area(draw: Callable[[PairCase, Area], Scene]) -> Draw:
         return lambda case, size: draw(case, Area(*AREAS[size.steps], size.enlarged, mm=case.ledger.printed_unit("mm")))

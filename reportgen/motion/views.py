@@ -13,8 +13,7 @@ from reportgen.document import Equation, InlineMath, Inlines, Paragraph, Table, 
 from reportgen.document.tables import list_table
 from reportgen.formula import NOTHING, Chain, Expression, Number, Symbol, plus
 from reportgen.machine.shared_results import REGULATED_CYCLE
-from reportgen.motion import motor_choice as running_motors
-from reportgen.motion import run_ids
+from reportgen.motion import motor_choice, run_ids
 from reportgen.motion.curves import FIGURES, motion_of
 from reportgen.motion.drives import ConstantDrive, Geared, TableDrive
 from reportgen.motion.motor_choice import chosen_motor
@@ -309,7 +308,7 @@ VALUES: Mapping[str, Callable[[Report], Any]] = {
     "stop_angle": stop_angle,
     "drive_formula": drive_formula,
     "drive_points": drive_points,
-    **running_motors.VALUES,
+    **motor_choice.VALUES,
     "asks_forces": asks_forces,
 }
 FUNCTIONS: Mapping[str, Callable[..., Any]] = {
@@ -397,7 +396,7 @@ TABLES: Mapping[str, Callable[..., Any]] = {
     "run.start": start_table,
     "run.stop": stop_table,
     "run.forces": forces_table,
-    **running_motors.TABLES,
+    **motor_choice.TABLES,
 }
 
 
