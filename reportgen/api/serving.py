@@ -10,6 +10,7 @@ from reportgen.api.typesetting import typeset
 from reportgen.base.units import Language
 from reportgen.cases import opener
 from reportgen.page import watch as served
+from reportgen.page.watch import Products
 
 if TYPE_CHECKING:
     from reportgen.case import Case
@@ -17,8 +18,6 @@ if TYPE_CHECKING:
 
 Written = Callable[[Callable[[], bytes], Language], None]
 """What is told of each finished report: a function that gives its PDF, or raises `TypesetterError`; its language."""
-Products = Callable[[Path], dict[str, tuple[str, ...]]]
-"""The commands by which the page of a file has something made of it, by the name of their button."""
 
 
 def watch(path: Path, language: Language | None = None, written: Written | None = None, browser: bool = True) -> None:

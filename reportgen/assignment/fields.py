@@ -391,4 +391,4 @@ Nodes = Field(min_length=2, max_length=2000)
 """How many nodes a table may have."""
 Fractions = Annotated[tuple[Annotated[float, Decimal(Interval(least=0, most=1))], ...], Nodes]
 CycleAngles = Annotated[tuple[CycleAngle, ...], Nodes]
-Values = Annotated[tuple[Annotated[float, Decimal(Interval(least=-1e9, most=1e9, tiny=1e-6))], ...], Nodes]
+NodeValues = Annotated[tuple[Annotated[float, Decimal(Interval(least=-1e9, most=1e9, tiny=1e-6))], ...], Nodes]

@@ -19,7 +19,7 @@ import numpy as np
 from reportgen.balancing.counterweights import (
     Balancing,
     Counterweight,
-    Rule,
+    CounterweightRule,
     balanced,
     force_balance,
     reciprocating_part,
@@ -321,7 +321,7 @@ class BalancedTurn:
 
     machine: Machine
     curve: CrankCurve
-    products: Mapping[Rule, complex]
+    products: Mapping[CounterweightRule, complex]
     weights: tuple[Counterweight, ...]
 
     @cached_property
@@ -342,7 +342,7 @@ class BalancedTurn:
         return float(np.abs(shaking_force(after.machine.linkage, after.motion)).max())
 
 
-def counterweight(machine: Machine, curve: CrankCurve, rule: Rule, share: float) -> complex:
+def counterweight(machine: Machine, curve: CrankCurve, rule: CounterweightRule, share: float) -> complex:
     """U (kg·m) of the counterweight on the crank by a rule, in the crank's frame."""
     match rule:
         case "rms":

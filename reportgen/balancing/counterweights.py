@@ -16,7 +16,7 @@ from reportgen.machine import DRIVER, GROUND, Crank, Dyad, Guide, Inertia, Linka
 BESIDE = 1e-12
 """A mass centre nearer to its rod than this share of its length lies on it."""
 
-Rule = Literal["rms", "max", "rotating", "share"]
+CounterweightRule = Literal["rms", "max", "rotating", "share"]
 """How a counterweight on the crank is chosen."""
 
 
@@ -28,7 +28,7 @@ class Balancing:
     `share` is that of the reciprocating masses which the rule of that name balances, `radius` r_c (m).
     """
 
-    rules: tuple[Rule, ...] = ()
+    rules: tuple[CounterweightRule, ...] = ()
     share: float = 0.0
     links: tuple[int, ...] = ()
     radius: float = 0.0

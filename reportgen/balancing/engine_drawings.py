@@ -168,8 +168,8 @@ def stars(case: SolvedEngine, letters: str, size: FigureSize = IN_REPORT) -> tup
     return tuple(star(case, letter, order, size) for letter in letters for order in ORDERS)
 
 
-Draw = Callable[[SolvedEngine, FigureSize], tuple[Scene, ...]]
-FIGURES: Mapping[str, tuple[str, Draw]] = {
+DrawEngine = Callable[[SolvedEngine, FigureSize], tuple[Scene, ...]]
+FIGURES: Mapping[str, tuple[str, DrawEngine]] = {
     "scheme": ("scheme", lambda case, size: (scheme(case, size),)),
     "forces": ("plans", lambda case, size: stars(case, case.stars["forces"], size)),
     "couples": ("plans", lambda case, size: stars(case, case.stars["couples"], size)),

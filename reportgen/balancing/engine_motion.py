@@ -49,7 +49,7 @@ PENS = {
 WHOLE = Pen(0.6)
 DIGITS = 4
 CENTRE = Track(np.zeros(1, complex))
-Turn = NDArray[np.float64]
+EngineAngles = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -89,7 +89,7 @@ def animation(case: SolvedEngine) -> Animation:
     )
 
 
-def _engine(case: SolvedEngine, φ: Turn, per: float) -> Pane:
+def _engine(case: SolvedEngine, φ: EngineAngles, per: float) -> Pane:
     reach = (case.given.r.si + case.given.l.si) * per + OUT
     axes = [Line(0j, reach * UP * np.exp(1j * bank), style.AXIS) for bank in banks(case)]
     items: list[MovingItem] = [Still((Circle(0j, case.given.r.si * per, style.THIN), *axes))]
@@ -111,7 +111,7 @@ def _engine(case: SolvedEngine, φ: Turn, per: float) -> Pane:
     return Pane("engine", title, tuple(items), low=low, high=high, scales=(BarScale(1 / per, "segment"),))
 
 
-def _shaking(case: SolvedEngine, φ: Turn) -> Iterator[Shaking]:
+def _shaking(case: SolvedEngine, φ: EngineAngles) -> Iterator[Shaking]:
     """Forces, and couples where the cylinders stand at several places."""
     K, places = float(case.ledger["orders.K"].values[0]), case.cylinders
     yield _kept("forces", case.forces(φ), case.rotating(φ), K * len(places))
@@ -148,7 +148,7 @@ def _plan(case: SolvedEngine, shaking: Shaking) -> Pane:
     return Pane(shaking.name, title, tuple(items), low=low, high=high, scales=(BarScale(per_mm, shaking.kind),))
 
 
-def _charts(case: SolvedEngine, φ: Turn) -> Iterator[Chart]:
+def _charts(case: SolvedEngine, φ: EngineAngles) -> Iterator[Chart]:
     """The parts of forces and couples along x and y over a turn."""
     across = Chain((Symbol("φ"),), str(case.words["orders"]["degrees"]))
     for shaking in _shaking(case, φ):
@@ -161,7 +161,7 @@ def _charts(case: SolvedEngine, φ: Turn) -> Iterator[Chart]:
                 yield Chart(shown, tuple(Curve(of, Track(values)) for of, values in curves))
 
 
-def _values(case: SolvedEngine, φ: Turn) -> Iterator[MomentValue]:
+def _values(case: SolvedEngine, φ: EngineAngles) -> Iterator[MomentValue]:
     for shaking in _shaking(case, φ):
         for of, part in shaking.parts.items():
             decimals = max(significant_decimals(float(np.abs(part).max()), DIGITS), 0)

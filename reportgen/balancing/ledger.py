@@ -14,7 +14,7 @@ import numpy as np
 
 from reportgen.balancing import balance_ids
 from reportgen.balancing.balance import BalancedTurn, balanced_in, shaking_moment
-from reportgen.balancing.counterweights import CrankRod, Rule, crank_rods, four_bar, place_on_link
+from reportgen.balancing.counterweights import CounterweightRule, CrankRod, crank_rods, four_bar, place_on_link
 from reportgen.balancing.mistakes import mistakes
 from reportgen.balancing.order_entries import enter_orders
 from reportgen.derivation.rests import with_rest
@@ -167,7 +167,7 @@ class _Entry:
         F_x, F_y = (q[balance_ids.component(axis)] for axis in AXES)
         q.define(balance_ids.seen("x"), (F_x * cos(φ) + F_y * sin(φ)) / ω**2, scale=self.unbalance)
         q.define(balance_ids.seen("y"), (F_y * cos(φ) - F_x * sin(φ)) / ω**2, scale=self.unbalance)
-        enter: Mapping[Rule, Callable[[], Sequence[Expression]]] = {
+        enter: Mapping[CounterweightRule, Callable[[], Sequence[Expression]]] = {
             "rms": self._mean,
             "max": self._circle,
             "rotating": lambda: self._shares(0.0),

@@ -215,8 +215,8 @@ def _polygon(case: SolvedRotor, of: str, sides: Sequence[str], closing: str, siz
     return Plan(tuple(vectors), (PlanPoint(Symbol("O"), 0j),), scale=size.note(shown, μ.value, μ.unit))
 
 
-Draw = Callable[[SolvedRotor, FigureSize], Scene]
-FIGURES: Mapping[str, tuple[str, Draw]] = {
+DrawRotor = Callable[[SolvedRotor, FigureSize], Scene]
+FIGURES: Mapping[str, tuple[str, DrawRotor]] = {
     "scheme": ("scheme", two_views),
     "moments": ("plans", moments_plan),
     "unbalances": ("plans", unbalance_plan),

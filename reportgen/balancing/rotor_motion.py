@@ -49,7 +49,7 @@ ACROSS, ALONG, FORCE = 80.0, 150.0, 45.0
 """What both views and the greatest force may fill (mm)."""
 PENS = {BEFORE: Pen(0.5, style.RED), AFTER: Pen(0.5, style.BLUE, style.DASHED)}
 CENTRE = Track(np.zeros(1, complex))
-Turn = NDArray[np.complex128]
+RotorTurns = NDArray[np.complex128]
 
 
 def animation(case: SolvedRotor) -> Animation:
@@ -89,7 +89,7 @@ def _per_force(case: SolvedRotor) -> float:
     return max((abs(force) for _, _, force in forces(case)), default=FORCE) / FORCE
 
 
-def _across(case: SolvedRotor, turn: Turn, per: float) -> Pane:
+def _across(case: SolvedRotor, turn: RotorTurns, per: float) -> Pane:
     masses = placed_masses(case)
     far = max(abs(mass.at) for mass in masses) * per
     angle = Track(np.unwrap(np.angle(turn)))
@@ -107,7 +107,7 @@ def _across(case: SolvedRotor, turn: Turn, per: float) -> Pane:
     return _pane("across", case, items, per, newtons)
 
 
-def _along(case: SolvedRotor, turn: Turn) -> Pane:
+def _along(case: SolvedRotor, turn: RotorTurns) -> Pane:
     masses, places = placed_masses(case), stations(case)
     ends = [*(mass.station for mass in masses), *places.values()]
     far = max(abs(mass.at) for mass in masses)
@@ -166,7 +166,7 @@ def _charts(case: SolvedRotor, knots: NDArray[np.float64]) -> Iterator[Chart]:
             yield Chart(shown, tuple(Curve(symbol, Track(values)) for symbol, values in curves))
 
 
-def _values(case: SolvedRotor, turn: Turn) -> Iterator[MomentValue]:
+def _values(case: SolvedRotor, turn: RotorTurns) -> Iterator[MomentValue]:
     for when, place, force in forces(case):
         symbol = force_symbol(when, place)
         for axis, values in (("x", (force * turn).real), ("y", (force * turn).imag)):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -16,13 +16,11 @@ from reportgen.balancing.piston_orders import first_term
 from reportgen.case import Misconceptions
 from reportgen.case.design import DesignCase
 from reportgen.formula import PI, Expression, Ref, cis, total
+from reportgen.formula.ledger import MistakenValues
 from reportgen.formula.sheet import Sheet
 
 FIRST_TERM = "orders-first-term"
 """The name of a factor that was taken as the first term of its series: A₂ = λ."""
-
-Changed = Iterator[tuple[str, str, Expression]]
-"""Ids of quantities, the name of a mistake, what the quantity becomes by it."""
 
 
 @dataclass(frozen=True)
@@ -113,7 +111,7 @@ class SolvedEngine(DesignCase):
         first_terms = {orders_ids.factor(order): [(FIRST_TERM, first_term(order, λ))] for order in ORDERS[1:]}
         return Misconceptions(changed=changed, approximations=first_terms)
 
-    def _of_stars(self) -> Changed:
+    def _of_stars(self) -> MistakenValues:
         for star in "".join(self.stars.values()):
             for order in ORDERS:
                 id = orders_ids.resultant(star, order)
@@ -129,12 +127,12 @@ class SolvedEngine(DesignCase):
             return abs(total([Ref(orders_ids.arm(place)) * cis(angles[place]) for place in self.cylinders]))
         return abs(total([cis(angles[place]) for place in self.cylinders]))
 
-    def _of_one_cylinder(self) -> Changed:
+    def _of_one_cylinder(self) -> MistakenValues:
         m, r, ω = Ref("orders.m"), Ref("orders.r"), Ref("orders.omega")
         yield orders_ids.factor(2), "orders-inverse-lambda", Ref("orders.l") / r
         yield "orders.K", "orders-speed-once", m * r * ω
 
-    def _of_counterweight(self) -> Changed:
+    def _of_counterweight(self) -> MistakenValues:
         r, m, m_A, ω = (Ref(f"orders.{name}") for name in ("r", "m", "mA", "omega"))
         if self.given.m2 is None:
             return

@@ -12,10 +12,8 @@ from reportgen.balancing.rotor_sheet import AFTER, BEFORE, RotorSheet, resultant
 from reportgen.case import Misconceptions
 from reportgen.case.design import DesignCase
 from reportgen.formula import PI, Expression, Number, Ref, cis, heading
+from reportgen.formula.ledger import MistakenValues
 from reportgen.formula.sheet import ZERO, Sheet
-
-Changed = Iterator[tuple[str, str, Expression]]
-"""Ids of quantities, the name of a mistake, what the quantity becomes by it."""
 
 
 @dataclass(frozen=True)
@@ -94,7 +92,7 @@ class SolvedRotor(DesignCase):
     def _V(self) -> Mapping[str, Expression]:
         return {place: Ref(rotor_ids.moment(place)) for place in self.moments}
 
-    def _of_planes(self) -> Changed:
+    def _of_planes(self) -> MistakenValues:
         """What goes wrong with two planes."""
         if not self.two_planes:
             return
@@ -125,12 +123,12 @@ class SolvedRotor(DesignCase):
             if self.ledger[rotor_ids.station(place)].values[0] != at[LEFT]:
                 yield Ref(rotor_ids.station(place))
 
-    def _of_sides(self) -> Changed:
+    def _of_sides(self) -> MistakenValues:
         """The mass put where the unbalance is, not opposite to it."""
         for of, plane in (("V", RIGHT), ("U", LEFT)):
             yield rotor_ids.direction(plane), "rotor-wrong-side", heading(Ref(rotor_ids.drawn(of, plane))) + PI
 
-    def _of_degrees(self) -> Changed:
+    def _of_degrees(self) -> MistakenValues:
         """A calculator set to radians that is fed with degrees, for all masses."""
         α = {place: in_degrees(angle) for place, angle in self._α.items()}
         static, name = resultant(self._U, α), "degrees-for-radians"
@@ -156,7 +154,7 @@ class SolvedRotor(DesignCase):
         yield rotor_ids.at_bearing(BEFORE, place), Number(1.0)
         yield rotor_ids.bearing_force(BEFORE, place), Ref("rotor.omega") ** 2
 
-    def _of_speed(self) -> Changed:
+    def _of_speed(self) -> MistakenValues:
         """U ω for U ω²."""
         for when in (BEFORE, AFTER):
             for place in BEARINGS:
@@ -168,7 +166,7 @@ def in_degrees(angle: Expression) -> Expression:
     return angle * 180 / PI
 
 
-def taken(plane: str, name: str, correction: Expression) -> Changed:
+def taken(plane: str, name: str, correction: Expression) -> MistakenValues:
     """A vector taken for the correction in a plane: its size and its direction."""
     yield rotor_ids.unbalance(plane), name, abs(correction)
     yield rotor_ids.direction(plane), name, heading(correction)

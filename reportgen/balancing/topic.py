@@ -10,7 +10,7 @@ from pydantic import Field
 from reportgen.assignment.common import Part
 from reportgen.assignment.fields import Length, Share
 from reportgen.balancing import balance_ids
-from reportgen.balancing.counterweights import Balancing, Rule, crank_rods, four_bar
+from reportgen.balancing.counterweights import Balancing, CounterweightRule, crank_rods, four_bar
 from reportgen.base.errors import Finding
 from reportgen.catalogue.declared_loads import Link, listed
 from reportgen.catalogue.topic_sections import Opening, TopicData, TopicParameters, TopicSection
@@ -25,7 +25,7 @@ RODS = ("rotating", "share")
 class CrankCounterweight(Part):
     """A counterweight on the crank, some way from its centre, by the first of some rules; the others are compared."""
 
-    rules: Annotated[tuple[Rule, ...], Field(min_length=1, max_length=MOST_RULES)]
+    rules: Annotated[tuple[CounterweightRule, ...], Field(min_length=1, max_length=MOST_RULES)]
     share: Share | None = None
     radius: Length
 

@@ -25,7 +25,7 @@ from reportgen.cam.profile import Cam, greatest
 from reportgen.formula import Ref
 from reportgen.formula.evaluation import evaluate
 
-Rule = Literal["apex", "rise", "return"]
+LimitingLine = Literal["apex", "rise", "return"]
 """What decides: both lines together, or that of one phase."""
 SHARE_OF_RHO, SHARE_OF_R0 = 0.8, 0.4
 """A roller is no larger than these shares of the least radius of curvature and of the base circle."""
@@ -66,7 +66,7 @@ class Least:
     `most` is the largest ψ₀ within them.
     """
 
-    rule: Rule
+    rule: LimitingLine
     r0: float
     e: float = 0.0
     s0: float = 0.0
@@ -127,7 +127,7 @@ def least_translating(motion: FollowerMotion, limits: CamLimits, e: float | None
         # Where nothing limits the return, the follower only stays above the cam's centre.
         return 0.0 if back is None else float(valued(formulas.height_by_return, back.bound, offset, α2))
 
-    def at(rule: Rule, s0: float, offset: float) -> Least:
+    def at(rule: LimitingLine, s0: float, offset: float) -> Least:
         r0 = float(valued(formulas.base_radius, s0, offset))
         return Least(rule, r0, offset, s0, rise=rise, back=back, apex=apex)
 
@@ -157,7 +157,7 @@ def least_oscillating(motion: FollowerMotion, limits: CamLimits, arm: float, opp
         bounds.append(bounded(motion, "return", limits.back or USUAL_BY_SPRING, arm, opposite, a))
     touches, most = [touch for touch, _ in bounds], min(most for _, most in bounds)
     back = touches[1] if len(touches) > 1 else None
-    rule: Rule = "return" if back is not None and back.bound > touches[0].bound else "rise"
+    rule: LimitingLine = "return" if back is not None and back.bound > touches[0].bound else "rise"
     ψ0 = max(touch.bound for touch in touches)
     if not 0 < ψ0 <= most or ψ0 + motion.stroke >= math.pi:
         return None

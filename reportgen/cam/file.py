@@ -79,7 +79,7 @@ Moving = Annotated[Given, quantity("deg", least=1, below=360)]
 Resting = Annotated[Given, quantity("deg", least=0, below=360)]
 Permissible = Annotated[Given, quantity("deg", least=5, most=85)]
 Ordinate = Annotated[float, Decimal(Interval(least=-1e6, most=1e6))]
-Nodes = Field(min_length=2, max_length=60)
+LawNodes = Field(min_length=2, max_length=60)
 Roller = quantity("mm", least=0.1, below=1e4)
 
 
@@ -95,8 +95,8 @@ class Phases(Part):
 class AccelerationTable(Part):
     """An acceleration as a graph: ordinates in any unit over x from 0 to 1; a repeated x is a jump."""
 
-    x: Annotated[tuple[Annotated[float, Decimal(Interval(least=0, most=1))], ...], Nodes]
-    a: Annotated[tuple[Ordinate, ...], Nodes]
+    x: Annotated[tuple[Annotated[float, Decimal(Interval(least=0, most=1))], ...], LawNodes]
+    a: Annotated[tuple[Ordinate, ...], LawNodes]
 
 
 LawName = Literal["uniform", "parabolic", "cosine", "sine", "3-4-5", "4-5-6-7", "trapezoidal"]

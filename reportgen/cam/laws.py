@@ -19,7 +19,7 @@ from reportgen.base.arrays import Floats
 from reportgen.formula import PI, Expression, Negative, Operand, Ref, as_expression, cos, sin
 from reportgen.formula.evaluation import evaluate
 
-Formula = Callable[[Expression], Operand]
+LawFormula = Callable[[Expression], Operand]
 NODE = 1e-12
 """Places of a turn (rad), or of a law, that are no farther apart are one."""
 JUMP = 1e-9
@@ -32,14 +32,14 @@ class Piece:
 
     start: float
     stop: float
-    S: Formula
-    V: Formula
-    A: Formula
+    S: LawFormula
+    V: LawFormula
+    A: LawFormula
     node: int = -1
 
 
 Pieces = tuple[Piece, ...]
-Named = Callable[[str, int], Operand]
+NodeQuantity = Callable[[str, int], Operand]
 """A value of a node: A, V, S or J."""
 
 
@@ -77,7 +77,7 @@ class AccelerationGraph:
         return np.divide(np.diff(self.nodes[0]), Δ, out=np.zeros(Δ.size), where=Δ > NODE)
 
     def pieces(
-        self, named: Named | None = None, beyond: Callable[[Expression, int], Expression] | None = None
+        self, named: NodeQuantity | None = None, beyond: Callable[[Expression, int], Expression] | None = None
     ) -> Pieces:
         """A cubic S between each two nodes; `named` are values at nodes as the ledger calls them, `beyond` x − xᵢ."""
         A, V, S = self.nodes
@@ -113,7 +113,9 @@ def _integrated(x: Floats, a: Floats) -> tuple[Floats, Floats]:
     return V, np.concatenate(([0.0], np.cumsum(V[:-1] * Δ + (2 * a[:-1] + a[1:]) * Δ**2 / 6)))
 
 
-def _cubic(i: int, start: float, stop: float, at: Named, beyond: Callable[[Expression, int], Expression]) -> Piece:
+def _cubic(
+    i: int, start: float, stop: float, at: NodeQuantity, beyond: Callable[[Expression, int], Expression]
+) -> Piece:
     """The piece behind node i: with z = x − xᵢ it is A = Aᵢ + Jᵢz, and V and S are its integrals."""
 
     def S(x: Expression) -> Operand:
@@ -195,7 +197,7 @@ class FollowerLaw:
         return SVA[0], SVA[1], SVA[2]
 
 
-def evaluated(of: Formula, x: Floats) -> Floats:
+def evaluated(of: LawFormula, x: Floats) -> Floats:
     """The values of a formula, of no dimension, over x [N]."""
     formula = of(Ref("x"))
     return np.broadcast_to(formula if isinstance(formula, float) else evaluate(formula, {"x": x}), x.shape)

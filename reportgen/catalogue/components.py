@@ -9,24 +9,24 @@ import math
 
 from reportgen.formula import NOTHING, Expression, Number, cosine, minus, plus, sine, times
 
-Pair = tuple[Expression, Expression]
+VectorComponents = tuple[Expression, Expression]
 """A vector by its components."""
-STILL: Pair = (NOTHING, NOTHING)
+STILL: VectorComponents = (NOTHING, NOTHING)
 
 
-def add(*vectors: Pair) -> Pair:
+def add(*vectors: VectorComponents) -> VectorComponents:
     return plus(*(x for x, _ in vectors)), plus(*(y for _, y in vectors))
 
 
-def less(p: Pair, q: Pair) -> Pair:
+def less(p: VectorComponents, q: VectorComponents) -> VectorComponents:
     return add(p, (minus(q[0]), minus(q[1])))
 
 
-def scaled(factor: Expression, vector: Pair) -> Pair:
+def scaled(factor: Expression, vector: VectorComponents) -> VectorComponents:
     return times(factor, vector[0]), times(factor, vector[1])
 
 
-def turned(vector: Pair) -> Pair:
+def turned(vector: VectorComponents) -> VectorComponents:
     """The vector turned by 90° anticlockwise."""
     return minus(vector[1]), vector[0]
 
@@ -44,23 +44,23 @@ def as_typed(value: float) -> float:
     return float(f"{value:.13g}") + 0.0
 
 
-def along(angle: Expression) -> Pair:
+def along(angle: Expression) -> VectorComponents:
     """The unit vector e at an angle."""
     return cosine(angle), sine(angle)
 
 
-def on(vector: Pair, angle: Expression) -> Expression:
+def on(vector: VectorComponents, angle: Expression) -> Expression:
     """The projection on e at an angle."""
     e = along(angle)
     return plus(times(vector[0], e[0]), times(vector[1], e[1]))
 
 
-def across(vector: Pair, angle: Expression) -> Expression:
+def across(vector: VectorComponents, angle: Expression) -> Expression:
     """The projection on n, square to e at an angle."""
     e = along(angle)
     return plus(times(vector[1], e[0]), minus(times(vector[0], e[1])))
 
 
-def typed(place: complex) -> Pair:
+def typed(place: complex) -> VectorComponents:
     """A typed place (m) as it stands in formulas."""
     return Number(as_typed(place.real)), Number(as_typed(place.imag))

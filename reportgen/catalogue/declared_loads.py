@@ -24,10 +24,10 @@ from reportgen.assignment.fields import (
     Force,
     ForceUnit,
     Nodes,
+    NodeValues,
     Offset,
     Reader,
     UnitOf,
-    Values,
     Whole,
     fault,
     quantity,
@@ -97,7 +97,7 @@ class OverAngle(_Listed):
 
     by: Literal["angle"]
     angle: CycleAngles
-    values: Values
+    values: NodeValues
 
     shown: ClassVar[tuple[float, str]] = (180 / math.pi, " deg")
 
@@ -111,7 +111,7 @@ class OverWay(_Listed):
 
     by: Literal["way"]
     way: DriverWays
-    values: Values
+    values: NodeValues
 
     shown: ClassVar[tuple[float, str]] = (1e3, " mm")
 

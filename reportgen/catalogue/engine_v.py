@@ -33,7 +33,7 @@ TURNS = 1
 
 Indicator = given_loads.Diagram
 INDICATOR_OPTIONAL = True
-Force = Annotated[Given, quantity("N", least=-1e7, most=1e7, tiny=1e-6)]
+EngineForce = Annotated[Given, quantity("N", least=-1e7, most=1e7, tiny=1e-6)]
 
 
 class Parameters(Driven, masses=(2, 3, 4, 5), moments=(2, 4), shares=(2, 4), loads=("PC", "PE", "D")):
@@ -45,8 +45,8 @@ class Parameters(Driven, masses=(2, 3, 4, 5), moments=(2, 4), shares=(2, 4), loa
     DE: Length
     alpha: Angle
     beta: Angle
-    PC: Force | None = None
-    PE: Force | None = None
+    PC: EngineForce | None = None
+    PE: EngineForce | None = None
     D: Length | None = None
     second_top: Annotated[int, Whole(1, 2)] = 2
 

@@ -14,16 +14,16 @@ from reportgen.assignment.fields import (
     ForceUnit,
     Fractions,
     Nodes,
+    NodeValues,
     Pressure,
     PressureUnit,
-    Values,
     quantity,
 )
 from reportgen.base.units import Given
 from reportgen.catalogue.declared_loads import against
 from reportgen.formula import ids
 from reportgen.machine import Linkage
-from reportgen.machine.gas import STROKES, AngleIndicator, Indicator, StrokeIndicator
+from reportgen.machine.gas import STROKES, AngleIndicator, IndicatorTable, StrokeIndicator
 from reportgen.machine.laws import ConstantLaw, Law, by_angle, by_stroke
 from reportgen.machine.loads import Torque, crank_motion
 
@@ -48,10 +48,10 @@ class ByStroke(_Diagram):
     unit: PressureUnit
     by: Literal["stroke"]
     s: Fractions
-    intake: Values
-    compression: Values
-    expansion: Values
-    exhaust: Values
+    intake: NodeValues
+    compression: NodeValues
+    expansion: NodeValues
+    exhaust: NodeValues
 
     @property
     def table(self) -> StrokeIndicator:
@@ -65,7 +65,7 @@ class ByCrankAngle(_Diagram):
     unit: PressureUnit
     by: Literal["crank_angle"]
     angle: CycleAngles
-    p: Values
+    p: NodeValues
 
     @property
     def table(self) -> AngleIndicator:
@@ -79,7 +79,7 @@ class ByOrdinates(_Diagram):
     by: Literal["ordinates"]
     scale: Pressure
     angle: CycleAngles
-    height: Values
+    height: NodeValues
 
     @property
     def table(self) -> AngleIndicator:
@@ -110,7 +110,7 @@ class ConstantForce(Part):
     stroke: Literal["both", "inward", "outward"] = "both"
 
     @property
-    def table(self) -> Indicator:
+    def table(self) -> IndicatorTable:
         """Forces (N) over the stroke."""
         both = (self.F.si, self.F.si)
         inward, outward = ((0.0, 0.0) if self.stroke == other else both for other in ("outward", "inward"))
@@ -123,11 +123,11 @@ class ForceOverStroke(Part):
     by: Literal["stroke"]
     unit: ForceUnit
     s: Fractions
-    inward: Values
-    outward: Values
+    inward: NodeValues
+    outward: NodeValues
 
     @property
-    def table(self) -> Indicator:
+    def table(self) -> IndicatorTable:
         """Forces (N) over the stroke."""
         inward, outward = (tuple(f * self.unit.si for f in row) for row in (self.inward, self.outward))
         return by_stroke(self.s, inward, outward)
@@ -139,10 +139,10 @@ class ForceOverAngle(Part):
     by: Literal["crank_angle"]
     unit: ForceUnit
     angle: TurnAngles
-    F: Values
+    F: NodeValues
 
     @property
-    def table(self) -> Indicator:
+    def table(self) -> IndicatorTable:
         """Forces (N) over the turn."""
         return by_angle(tuple(angle.si for angle in self.angle), tuple(f * self.unit.si for f in self.F))
 
@@ -152,10 +152,10 @@ class PressingForce(Part):
 
     unit: ForceUnit
     s: Fractions
-    P: Values
+    P: NodeValues
 
     @property
-    def table(self) -> Indicator:
+    def table(self) -> IndicatorTable:
         """Forces (N) over the stroke."""
         down = tuple(force * self.unit.si for force in self.P)
         return by_stroke(self.s, down, tuple(0.0 for _ in down))

@@ -122,7 +122,7 @@ def _fixed_points(given: file.Parameters, link: int, placed: _Placed) -> Iterato
             yield from placed.enter(name, (*TOP, "points", name))
 
 
-def _group(given: file.Parameters, group: file.Group, at: Where, placed: _Placed) -> Iterator[Finding]:
+def _group(given: file.Parameters, group: file.GroupSection, at: Where, placed: _Placed) -> Iterator[Finding]:
     taken = set(placed.links)
     for index, link in enumerate(group.links):
         if link in taken:
@@ -256,7 +256,7 @@ def _along_the_way(
         yield from _slots(given, made, solve_motion(made, np.linspace(start.si, end.si, STEPS + 1), driver.rate))
 
 
-def _rods(group: file.Group) -> str:
+def _rods(group: file.GroupSection) -> str:
     """A group's links by the letters of their joints."""
     names = group.joints
     match group.type:

@@ -19,8 +19,8 @@ from reportgen.assignment.fields import (
     Length,
     Mass,
     MomentOfInertia,
+    NodeValues,
     RotationalSpeed,
-    Values,
     Weight,
     Whole,
     quantity,
@@ -36,13 +36,13 @@ MOST_GROUPS = 12
 MOST_NAMES = 60
 Carrier = Annotated[int, Whole(0, LAST_LINK)]
 GroupLink = Annotated[int, Whole(2, LAST_LINK)]
-Speed = Annotated[Given, quantity("m/s", least=1e-6, most=1e3)]
+DriverSpeed = Annotated[Given, quantity("m/s", least=1e-6, most=1e3)]
 
 NOWHERE = Given(0.0, 0.0, "mm", "0 mm")
 
 
-Place = Annotated[tuple[Coordinate, ...], Field(min_length=2, max_length=2)]
-Pair = Annotated[tuple[GroupLink, ...], Field(min_length=2, max_length=2)]
+PointCoordinates = Annotated[tuple[Coordinate, ...], Field(min_length=2, max_length=2)]
+TwoGroupLinks = Annotated[tuple[GroupLink, ...], Field(min_length=2, max_length=2)]
 Two = Annotated[tuple[Name, ...], Field(min_length=2, max_length=2)]
 Three = Annotated[tuple[Name, ...], Field(min_length=3, max_length=3)]
 Lengths = Annotated[tuple[Length, ...], Field(min_length=2, max_length=2)]
@@ -60,7 +60,7 @@ class GuideSection(Part):
     `slot` are the least and the greatest way of the slider from `at` in that direction.
     """
 
-    at: Place = (NOWHERE, NOWHERE)
+    at: PointCoordinates = (NOWHERE, NOWHERE)
     angle: Angle = LEVEL
     on: Carrier = 0
     slot: Ways | None = None
@@ -113,7 +113,7 @@ class SlideDriver(Part):
     guide: GuideSection = GuideSection()
     start: Coordinate = NOWHERE
     end: Coordinate
-    speed: Speed
+    speed: DriverSpeed
     acceleration: Acceleration | None = None
 
     @property
@@ -150,7 +150,7 @@ class RRR(Part):
     """
 
     type: Literal["RRR"]
-    links: Pair
+    links: TwoGroupLinks
     joints: Three
     lengths: Lengths
     side: Literal["left", "right"]
@@ -169,7 +169,7 @@ class RRP(Part):
     """A rod from the first of `joints` to the pin of a slider, the farther or nearer way along its guide."""
 
     type: Literal["RRP"]
-    links: Pair
+    links: TwoGroupLinks
     joints: Two
     length: Length
     guide: GuideSection
@@ -191,7 +191,7 @@ class RPR(Part):
     """
 
     type: Literal["RPR"]
-    links: Pair
+    links: TwoGroupLinks
     joints: Three
     offset: Coordinate = NOWHERE
     axis: Literal["towards", "away"] = "towards"
@@ -208,7 +208,7 @@ class PRP(Part):
     """Two sliders with a common pin, each on its guide."""
 
     type: Literal["PRP"]
-    links: Pair
+    links: TwoGroupLinks
     joints: Annotated[tuple[Name, ...], Field(min_length=1, max_length=1)]
     guides: Annotated[tuple[GuideSection, ...], Field(min_length=2, max_length=2)]
 
@@ -227,7 +227,7 @@ class RPP(Part):
     """
 
     type: Literal["RPP"]
-    links: Pair
+    links: TwoGroupLinks
     joints: Two
     guide: GuideSection
     across: Angle = Given(math.pi / 2, 90.0, "deg", "90 deg")
@@ -239,10 +239,10 @@ class RPP(Part):
         return Dyad("RPP", _pair(self.links), start, middle, self.guide.line, slide_angle=self.across.si)
 
 
-Group = Annotated[RRR | RRP | RPR | PRP | RPP, Field(discriminator="type")]
+GroupSection = Annotated[RRR | RRP | RPR | PRP | RPP, Field(discriminator="type")]
 
 
-def rails(group: Group) -> list[tuple[int, GuideSection, Where]]:
+def rails(group: GroupSection) -> list[tuple[int, GuideSection, Where]]:
     """The guides of a group: the link that slides on each, the guide, its place in the group's section."""
     match group:
         case PRP(links=links, guides=guides):
@@ -259,7 +259,7 @@ class Point(Part):
     """A point of a link: its distances from the link's first joint along the link and to the left of it."""
 
     link: Link
-    at: Place
+    at: PointCoordinates
 
 
 class Body(Part):
@@ -283,8 +283,8 @@ class OverStroke(Part):
     link: Link
     unit: ForceUnit
     s: Fractions
-    inward: Values
-    outward: Values
+    inward: NodeValues
+    outward: NodeValues
 
 
 class Gas(Part):
@@ -308,15 +308,15 @@ class Declared(Part):
 
     W: Annotated[int, Whole(0, 9)] | None = None
     class_: Annotated[int, Whole(1, 9)] | None = Field(default=None, alias="class")
-    groups: Annotated[tuple[Pair, ...], Field(max_length=MOST_GROUPS)] | None = None
+    groups: Annotated[tuple[TwoGroupLinks, ...], Field(max_length=MOST_GROUPS)] | None = None
 
 
 class Parameters(UnderGravity):
     """A linkage as the user declares it."""
 
-    frame: Annotated[dict[Name, Place], Field(max_length=MOST_NAMES)] = Field(default_factory=dict)
+    frame: Annotated[dict[Name, PointCoordinates], Field(max_length=MOST_NAMES)] = Field(default_factory=dict)
     driver: Driver
-    groups: Annotated[tuple[Group, ...], Field(min_length=1, max_length=MOST_GROUPS)]
+    groups: Annotated[tuple[GroupSection, ...], Field(min_length=1, max_length=MOST_GROUPS)]
     points: Annotated[dict[Name, Point], Field(max_length=MOST_NAMES)] = Field(default_factory=dict)
     masses: Annotated[tuple[Body, ...], Field(max_length=LAST_LINK)] = ()
     loads: Annotated[tuple[Loading, ...], Field(max_length=LAST_LINK)] = ()

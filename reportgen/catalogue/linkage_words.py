@@ -165,7 +165,7 @@ def _motions(given: file.Parameters) -> Iterator[MotionRow]:
                 yield MotionRow(link, "rotation", end) if end in given.frame else MotionRow(link, "plane")
 
 
-def _group(group: file.Group) -> GroupRow:
+def _group(group: file.GroupSection) -> GroupRow:
     joints = group.joints
     row = partial(GroupRow, group.dyad.links, group.type, joints)
     match group:

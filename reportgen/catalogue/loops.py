@@ -21,7 +21,19 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 
-from reportgen.catalogue.components import STILL, Pair, across, add, along, degrees, less, on, scaled, turned, typed
+from reportgen.catalogue.components import (
+    STILL,
+    VectorComponents,
+    across,
+    add,
+    along,
+    degrees,
+    less,
+    on,
+    scaled,
+    turned,
+    typed,
+)
 from reportgen.catalogue.given_sheet import natural_sizes
 from reportgen.formula import (
     MINUS_ONE,
@@ -67,9 +79,9 @@ STRAIGHT = Number(180.0, unit="°")
 class Moving:
     """A point: its coordinates, its velocity and its acceleration by components."""
 
-    p: Pair
-    v: Pair = STILL
-    a: Pair = STILL
+    p: VectorComponents
+    v: VectorComponents = STILL
+    a: VectorComponents = STILL
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,12 +94,12 @@ class LoopBody:
     omega: Expression = NOTHING
     eps: Expression = NOTHING
 
-    def place(self, local: complex) -> Pair:
+    def place(self, local: complex) -> VectorComponents:
         """The place of a point by its typed distances (m) along the link and across it."""
         e, (u, w) = along(self.angle), typed(local)
         return add(self.origin.p, scaled(u, e), scaled(w, turned(e)))
 
-    def carried(self, at: Pair) -> Moving:
+    def carried(self, at: VectorComponents) -> Moving:
         """Its point at a place: v = v_O + ω ir, a = a_O + ε ir − ω² r."""
         r = less(at, self.origin.p)
         v = add(self.origin.v, scaled(self.omega, turned(r)))
@@ -102,7 +114,7 @@ FRAME = LoopBody("", Moving(STILL), Number(0.0, unit="°"))
 class LoopRail:
     """A guide: a point of its line, its angle, the link that has it."""
 
-    at: Pair
+    at: VectorComponents
     angle: Expression
     carrier: LoopBody
     link: int
@@ -119,7 +131,7 @@ class LoopLine:
     part: str
 
 
-Sides = tuple[Expression, Expression, Pair]
+Sides = tuple[Expression, Expression, VectorComponents]
 """Both unknown rates and the right-hand side of their equations."""
 RATES = {"v": "velocity", "a": "acceleration"}
 
@@ -139,8 +151,8 @@ class ClosedLoops:
 
     linkage: Linkage
     turn: int
-    fixed: Mapping[str, Pair]
-    guides: Mapping[int, Pair] = field(default_factory=dict)
+    fixed: Mapping[str, VectorComponents]
+    guides: Mapping[int, VectorComponents] = field(default_factory=dict)
     accelerates: float = 0.0
     lines: list[LoopLine] = field(default_factory=list)
     equations: dict[str, tuple[Chain, ...]] = field(default_factory=dict)
@@ -186,14 +198,14 @@ class ClosedLoops:
         self.points[name] = Moving(at, v, a)
         return self.points[name]
 
-    def coordinates(self, name: str, at: Pair) -> Pair:
+    def coordinates(self, name: str, at: VectorComponents) -> VectorComponents:
         x, y = (
             part if isinstance(part, Ref | Number) else self.line("place", ids.formula_coordinate(axis, name), part)
             for axis, part in zip("xy", at, strict=True)
         )
         return x, y
 
-    def components(self, what: str, name: str, of: Pair, plan: bool) -> Pair:
+    def components(self, what: str, name: str, of: VectorComponents, plan: bool) -> VectorComponents:
         kind = RATES[what]
         x, y = (
             part
@@ -218,14 +230,14 @@ class ClosedLoops:
     def eps(self, link: int, formula: Expression) -> Ref:
         return self.known("acceleration", ids.angular_acceleration(link), formula)
 
-    def shown(self, u: Pair, w: Pair, velocity: Sides, acceleration: Sides) -> None:
+    def shown(self, u: VectorComponents, w: VectorComponents, velocity: Sides, acceleration: Sides) -> None:
         """The equations in matrix form: both unknowns and the right-hand side of each."""
         A = Matrix(((u[0], w[0]), (u[1], w[1])))
         for what, sides in {"velocity": velocity, "acceleration": acceleration}.items():
             first, second, right = sides
             self.equations[f"{what}-{self.group}"] = (Chain((A * column(first, second), column(*right))),)
 
-    def closure(self, outward: Pair, back: Pair) -> None:
+    def closure(self, outward: VectorComponents, back: VectorComponents) -> None:
         self.equations[f"closure-{self.group}"] = tuple(Chain(sides) for sides in zip(outward, back, strict=True))
 
     # --- ends of a group
@@ -240,7 +252,7 @@ class ClosedLoops:
         turned_angle = angle if isinstance(angle, Ref) else self.line("place", ids.formula_angle(slider), angle)
         return LoopRail(body.place(end.at), turned_angle, body, end.link)
 
-    def beneath(self, name: str, rail: LoopRail, at: Pair, plan: bool = True) -> Moving:
+    def beneath(self, name: str, rail: LoopRail, at: VectorComponents, plan: bool = True) -> Moving:
         """The point of a guide's link that lies under a point."""
         if rail.link == GROUND:
             return Moving(at)
@@ -254,7 +266,7 @@ class ClosedLoops:
             if point.link == link:
                 self.point(point.name, body.carried(self.coordinates(point.name, self._place_of(point, body))))
 
-    def _place_of(self, point: LinkPoint, body: LoopBody) -> Pair:
+    def _place_of(self, point: LinkPoint, body: LoopBody) -> VectorComponents:
         """On the line of its link a point has a length, elsewhere its two typed distances."""
         if point.local.imag or not point.local:
             return body.place(point.local)

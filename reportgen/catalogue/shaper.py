@@ -32,14 +32,14 @@ CENTRES = {2: "B", 3: "S3", 4: "S4", 5: "E"}
 """Mass centres of the links that may have mass."""
 RODS = {3: "CD", 4: "DE"}
 
-Force = Annotated[Given, quantity("N", least=1e-6, most=1e7)]
+ToolForce = Annotated[Given, quantity("N", least=1e-6, most=1e7)]
 FreeShare = Annotated[Given, Ratio(Interval(least=0, below=0.5, tiny=1e-6))]
 
 
 class CuttingForce(Part):
     """The force F against the tool while it cuts, and the share of the stroke at each end where it does not."""
 
-    F: Force
+    F: ToolForce
     free: FreeShare = Given(0.0, 0.0, "", "0")
 
 

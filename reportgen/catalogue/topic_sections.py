@@ -27,7 +27,7 @@ from reportgen.machine.shared_results import SharedResult
 Section = TypeVar("Section")
 Datum = Callable[[str, Given, Symbol | str, str], Ref]
 """Enters a quantity as typed on a sheet: its id, the given value, its symbol, its kind."""
-Place = Literal["loads", "groups", "driver"]
+ChapterPlace = Literal["loads", "groups", "driver"]
 """Where a chapter stands: behind the loads, behind the groups, behind the balance of the driver."""
 
 
@@ -126,7 +126,7 @@ class TopicSection:
     annotation: object
     order: int
     chapter: str
-    place: Place = "driver"
+    place: ChapterPlace = "driver"
     default: object = None
     not_in_short: frozenset[str] = frozenset()
     """The parts of the chapter that a short report goes without."""
@@ -242,6 +242,6 @@ def on_whole_turns(topic: str) -> Callable[[type[TopicParameters]], tuple[Check,
     return checks
 
 
-def chapters(names: Iterable[str], place: Place) -> tuple[str, ...]:
+def chapters(names: Iterable[str], place: ChapterPlace) -> tuple[str, ...]:
     """Return the chapters of some topics at a place of the report."""
     return tuple(section.chapter for section in sections_of(names) if section.place == place)

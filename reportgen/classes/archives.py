@@ -37,7 +37,7 @@ _UNICODE_PATH = 0x7075
 """The extra field in which Info-ZIP writes the name in UTF-8."""
 _DRIVES = frozenset("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz")
 
-Judge = Callable[[Sequence[str]], int]
+CountStudents = Callable[[Sequence[str]], int]
 """How many of some names are those of students."""
 
 
@@ -63,7 +63,7 @@ class Archive:
 
 
 @contextmanager
-def opened(path: Path, data: bytes | None, judge: Judge) -> Iterator[Archive]:
+def opened(path: Path, data: bytes | None, judge: CountStudents) -> Iterator[Archive]:
     """Open an archive on disk, or one whose content `data` is; `path` names it.
 
     Raises `RefusedError` for one that is damaged, encrypted, unpacks to too much or has names that lead elsewhere; also
@@ -84,7 +84,7 @@ def opened(path: Path, data: bytes | None, judge: Judge) -> Iterator[Archive]:
         raise RefusedError("unreadable", mark, reason=cause(error)) from None
 
 
-def decoded_names(infos: Sequence[zipfile.ZipInfo], judge: Judge) -> list[str]:
+def decoded_names(infos: Sequence[zipfile.ZipInfo], judge: CountStudents) -> list[str]:
     """Return the names of members, by the encoding that gives most students; at a tie by the first."""
     known = [_stated(info) for info in infos]
     raw = {k: infos[k].orig_filename.encode("cp437", "replace") for k, name in enumerate(known) if name is None}

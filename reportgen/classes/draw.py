@@ -38,7 +38,7 @@ MOST_TRIED = 4096
 MOST_REASONS = 3
 FORMAT = "reportgen-draw/1"
 
-Judge = Callable[[Settings], tuple[Fault, ...]]
+FindFaults = Callable[[Settings], tuple[Fault, ...]]
 """Finds what is wrong with the assignment of some values; nothing if it is usable."""
 Combination = tuple[int, ...]
 Key = frozenset[tuple[str, str]]
@@ -64,7 +64,7 @@ class Draw:
     """A draw under way: how often each variant is taken, how each was judged, and what makes the draw impossible."""
 
     spec: Spec
-    judge: Judge
+    judge: FindFaults
     taken: Counter[Key] = field(default_factory=Counter)
     judged: dict[Key, tuple[Fault, ...]] = field(default_factory=dict)
     keys: dict[Combination, Key] = field(default_factory=dict)
@@ -224,7 +224,7 @@ def shared(drawn: Iterable[DrawnVariant]) -> list[tuple[DrawnVariant, ...]]:
     return [tuple(group) for group in groups.values() if len(group) > 1]
 
 
-def judge_of(spec: Spec) -> Judge:
+def judge_of(spec: Spec) -> FindFaults:
     """Judges variants of a spec: each must pass `check`, turn fully and have finite results."""
 
     def judge(settings: Settings) -> tuple[Fault, ...]:

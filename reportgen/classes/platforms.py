@@ -129,7 +129,7 @@ def _noted(handed: Iterator[Handed], with_work: set[str]) -> Iterator[Handed]:
         yield file
 
 
-def _from_archive(archive: Handed, people: Collection[Words], depth: int) -> Iterator[Handed]:
+def _from_archive(archive: Handed, people: Collection[HeaderWords], depth: int) -> Iterator[Handed]:
     """The sheets in an archive that a student handed in, or the fault for which it is not read."""
     try:
         if depth > DEEPEST:
@@ -141,7 +141,7 @@ def _from_archive(archive: Handed, people: Collection[Words], depth: int) -> Ite
         yield replace(archive, data=None, fault=refused.fault)
 
 
-def _members(handed: Handed, people: Collection[Words], depth: int) -> Iterator[Handed]:
+def _members(handed: Handed, people: Collection[HeaderWords], depth: int) -> Iterator[Handed]:
     """The sheets among the members of an archive, all of whoever handed it in; raises `RefusedError`."""
 
     def judge(names: Sequence[str]) -> int:
@@ -234,10 +234,10 @@ def _without_sheet(place: Path, owners: dict[str, Owner | None], with_work: Coll
             yield Handed(place / name, owner, fault=fault)
 
 
-Words = tuple[str, ...]
+HeaderWords = tuple[str, ...]
 
 
-def _words_of(name: str) -> Words:
+def _words_of(name: str) -> HeaderWords:
     """The words of a name in one order, by which names are compared."""
     return tuple(sorted(_words(name)))
 

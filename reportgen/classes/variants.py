@@ -57,10 +57,10 @@ ONE_PROCESS = 200
 LIMITS = Limits(seconds=60.0, megabytes=1000)
 """For the figures of one file."""
 
-Shown = Callable[[Iterable[Any], int], Iterable[Any]]
+ShowProgress = Callable[[Iterable[Any], int], Iterable[Any]]
 """Passes on what it is given, of which there are so many, and shows how far it has come."""
 
-State = Literal["new", "changed", "same", "kept"]
+FileState = Literal["new", "changed", "same", "kept"]
 """Of a file: made, made anew, left since nothing changed, left since it was edited by hand."""
 
 
@@ -73,7 +73,7 @@ class StudentFile:
 
     drawn: DrawnVariant
     path: Path
-    state: State
+    state: FileState
     text: str
     top: MappingNode
     parts: Mapping[Path, str]
@@ -137,7 +137,7 @@ def make_variants(
     out: Path,
     force: bool = False,
     language: Language | None = None,
-    shown: Shown = lambda files, _: files,
+    shown: ShowProgress = lambda files, _: files,
     shared: Sequence[Path] = (),
     redraw: Sequence[str] = (),
     drop: Sequence[str] = (),
@@ -250,7 +250,7 @@ def _part_text(spec: Spec, drawn: DrawnVariant, top: MappingNode, index: int) ->
     return f"# {whose}\n{text_of(without(item, parts.ABOUT), source.text, source.top)}"
 
 
-def _state(path: Path, body: str, frozen: Mapping[Path, str], force: bool) -> State:
+def _state(path: Path, body: str, frozen: Mapping[Path, str], force: bool) -> FileState:
     try:
         *head, present = _present(path).split("\n", HEAD_LINES)
     except FileNotFoundError:

@@ -33,7 +33,7 @@ from reportgen.document import (
     Text,
 )
 from reportgen.document.layout import contents
-from reportgen.document.numbering import number
+from reportgen.document.numbering import Blocks, number
 
 RUN_IN = 4
 """The level of a heading that stands in its paragraph."""
@@ -41,8 +41,6 @@ SYMBOLS = (34.0, 96.0, 30.0)
 """Widths (mm) of the columns of the parts' symbols."""
 NAMED = (Section, Equation, Table, Figure, Plate, Reference)
 """What has a key or refers to one."""
-
-Blocks = tuple[Block, ...]
 
 
 @dataclass(frozen=True)

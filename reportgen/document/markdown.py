@@ -42,7 +42,7 @@ class Unnumbered:
 
 
 Emitted = tree.Inline | tree.Block | SectionKey | Unnumbered
-Place = tuple[str, int]
+TemplateLine = tuple[str, int]
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,8 +51,8 @@ class Rendered:
 
     text: str
     values: Sequence[Emitted]
-    places: Mapping[int, Place]
-    lines: Sequence[Place]
+    places: Mapping[int, TemplateLine]
+    lines: Sequence[TemplateLine]
 
 
 _BLOCKS = get_args(tree.Block)

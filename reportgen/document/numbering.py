@@ -21,7 +21,7 @@ _COUNTED_LEVELS = 3
 
 _Kind = Literal["equation", "table", "figure"]
 Blocks = tuple[tree.Block, ...]
-Change = Callable[[tree.Inlines], tree.Inlines]
+ChangeInlines = Callable[[tree.Inlines], tree.Inlines]
 
 
 def number(document: tree.Document) -> tree.Document:
@@ -157,12 +157,12 @@ def _walk(blocks: tuple[tree.Block, ...]) -> Iterator[tree.Block]:
                 yield from _walk(item)
 
 
-def _each(blocks: Blocks, change: Change) -> Blocks:
+def _each(blocks: Blocks, change: ChangeInlines) -> Blocks:
     """The blocks with `change` applied to every line of text in them."""
     return tuple(_changed(block, change) for block in blocks)
 
 
-def _changed(block: tree.Block, change: Change) -> tree.Block:
+def _changed(block: tree.Block, change: ChangeInlines) -> tree.Block:
     match block:
         case tree.Section(_, title):
             return replace(block, title=change(title))

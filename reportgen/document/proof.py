@@ -49,7 +49,7 @@ _MARKUP = re.compile(r"#{2,4} |\*\*")
 _ID = re.compile(r"\w+\.[\w.]+")
 _OPENED = re.compile(r"(if|elif|for)\s+(.*)", re.DOTALL)
 
-Named = Callable[[str, Language], Mapping[str, Any]]
+TemplateNames = Callable[[str, Language], Mapping[str, Any]]
 """The names that templates of a kind see in a language, of one machine; none where there is no such machine."""
 
 
@@ -117,7 +117,7 @@ def _condition(statement: str) -> Iterator[Inline]:
         yield Emph((Text(statement.replace("include", "→").replace('"', "")),))
 
 
-def proof(folder: Path, language: Language, words: Mapping[str, Any], named: Named) -> Document:
+def proof(folder: Path, language: Language, words: Mapping[str, Any], named: TemplateNames) -> Document:
     """The proof sheet of a language's folder, which is called so in the headings of its columns."""
     numbers = count(1)
     blocks: list[Block] = [Heading(1, (Text(words["title"].format(language=language)),), numbered=False)]

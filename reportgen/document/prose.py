@@ -57,7 +57,7 @@ from reportgen.document.dialect import (
     numbers,
     short,
 )
-from reportgen.document.markdown import SECRET, Emitted, Place, Rendered, SectionKey, Unnumbered
+from reportgen.document.markdown import SECRET, Emitted, Rendered, SectionKey, TemplateLine, Unnumbered
 from reportgen.document.values import PLAIN, FunctionToken, Marked, Token, Values, held
 from reportgen.formula import Expression, Number, vocabulary
 
@@ -406,7 +406,7 @@ class _Lines:
     """The text so far and the origin of each of its lines."""
 
     text: list[str] = field(default_factory=list)
-    lines: list[Place] = field(default_factory=list)
+    lines: list[TemplateLine] = field(default_factory=list)
     fresh: bool = True
 
     def add(self, static: str, file: str, line: int) -> None:
@@ -449,7 +449,7 @@ def _assemble(output: str, name: str, values: Sequence[Emitted], search: tuple[P
     return Rendered("".join(so_far.text), values, places, so_far.lines)
 
 
-def _origin(error: Exception, search: tuple[Path, ...], name: str) -> Place:
+def _origin(error: Exception, search: tuple[Path, ...], name: str) -> TemplateLine:
     """The innermost line of a template that an exception passed through; Jinja puts them in the traceback.
 
     Of one that was not even read, its own; of one that is nowhere, where it would be.

@@ -49,11 +49,11 @@ _IN_BRACES = re.compile(r"\{[{%#].*?[%}#]\}", re.DOTALL)
 ENDINGS = (0, 0, 0, 0, 1, 1, 2, 2, 3, 3, 3, 4, 4, 5)
 """How many letters of a word may be an ending, by its length."""
 
-Lacking = Callable[[str], str]
+MissingLetters = Callable[[str], str]
 """Those of some letters that no font has."""
 
 
-def faults(folder: Path, lacking: Lacking | None = None) -> Iterator[Fault]:
+def faults(folder: Path, lacking: MissingLetters | None = None) -> Iterator[Fault]:
     """What a language's folder does not say as the language of reference does.
 
     Files of kinds and of topics that are not begun are no fault; one that is begun is compared whole.  Raises
@@ -317,7 +317,7 @@ MOST_LETTERS = 12
 """Where a file has more letters that no font has, a font is missing: that is told once."""
 
 
-def _lines_of(file: Path, lacking: Lacking) -> Iterator[Fault]:
+def _lines_of(file: Path, lacking: MissingLetters) -> Iterator[Fault]:
     """The lines of a file with letters that no font has, or the first one alone."""
     text = file.read_text(encoding="utf-8")
     letters = "".join({letter: None for letter in text if unicodedata.category(letter)[0] in "LNPS"})

@@ -63,7 +63,7 @@ class Reading:
     from_point: complex | None = None
 
 
-Group = Sequence[Reading]
+ReadingGroup = Sequence[Reading]
 """Readings whose numbers stand side by side in one label."""
 
 
@@ -104,7 +104,10 @@ def beside(
 
 
 def indicator(
-    frame: Frame, branches: Sequence[Branch], readings: Sequence[Reading] = (), groups: Sequence[Group] | None = None
+    frame: Frame,
+    branches: Sequence[Branch],
+    readings: Sequence[Reading] = (),
+    groups: Sequence[ReadingGroup] | None = None,
 ) -> Canvas:
     """The diagram with its branches named, its readings numbered and projected from the slider.
 
@@ -136,7 +139,7 @@ MOST_TOGETHER = 6
 """Numbers that one label has at most: more would say no longer which reading is which."""
 
 
-def all_numbered(draw: Callable[[Sequence[Group]], Scene], frame: Frame, readings: Sequence[Reading]) -> Scene:
+def all_numbered(draw: Callable[[Sequence[ReadingGroup]], Scene], frame: Frame, readings: Sequence[Reading]) -> Scene:
     """A scene that shows the number of every reading: one without room stands with its neighbours'.
 
     `draw` makes it of groups of readings that share a label.  What has no room joins the nearest group that has and

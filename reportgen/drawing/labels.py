@@ -37,8 +37,7 @@ from reportgen.drawing.spots import (
     ranking,
     touched,
 )
-
-Segment = tuple[complex, complex]
+from reportgen.drawing.style import Segment
 
 FIRST = 72
 """This many spots are tested at once; the others only if none of these is free."""

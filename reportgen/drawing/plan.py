@@ -22,10 +22,10 @@ from reportgen.drawing.description import Description, arrow, direction, fact
 from reportgen.drawing.geometry import bounds, clipped, clusters, corners_of, on_one_line, unit
 from reportgen.drawing.labels import KEY, Request, label
 
-Style = Literal["known", "relative", "found"]
+VectorStyle = Literal["known", "relative", "found"]
 Titles = Callable[[range, int], str]
 """What stands below a panel, of the stages that it draws and its own number from 0."""
-PENS: dict[Style, Pen] = {"known": style.KNOWN, "relative": style.RELATIVE, "found": style.FOUND}
+PENS: dict[VectorStyle, Pen] = {"known": style.KNOWN, "relative": style.RELATIVE, "found": style.FOUND}
 
 SAME_POINT = 0.05
 """Points nearer than this (mm) look like one point and share a label joined by ≡."""
@@ -67,7 +67,7 @@ class PlanVector(Generic[Corner]):
     name: str
     start: Corner
     end: Corner
-    style: Style = "known"
+    style: VectorStyle = "known"
     label: Content | None = None
     stage: int = 0
     lettered: bool = False

@@ -110,11 +110,11 @@ def enter_end(parts: Parts, point: str, path: AccelerationPath, equation: Projec
         )
 
 
-Finder = Callable[[Parts], bool]
+AccelerationStep = Callable[[Parts], bool]
 """Enters one more rate of a body, or the acceleration of one more point; whether there was one."""
 
 
-def enter_accelerations(derivation: Derivation, finders: Sequence[Finder]) -> None:
+def enter_accelerations(derivation: Derivation, finders: Sequence[AccelerationStep]) -> None:
     """Given rates first; then every rate that follows from them and the velocities, by the first finder that can."""
     parts = Parts(derivation)
     _given(parts)

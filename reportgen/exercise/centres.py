@@ -17,7 +17,7 @@ from reportgen.exercise.places import Geometry, parallel, perpendicular, unit
 from reportgen.exercise.solving import InstantMotion
 from reportgen.formula.constructions import meet
 
-Rule = Literal["pivot", "contact", "normals", "rate", "translation"]
+CentreRule = Literal["pivot", "contact", "normals", "rate", "translation"]
 SAME_PLACE = 1e-9
 """Points nearer than this (m) are one."""
 LETTERS = "PQIK"
@@ -33,7 +33,7 @@ class InstantCentre:
     """
 
     body: int
-    rule: Rule
+    rule: CentreRule
     name: str = ""
     at: complex = 0j
     points: tuple[str, ...] = ()

@@ -16,7 +16,7 @@ import math
 from collections.abc import Sequence
 from itertools import permutations
 
-from reportgen.exercise.closures import Closure, Coordinate, Direction, LoopVector, Turn, WayAlong, legs_of
+from reportgen.exercise.closures import Closure, Direction, GeneralizedCoordinate, LoopVector, Turn, WayAlong, legs_of
 from reportgen.exercise.conditions import GROUND
 from reportgen.exercise.derivatives import RateFormulas
 from reportgen.formula import (
@@ -48,7 +48,7 @@ X_AXIS = Direction(GROUND, 0.0)
 
 
 def closed_form(
-    k: RateFormulas, loop: Closure, legs: Sequence[LoopVector], unknown: Sequence[Coordinate]
+    k: RateFormulas, loop: Closure, legs: Sequence[LoopVector], unknown: Sequence[GeneralizedCoordinate]
 ) -> tuple[str, ...]:
     """Enters the unknown coordinates of a loop; the ids of the lines, none where there is no such form."""
     known = [leg for leg in legs_of(loop) if leg not in legs]

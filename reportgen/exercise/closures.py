@@ -53,7 +53,7 @@ class WayAlong:
     number: int
 
 
-Coordinate = Turn | WayAlong
+GeneralizedCoordinate = Turn | WayAlong
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,7 +68,7 @@ class Direction:
 class CoordinateRate:
     """The derivative of a coordinate; of a point's speed that is no coordinate, the point."""
 
-    of: Coordinate | str
+    of: GeneralizedCoordinate | str
     order: int
 
 
@@ -120,7 +120,7 @@ class StraightWay:
     along: complex
 
 
-Relation = dict[Coordinate, tuple[Expression, float]]
+Relation = dict[GeneralizedCoordinate, tuple[Expression, float]]
 """Σ factor · rate = 0, each factor with its value."""
 
 

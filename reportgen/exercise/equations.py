@@ -15,7 +15,16 @@ from itertools import combinations
 import numpy as np
 
 from reportgen.exercise.closed_form import X_AXIS, closed_form
-from reportgen.exercise.closures import Closure, Coordinate, CoordinateRate, LoopVector, Place, Turn, WayAlong, legs_of
+from reportgen.exercise.closures import (
+    Closure,
+    CoordinateRate,
+    GeneralizedCoordinate,
+    LoopVector,
+    Place,
+    Turn,
+    WayAlong,
+    legs_of,
+)
 from reportgen.exercise.derivation import Step, size_of
 from reportgen.exercise.derivatives import RATES, VELOCITY, RateFormulas, derivative
 from reportgen.exercise.solving import NEGLIGIBLE
@@ -45,7 +54,7 @@ READ = (ids.formula_angle, ids.inner_angle, ids.slide_way, ids.loop_distance)
 """What is read off the figure."""
 Formulas = Mapping[CoordinateRate, Expression]
 """Unknown rates by what is known."""
-Row = dict[tuple[CoordinateRate, ...], float]
+RateFactors = dict[tuple[CoordinateRate, ...], float]
 """The factors of products of rates."""
 MOST_TERMS = 4
 """Of a numerator; the right sides of equations with more of them are worked out first."""
@@ -170,13 +179,13 @@ class EquationsOfMotion(RateFormulas):
     def _place(self, whole: VectorSum, unknown: Sequence[CoordinateRate]) -> tuple[str, ...]:
         """The coordinates of a loop by the others, where that is a closed form; the rest of them is read off."""
         lines: tuple[str, ...] = ()
-        of: list[Coordinate] = [rate.of for rate in unknown if not isinstance(rate.of, str)]
+        of: list[GeneralizedCoordinate] = [rate.of for rate in unknown if not isinstance(rate.of, str)]
         if whole.loop is not None and self.order == VELOCITY and len(of) == 2 and all(map(self._is_open, of)):
             legs = [leg for leg in legs_of(whole.loop) if {Turn(leg.direction.body), leg.way} & {*of}]
             lines = closed_form(self, whole.loop, legs, of)
         return lines
 
-    def _is_open(self, of: Coordinate) -> bool:
+    def _is_open(self, of: GeneralizedCoordinate) -> bool:
         """Whether a coordinate is not in the derivation yet."""
         id = ids.formula_angle(of.body) if isinstance(of, Turn) else self.linked.way_id(of)
         return id not in self.derivation.q
@@ -244,7 +253,7 @@ class EquationsOfMotion(RateFormulas):
                 return True
         return False
 
-    def _numbers(self, sums: Sequence[Sequence[LoopVector]], unknown: Sequence[CoordinateRate]) -> list[Row]:
+    def _numbers(self, sums: Sequence[Sequence[LoopVector]], unknown: Sequence[CoordinateRate]) -> list[RateFactors]:
         """Of each sum the factors of its products of rates, along x and along y."""
         rows = []
         for vectors in sums:

@@ -21,12 +21,12 @@ _ASKED = re.compile(r"(?P<what>v|a|omega|eps|centre)\.(?P<of>[A-Z][0-9]{0,2}|[0-
 Number = Annotated[int, Whole(1, LAST_BODY)]
 NumberOrGround = Annotated[int, Whole(0, LAST_BODY)]
 Bodies = Annotated[tuple[NumberOrGround, ...], Field(min_length=2, max_length=2)]
-Ends = Annotated[tuple[Name, ...], Field(min_length=2, max_length=2)]
-Length = Annotated[Given, Told(quantity("mm", least=0.1, below=1e5))]
-Coordinate = Annotated[Given, Told(quantity("mm", above=-1e5, below=1e5, tiny=1e-4))]
-Place = Annotated[tuple[Coordinate, ...], Field(min_length=2, max_length=2)]
-Speed = Annotated[Given, Told(quantity("m/s", least=-1e4, most=1e4, tiny=1e-9))]
-Acceleration = Annotated[Given, Told(quantity("m/s2", least=-1e6, most=1e6, tiny=1e-9))]
+TwoNames = Annotated[tuple[Name, ...], Field(min_length=2, max_length=2)]
+ExerciseLength = Annotated[Given, Told(quantity("mm", least=0.1, below=1e5))]
+ExerciseCoordinate = Annotated[Given, Told(quantity("mm", above=-1e5, below=1e5, tiny=1e-4))]
+ExercisePoint = Annotated[tuple[ExerciseCoordinate, ...], Field(min_length=2, max_length=2)]
+ExerciseSpeed = Annotated[Given, Told(quantity("m/s", least=-1e4, most=1e4, tiny=1e-9))]
+ExerciseAcceleration = Annotated[Given, Told(quantity("m/s2", least=-1e6, most=1e6, tiny=1e-9))]
 Omega = Annotated[Given, Told(quantity("rad/s", least=-1e5, most=1e5, tiny=1e-9))]
 Epsilon = Annotated[Given, Told(quantity("rad/s2", least=-1e7, most=1e7, tiny=1e-9))]
 STATED = frozenset({"at", "distance", "radius", "size", "value", "acceleration"})
@@ -48,7 +48,7 @@ class Away(Part):
     """A distance from a point that is placed already."""
 
     from_: Name = Field(alias="from")
-    distance: Length
+    distance: ExerciseLength
 
 
 class PointAt(Part):
@@ -58,9 +58,9 @@ class PointAt(Part):
     at two distances from two points, to the left or the right of the way from the first to the second.
     """
 
-    at: Place | None = None
+    at: ExercisePoint | None = None
     from_: Name | None = Field(default=None, alias="from")
-    distance: Length | None = None
+    distance: ExerciseLength | None = None
     angle: Angle | None = None
     on: Through | None = None
     end: Literal["far", "near"] = "far"
@@ -73,7 +73,7 @@ class Disc(Part):
     """A disc, a wheel or a gear's pitch circle."""
 
     centre: Name
-    radius: Length
+    radius: ExerciseLength
 
 
 class BodyOf(Part):
@@ -109,7 +109,7 @@ class Directed(Part):
     """A direction: an angle from +x, or along the line of two points."""
 
     angle: Angle | None = None
-    along: Ends | None = None
+    along: TwoNames | None = None
 
 
 class SlotJoint(Directed):
@@ -202,7 +202,7 @@ class Cord(Part):
     """Two points keep their distance: a taut cord, or a rod of which nothing is asked."""
 
     type: Literal["cord"]
-    points: Ends
+    points: TwoNames
 
     @property
     def called(self) -> tuple[object, ...]:
@@ -223,7 +223,7 @@ class VelocityOf(Part):
 
     type: Literal["velocity"]
     point: Name
-    size: Speed | None = None
+    size: ExerciseSpeed | None = None
     direction: Angle
 
     @property
@@ -236,7 +236,7 @@ class AccelerationOf(Part):
 
     type: Literal["acceleration"]
     point: Name
-    size: Acceleration | None = None
+    size: ExerciseAcceleration | None = None
     direction: Angle
 
     @property
@@ -273,7 +273,7 @@ class FromRest(Part):
 
     type: Literal["from rest"]
     point: Name
-    acceleration: Acceleration
+    acceleration: ExerciseAcceleration
     time: Time
     direction: Angle
 

@@ -15,6 +15,7 @@ from itertools import combinations
 
 import numpy as np
 
+from reportgen.catalogue.components import VectorComponents
 from reportgen.exercise import file
 from reportgen.exercise.centres import SAME_PLACE, Layout
 from reportgen.exercise.closures import CoordinateRate, Linked, LoopVector, Turn, WayAlong, given_direction, legs_of
@@ -47,7 +48,6 @@ from reportgen.formula import (
 from reportgen.formula.constructions import cross, dot, meet
 from reportgen.formula.evaluation import evaluate
 
-Pair = tuple[Expression, Expression]
 STRAIGHT = Number(180.0, unit="°")
 
 
@@ -64,7 +64,7 @@ class MotionLaw:
         """The same of its derivative by the angle."""
         return MotionLaw(self.way, 0j, 1j * self.forward, -1j * self.backward)
 
-    def components(self, φ: Ref, constant: Callable[[float], Expression]) -> Pair:
+    def components(self, φ: Ref, constant: Callable[[float], Expression]) -> VectorComponents:
         """c₀ + c₁φ + c₂ cos φ + c₃ sin φ along x and y (m), with the letter that a `constant` (m) has."""
         both, apart = self.forward + self.backward, 1j * (self.forward - self.backward)
         terms: tuple[tuple[complex, Expression], ...]
@@ -166,7 +166,7 @@ def _enter(derivation: Derivation, body: int, angle: float, laws: Mapping[str, M
     return True
 
 
-def _vector(derivation: Derivation, line: Callable[..., Ref], what: str, name: str, parts: Pair) -> None:
+def _vector(derivation: Derivation, line: Callable[..., Ref], what: str, name: str, parts: VectorComponents) -> None:
     """Enters a velocity or acceleration by its components, with its size if that is not known."""
     sides = [
         line(ids.COMPONENT[what](name, axis), part, Symbol(what, f"{name}{axis}"))
@@ -182,8 +182,8 @@ def _acceleration(
     line: Callable[..., Ref],
     body: int,
     ω: Ref,
-    rates: Mapping[str, Pair],
-    second: Mapping[str, Pair],
+    rates: Mapping[str, VectorComponents],
+    second: Mapping[str, VectorComponents],
 ) -> Expression | None:
     """ε with its sign, as it is given or by the given acceleration of a point: a = ε P′ + ω² P″; else None."""
     sense = derivation.motion.epsilon(body) if derivation.motion.knows_epsilon(body) else 0.0
@@ -210,7 +210,7 @@ def _value(derivation: Derivation, part: Expression) -> float:
     return float(np.real(np.atleast_1d(evaluated)[0]))
 
 
-def _size(derivation: Derivation, parts: Pair) -> Expression:
+def _size(derivation: Derivation, parts: VectorComponents) -> Expression:
     """The size of a vector by its components, as it is written."""
     kept = [part for part in parts if part != NOTHING]
     if len(kept) == 1:

@@ -42,7 +42,7 @@ from reportgen.formula.sheet import Sheet
 FIGURES = 4
 """Significant figures of the numbers in a system."""
 
-Known = tuple[str, int]
+KnownPower = tuple[str, int]
 """A quantity of the derivation and its power: v.A, or ω² as omega.2 with 2."""
 
 
@@ -50,7 +50,7 @@ Known = tuple[str, int]
 class Reached:
     """The rate of a point: Σ known quantity × vector + Σ unknown rotation × vector."""
 
-    known: Mapping[Known, complex]
+    known: Mapping[KnownPower, complex]
     unknown: Mapping[int, complex]
 
     def plus(self, reached: Reached, factor: float = 1.0) -> Reached:
@@ -121,7 +121,7 @@ class Loops:
         """What the rotation of a body adds from one of its points to another."""
         derivation, rate = self.derivation, ids.LINK_RATE[self.what](body)
         arm = derivation.layout.points[name] - derivation.layout.points[base]
-        known: dict[Known, complex] = {}
+        known: dict[KnownPower, complex] = {}
         if self.what == "eps":
             known[(ids.angular_velocity(body), 2)] = -arm
         if not derivation.knows(rate):
@@ -195,7 +195,7 @@ def _independent(left: np.ndarray) -> list[int]:
     return kept
 
 
-def _enter_rotation(loops: Loops, body: int, shares: Mapping[Known, float]) -> str:
+def _enter_rotation(loops: Loops, body: int, shares: Mapping[KnownPower, float]) -> str:
     """The size of a rotation from what is known, with factors that the places alone tell."""
     q, what = loops.derivation.q, loops.what
     sense = math.copysign(1.0, loops.derivation.motion.turn(what, body))

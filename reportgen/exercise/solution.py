@@ -199,10 +199,10 @@ def _leads_on(step: Step, needed: set[str]) -> bool:
 # --- methods: the steps that are each one's own, and in which order they are tried ----------------
 
 
-Finder = Callable[[Derivation], bool]
+VelocityStep = Callable[[Derivation], bool]
 """Enters one more velocity, or those of one more body; whether there was one."""
 
-CHOSEN: tuple[Finder, ...] = (derive, by_base_point, enter_proportion, by_train, solve_velocities_together)
+CHOSEN: tuple[VelocityStep, ...] = (derive, by_base_point, enter_proportion, by_train, solve_velocities_together)
 """Chosen well for each step: the instant centre wherever there is one; all that is left over together."""
 
 ACCELERATIONS: tuple[Callable[[Parts], bool], ...] = (
@@ -216,7 +216,7 @@ ACCELERATIONS: tuple[Callable[[Parts], bool], ...] = (
 )
 """By the base point, by radii, along the lines of moving bodies; all that is left over together."""
 
-OWN: Mapping[Method, tuple[Finder, ...]] = {
+OWN: Mapping[Method, tuple[VelocityStep, ...]] = {
     "instant centre": (by_centre, enter_proportion),
     "base point": (from_base_point, by_base_point),
     "projection": (by_projection,),

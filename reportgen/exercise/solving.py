@@ -19,7 +19,7 @@ from reportgen.exercise.conditions import GROUND, STILL, Component, Condition, R
 NEGLIGIBLE = 1e-9
 """Below this share of its scale a number is nothing."""
 
-Row = np.ndarray
+EquationRow = np.ndarray
 
 
 @dataclass(frozen=True)
@@ -63,7 +63,7 @@ class Solved:
         axes = (Condition("", (Component(body, point, axis),)) for axis in (1 + 0j, 1j))
         return all(self._fixed(self.unknowns.row(axis)) for axis in axes)
 
-    def _fixed(self, row: Row) -> bool:
+    def _fixed(self, row: EquationRow) -> bool:
         return bool(np.all(np.abs(self.free @ row) < NEGLIGIBLE * max(float(np.linalg.norm(row)), NEGLIGIBLE)))
 
 
@@ -88,7 +88,7 @@ class Unknowns:
         """From the middle of the system to a point, as a share of the system's size."""
         return (point - self.middle) / self.size
 
-    def row(self, condition: Condition) -> Row:
+    def row(self, condition: Condition) -> EquationRow:
         row = np.zeros(self.count)
         for part in condition.components:
             if part.body == GROUND:

@@ -13,7 +13,7 @@ What is worked out from a measured length with a scale moves nothing on paper.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Container, Iterable, Mapping
+from collections.abc import Callable, Container, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
@@ -40,6 +40,9 @@ from reportgen.formula import (
 )
 from reportgen.formula.evaluation import evaluate
 from reportgen.formula.sheet import Family
+
+MistakenValues = Iterator[tuple[str, str, Expression]]
+"""The id of a quantity, the name of a mistake, and what the quantity becomes by it."""
 
 Entered = Callable[[str, dict[str, np.ndarray]], None]
 """What is called after each quantity of an evaluation, with its id and all values so far."""

@@ -12,7 +12,7 @@ from reportgen.drawing.canvas import Canvas, finish
 from reportgen.drawing.description import angle, names_of, pointing
 from reportgen.drawing.geometry import polar, rectangle
 from reportgen.drawing.labels import Request, label
-from reportgen.drawing.plan import Plan, PlanPoint, PlanVector, Style, plan
+from reportgen.drawing.plan import Plan, PlanPoint, PlanVector, VectorStyle, plan
 from reportgen.drawing.scales import IN_REPORT, FigureSize
 from reportgen.formula import Fraction, Number, Product, Symbol
 
@@ -96,7 +96,7 @@ def incline_plans(case: DesignCase, size: FigureSize = IN_REPORT) -> tuple[Scene
     return tuple(scenes)
 
 
-Side = tuple[str, complex, Symbol, Style]
+Side = tuple[str, complex, Symbol, VectorStyle]
 """A side of a force plan: its name, the force (N), its symbol, its pen."""
 
 

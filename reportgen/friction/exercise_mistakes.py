@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 
 from reportgen.formula import PI, Expression, Ref, atan, cos, exp, sin, substitute
+from reportgen.formula.ledger import MistakenValues
 from reportgen.formula.sheet import Sheet
-
-Changed = Iterator[tuple[str, str, Expression]]
-"""The id of a quantity, the name of a mistake, what the quantity becomes by it."""
 
 
 def changed(task: str, q: Sheet) -> dict[str, list[tuple[str, Expression]]]:
@@ -27,7 +25,7 @@ def against(q: Sheet, id: str, *angles: str) -> Expression:
     return substitute(definition, lambda ref: -ref if ref.id in angles else ref)
 
 
-def of_incline(q: Sheet) -> Changed:
+def of_incline(q: Sheet) -> MistakenValues:
     def named(name: str) -> str:
         return f"friction.incline.{name}"
 
@@ -43,7 +41,7 @@ def of_incline(q: Sheet) -> Changed:
             yield P, "friction-force-along", Q * (sin(α + φ) if not end else sin(α - φ)) / cos(φ)
 
 
-def of_wedge(q: Sheet) -> Changed:
+def of_wedge(q: Sheet) -> MistakenValues:
     places = [place for place in "123" if f"friction.wedge.phi{place}" in q]
     for place in places:
         yield f"friction.wedge.phi{place}", "coefficient-for-angle", Ref(f"friction.wedge.f{place}")
@@ -52,7 +50,7 @@ def of_wedge(q: Sheet) -> Changed:
         yield id, "friction-sense", against(q, id, *angles)
 
 
-def of_screw(q: Sheet) -> Changed:
+def of_screw(q: Sheet) -> MistakenValues:
     def of(name: str) -> Ref:
         return Ref(f"friction.screw.{name}")
 
@@ -73,7 +71,7 @@ def of_screw(q: Sheet) -> Changed:
         yield of("Mc").id, "diameter-for-radius", of("fc") * of("Q") * of("dc")
 
 
-def of_drum(task: str, q: Sheet) -> Changed:
+def of_drum(task: str, q: Sheet) -> MistakenValues:
     """What goes wrong where a band lies on a drum."""
 
     def of(name: str) -> Ref:
@@ -92,25 +90,25 @@ def of_drum(task: str, q: Sheet) -> Changed:
         yield of(name).id, "friction-tensions-exchanged", exchanged
 
 
-def of_belt(q: Sheet) -> Changed:
+def of_belt(q: Sheet) -> MistakenValues:
     yield from of_drum("belt", q)
     if "friction.belt.F" not in q:
         S1, S2, d = (Ref(f"friction.belt.{name}") for name in ("S1", "S2", "d"))
         yield "friction.belt.M", "diameter-for-radius", (S1 - S2) * d
 
 
-def of_band(q: Sheet) -> Changed:
+def of_band(q: Sheet) -> MistakenValues:
     yield from of_drum("band", q)
     yield from exchanged_senses("band", q)
 
 
-def of_shoe(q: Sheet) -> Changed:
+def of_shoe(q: Sheet) -> MistakenValues:
     yield "friction.shoe.F", "diameter-for-radius", Ref("friction.shoe.M") / Ref("friction.shoe.d")
     yield "friction.shoe.N", "friction-multiplied", Ref("friction.shoe.F") * Ref("friction.shoe.f")
     yield from exchanged_senses("shoe", q)
 
 
-def exchanged_senses(task: str, q: Sheet) -> Changed:
+def exchanged_senses(task: str, q: Sheet) -> MistakenValues:
     """The force on the lever of the other sense of rotation."""
     for id, opposite in ((f"friction.{task}.P", "backward.P"), (f"friction.{task}.backward.P", "P")):
         definition = q.families[f"friction.{task}.{opposite}"].definition
@@ -119,7 +117,7 @@ def exchanged_senses(task: str, q: Sheet) -> Changed:
             yield id, "friction-senses-exchanged", definition
 
 
-TASKS: Mapping[str, Callable[[Sheet], Changed]] = {
+TASKS: Mapping[str, Callable[[Sheet], MistakenValues]] = {
     "incline": of_incline,
     "wedge": of_wedge,
     "screw": of_screw,

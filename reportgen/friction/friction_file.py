@@ -32,7 +32,7 @@ Load = Annotated[Given, quantity("N", least=1e-3, most=1e9)]
 Moment = Annotated[Given, quantity("N m", least=1e-3, most=1e9)]
 Slope = Annotated[Given, quantity("deg", least=0.1, most=88)]
 Wrap = Annotated[Given, quantity("deg", least=1, most=3600)]
-Coefficient = Annotated[float, Decimal(Interval(least=0.001, most=2))]
+FrictionCoefficient = Annotated[float, Decimal(Interval(least=0.001, most=2))]
 Smooth = Annotated[float, Decimal(Interval(least=0, most=2))]
 
 
@@ -41,7 +41,7 @@ class Incline(Part):
 
     Q: Load
     alpha: Slope
-    f: Coefficient
+    f: FrictionCoefficient
     beta: Annotated[Given | None, Towards()] = NONE
 
 
@@ -50,15 +50,15 @@ class Wedge(Part):
 
     Q: Load
     alpha: Slope
-    f1: Coefficient
-    f2: Coefficient
+    f1: FrictionCoefficient
+    f2: FrictionCoefficient
     f3: Smooth = 0.0
 
 
 class Collar(Part):
     """The face that bears the load of a screw: its coefficient and its mean diameter."""
 
-    f: Coefficient
+    f: FrictionCoefficient
     d: Length
 
 
@@ -70,7 +70,7 @@ class Screw(Part):
     p: Length
     n: Annotated[int, Whole(1, 12)] = 1
     beta: Annotated[Given, quantity("deg", least=0, most=45, tiny=1e-6)] = NONE
-    f: Coefficient
+    f: FrictionCoefficient
     collar: Collar | None = None
 
 
@@ -79,7 +79,7 @@ class BeltOnDrum(Part):
 
     d: Length
     theta: Wrap
-    f: Coefficient
+    f: FrictionCoefficient
     S1: Load | None = None
     S2: Load | None = None
     M: Moment | None = None
@@ -92,7 +92,7 @@ class Band(Part):
     M: Moment
     d: Length
     theta: Wrap
-    f: Coefficient
+    f: FrictionCoefficient
     l: Length  # noqa: E741
     a: Coordinate
     b: Coordinate
@@ -103,7 +103,7 @@ class Shoe(Part):
 
     M: Moment
     d: Length
-    f: Coefficient
+    f: FrictionCoefficient
     l: Length  # noqa: E741
     a: Length
     c: Offset

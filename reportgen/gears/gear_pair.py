@@ -59,7 +59,7 @@ class SoughtDistance(Reader):
 
 
 Shift = Annotated[float, Decimal(Interval(least=-3, most=3))]
-Teeth = Annotated[int, Whole(5, 300)]
+PairTeeth = Annotated[int, Whole(5, 300)]
 
 
 class Shifts(Part):
@@ -81,8 +81,8 @@ class Parameters(Part):
     """A pair of external spur gears; `find` stands where shifts or the centre distance are sought."""
 
     m: Annotated[Given, quantity("mm", least=0.1, most=100)]
-    z1: Teeth
-    z2: Teeth
+    z1: PairTeeth
+    z2: PairTeeth
     shifts: Literal["find"] | Shifts = "find"
     by: Literal["x_min", "equal-sliding"] = "equal-sliding"
     a_w: Annotated[Given | None, SoughtDistance()] = None

@@ -172,7 +172,7 @@ def _moving(pair: GearPair, φ: Floats, at: float) -> tuple[list[MovingItem], Fl
     return items, touching
 
 
-Draw = Callable[[PairCase, FigureSize], Scene]
+DrawPair = Callable[[PairCase, FigureSize], Scene]
 
 
 # --- drawing sheets ---------------------------------------------------------------------------------
@@ -188,13 +188,13 @@ def _plates(case: PairCase) -> Iterator[DrawingPlate]:
     """The mesh, the curves, the tables."""
     captions, page = case.words["pair"]["captions"], pair_views.PairPage(case)
 
-    def of_area(draw: Callable[[PairCase, Area], Scene]) -> Draw:
+    def of_area(draw: Callable[[PairCase, Area], Scene]) -> DrawPair:
         return lambda case, size: draw(case, Area(*AREAS[size.steps], size.enlarged, mm=case.ledger.printed_unit("mm")))
 
-    def plate(name: str, layer: str, draw: Draw, steps: int) -> DrawingPlate:
+    def plate(name: str, layer: str, draw: DrawPair, steps: int) -> DrawingPlate:
         return DrawingPlate(str(captions[f"figure-{name}"]), (), layer, (lettered(draw(case, on_sheet(case, steps))),))
 
-    shown: list[tuple[str, str, Draw, int]] = [
+    shown: list[tuple[str, str, DrawPair, int]] = [
         ("mesh", "profile", mesh, _mesh_steps(case)),
         ("sliding", "curves", of_area(lambda case, area: sliding(case, area).scene), len(AREAS) - 1),
         ("region", "scheme", of_area(region), len(AREAS) - 1),

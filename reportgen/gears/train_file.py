@@ -17,10 +17,10 @@ from reportgen.gears.train import LEAST_OUTER, MOST_SATELLITES, Demand, TrainCho
 MOST_TEETH = 300
 
 Tolerance = Annotated[Given, Ratio(Interval(least=0, most=0.2, tiny=1e-6))]
-Teeth = Annotated[int, Whole(LEAST_OUTER, MOST_TEETH)]
+TrainTeeth = Annotated[int, Whole(LEAST_OUTER, MOST_TEETH)]
 Module = Annotated[Given, Quantity("mm", Interval(least=0.1, most=100))]
 OfMesh = Annotated[float, Decimal(Interval(above=0.5, most=1))]
-RowPair = Annotated[tuple[Teeth, ...], Field(min_length=2, max_length=2)]
+RowPair = Annotated[tuple[TrainTeeth, ...], Field(min_length=2, max_length=2)]
 Rows = Annotated[tuple[RowPair, ...], Field(max_length=4)]
 
 

@@ -68,16 +68,16 @@ def reference_radius(module: Expression, z: Expression) -> Expression:
     return module * z / 2
 
 
-Formula = Callable[[TrainScheme, Mapping[str, Ref]], Expression]
+TrainFormula = Callable[[TrainScheme, Mapping[str, Ref]], Expression]
 
 
-def over_teeth(formula: Formula, scheme: TrainScheme, z: NDArray[np.int64]) -> NDArray[np.float64]:
+def over_teeth(formula: TrainFormula, scheme: TrainScheme, z: NDArray[np.int64]) -> NDArray[np.float64]:
     """A formula of a scheme over the tooth numbers of many trains, z [4, N]."""
     return np.asarray(evaluate(_written(formula, scheme), dict(zip(WHEELS, z, strict=True))), dtype=np.float64)
 
 
 @lru_cache(maxsize=32)
-def _written(formula: Formula, scheme: TrainScheme) -> Expression:
+def _written(formula: TrainFormula, scheme: TrainScheme) -> Expression:
     return formula(scheme, {wheel: Ref(wheel) for wheel in WHEELS})
 
 

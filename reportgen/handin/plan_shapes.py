@@ -7,25 +7,21 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 
 from reportgen.base.units import MM
 from reportgen.case import Case, MachineAnalysis
+from reportgen.derivation.motion import What
 from reportgen.formula import Symbol, ids
+from reportgen.marking.scheme import Values
 from reportgen.report.plans import POLE, force_construction, motion_construction
 from reportgen.report.report import Report
-
-What = Literal["v", "a"]
 
 NOTHING = 0.01
 """What is shorter (mm) is a point on any paper."""
 PAIR = 2
 _PARTS = {"n": "n", "τ": "t", "k": "k", "r": "r"}
-
-Values = Mapping[str, np.ndarray]
-"""Values (SI) by id, [N] or [1]."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -18,7 +18,7 @@ from reportgen.base.errors import Fault, Mark
 from reportgen.handin.word_covers import covered_runs
 from reportgen.handin.word_looks import Styles, mark_unseen
 from reportgen.handin.word_nodes import XmlNode, parse
-from reportgen.handin.word_text import Block, TextReader, heading_levels
+from reportgen.handin.word_text import TextReader, WordBlock, heading_levels
 from reportgen.workbook.package import Bounds, Package, RefusedError
 
 LARGEST = 50_000_000
@@ -55,12 +55,12 @@ class WordFile:
     tree: XmlNode
 
     @cached_property
-    def blocks(self) -> tuple[Block, ...]:
+    def blocks(self) -> tuple[WordBlock, ...]:
         """The paragraphs and tables of the body."""
         return self._blocks()
 
     @property
-    def all_blocks(self) -> tuple[Block, ...]:
+    def all_blocks(self) -> tuple[WordBlock, ...]:
         """The same with the text that nobody sees."""
         return self._blocks(everything=True)
 
@@ -79,7 +79,7 @@ class WordFile:
         part = self.related("styles")
         return parse(self.package, part, self.package.content(part)) if part in self.package else None
 
-    def _blocks(self, everything: bool = False) -> tuple[Block, ...]:
+    def _blocks(self, everything: bool = False) -> tuple[WordBlock, ...]:
         body, _ = self.tree.child("w:body"), self.unseen
         levels = heading_levels(self._styles) if self._styles is not None else {}
         return tuple(TextReader(levels, everything).blocks(body.children if body else ()))

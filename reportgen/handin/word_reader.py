@@ -15,7 +15,7 @@ from reportgen.handin.symbols import Symbols
 from reportgen.handin.word_frame import read_blanks
 from reportgen.handin.word_nodes import XmlNode
 from reportgen.handin.word_tables import read_table
-from reportgen.handin.word_text import OBJECT, Block, TextGrid, TextLine, WordMark
+from reportgen.handin.word_text import OBJECT, TextGrid, TextLine, WordBlock, WordMark
 
 FREE = 10
 """The level of a position that no heading gives: any heading ends it."""
@@ -31,7 +31,7 @@ class _Hand:
     level: int = FREE
 
 
-def read_report(blocks: Sequence[Block], key: Key, file: str, tree: XmlNode | None = None) -> FileReading:
+def read_report(blocks: Sequence[WordBlock], key: Key, file: str, tree: XmlNode | None = None) -> FileReading:
     """What a report says of the quantities that a key asks for; in its `tree` the blanks of a frame are looked for."""
     marks = marks_of((line.text for line in lines_of(blocks)), key.language)
     gathering = Gathering(key, file, marks, Symbols(key, key.rows))
@@ -44,7 +44,7 @@ def read_report(blocks: Sequence[Block], key: Key, file: str, tree: XmlNode | No
     return gathering.reading()
 
 
-def lines_of(blocks: Sequence[Block]) -> list[TextLine]:
+def lines_of(blocks: Sequence[WordBlock]) -> list[TextLine]:
     """All lines, those of tables too."""
     lines: list[TextLine] = []
     for block in blocks:
@@ -68,7 +68,7 @@ class _Reader:
         """How many equations stand under each position that nothing opens."""
         self.first_object: WordMark | None = None
 
-    def block(self, block: Block) -> None:
+    def block(self, block: WordBlock) -> None:
         if isinstance(block, TextGrid):
             read_table(block, self.gathering, self.statement_line, self.hand.label)
             return

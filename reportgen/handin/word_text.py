@@ -88,7 +88,7 @@ class TextCell:
         return joined
 
 
-Block = TextLine | TextGrid
+WordBlock = TextLine | TextGrid
 
 
 def _letters() -> dict[str, str]:
@@ -150,7 +150,7 @@ class TextReader:
         """Levels of headings by the ids of styles."""
         self.paragraphs = 0
 
-    def blocks(self, nodes: Iterable[XmlNode]) -> Iterator[Block]:
+    def blocks(self, nodes: Iterable[XmlNode]) -> Iterator[WordBlock]:
         """Paragraphs and tables, also those in content controls and in boxes of text, which come behind their line."""
         for node in nodes:
             if node.tag == "w:p":

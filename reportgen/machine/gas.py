@@ -255,11 +255,11 @@ class AngleIndicator:
         return float(np.sum(weights * rate * np.interp(angle, self.angles, self.pressures)))
 
 
-Indicator = StrokeIndicator | AngleIndicator
+IndicatorTable = StrokeIndicator | AngleIndicator
 
 
 def indicated_work(
-    indicator: Indicator, area: float, stroke: float, fraction_rate: Callable[[Floats], Floats]
+    indicator: IndicatorTable, area: float, stroke: float, fraction_rate: Callable[[Floats], Floats]
 ) -> float:
     """Indicated work of one cylinder per cycle (J) for either form.
 

@@ -20,7 +20,7 @@ from reportgen.base.arrays import Flags, Floats
 from reportgen.formula import Expression, Symbol, ids
 from reportgen.formula.sheet import Sheet
 from reportgen.machine.coils import Coil
-from reportgen.machine.gas import AngleIndicator, Bracket, Indicator, StrokeIndicator, Tabled, crossings
+from reportgen.machine.gas import AngleIndicator, Bracket, IndicatorTable, StrokeIndicator, Tabled, crossings
 from reportgen.machine.motion import Motion
 
 FULL_TURN = 2 * np.pi
@@ -168,7 +168,7 @@ class TableLaw(Law):
     """
 
     course: Stroke
-    table: Indicator
+    table: IndicatorTable
     turns: int = 2
     kind = "tabled"
 
@@ -384,12 +384,12 @@ class Resistance(Law):
         return (self.size,)
 
 
-def by_stroke(fractions: tuple[float, ...], inward: tuple[float, ...], outward: tuple[float, ...]) -> Indicator:
+def by_stroke(fractions: tuple[float, ...], inward: tuple[float, ...], outward: tuple[float, ...]) -> IndicatorTable:
     """Forces (N) over s/H from the top: a row for the way in, towards the crank, and one for the way out."""
     return StrokeIndicator(fractions, inward, outward, inward, outward)
 
 
-def by_angle(angles: tuple[float, ...], values: tuple[float, ...]) -> Indicator:
+def by_angle(angles: tuple[float, ...], values: tuple[float, ...]) -> IndicatorTable:
     """Forces (N) over a turn from the top, 0…2π; the table's last value closes the turn or jumps to the first."""
     second = tuple(angle + FULL_TURN for angle in angles)
     if values[0] == values[-1]:

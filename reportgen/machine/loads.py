@@ -13,7 +13,7 @@ from reportgen.base.arrays import Complexes, Floats
 from reportgen.formula import ids
 from reportgen.machine import GROUND, Dyad, Guide, Linkage
 from reportgen.machine.forces import Load
-from reportgen.machine.gas import Indicator
+from reportgen.machine.gas import IndicatorTable
 from reportgen.machine.laws import BEFORE_A_TURN, FULL_TURN, GasLaw, Law, MotionAt, Stroke, opposing
 from reportgen.machine.motion import Motion, solve_motion
 from reportgen.machine.senses import moving, pace
@@ -102,10 +102,10 @@ class Piston(Stroke):
     """
 
     bore: float
-    indicator: Indicator
+    indicator: IndicatorTable
 
     @classmethod
-    def on(cls, course: Stroke, bore: float, indicator: Indicator) -> Piston:
+    def on(cls, course: Stroke, bore: float, indicator: IndicatorTable) -> Piston:
         """The piston, its bore in m, that is the slider of a course."""
         return cls(**vars(course), bore=bore, indicator=indicator)
 

@@ -38,7 +38,7 @@ VALUE = 34.0
 TICKS = 5
 """Steps of an axis of marks."""
 
-Words = Mapping[str, Any]
+PageWords = Mapping[str, Any]
 
 
 def class_document(
@@ -71,7 +71,7 @@ def class_document(
 
 
 def _summary(
-    markings: Sequence[Marking], page: Words, language: Language, unmarked: Sequence[Unmarked]
+    markings: Sequence[Marking], page: PageWords, language: Language, unmarked: Sequence[Unmarked]
 ) -> Iterator[Block]:
     if markings:
         shares = [100 * marking.share for marking in markings]
@@ -87,7 +87,7 @@ def _summary(
 
 
 def _marks(
-    markings: Sequence[Marking], words: Words, language: Language, unmarked: Sequence[Unmarked], policy: Policy
+    markings: Sequence[Marking], words: PageWords, language: Language, unmarked: Sequence[Unmarked], policy: Policy
 ) -> Table:
     """A row for each student, in the order given."""
     names, page = words["grades"], words["class_page"]
@@ -108,7 +108,7 @@ def _marks(
 
 
 def _people(
-    title: str, heads: Sequence[str], rows: Sequence[tuple[str, str, str | Inlines]], words: Words
+    title: str, heads: Sequence[str], rows: Sequence[tuple[str, str, str | Inlines]], words: PageWords
 ) -> Iterator[Table]:
     """A table of students with something to be told of each; none without students."""
     if rows:
@@ -117,13 +117,13 @@ def _people(
         yield Table(columns, (cells((names["id"], names["name"], *heads)),), tuple(map(cells, rows)), (Text(title),))
 
 
-def _unmarked(unmarked: Sequence[Unmarked], words: Words) -> Iterator[Block]:
+def _unmarked(unmarked: Sequence[Unmarked], words: PageWords) -> Iterator[Block]:
     """Who has no marks, and why: nothing came, or what came could not be marked."""
     rows = [(*who(one.key)[:2], state(one, words)) for one in sorted(unmarked, key=lambda one: not one.reasons)]
     yield from _people(words["class_page"]["unmarked"], (words["grades"]["state"],), rows, words)
 
 
-def _late(markings: Sequence[Marking], words: Words, language: Language, policy: Policy) -> Iterator[Block]:
+def _late(markings: Sequence[Marking], words: PageWords, language: Language, policy: Policy) -> Iterator[Block]:
     """Who handed in late, by how many days, and what that took."""
     page = words["class_page"]
     rows = [
@@ -141,19 +141,19 @@ def _late(markings: Sequence[Marking], words: Words, language: Language, policy:
     yield from _people(page["late"], (words["grades"]["late"],), rows, words)
 
 
-def _amended(markings: Sequence[Marking], words: Words) -> Iterator[Block]:
+def _amended(markings: Sequence[Marking], words: PageWords) -> Iterator[Block]:
     """What the instructor judged otherwise."""
     rows = [(*who(marking.key)[:2], amended(marking, one, words)) for marking in markings for one in marking.amendments]
     yield from _people(words["class_page"]["amended"], (words["grades"]["corrections"],), rows, words)
 
 
-def _open(markings: Sequence[Marking], words: Words) -> Iterator[Block]:
+def _open(markings: Sequence[Marking], words: PageWords) -> Iterator[Block]:
     """Whose values were not read: they earn nothing until somebody settles them."""
     rows = [(*who(marking.key)[:2], text) for marking in markings if (text := open_cells(marking))]
     yield from _people(words["class_page"]["open"], (words["grades"]["unread"],), rows, words)
 
 
-def _spread(markings: Sequence[Marking], page: Words) -> Figure:
+def _spread(markings: Sequence[Marking], page: PageWords) -> Figure:
     """How many students reached which share of the points; the highest class holds 100 %."""
     counts = Counter(min(int(CLASSES * marking.share), CLASSES - 1) for marking in markings)
     edges = [100 * n / CLASSES for n in range(CLASSES + 1)]
@@ -164,7 +164,7 @@ def _spread(markings: Sequence[Marking], page: Words) -> Figure:
 # --- questions and variants -------------------------------------------------------------------------
 
 
-def _questions(markings: Sequence[Marking], words: Words, language: Language) -> Iterator[Block]:
+def _questions(markings: Sequence[Marking], words: PageWords, language: Language) -> Iterator[Block]:
     """Facility and discrimination of each section and question, the hardest first.
 
     Questions that all had right are only counted, and tell nothing apart.
@@ -220,7 +220,9 @@ def _statistics(item: Item, language: Language) -> tuple[str, str]:
     return write(100 * item.facility, 0, language), write(item.discrimination, 2, language)
 
 
-def _variants(compared: Sequence[VariantGroup], words: Words, language: Language, policy: Policy) -> Iterator[Block]:
+def _variants(
+    compared: Sequence[VariantGroup], words: PageWords, language: Language, policy: Policy
+) -> Iterator[Block]:
     """The marks by variant and by the data that were drawn, and whether any differ by more than chance."""
     if not compared:
         return
@@ -261,14 +263,14 @@ def _variants(compared: Sequence[VariantGroup], words: Words, language: Language
         yield Figure((scene,), (Text(page["variants_figure"]),), here=True)
 
 
-def _plain_name(group: VariantGroup, words: Words, language: Language) -> str:
+def _plain_name(group: VariantGroup, words: PageWords, language: Language) -> str:
     return str(words["class_page"]["variant"]) if group.symbol is None else f"{formula(group.symbol, language)} ="
 
 
 # --- first errors -----------------------------------------------------------------------------------
 
 
-def _errors(markings: Sequence[Marking], words: Words, language: Language) -> Iterator[Block]:
+def _errors(markings: Sequence[Marking], words: PageWords, language: Language) -> Iterator[Block]:
     """First errors by quantity, then by the mistakes that were recognised."""
     page = words["class_page"]
     yield heading(page["errors_title"], 2)

@@ -25,9 +25,9 @@ from reportgen.marking.paper import DASH, cells, fields, heading, paper, paragra
 from reportgen.marking.policy import Policy
 from reportgen.marking.sheet import NAMES, asked_positions, given_entry, grid, info_page, named_pages, page, rows_shown
 from reportgen.workbook import Book, BookSheet, Entry
-from reportgen.workbook.writing import Style
+from reportgen.workbook.writing import CellStyle
 
-STYLES: Mapping[Verdict, Style] = {
+STYLES: Mapping[Verdict, CellStyle] = {
     Verdict.right: "good",
     Verdict.follows: "linked",
     Verdict.wrong: "warn",
@@ -36,7 +36,7 @@ STYLES: Mapping[Verdict, Style] = {
     Verdict.implausible: "doubt",
     Verdict.unread: "doubt",
 }
-FIRST: Style = "bad"
+FIRST: CellStyle = "bad"
 """The look of the first wrong value of a chain."""
 
 POINTS, COUNT = 15.0, 16.5
@@ -99,7 +99,7 @@ def _marked(marking: Marking, words: Mapping[str, Any], cell: Marked, show_answe
     return Entry(cell.written, FIRST if cell.first else STYLES[cell.verdict], comment)
 
 
-def _points(judged: Sequence[Marked], style: Style = "") -> tuple[Entry, Entry]:
+def _points(judged: Sequence[Marked], style: CellStyle = "") -> tuple[Entry, Entry]:
     """Points earned and points to be earned."""
     earned, worth = points_of(judged)
     return (Entry(round(earned, 2), style), Entry(round(worth, 2), style))

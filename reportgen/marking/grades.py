@@ -18,7 +18,7 @@ from reportgen.marking.key import symbol_text
 from reportgen.marking.marks import Marked, Marking, Submission, Unmarked, points_of
 from reportgen.marking.policy import Policy
 
-Value = str | float | None
+CellValue = str | float | None
 
 DECIMALS = 3
 """Of shares and statistics in a table."""
@@ -26,7 +26,7 @@ DECIMALS = 3
 
 def grade_rows(
     markings: Sequence[Marking], language: Language, unmarked: Sequence[Unmarked] = (), policy: Policy | None = None
-) -> tuple[tuple[Value, ...], ...]:
+) -> tuple[tuple[CellValue, ...], ...]:
     """Head and rows of `grades.csv`: who, points, the mark, points by part, all first errors, warnings, flags, remarks,
     what was handed in, how late and for how much off the mark, the instructor's corrections.  Where reports or drawings
     were read in place of sheets, two more columns say how much of each was read and how many values are open.  A column
@@ -58,7 +58,7 @@ def grade_rows(
     head += (names["unwritten"],) if (unwritten := any(marking.unwritten for marking in markings)) else ()
     keys = (*(marking.key for marking in markings), *(one.key for one in unmarked))
     people = {key.id: person(key) for key in keys}
-    rows: list[tuple[Value, ...]] = [head]
+    rows: list[tuple[CellValue, ...]] = [head]
     rows += [
         (
             *who(marking.key),
@@ -124,7 +124,7 @@ def _open_places(student: Unmarked) -> str:
     return "; ".join(f"{cell_text(student.key, *place)}: {problem.message}" for place, problem in places.items())
 
 
-def _read(submission: Submission | None) -> tuple[Value, Value]:
+def _read(submission: Submission | None) -> tuple[CellValue, CellValue]:
     """How much of a student's own files was read, in per cent, and how many values are to be settled."""
     if submission is None or not submission.own_files:
         return None, None

@@ -19,7 +19,7 @@ from reportgen.marking.bands import half_unit, is_direction
 from reportgen.marking.marks import Cells, Marked, Place, Verdict
 from reportgen.marking.mistakes import WRONG_DATUM, Mistake, foreseen, unseen_mistakes
 from reportgen.marking.scheme import MarkingScheme
-from reportgen.marking.working import Change, Working, last_half_unit
+from reportgen.marking.working import ChangeValue, Working, last_half_unit
 
 FACTORS = np.geomspace(1 / 4, 4, 120)
 WIDE = np.geomspace(1 / 5, 5, 400)
@@ -81,7 +81,7 @@ def _candidates(working: Working, places: Sequence[Place]) -> Iterator[Mistake]:
                 yield Mistake(WRONG_DATUM, id, {id: _times(factor)})
 
 
-def _times(factor: float) -> Change:
+def _times(factor: float) -> ChangeValue:
     return lambda value, _: value * factor
 
 
@@ -281,7 +281,7 @@ def _rounded(value: float, like: float) -> float:
 # --- a design found by a misread datum -------------------------------------------------------------
 
 
-def redesigned(working: Working, mistake: Mistake) -> Iterator[Mapping[str, Change]]:
+def redesigned(working: Working, mistake: Mistake) -> Iterator[Mapping[str, ChangeValue]]:
     """What else changes with a datum taken wrongly by which a design is found: each way of going on from it."""
     scheme, id = working.scheme, mistake.where
     design = scheme.misconceptions.designs.get(id) if mistake.name == WRONG_DATUM else None
@@ -296,7 +296,7 @@ def redesigned(working: Working, mistake: Mistake) -> Iterator[Mapping[str, Chan
             yield {other: _fixed(values) for other, values in {id: np.array([value]), **others}.items()}
 
 
-def _fixed(values: np.ndarray) -> Change:
+def _fixed(values: np.ndarray) -> ChangeValue:
     return lambda computed, _: np.broadcast_to(values, np.shape(computed))
 
 

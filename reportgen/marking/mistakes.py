@@ -22,7 +22,7 @@ from reportgen.machine import DRIVER
 from reportgen.marking.bands import half_unit, is_direction
 from reportgen.marking.marks import Cells, Marked, Place, Verdict
 from reportgen.marking.scheme import MarkingScheme, Values
-from reportgen.marking.working import Change, Working
+from reportgen.marking.working import ChangeValue, Working
 
 WRONG_DATUM = "wrong-datum"
 """The name of a given datum taken wrongly."""
@@ -49,7 +49,7 @@ class Mistake:
 
     name: str
     where: str
-    changes: Mapping[str, Change]
+    changes: Mapping[str, ChangeValue]
 
 
 def mistakes_in(scheme: MarkingScheme, id: str, scales: Values) -> Iterator[Mistake]:
@@ -95,7 +95,7 @@ def _of_an_accelerated_driver(scheme: MarkingScheme) -> Iterator[Mistake]:
         yield Mistake("no-couple-of-driver", couple, {id: _times(0) for id in both})
 
 
-def _changes_of(scheme: MarkingScheme, family: Family, scales: Values) -> Iterator[tuple[str, Change]]:
+def _changes_of(scheme: MarkingScheme, family: Family, scales: Values) -> Iterator[tuple[str, ChangeValue]]:
     """What one quantity becomes with each mistake, by name."""
     id = family.id
     for known in (scheme.misconceptions.changed, scheme.misconceptions.approximations):
@@ -119,7 +119,7 @@ def _changes_of(scheme: MarkingScheme, family: Family, scales: Values) -> Iterat
 
 def _in_a_definition(
     scheme: MarkingScheme, family: Family, definition: Expression, scales: Values
-) -> Iterator[tuple[str, Change]]:
+) -> Iterator[tuple[str, ChangeValue]]:
     used = [scheme.ledger[ref] for ref in dict.fromkeys(refs(definition))]
     for given in used:
         yield from _with_a_wrong_input(scheme, family, definition, given, scales)
@@ -137,7 +137,7 @@ def _in_a_definition(
 
 def _with_a_wrong_input(
     scheme: MarkingScheme, family: Family, definition: Expression, given: Family, scales: Values
-) -> Iterator[tuple[str, Change]]:
+) -> Iterator[tuple[str, ChangeValue]]:
     """Mistakes about one input of a definition."""
     ledger, id = scheme.ledger, given.id
 
@@ -145,7 +145,7 @@ def _with_a_wrong_input(
         """The input's printed number taken for the result's."""
         return values[id] / given.how.scale * family.how.scale
 
-    def instead(other: Callable[[Values], np.ndarray]) -> Change:
+    def instead(other: Callable[[Values], np.ndarray]) -> ChangeValue:
         return _with(definition, {id: other})
 
     if id == "H" and family.kind == "length":
@@ -193,11 +193,11 @@ def _power(scheme: MarkingScheme, definition: Expression, scale: str) -> int:
 # --- changes ----------------------------------------------------------------------------------------
 
 
-def _times(factor: float | np.ndarray) -> Change:
+def _times(factor: float | np.ndarray) -> ChangeValue:
     return lambda value, _: value * factor
 
 
-def _replaced_by(other: np.ndarray) -> Change:
+def _replaced_by(other: np.ndarray) -> ChangeValue:
     return lambda _, __: other
 
 
@@ -205,7 +205,7 @@ def _degrees(id: str) -> Callable[[Values], np.ndarray]:
     return lambda values: np.degrees(values[id])
 
 
-def _with(definition: Expression, others: Mapping[str, Callable[[Values], np.ndarray]]) -> Change:
+def _with(definition: Expression, others: Mapping[str, Callable[[Values], np.ndarray]]) -> ChangeValue:
     """The definition worked out with other values of some of its inputs."""
 
     names = refs(definition)
@@ -448,13 +448,13 @@ def foreseen(working: Working, ids: Sequence[str], mistakes: Sequence[Mistake]) 
     """What quantities come to (SI) by each mistake, from a student's own earlier values [mistakes, positions]."""
     scheme = working.scheme
     ledger = scheme.ledger
-    made: dict[str, list[tuple[int, Change]]] = {}
+    made: dict[str, list[tuple[int, ChangeValue]]] = {}
     for number, mistake in enumerate(mistakes):
         for changed, change in mistake.changes.items():
             made.setdefault(changed, []).append((number, change))
     judged = {*ids, *map(ledger.size_of, ids)}
 
-    def with_mistakes(name: str) -> Change:
+    def with_mistakes(name: str) -> ChangeValue:
         def change(computed: np.ndarray, values: Values) -> np.ndarray:
             base = computed if name in judged else working.entered_values(name, computed, computed)
             if name not in made:

@@ -16,7 +16,7 @@ from reportgen.base.template_folders import search_path
 from reportgen.base.units import Language
 from reportgen.base.words import load_words
 from reportgen.case.key import Key, KeyRow
-from reportgen.marking.grades import DECIMALS, Value, section_name
+from reportgen.marking.grades import DECIMALS, CellValue, section_name
 from reportgen.marking.key import symbol_text
 from reportgen.marking.marks import Marked, Marking, Place, Verdict
 
@@ -96,10 +96,10 @@ def by_cell(markings: Sequence[Marking]) -> list[Item]:
     return judged(markings, lambda key, cell: (cell.id, cell.position))
 
 
-def question_rows(markings: Sequence[Marking], language: Language) -> tuple[tuple[Value, ...], ...]:
+def question_rows(markings: Sequence[Marking], language: Language) -> tuple[tuple[CellValue, ...], ...]:
     """Head and rows of `questions.csv`: sections, then questions, then cells."""
     names = load_words(search_path(language))["question_columns"]
-    rows: list[tuple[Value, ...]] = [tuple(names.values())]
+    rows: list[tuple[CellValue, ...]] = [tuple(names.values())]
     levels = (by_section(markings, language), by_question(markings), by_cell(markings))
     for level, items in zip(("section", "question", "cell"), levels, strict=True):
         for item in items:

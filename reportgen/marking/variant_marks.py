@@ -20,7 +20,7 @@ from reportgen.base.words import load_words
 from reportgen.case.key import Role
 from reportgen.formula import Symbol
 from reportgen.formula.plain import formula
-from reportgen.marking.grades import DECIMALS, Value
+from reportgen.marking.grades import DECIMALS, CellValue
 from reportgen.marking.marks import Marking
 from reportgen.marking.policy import Policy
 
@@ -107,11 +107,11 @@ def _chance(own: Sequence[float], means: np.ndarray) -> float:
     return float((1 + np.count_nonzero(as_far)) / (1 + LOTS))
 
 
-def variant_rows(compared: Sequence[VariantGroup], language: Language) -> tuple[tuple[Value, ...], ...]:
+def variant_rows(compared: Sequence[VariantGroup], language: Language) -> tuple[tuple[CellValue, ...], ...]:
     """Head and rows of `by-variant.csv`."""
     words = load_words(search_path(language))
     names, page = words["variant_columns"], words["class_page"]
-    rows: list[tuple[Value, ...]] = [tuple(names.values())]
+    rows: list[tuple[CellValue, ...]] = [tuple(names.values())]
     rows += [
         (
             page["variant"] if group.symbol is None else formula(group.symbol, language),

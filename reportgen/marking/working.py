@@ -17,7 +17,7 @@ from reportgen.marking.bands import half_unit
 from reportgen.marking.marks import Place, Submission
 from reportgen.marking.scheme import MarkingScheme, Values, makes_scale
 
-Change = Callable[[np.ndarray, Values], np.ndarray]
+ChangeValue = Callable[[np.ndarray, Values], np.ndarray]
 """A quantity's value (SI) from what it comes to and all values before it."""
 
 LEAST_FIGURES = 3
@@ -72,7 +72,7 @@ class Working:
         return self._units[id]
 
     def own_values(
-        self, blank_from_key: bool = False, changes: Mapping[str, Change] | None = None
+        self, blank_from_key: bool = False, changes: Mapping[str, ChangeValue] | None = None
     ) -> dict[str, np.ndarray]:
         """What every judged quantity comes to (SI) [N] from the student's own earlier values.
 
@@ -91,17 +91,17 @@ class Working:
     def _from_key(self) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
         return self._followed(True, {})
 
-    def world_with(self, changes: Mapping[str, Change]) -> dict[str, np.ndarray]:
+    def world_with(self, changes: Mapping[str, ChangeValue]) -> dict[str, np.ndarray]:
         """All values (SI) [N] as they are where changes were made to quantities that the sheet does not show."""
         return self._followed(True, changes)[1]
 
     def _followed(
-        self, blank_from_key: bool, unseen: Mapping[str, Change]
+        self, blank_from_key: bool, unseen: Mapping[str, ChangeValue]
     ) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
         ledger = self.scheme.ledger
         result: dict[str, np.ndarray] = {}
 
-        def entered(id: str) -> Change:
+        def entered(id: str) -> ChangeValue:
             def change(computed: np.ndarray, values: Values) -> np.ndarray:
                 computed = unseen[id](computed, values) if id in unseen else computed
                 known = ledger[id].values

@@ -21,7 +21,7 @@ from reportgen.machine.analysis import Analysis
 from reportgen.motion import run_ids
 from reportgen.motion.drives import ConstantDrive
 from reportgen.motion.mistakes import mistakes
-from reportgen.motion.true_motion import State, TrueMotion, at_positions, motion_in
+from reportgen.motion.true_motion import TrueMotion, WheelState, at_positions, motion_in
 
 GIVEN = ("M0", "k", "Mk", "sk", "n0", "i", "J0", "brake")
 """What a file gives of the drive, as these quantities of `run`."""
@@ -101,7 +101,7 @@ def _slope(q: Sheet, analysis: Analysis) -> Expression:
 class _Steady:
     """The entries of one steady motion."""
 
-    def __init__(self, q: Sheet, analysis: Analysis, motion: TrueMotion, state: State) -> None:
+    def __init__(self, q: Sheet, analysis: Analysis, motion: TrueMotion, state: WheelState) -> None:
         self.q, self.machine, self.motion, self.state = q, analysis.machine, motion, state
         self.steady = motion.states[state]
         self.at = at_positions(self.machine, self.steady)

@@ -25,7 +25,7 @@ LOW, FINER, CLOSER = 1e-2, 16, 7
 """Below this share of the greatest a minimum is sought again, over so many places on either side, so many times."""
 OFF_SPEED = 0.1
 """A machine that runs faster or slower than planned by more than this share is another one: the user is warned."""
-State = Literal["", "wheel"]
+WheelState = Literal["", "wheel"]
 """Without the flywheel, and with it."""
 
 
@@ -47,7 +47,7 @@ class TrueMotion:
     stopped: MotionRun | None = None
 
     @property
-    def states(self) -> dict[State, SteadyMotion]:
+    def states(self) -> dict[WheelState, SteadyMotion]:
         """The steady motions, that without flywheel first."""
         return {"": self.alone} if self.wheeled is None else {"": self.alone, "wheel": self.wheeled}
 
@@ -55,7 +55,7 @@ class TrueMotion:
         """By what share the mean speed of the motion that starts and stops differs from the planned one."""
         return abs(self.states[self.shown].mean / machine.speed - 1)
 
-    def added(self, state: State) -> float:
+    def added(self, state: WheelState) -> float:
         """What turns with the crank beside the links (kg·m²): motor and gear, the flywheel."""
         return self.asked.inertia + (self.wheel if state else 0.0)
 
@@ -68,7 +68,7 @@ class TrueMotion:
         return judged(self.asked.motors, self.demand(machine), self.asked.ratio) if self.asked.motors else []
 
     @property
-    def shown(self) -> State:
+    def shown(self) -> WheelState:
         """Which of the two starts and stops."""
         return "wheel" if self.asked.wheeled and self.wheeled is not None else ""
 

@@ -46,7 +46,7 @@ def driver_axis(report: Report, angle: str = "cycle_angle") -> Chain:
 # --- motion over a turn
 
 
-Shown = tuple[Symbol, np.ndarray]
+ShownCurve = tuple[Symbol, np.ndarray]
 """A curve: its symbol and its values in the unit of its axis."""
 
 
@@ -56,18 +56,18 @@ def motion(report: Report) -> FigureScenes:
     return FigureScenes(tuple(over_a_turn(report, curves, title, half=len(shown) > 1).scene for curves, title in shown))
 
 
-def curves_of_motion(report: Report) -> list[tuple[list[Shown], Chain]]:
+def curves_of_motion(report: Report) -> list[tuple[list[ShownCurve], Chain]]:
     """The curves of each chart of the motion, with the name of its axis."""
     moved = report.dense_cycle.motion
     along = report.slider_senses
     spins = scheme(report.machine.linkage).spins
     turning = [link for link, other in spins.items() if link == other > DRIVER]
 
-    def of_points(base: str) -> list[Shown]:
+    def of_points(base: str) -> list[ShownCurve]:
         vectors = {name: getattr(moved.points[name], base) for name in along}
         return [(Symbol(base, name), np.real(np.conj(u) * vectors[name])) for name, u in along.items()]
 
-    def of_links(base: str, quantity: str) -> list[Shown]:
+    def of_links(base: str, quantity: str) -> list[ShownCurve]:
         return [(Symbol(base, str(link)), getattr(moved.links[link], quantity)) for link in turning]
 
     one_way = headings(report, along.values())
@@ -94,7 +94,7 @@ def _positive(report: Report, title: Chain, sense: str) -> Chain:
     return replace(title, note=told) if sense else title
 
 
-def _displacements(report: Report) -> list[Shown]:
+def _displacements(report: Report) -> list[ShownCurve]:
     """How far (mm) each slider is from its dead centre, the one at the far end of its guide if it has no first."""
     courses = {course.link: course for course in report.machine.sliders}
     moved, found = report.dense_cycle.motion, []
@@ -119,7 +119,7 @@ def _across(report: Report) -> np.ndarray:
     return angle * (span * MM / FULL_TURN) if span else np.degrees(angle)
 
 
-def over_a_turn(report: Report, curves: Sequence[Shown], title: Chain, half: bool = False) -> charts.Plotted:
+def over_a_turn(report: Report, curves: Sequence[ShownCurve], title: Chain, half: bool = False) -> charts.Plotted:
     """Curves over one turn of the driver, the numbered positions marked."""
     count = int(np.searchsorted(report.dense_cycle.cycle_angle, FULL_TURN + SAME_ANGLE))
     slides = bool(report.machine.span)
@@ -129,7 +129,7 @@ def over_a_turn(report: Report, curves: Sequence[Shown], title: Chain, half: boo
     return charts.plotted(diagram, half=half, area=report.area)
 
 
-def over_the_cycle(report: Report, curves: Sequence[Shown], title: Chain, half: bool = False) -> charts.Plotted:
+def over_the_cycle(report: Report, curves: Sequence[ShownCurve], title: Chain, half: bool = False) -> charts.Plotted:
     """Curves over the whole cycle, the numbered positions marked."""
     series = tuple(PlottedCurve(shown, _across(report), values, _marks(report)) for shown, values in curves)
     diagram = Diagram(series, driver_axis(report), title, turn=not report.machine.span)

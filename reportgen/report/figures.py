@@ -281,7 +281,7 @@ def _indicator(report: Report, factor: float) -> Scene:
         for k in report.all_positions
     ]
 
-    def drawn(groups: Sequence[indicator_figure.Group]) -> Scene:
+    def drawn(groups: Sequence[indicator_figure.ReadingGroup]) -> Scene:
         return positions_scene(report, factor, indicator_figure.indicator(frame, branches, readings, groups))
 
     return indicator_figure.all_numbered(drawn, frame, readings)

@@ -21,7 +21,7 @@ from reportgen.machine.forces import as_single_force, percussion_points
 from reportgen.report.groups import BodyView
 from reportgen.report.report import Report
 
-State = Literal["none", "couple", "still", "pivot", "meet", "parallel", "far"]
+PercussionCase = Literal["none", "couple", "still", "pivot", "meet", "parallel", "far"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,7 +33,7 @@ class Percussion:
     `at`, are "parallel" or meet too "far" away; then `at` is the foot of S on the line, at the computed distance.
     """
 
-    state: State
+    state: PercussionCase
     K: complex
     at: complex
 
@@ -59,7 +59,7 @@ def percussion(report: Report, body: BodyView, k: int) -> Percussion:
     return Percussion("meet", known, meeting) if abs(meeting - s) < near else Percussion("far", known, foot)
 
 
-def percussion_state(report: Report, body: BodyView, k: int) -> State:
+def percussion_state(report: Report, body: BodyView, k: int) -> PercussionCase:
     """Return the key of the words for how the line of a link's inertia force is found."""
     return percussion(report, body, k).state
 

@@ -26,8 +26,8 @@ from reportgen.drawing.plan import (
     PlanLine,
     PlanPoint,
     PlanVector,
-    Style,
     Titles,
+    VectorStyle,
     lettered,
     plan,
     stages,
@@ -248,7 +248,7 @@ class _Sketch:
     def at(self, name: str) -> str:
         return ids.plan_point(self.what, name)
 
-    def absolute(self, name: str, style: Style, stage: int) -> None:
+    def absolute(self, name: str, style: VectorStyle, stage: int) -> None:
         """Enter the vector of a point's own velocity or acceleration, from the pole, with its end."""
         end = self.at(image(name))
         self.vectors.append(PlanVector(name, POLE, end, style, Symbol(self.what, name, over="vector"), stage))
@@ -390,7 +390,7 @@ def force_construction(report: Report, polygon: Polygon) -> Construction[str]:
         return ids.force_corner(polygon.name, letter)
 
     known = sum(not edge.unknown for edge in polygon.edges)
-    drawn: list[tuple[Edge, int, Style]] = [
+    drawn: list[tuple[Edge, int, VectorStyle]] = [
         (edge, known, "found") if edge.unknown else (edge, number, "known") for number, edge in enumerate(polygon.edges)
     ]
     drawn += [(read, known + 1, "relative") for read in polygon.reads]

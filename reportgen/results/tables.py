@@ -31,7 +31,7 @@ MOST_COLUMNS = 7
 WORDS = frozenset({"position", "crank_angle", "driver_way", "equilibrium", "virtual_work"})
 """Headings that are words of a language; the others are symbols."""
 
-Row = dict[str, float | str | None]
+ResultRow = dict[str, float | str | None]
 RowsOf = Callable[[Mapping[str, Any]], Mapping[str, Mapping[str, float | None]]]
 
 
@@ -64,7 +64,7 @@ def print_tables(results: Mapping[str, Any], language: Language) -> None:
         print_tables(part, language)
 
 
-def _split(row: Row) -> list[list[str]]:
+def _split(row: ResultRow) -> list[list[str]]:
     """Headings of the tables side by side that a row is split into, each with the position and its angle."""
     lead, others = [heading for heading in row if heading in LEADS], [one for one in row if one not in LEADS]
     return [[*lead, *others[at : at + MOST_COLUMNS]] for at in range(0, len(others), MOST_COLUMNS)]
@@ -84,18 +84,20 @@ def _rows_of(kind: str, titles: Collection[str], topics: Collection[str]) -> Row
     return lambda position: {**rows_of(position), **{name: position.get(name, {}) for name in topics}}
 
 
-def tables(positions: Sequence[Mapping[str, Any] | None], own: RowsOf = lambda position: {}) -> dict[str, list[Row]]:
+def tables(
+    positions: Sequence[Mapping[str, Any] | None], own: RowsOf = lambda position: {}
+) -> dict[str, list[ResultRow]]:
     """Name of each table and its rows; positions that cannot be reached are left out.
 
     `own` gives the rows of a position, by the names of their tables, that its kind alone has.
     """
-    found: dict[str, list[Row]] = defaultdict(list)
+    found: dict[str, list[ResultRow]] = defaultdict(list)
     for position in positions:
         if position is None:
             continue
-        lead: Row = {"position": position.get("label", str(position["number"])), **_driver(position)}
+        lead: ResultRow = {"position": position.get("label", str(position["number"])), **_driver(position)}
         points, links = position.get("points", {}), position.get("links", {})
-        rows: dict[str, Row] = {
+        rows: dict[str, ResultRow] = {
             "velocities": {f"v {name}": _size(point["v"]) for name, point in points.items()},
             "accelerations": {f"a {name}": _size(point["a"]) for name, point in points.items()},
             "links": {
@@ -115,7 +117,7 @@ def tables(positions: Sequence[Mapping[str, Any] | None], own: RowsOf = lambda p
     return {name: _without_zeros(rows) for name, rows in found.items()}
 
 
-def _driver(position: Mapping[str, Any]) -> Row:
+def _driver(position: Mapping[str, Any]) -> ResultRow:
     """The position of the driver: the angle of a crank in degrees, the way of a slider in mm; nothing without one."""
     if "driver_way" in position:
         return {"driver_way": position["driver_way"] * MM}
@@ -124,16 +126,16 @@ def _driver(position: Mapping[str, Any]) -> Row:
     return {"crank_angle": round(math.degrees(position["crank_angle"]), 6) % 360}
 
 
-def _once(reactions: Row) -> Row:
+def _once(reactions: ResultRow) -> ResultRow:
     """Each pair R_ij, R_ji once: their sizes are the same."""
-    shown: Row = {}
+    shown: ResultRow = {}
     for name, size in reactions.items():
         if ids.reaction_force(ids.joint(*reversed(ids.links_of(name)))) not in shown:
             shown[name] = size
     return shown
 
 
-def _without_zeros(rows: list[Row]) -> list[Row]:
+def _without_zeros(rows: list[ResultRow]) -> list[ResultRow]:
     """The rows without the columns that are zero at every position (a slider's angular velocity)."""
     heads = dict.fromkeys(key for row in rows for key in row)
     kept = [key for key in heads if any(row.get(key) for row in rows) or key in WORDS]
@@ -182,7 +184,7 @@ def _scale(name: str, heading: str) -> str:
 
 
 def _scales(
-    found: Mapping[str, Sequence[Row]], positions: Sequence[Mapping[str, Any] | None]
+    found: Mapping[str, Sequence[ResultRow]], positions: Sequence[Mapping[str, Any] | None]
 ) -> Mapping[tuple[str, str], float]:
     """How large the values are at their largest that a column shares its scale with; 0 for where the driver is.
 

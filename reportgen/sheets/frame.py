@@ -226,12 +226,12 @@ FIELDS = frozenset(
 _FIELD = re.compile(rf"\{{({'|'.join(FIELDS)})\}}")
 
 Size = Annotated[float, Decimal(Interval(above=0, most=400))]
-Place = Annotated[float, Decimal(Interval(least=0, most=400))]
+SheetPosition = Annotated[float, Decimal(Interval(least=0, most=400))]
 
 
 class _Cell(Part):
-    x: Place
-    y: Place
+    x: SheetPosition
+    y: SheetPosition
     width: Size
     height: Size
     text: OneLine = ""

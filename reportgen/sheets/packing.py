@@ -24,7 +24,7 @@ STEP = 4.0
 """In such steps widths of columns are tried, mm."""
 
 
-Row = list[tuple[DrawingPlate, Arranged]]
+PlateRow = list[tuple[DrawingPlate, Arranged]]
 
 
 @dataclass(frozen=True)
@@ -32,12 +32,12 @@ class PlateColumn:
     """Rows of plates of a width together."""
 
     width: float
-    rows: Sequence[Row]
+    rows: Sequence[PlateRow]
 
     @classmethod
     def of(cls, plates: Sequence[DrawingPlate], width: float) -> PlateColumn:
         """The plates in rows, one beside the other where that makes the column lower; none may be wider (mm)."""
-        rows: list[Row] = []
+        rows: list[PlateRow] = []
         used = 0.0
         for plate in plates:
             alone = plate.arrangements[plate.within(width) - 1]
@@ -72,7 +72,7 @@ class PlateColumn:
             top -= 1j * (_height(row) + apart)
 
 
-def _height(row: Row) -> float:
+def _height(row: PlateRow) -> float:
     return max(how.height for _, how in row)
 
 

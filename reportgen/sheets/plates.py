@@ -48,7 +48,7 @@ from reportgen.report.result_tables import (
     velocity_segments,
 )
 from reportgen.sheets.drawn import Drawn, Sources, bare, table_of, unit_of
-from reportgen.sheets.topic_plates import PLATES, Draw, PlateHooks
+from reportgen.sheets.topic_plates import PLATES, DrawPlates, PlateHooks
 
 LARGER_FORCES = (2.0, 3.0)
 """How many times larger than in the report the force plans of all positions may be drawn."""
@@ -66,7 +66,7 @@ def plates_of(sources: Sources, chosen: str) -> Iterator[DrawingPlate]:
                 yield _plate(sources, drawn, spare=draw in RESULTS and not sources.every)
 
 
-def _set(sources: Sources, chosen: str, topics: Sequence[PlateHooks]) -> Iterator[Draw]:
+def _set(sources: Sources, chosen: str, topics: Sequence[PlateHooks]) -> Iterator[DrawPlates]:
     """Yield what draws the plates of a set, with those that topics add to the set of forces."""
     if chosen == KINEMATICS:
         yield from OF_MOTION
@@ -312,7 +312,7 @@ def _plain(inline: Inline, language: Language) -> str:
 
 
 KINEMATICS, FORCES = "kinematics", "forces"
-OF_MOTION: tuple[Draw, ...] = (
+OF_MOTION: tuple[DrawPlates, ...] = (
     *(_scheme, _positions, _indicator_of_several, _velocities, _centres, _accelerations, _motion),
     *(_velocity_table, _acceleration_table),
 )

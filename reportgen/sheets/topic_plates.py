@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from reportgen.base.topics import HookModule
 from reportgen.sheets.drawn import Drawn, Sources
 
-Draw = Callable[[Sources], Iterator[Drawn]]
+DrawPlates = Callable[[Sources], Iterator[Drawn]]
 """Draws the plates of one sort."""
 
 
@@ -16,14 +16,14 @@ Draw = Callable[[Sources], Iterator[Drawn]]
 class PlateHooks:
     """The plates of a topic: among those of the forces, and in a set of its own that is called like the topic."""
 
-    before_bodies: tuple[Draw, ...] = ()
+    before_bodies: tuple[DrawPlates, ...] = ()
     """Stand in the set of forces before the separated links."""
-    after_bodies: tuple[Draw, ...] = ()
+    after_bodies: tuple[DrawPlates, ...] = ()
     """Stand in the set of forces behind the separated links."""
-    curves: tuple[Draw, ...] = ()
+    curves: tuple[DrawPlates, ...] = ()
     """Stand in the set of forces behind the curves."""
-    own_set: tuple[Draw, ...] = ()
-    further: frozenset[Draw] = frozenset()
+    own_set: tuple[DrawPlates, ...] = ()
+    further: frozenset[DrawPlates] = frozenset()
     """Those that are shown only where every plate is asked for."""
 
 

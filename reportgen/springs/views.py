@@ -10,7 +10,7 @@ from reportgen.document.paper import FigureScenes
 from reportgen.formula import Number
 from reportgen.machine.analysis import motion_at
 from reportgen.machine.laws import FULL_TURN
-from reportgen.report.curves import Shown, axis, over_the_cycle
+from reportgen.report.curves import ShownCurve, axis, over_the_cycle
 from reportgen.report.report import Report
 from reportgen.report.tables import QuantityTable
 from reportgen.report.topic_views import ViewHooks, always
@@ -63,7 +63,7 @@ def spring_loads(report: Report) -> list[str]:
 
 def loads_over_cycle(report: Report) -> FigureScenes:
     """The forces of springs over the cycle, those of torsion springs in a diagram of their own."""
-    by_kind: dict[str, list[Shown]] = {}
+    by_kind: dict[str, list[ShownCurve]] = {}
     analysed = {load.name: load.law for load in report.loads}
     cycle = report.dense_cycle
     for row in rows_of(report):

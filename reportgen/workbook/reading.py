@@ -51,7 +51,7 @@ GENERAL = "General"
 """The number format of cells that have none of their own."""
 _ESCAPE = re.compile(r"_x([0-9A-Fa-f]{4})_")
 
-Row = tuple[Any, ...]
+CellRow = tuple[Any, ...]
 """The cells of a row as openpyxl gives them."""
 Marks = Callable[[int, int], CellMark]
 """Gives the mark of a cell of one sheet by its row and column."""
@@ -149,7 +149,7 @@ def _pages(values: Workbook, formulas: Workbook | None, counts: Sequence[int], f
     return tuple(pages)
 
 
-def _rows(read: Iterator[tuple[Row, Row]], count: int, mark: Marks) -> tuple[tuple[SheetCell, ...], ...]:
+def _rows(read: Iterator[tuple[CellRow, CellRow]], count: int, mark: Marks) -> tuple[tuple[SheetCell, ...], ...]:
     """All rows of a sheet from the first on, as long as their last cell that holds something.
 
     `read` gives each row twice, with formulas as typed and with stored values; `count` cells must be among them.
@@ -190,7 +190,7 @@ def _rows(read: Iterator[tuple[Row, Row]], count: int, mark: Marks) -> tuple[tup
     )
 
 
-def _whole(read: Iterator[tuple[Row, Row]], mark: Marks) -> Iterator[tuple[Row, Row]]:
+def _whole(read: Iterator[tuple[CellRow, CellRow]], mark: Marks) -> Iterator[tuple[CellRow, CellRow]]:
     """The rows up to one that openpyxl cannot read, which is refused as the row after the last whole one."""
     last = 0
     try:

@@ -22,7 +22,7 @@ from reportgen.workbook.package import LONGEST_CELL, guarded, number_text
 if TYPE_CHECKING:
     from openpyxl.worksheet.worksheet import Worksheet
 
-Style = Literal["", "title", "head", "bold", "note", "input", "unasked", "good", "linked", "warn", "bad", "doubt"]
+CellStyle = Literal["", "title", "head", "bold", "note", "input", "unasked", "good", "linked", "warn", "bad", "doubt"]
 
 MOMENT = (2000, 1, 1, 0, 0, 0)
 """When every file says that it was made, so that its bytes depend on its content alone."""
@@ -56,7 +56,7 @@ class Entry:
     """
 
     value: str | float | None = None
-    style: Style = ""
+    style: CellStyle = ""
     comment: str = ""
     format: str = ""
     unlocked: bool = False

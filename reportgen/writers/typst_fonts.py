@@ -28,7 +28,7 @@ BATCH = 400
 """So many different letters are asked for at most; a text of more is not worth a warning."""
 
 Folders = tuple[str, ...]
-Lacking = Callable[[str, bool, Folders], str]
+MissingFromFonts = Callable[[str, bool, Folders], str]
 """Those of some letters that none of the typesetter's own fonts has, nor those in folders, or the system's if asked."""
 
 QUESTION = """\
@@ -117,7 +117,7 @@ def question(letters: str) -> str:
     return QUESTION.format(font=FONT, letters=listed, nowhere=NOWHERE)
 
 
-def sought(text: str, lacking: Lacking = lacking) -> tuple[Folders, bool, str]:
+def sought(text: str, lacking: MissingFromFonts = lacking) -> tuple[Folders, bool, str]:
     """The folders of further fonts that a text needs, whether the system's, and those letters that no font has."""
     wanted = uncommon(text)
     folders = added() if wanted else ()

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from reportgen.base.errors import AssignmentError, Fault, Mark
-from reportgen.classes.draw import Draw, DrawnVariant, Judge
+from reportgen.classes.draw import Draw, DrawnVariant, FindFaults
 from reportgen.classes.roster import Roster, RosterEntry
 from reportgen.classes.spec import Spec
 
@@ -44,7 +44,7 @@ class Result(NamedTuple):
     usable: int | None
 
 
-def draw(spec: Spec, roster: Roster, judge: Judge) -> Result:
+def draw(spec: Spec, roster: Roster, judge: FindFaults) -> Result:
     under_way = Draw(spec, judge)
     drawn = tuple(under_way.each(roster))
     return Result(drawn, tuple(under_way.faults), under_way.usable)

@@ -11,7 +11,7 @@ import pytest
 
 from reportgen.base.errors import AssignmentError, Fault
 from reportgen.base.source import plain, read_text
-from reportgen.classes.draw import Judge, judge_of, pick
+from reportgen.classes.draw import FindFaults, judge_of, pick
 from reportgen.classes.spec import Settings, Spec, read_spec
 from reportgen.classes.variants import Effort, compare, make_variants
 from reportgen.workbook import Book, BookSheet, write_xlsx
@@ -22,7 +22,7 @@ PINNED = 993029
 _judged: dict[tuple[object, ...], tuple[Fault, ...]] = {}
 
 
-def judge_of_bars(spec: Spec) -> Judge:
+def judge_of_bars(spec: Spec) -> FindFaults:
     """The judge of `BARS`, who remembers what was found of a variant in an earlier draw."""
     judge = judge_of(spec)
 

@@ -19,7 +19,7 @@ from reportgen.marking.marking import compare, mark
 from reportgen.marking.marks import Marking, Verdict
 from reportgen.marking.mistakes import Mistake
 from reportgen.marking.scheme import marking_scheme
-from reportgen.marking.working import Change
+from reportgen.marking.working import ChangeValue
 from tests.lanes import matrix
 from tests.marking import students
 from tests.marking.designs import STUDENTS, drawn_class, graded_class, named, telling_and_texts
@@ -142,7 +142,9 @@ def test_other_ways_to_a_value_are_as_right() -> None:
     scheme = marking_scheme(built.case(FOLDER / "pair-equal-sliding.yaml", "en"))
 
     def gone_on(**own: float) -> Marking:
-        changes: dict[str, Change] = {f"gears.{id}": lambda was, _, f=factor: was * f for id, factor in own.items()}
+        changes: dict[str, ChangeValue] = {
+            f"gears.{id}": lambda was, _, f=factor: was * f for id, factor in own.items()
+        }
         changes |= {
             "gears.y": lambda _, pair: (pair["gears.a_w"] - pair["gears.a"]) / pair["gears.m"],
             "gears.d_w.1": lambda _, pair: 2 * pair["gears.a_w"] * 13 / (13 + 36),

@@ -18,7 +18,7 @@ from reportgen.base.arrays import Complexes
 from reportgen.derivation import enter_plans
 from reportgen.machine import laws
 from reportgen.machine.analysis import Machine, analyse
-from reportgen.machine.gas import Indicator, StrokeIndicator
+from reportgen.machine.gas import IndicatorTable, StrokeIndicator
 from reportgen.machine.laws import AngleLaw, ConstantLaw, GasLaw, Law, Opposing, Stroke, TableLaw, WayLaw, by_stroke
 from reportgen.machine.loads import Applied
 from reportgen.machine.motion import Motion
@@ -33,7 +33,7 @@ FOUR_BAR = ROOMS.parent / "assignments" / "four-bar-01.yaml"
 def law_classes() -> set[str]:
     """The names of all classes of laws and of their tables."""
     return {name for name, kind in vars(laws).items() if isinstance(kind, type) and issubclass(kind, Law)} | {
-        kind.__name__ for kind in get_args(Indicator)
+        kind.__name__ for kind in get_args(IndicatorTable)
     }
 
 

@@ -22,7 +22,14 @@ from reportgen.balancing.balance import (
     shaking_force,
     shaking_moment,
 )
-from reportgen.balancing.counterweights import Balancing, Counterweight, Rule, balanced, crank_rods, force_balance
+from reportgen.balancing.counterweights import (
+    Balancing,
+    Counterweight,
+    CounterweightRule,
+    balanced,
+    crank_rods,
+    force_balance,
+)
 from reportgen.cases import MachineCase, open_case
 from reportgen.formula.sheet import Sheet
 from reportgen.machine import GROUND, Crank, Dyad, Guide, Inertia, Linkage, LinkPoint, joints
@@ -87,7 +94,7 @@ SKEW = four_bar((0.050, 0.150, 0.120, 0.180), (0.4, 1.1, 0.9), (0.025 + 0j, 0.06
         ("share", 0.03453333, 1847.444905, 1423.236571),
     ],
 )
-def test_a_slider_crank_by_each_rule(rule: Rule | None, U: float, greatest: float, rms: float) -> None:
+def test_a_slider_crank_by_each_rule(rule: CounterweightRule | None, U: float, greatest: float, rms: float) -> None:
     """Tolerances are half a unit of the last digit that the figures are given with."""
     machine = machine_of(INLINE, 300.0)
     curve = seen_from_crank(machine)
