@@ -29,6 +29,7 @@ ID_HEADS = (
 )
 """What the ids of quantities begin with, before their first dot."""
 _ID = re.compile(rf"({ID_HEADS})\.")
+_CAMEL_CASE = re.compile(r"[A-Z](?=.*[a-z])[A-Za-z0-9]*")
 VAGUE = {"one", "other", "found", "told", "way"}
 """Names that say nothing of what they stand for."""
 
@@ -207,6 +208,27 @@ def class_names_twice(house: House) -> Counted:
     return sorted(name for name, count in names.items() if count > 1)
 
 
+MODELS_OF_KINDS = {"Parameters", "Indicator"}
+"""Names that the module of each kind gives to its models, for the catalogue to find them."""
+
+
+def type_aliases_twice(house: House) -> Counted:
+    """Names of types (`Row = tuple[str, int]`), but for those of one module alone, that several modules define."""
+    names = Counter(name for module in house.modules.values() for name in _aliases(module.tree))
+    return sorted(name for name, count in names.items() if count > 1 and name not in MODELS_OF_KINDS)
+
+
+def _aliases(tree: ast.Module) -> set[str]:
+    """The public names in CamelCase that a module binds to a type expression or to another name of a type."""
+    return {
+        name
+        for node in tree.body
+        if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Name)
+        if _CAMEL_CASE.fullmatch(name := node.targets[0].id)
+        if isinstance(node.value, ast.Subscript | ast.BinOp | ast.Name | ast.Attribute)
+    }
+
+
 def longest_positional_call(house: House) -> Counted:
     """The most arguments that a call passes by their places alone; what goes into a list of any length is one."""
     listing = dict(_listing(house))
@@ -322,6 +344,7 @@ LIMITS: Mapping[Callable[[House], Counted], int | None] = {
     words_of_architecture: 1200,
     ids_by_f_string: 0,
     class_names_twice: 0,
+    type_aliases_twice: 0,
     topic_names_elsewhere: 0,
     longest_positional_call: 6,
     vague_names: None,

@@ -69,6 +69,14 @@ def test_what_is_counted_of_the_code(tmp_path: Path) -> None:
     assert house.ids_by_f_string(little) == [f"{tmp_path / 'little/middle/one.py'}:3"]
 
 
+def test_an_alias_of_a_type_that_two_modules_define_counts_even_if_they_agree(tmp_path: Path) -> None:
+    side = "Row = tuple[str, int]\nEnd = np.ndarray\nOnce = list[int]\n_Own = list[int]\nT = TypeVar('T')\nTable = {}\n"
+    top = "Row = tuple[str, int]\nEnd = A | B\n_Own = list[int]\nT = TypeVar('T')\nTable = {}\nPI = x[0]\n"
+    little = built(tmp_path, side=side, top=top, base="PI = x[1]\n")
+    assert house.type_aliases_twice(little) == ["End", "Row"]
+    assert house.type_aliases_twice(built(tmp_path, top="")) == []
+
+
 def test_a_list_of_any_length_is_one_argument(tmp_path: Path) -> None:
     assert house.longest_positional_call(built(tmp_path)) == 3
     assert house.longest_positional_call(built(tmp_path, side="print(1, 2, 3, 4)\n")) == 4
