@@ -149,7 +149,7 @@ def increasing(section: str, key: str, first: float, last: float, unit: str = ""
 
 
 def _size(text: Any, unit: str) -> float | None:
-    """The value of an item in `unit`; None if it cannot be read, which its own reader reports."""
+    """Return the value of an item in `unit`; None if it cannot be read, which its own reader reports."""
     if not isinstance(text, str):
         return None
     try:

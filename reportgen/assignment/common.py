@@ -127,7 +127,7 @@ class Positions(Part):
         return 1 if self.direction == "anticlockwise" else -1
 
     def start_or(self, natural: float = 0.0) -> float:
-        """The driver's angle in position 1 (rad): as given, else its natural one."""
+        """Return the driver's angle in position 1 (rad): as given, else its natural one."""
         return natural if self.first is None else self.first.si
 
 
@@ -268,7 +268,7 @@ class Assignment:
         return tuple(self.labels.index(one) + 1 if isinstance(one, str) else one for one in worked)
 
     def position(self, named: str) -> int:
-        """The number of the position of a label or a number; raises `UnknownNameError` where there is none."""
+        """Return the number of the position of a label or a number; raises `UnknownNameError` where there is none."""
         position = number_of(named, self.labels) or (number_of(int(named), self.labels) if named.isdecimal() else 0)
         if not position:
             raise UnknownNameError(unknown("no_position", named, self.labels, self.language))
@@ -290,19 +290,19 @@ class Assignment:
         return replace(counted, report=self.report.model_copy(update={"worked_positions": kept}))
 
     def with_worked(self, position: int) -> Assignment:
-        """The same with one position worked out, by its number."""
+        """Return the same with one position worked out, by its number."""
         return replace(self, report=self.report.model_copy(update={"worked_positions": (position,)}))
 
     def with_language(self, language: Language) -> Assignment:
-        """The same, reported in another language."""
+        """Return the same, reported in another language."""
         return replace(self, report=self.report.model_copy(update={"language": language}))
 
     def with_extent(self, extent: Extent) -> Assignment:
-        """The same, reported to another extent."""
+        """Return the same, reported to another extent."""
         return replace(self, report=self.report.model_copy(update={"extent": extent}))
 
     def with_listing(self) -> Assignment:
-        """The same, with the program of its closed formulas in the report."""
+        """Return the same, with the program of its closed formulas in the report."""
         return replace(self, report=self.report.model_copy(update={"listing": True}))
 
 
@@ -330,7 +330,7 @@ class AssignedPart:
     taken: tuple[TakenDatum, ...] = ()
 
     def within(self, whole: Assignment) -> Assignment:
-        """The part as the coursework of `whole` has it: with its cover, its language and its extent."""
+        """Return the part as the coursework of `whole` has it: with its cover, its language and its extent."""
         settings = {key: getattr(whole.report, key) for key in whole.report.model_fields_set - {"worked_positions"}}
         report = ReportSection.model_construct(**settings)
         return replace(self.alone, report=report, variant=whole.variant, id=whole.id, is_part=True)
@@ -381,14 +381,16 @@ def sections(kind: Kind | None) -> dict[str, tuple[Any, Any]]:
 
 
 def file_model(kind: Kind) -> type[Part]:
-    """The model of a whole file of one kind, for its JSON Schema."""
+    """Return the model of a whole file of one kind, for its JSON Schema."""
     name = "".join(word.title() for word in kind.name.split("-"))
     fields: dict[str, Any] = {"kind": (Literal[kind.name], ...), **sections(kind)}
     return create_model(f"{name}File", __base__=Part, **fields)
 
 
 def named_worked(report: ReportSection, positions: Positions) -> tuple[int | str, ...] | None:
-    """The positions written out in full as the file names them (None: all); of instants all, if it names none."""
+    """Return the positions written out in full as the file names them (None: all); of instants all, if it names
+    none.
+    """
     untold = "worked_positions" not in report.model_fields_set
     return None if positions.at and untold else report.worked_positions
 
@@ -406,7 +408,7 @@ def labels_of(names: Labels | None, parameters: Any, positions: Positions, turns
 
 
 def number_of(named: int | str, labels: Sequence[str]) -> int:
-    """The number, from 1, of the position of a number or a label; 0 where there is none."""
+    """Return the number, from 1, of the position of a number or a label; 0 where there is none."""
     if isinstance(named, str):
         return labels.index(named) + 1 if named in labels else 0
     return named if named <= len(labels) else 0

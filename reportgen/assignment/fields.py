@@ -35,7 +35,7 @@ _LABEL = re.compile(r"[a-z]|[0-9]{1,3}|[IVX]{1,5}")
 
 
 def fault(code: str, **arguments: str) -> PydanticCustomError:
-    """The fault `code` of the message table, as pydantic carries it."""
+    """Return the fault `code` of the message table, as pydantic carries it."""
     return PydanticCustomError("fault", "{code}", {"code": code, **arguments})
 
 
@@ -340,7 +340,7 @@ def _measured(read: Callable[[str], Given], value: object) -> Given:
 
 
 def quantity(unit: str, **ends: float) -> Quantity:
-    """A `Quantity` with its interval written in place: `quantity("mm", above=0, below=1e5)`."""
+    """Return a `Quantity` with its interval written in place: `quantity("mm", above=0, below=1e5)`."""
     return Quantity(unit, Interval(**ends))
 
 

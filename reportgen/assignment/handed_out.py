@@ -14,7 +14,7 @@ LOOK = ("school", "templates", "font", "size")
 
 
 def handed_out(path: Path) -> str:
-    """The assignment of a file without comments and without a school's look, its parts in place of their files.
+    """Return the assignment of a file without comments and without a school's look, its parts in place of their files.
 
     What `variants` writes above an assignment (spec, salt) is a comment, and so are an instructor's notes.  The file
     has been read without a fault.  Raises `OSError` for a file that cannot be read.

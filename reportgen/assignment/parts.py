@@ -38,7 +38,7 @@ Assess = Callable[[Source, Path], tuple[Assignment | None, list[Fault]]]
 def read(
     top: MappingNode, path: Path, named: Sequence[NamedPart], find: Callable[[str], Kind], assess: Assess
 ) -> tuple[list[AssignedPart], list[Fault]]:
-    """The parts of a coursework's file, and all their faults.
+    """Return the parts of a coursework's file, and all their faults.
 
     `find` gives what the reader must know of a kind, `assess` the assignment of a part's nodes.
     """
@@ -70,7 +70,8 @@ def read(
 
 
 def in_coursework(source: Source, path: Path, whole: Path, find: Callable[[str], Kind]) -> Source:
-    """The nodes of a part's file with what it takes from the machine of the coursework `whole`, and what keeps it.
+    """Return the nodes of a part's file with what it takes from the machine of the coursework `whole`, and what
+    keeps it.
 
     They are as they stand where the coursework does not name the file.
     """
@@ -82,7 +83,9 @@ def in_coursework(source: Source, path: Path, whole: Path, find: Callable[[str],
 
 
 def taking(source: Source, top: MappingNode, index: int, find: Callable[[str], Kind]) -> Source:
-    """A part with what it takes by the coursework's nodes, in order or not: what is not understood is left out."""
+    """Return a part with what it takes by the coursework's nodes, in order or not: what is not understood is left
+    out.
+    """
     table = at(top, (PARTS, index, "from"))
     taken: list[TakenDatum] = []
     factors: dict[str, float | None] = {}
@@ -98,24 +101,24 @@ def taking(source: Source, top: MappingNode, index: int, find: Callable[[str], K
 
 
 def _no_part(source: Source, find: Callable[[str], Kind]) -> Iterator[Fault]:
-    """The fault of a kind that cannot be a part, as a machine, which could name parts itself."""
+    """Yield the fault of a kind that cannot be a part, as a machine, which could name parts itself."""
     name = at(source.top, ("kind",))
     if isinstance(name, Scalar) and name.text in kinds() and not find(name.text).part:
         yield Fault("no-part", name.mark, {"text": name.text})
 
 
 def numbered(head: str, number: int) -> str:
-    """The name of a part: that of its kind, with a number behind it from the second of a kind on."""
+    """Return the name of a part: that of its kind, with a number behind it from the second of a kind on."""
     return f"{head}{number if number > 1 else ''}"
 
 
 def files(source: Source, path: Path) -> list[Path]:
-    """The files that the parts of a coursework's file stand in, those that may be read."""
+    """Return the files that the parts of a coursework's file stand in, those that may be read."""
     return [file for _, file in _named(source.top, path) if not leads_out(file, path.parent)]
 
 
 def _named(top: Node | None, path: Path) -> Iterator[tuple[int, Path]]:
-    """The files that a coursework's nodes name, by the numbers of their parts."""
+    """Yield the files that a coursework's nodes name, by the numbers of their parts."""
     listed = at(top, (PARTS,))
     for index, item in enumerate(listed.items if isinstance(listed, SequenceNode) else ()):
         file = at(item, ("file",))
@@ -124,7 +127,9 @@ def _named(top: Node | None, path: Path) -> Iterator[tuple[int, Path]]:
 
 
 def in_place(top: MappingNode, path: Path) -> tuple[MappingNode, dict[int, Source], list[Fault]]:
-    """A coursework's table with its parts in place of their files; these files by the part's number; what is wrong."""
+    """Return a coursework's table with its parts in place of their files; these files by the part's number; what is
+    wrong.
+    """
     whole: Node = top
     listed = at(top, (PARTS,))
     sources: dict[int, Source] = {}
@@ -145,7 +150,7 @@ def in_place(top: MappingNode, path: Path) -> tuple[MappingNode, dict[int, Sourc
 
 
 def named(top: MappingNode, find: Callable[[str], Kind]) -> dict[int, str]:
-    """The names of parts that stand in place, by number: each that of its kind, numbered on."""
+    """Return the names of parts that stand in place, by number: each that of its kind, numbered on."""
     listed, met = at(top, (PARTS,)), Counter[str]()
     names: dict[int, str] = {}
     for index, item in enumerate(listed.items if isinstance(listed, SequenceNode) else ()):
@@ -158,7 +163,7 @@ def named(top: MappingNode, find: Callable[[str], Kind]) -> dict[int, str]:
 
 
 def frozen(stem: str, name: str) -> str:
-    """The file of a student's part, beside the machine's: K1.cam.yaml beside K1.yaml."""
+    """Return the file of a student's part, beside the machine's: K1.cam.yaml beside K1.yaml."""
     return f"{stem}.{name}.yaml"
 
 
@@ -169,7 +174,7 @@ def is_frozen(path: Path, heads: Collection[str]) -> bool:
 
 
 def source_of(top: MappingNode, path: Path, index: int) -> tuple[Source, list[Fault]]:
-    """The nodes of a part by its number, and what keeps its file from being read."""
+    """Return the nodes of a part by its number, and what keeps its file from being read."""
     table = at(top, (PARTS, index))
     assert isinstance(table, MappingNode), "the list of parts is in order"
     place = table.find("file")
@@ -197,7 +202,9 @@ def _completed(
     factors: Mapping[str, float | None],
     find: Callable[[str], Kind],
 ) -> tuple[Source, list[Fault]]:
-    """The part with what it takes, so many times by its key, and with the driver's sense if it sits on that shaft."""
+    """Return the part with what it takes, so many times by its key, and with the driver's sense if it sits on that
+    shaft.
+    """
     source, faults = _with_taken(source, top, index, taken, factors)
     if not faults and any((datum.key, datum.of, datum.times) == ON_SHAFT for datum in taken):
         return _with_direction(source, top, find)
@@ -207,7 +214,7 @@ def _completed(
 def _with_taken(
     source: Source, top: MappingNode, index: int, taken: Sequence[TakenDatum], factors: Mapping[str, float | None]
 ) -> tuple[Source, list[Fault]]:
-    """The part with the machine's values among its parameters."""
+    """Return the part with the machine's values among its parameters."""
     node: Node | None = source.top
     faults: list[Fault] = []
     for datum in taken:
@@ -230,7 +237,9 @@ def _with_taken(
 
 
 def _with_direction(source: Source, top: MappingNode, find: Callable[[str], Kind]) -> tuple[Source, list[Fault]]:
-    """A part that sits on the driver's shaft, with the driver's sense of rotation if its kind has one of its own."""
+    """Return a part that sits on the driver's shaft, with the driver's sense of rotation if its kind has one of its
+    own.
+    """
     node, name = source.top, at(source.top, ("kind",))
     if node is None or not isinstance(name, Scalar) or name.text not in kinds():
         return source, []
@@ -246,19 +255,21 @@ def _with_direction(source: Source, top: MappingNode, find: Callable[[str], Kind
 
 
 def place_of(name: str) -> Where:
-    """The place of a quantity in the machine's file: among its parameters, or in the section that its name says."""
+    """Return the place of a quantity in the machine's file: among its parameters, or in the section that its name
+    says.
+    """
     steps = tuple(name.split("."))
     return steps if len(steps) > 1 else ("parameters", *steps)
 
 
 def scaled(text: str, times: float) -> str:
-    """A quantity as typed, so many times as large, in its own unit; what is no quantity stays."""
+    """Return a quantity as typed, so many times as large, in its own unit; what is no quantity stays."""
     typed = _TYPED.fullmatch(text)
     return f"{float(typed[1]) * times:.12g}{typed[2]}" if typed else text
 
 
 def _quantities(top: MappingNode) -> Iterator[str]:
-    """The keys of the machine's parameters that have one value."""
+    """Yield the keys of the machine's parameters that have one value."""
     section = at(top, ("parameters",))
     for key, value in section.entries if isinstance(section, MappingNode) else ():
         if isinstance(value, Scalar):

@@ -39,7 +39,7 @@ _CONTROLS = {"Cc", "Cf", "Cs", "Zl", "Zp"}
 def assess(
     source: Source, path: Path, kinds: Collection[str], find: Callable[[str], Kind]
 ) -> tuple[Assignment | None, list[Fault]]:
-    """The assignment of nodes that were read from `path` or put together from several files; else its faults.
+    """Return the assignment of nodes that were read from `path` or put together from several files; else its faults.
 
     `kinds` are those that a file may name; `find` gives what the reader must know of one of them.
     """
@@ -73,7 +73,9 @@ def assess(
 
 
 def name_faults(path: Path) -> Iterator[Fault]:
-    """The name of a file, without its ending, is that of a folder too: one that any system has, and that lies below."""
+    """Yield faults unless the name of a file, without its ending, is that of a folder too: one that any system has,
+    and that lies below.
+    """
     stem = path.stem
     shown = "".join(character for character in stem if unicodedata.category(character) not in _CONTROLS)
     if os.path.isdir(path):
@@ -85,7 +87,8 @@ def name_faults(path: Path) -> Iterator[Fault]:
 
 
 def inputs(path: Path) -> tuple[bytes, dict[str, bytes]]:
-    """An assignment file, and what it names beside itself by the ways from there: a school's words, files of parts.
+    """Return an assignment file, and what it names beside itself by the ways from there: a school's words, files of
+    parts.
 
     Raises `OSError` for a file that cannot be read.
     """
@@ -97,7 +100,7 @@ def inputs(path: Path) -> tuple[bytes, dict[str, bytes]]:
 
 
 def words_beside(path: Path) -> dict[str, bytes]:
-    """The files of the school's folder that an assignment file names beside itself, by their ways from there."""
+    """Return the files of the school's folder that an assignment file names beside itself, by their ways from there."""
     named = at(read_source(path).top, ("report", "templates"))
     if not isinstance(named, Scalar) or named.null or leads_out(path.parent / named.text, path.parent):
         return {}
@@ -106,7 +109,7 @@ def words_beside(path: Path) -> dict[str, bytes]:
 
 
 def read_model(path: Path, model: type[Model], language: Language | None = None) -> Model:
-    """The content of a file that is no assignment, e.g. a marking policy.
+    """Return the content of a file that is no assignment, e.g. a marking policy.
 
     Raises `AssignmentError` with every fault of the file.
     """
@@ -128,7 +131,7 @@ def placed(source: Source, findings: Iterable[Finding]) -> list[Fault]:
 
 
 def misread(top: MappingNode, kind: Kind) -> list[Fault]:
-    """The faults that single values and keys show by themselves, without the checks of several values."""
+    """Return the faults that single values and keys show by themselves, without the checks of several values."""
     return [_placed(finding, top) for finding in _sections(plain(top), kind)[0]]
 
 
@@ -170,7 +173,7 @@ def _doubtful(node: Node | None) -> Iterator[Fault]:
 
 
 def _top(source: Source) -> tuple[MappingNode | None, list[Fault]]:
-    """The table at the top of a file, and the file's faults."""
+    """Return the table at the top of a file, and the file's faults."""
     faults = list(source.faults)
     if isinstance(source.top, MappingNode):
         return source.top, faults
@@ -243,13 +246,13 @@ def _section(
 
 
 def _telling(details: list[ErrorDetails]) -> list[ErrorDetails]:
-    """The faults without those of a list's length that only follow from faults anywhere in its items."""
+    """Return the faults without those of a list's length that only follow from faults anywhere in its items."""
     inner = {detail["loc"][:depth] for detail in details for depth in range(len(detail["loc"]))}
     return [one for one in details if one["type"] != "too_short" or one["loc"] not in inner]
 
 
 def _finding(key: str, detail: ErrorDetails, content: Any, schema: dict[str, Any]) -> Finding:
-    """A fault of pydantic's as a finding; its own types of fault get our codes."""
+    """Return a fault of pydantic's as a finding; its own types of fault get our codes."""
     where = (key, *_real(detail["loc"], content))
     context = detail.get("ctx", {})
     match detail["type"]:
@@ -283,7 +286,7 @@ def _unknown(where: Where, known: Sequence[str]) -> Finding:
 
 
 def _without_renamed(findings: Sequence[Finding]) -> list[Finding]:
-    """The findings without those of keys that are missing only because they stand there misspelt."""
+    """Return the findings without those of keys that are missing only because they stand there misspelt."""
     misspelt = {
         (finding.where[:-1], finding.arguments["close"])
         for finding in findings
@@ -298,7 +301,7 @@ def _without_renamed(findings: Sequence[Finding]) -> list[Finding]:
 
 
 def _real(location: Where, content: Any) -> Iterator[str | int]:
-    """The steps that stand in the file: pydantic also names the member of a union that it chose."""
+    """Yield the steps that stand in the file: pydantic also names the member of a union that it chose."""
     for number, step in enumerate(location):
         last = number == len(location) - 1
         if isinstance(content, dict):
@@ -314,7 +317,7 @@ def _real(location: Where, content: Any) -> Iterator[str | int]:
 
 
 def _placed(finding: Finding, top: MappingNode) -> Fault:
-    """The finding with its mark; what is missing stands at the key it is missing under."""
+    """Return the finding with its mark; what is missing stands at the key it is missing under."""
     node: Node = top
     key_mark = top.mark
     for step in finding.where:

@@ -52,14 +52,16 @@ class _Generator(GenerateJsonSchema):
 
 @cache
 def file_schema(kind: Kind) -> Schema:
-    """The JSON Schema of a whole file of a kind; of draft 2020-12."""
+    """Return the JSON Schema of a whole file of a kind; of draft 2020-12."""
     schema = file_model(kind).model_json_schema(by_alias=True, schema_generator=_Generator)
     _tell_checks(schema, schema, kind)
     return schema
 
 
 def schema_of(kinds: Iterable[Kind], words: Callable[[str], Mapping[str, FieldWords]]) -> Schema:
-    """The JSON Schema (draft-07, which every editor knows) of a file of any of the kinds, with the words of each."""
+    """Return the JSON Schema (draft-07, which every editor knows) of a file of any of the kinds, with the words of
+    each.
+    """
     # All at once: models of one name in different kinds get names of their own.
     models: dict[Kind, tuple[type[BaseModel], JsonSchemaMode]] = {
         kind: (file_model(kind), "validation") for kind in kinds
@@ -73,7 +75,9 @@ def schema_of(kinds: Iterable[Kind], words: Callable[[str], Mapping[str, FieldWo
 
 
 def _as_draft_07(part: Any) -> Any:
-    """A schema of draft 2020-12 in the words of draft-07; the models use but one that the drafts do not share."""
+    """Return a schema of draft 2020-12 in the words of draft-07; the models use but one that the drafts do not
+    share.
+    """
     match part:
         case dict():
             return {"definitions" if key == "$defs" else key: _as_draft_07(value) for key, value in part.items()}
@@ -150,12 +154,12 @@ def _unnamed(schema: Schema) -> Iterator[Schema]:
 
 
 def tables_at(part: Schema, root: Schema, where: Where) -> list[Schema]:
-    """The tables that may stand at a place."""
+    """Return the tables that may stand at a place."""
     return [schema for schema in places(part, root, where) if "properties" in schema]
 
 
 def known_keys(kind: Kind, where: Where) -> list[str]:
-    """The keys that a table at `where` in a file of a kind may have; none if no table stands there."""
+    """Return the keys that a table at `where` in a file of a kind may have; none if no table stands there."""
     return keys_at(file_schema(kind), where)
 
 
@@ -168,14 +172,14 @@ def allowed_forms(kind: Kind, where: Where) -> frozenset[str]:
 
 
 def choices_of(schema: Schema) -> list[str]:
-    """The values among which one alternative at a place lets a file choose."""
+    """Return the values among which one alternative at a place lets a file choose."""
     if schema.get("type") == "boolean":
         return ["true", "false"]
     return [str(value) for value in (*schema.get("enum", ()), *([schema["const"]] if "const" in schema else ()))]
 
 
 def alternatives_to(kind: Kind, path: Sequence[str]) -> list[str]:
-    """The other keys by which the same may be said as by that of a path."""
+    """Return the other keys by which the same may be said as by that of a path."""
     checks = (check for check in kind.all_checks if isinstance(check, OneOf) and check.where == tuple(path[:-1]))
     return [name for check in checks if path[-1] in check.names for name in check.names if name != path[-1]]
 
@@ -188,7 +192,7 @@ def keys_at(schema: Schema, where: Where) -> list[str]:
 
 
 def places(part: Schema, root: Schema, where: Where) -> list[Schema]:
-    """The alternatives that a part of a JSON Schema allows at a place below it."""
+    """Return the alternatives that a part of a JSON Schema allows at a place below it."""
     level = list(alternatives(part, root))
     for step in where:
         inner = [inner for schema in level for inner in _inside(schema, step)]
@@ -210,7 +214,7 @@ def _inside(schema: Schema, step: str | int) -> Iterator[Schema]:
 
 
 def alternatives(schema: Schema, root: Schema) -> Iterator[Schema]:
-    """A part of a JSON Schema with references followed and `oneOf`, `anyOf` taken apart."""
+    """Yield a part of a JSON Schema with references followed and `oneOf`, `anyOf` taken apart."""
     if "$ref" in schema:
         yield from alternatives(root["$defs"][schema["$ref"].rsplit("/", 1)[-1]], root)
     elif choices := [*schema.get("oneOf", ()), *schema.get("anyOf", ())]:

@@ -74,7 +74,9 @@ def shaking_moment(linkage: Linkage, motion: Motion) -> Floats:
 
 
 def frame_reactions(linkage: Linkage, motion: Motion) -> Complexes:
-    """The sum of the forces (N) [N] on the frame in all its joints when nothing but inertia acts: F once more."""
+    """Return the sum of the forces (N) [N] on the frame in all its joints when nothing but inertia acts: F once
+    more.
+    """
     reactions = solve_forces(linkage, motion, inertia_loads(linkage, motion)).reactions
     on_frame = [joint.links[1] for joint in joints(linkage) if joint.links[0] == GROUND]
     return sum(
@@ -122,7 +124,7 @@ class CrankCurve:
         return np.asarray(np.fft.fftfreq(len(self.harmonics), 1 / len(self.harmonics)), dtype=np.float64)
 
     def at(self, angle: Floats | float, derivative: int = 0) -> Complexes:
-        """The curve, or a derivative by θ, at angles θ [N] (rad)."""
+        """Return the curve, or a derivative by θ, at angles θ [N] (rad)."""
         kept = self.harmonics != 0
         orders = self.orders[kept]
         waves = np.exp(1j * np.multiply.outer(np.asarray(angle), orders))
@@ -134,12 +136,12 @@ class CrankCurve:
         return complex(self.harmonics[0])
 
     def rms(self, counterweight: complex = 0j) -> float:
-        """The root of the mean square of |F|/ω² (kg·m) with a counterweight U on the crank (Parseval)."""
+        """Return the root of the mean square of |F|/ω² (kg·m) with a counterweight U on the crank (Parseval)."""
         others = float(np.sum(np.abs(self.harmonics[1:]) ** 2))
         return float(np.sqrt(others + abs(self.mean + counterweight) ** 2))
 
     def farthest(self, centre: complex) -> tuple[float, Floats]:
-        """The greatest distance (kg·m) of the curve from a point, and all its places (rad) of greatest distance.
+        """Return the greatest distance (kg·m) of the curve from a point, and all its places (rad) of greatest distance.
 
         Those within a thousandth of the greatest distance are told, each refined.
         """
@@ -163,7 +165,7 @@ class CrankCurve:
         return float(np.abs(self.at(angle) - centre).max()), angle
 
     def greatest(self, counterweight: complex = 0j) -> tuple[float, float]:
-        """The greatest |F|/ω² (kg·m) of the turn with a counterweight U on the crank, and its place θ (rad)."""
+        """Return the greatest |F|/ω² (kg·m) of the turn with a counterweight U on the crank, and its place θ (rad)."""
         size, places = self.farthest(-counterweight)
         first = places[int(np.abs(self.at(places) + counterweight).argmax())]
         return size, float(np.mod(first, FULL_TURN))
@@ -175,7 +177,9 @@ class CrankCurve:
 
 
 def seen_from_crank(machine: Machine) -> CrankCurve:
-    """The curve F e^{−iφ}/ω² of a machine whose crank turns evenly, at so many places that its harmonics fade away."""
+    """Return the curve F e^{−iφ}/ω² of a machine whose crank turns evenly, at so many places that its harmonics fade
+    away.
+    """
     count = SAMPLES
     while True:
         motion = motion_at(machine, np.arange(count) * (FULL_TURN / count))
@@ -222,7 +226,7 @@ def round_points(points: Complexes) -> tuple[complex, float, tuple[int, ...]]:
 
 
 def _round_few(points: Complexes) -> tuple[complex, float, tuple[int, ...]]:
-    """The smallest circle round up to four points, by all pairs and all triples of them."""
+    """Return the smallest circle round up to four points, by all pairs and all triples of them."""
     best: tuple[complex, float, tuple[int, ...]] = (0j, np.inf, ())
     for few in (*combinations(range(len(points)), 2), *combinations(range(len(points)), 3)):
         centre = through(points[list(few)])
@@ -233,7 +237,9 @@ def _round_few(points: Complexes) -> tuple[complex, float, tuple[int, ...]]:
 
 
 def through(points: Complexes) -> complex:
-    """The centre of the circle on two points as a diameter, or through three; nan where the three lie in a line."""
+    """Return the centre of the circle on two points as a diameter, or through three; nan where the three lie in a
+    line.
+    """
     if len(points) == 2:
         return complex(points.mean())
     first, second = points[1] - points[0], points[2] - points[0]
@@ -243,7 +249,7 @@ def through(points: Complexes) -> complex:
 
 
 def smallest_round(curve: CrankCurve) -> SmallestCircle:
-    """The smallest circle round a whole curve: that of its samples, with the points of touch refined.
+    """Return the smallest circle round a whole curve: that of its samples, with the points of touch refined.
 
     Where the curve leaves the circle between the samples, the places where it is farthest are taken among them.
     """
@@ -356,7 +362,7 @@ def counterweight(machine: Machine, curve: CrankCurve, rule: CounterweightRule, 
 
 
 def balanced_turn(machine: Machine) -> BalancedTurn:
-    """The balancing that a machine's report asks for; the machine's crank turns evenly."""
+    """Return the balancing that a machine's report asks for; the machine's crank turns evenly."""
     asked, curve = machine.topic("balancing", Balancing) or Balancing(), seen_from_crank(machine)
     products = {rule: counterweight(machine, curve, rule, asked.share) for rule in asked.rules}
     carried_out = force_balance(machine.linkage) if asked.links else {}

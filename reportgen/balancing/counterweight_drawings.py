@@ -34,7 +34,7 @@ class CounterweightDisc:
 def with_discs(
     linkage: Linkage, motion: Motion, index: int, scale: float, looks: Looks, discs: Sequence[CounterweightDisc]
 ) -> Scene:
-    """The scheme at position `index`, `scale` mm of paper per m, with counterweights."""
+    """Return the scheme at position `index`, `scale` mm of paper per m, with counterweights."""
     bones = skeleton(linkage, motion, index, scale)
     heaviest = max(disc.mass for disc in discs)
     items: list[Item] = []

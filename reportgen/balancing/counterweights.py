@@ -54,7 +54,7 @@ class Counterweight:
 
 
 def balanced(linkage: Linkage, weights: Iterable[Counterweight]) -> Linkage:
-    """The linkage with counterweights as further masses, at points called W and the number of their link."""
+    """Return the linkage with counterweights as further masses, at points called W and the number of their link."""
     some = [weight for weight in weights if weight.product]
     points = (LinkPoint(f"W{weight.link}", weight.link, weight.place) for weight in some)
     bodies = (Inertia(weight.link, f"W{weight.link}", weight.mass) for weight in some)
@@ -81,7 +81,8 @@ class CrankRod:
 
 
 def crank_rods(linkage: Linkage) -> tuple[CrankRod, ...]:
-    """The rods of all sliders; () unless every group is a rod from the crank to a slider on the frame, straight and
+    """Return the rods of all sliders; () unless every group is a rod from the crank to a slider on the frame,
+    straight and
     with its mass centre on it."""
     driver = linkage.driver
     if not isinstance(driver, Crank):

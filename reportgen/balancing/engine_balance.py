@@ -24,14 +24,16 @@ SHORTEST = 1.2
 
 
 def case(assignment: Assignment) -> EngineCase:
-    """The case of an assignment."""
+    """Return the case of an assignment."""
     from reportgen.balancing.engine_case import EngineCase
 
     return EngineCase(assignment)
 
 
 def table_rows(position: Mapping[str, Any]) -> dict[str, dict[str, float]]:
-    """The rows that `solve` prints of the results: forces (N) and couples (N·m) by orders, the counterweight (kg·m)."""
+    """Return the rows that `solve` prints of the results: forces (N) and couples (N·m) by orders, the counterweight
+    (kg·m).
+    """
     orders, counterweight = position["orders"].items(), position["counterweight"]
     return {
         "forces": {f"F_{order}": entry["force"] for order, entry in orders},
@@ -41,7 +43,7 @@ def table_rows(position: Mapping[str, Any]) -> dict[str, dict[str, float]]:
 
 
 def check(given: Parameters) -> Iterator[Finding]:
-    """A rod that is long enough, its mass with the place of its mass centre, no two cylinders in one place."""
+    """Require a rod that is long enough, its mass with the place of its mass centre, no two cylinders in one place."""
     if given.l.si < SHORTEST * given.r.si:
         least = f"{SHORTEST * given.r.si * 1e3:g}"
         yield Finding("rod-too-short", (*TOP, "l"), {"l": given.l.text, "r": given.r.text, "least": least})

@@ -160,7 +160,7 @@ class EngineCase(SolvedEngine):
         return (engine_motion.animation(self),)
 
     def plates(self, sets: Collection[str] = (), every: bool = False) -> Mapping[str, Sequence[DrawingPlate]]:
-        """Its scheme, its stars and its results; there are no sets of them to choose from."""
+        """Return its scheme, its stars and its results; there are no sets of them to choose from."""
         table = drawn(EnginePage(self).result, self.assignment.language)
         title = self.words["orders"]["captions"]["result"]
         return {"orders": [*engine_drawings.plates(self), DrawingPlate(title, (), "tables", (table,), spare=True)]}

@@ -36,7 +36,7 @@ APART, OUT = 6.0, 7.0
 
 
 def piston_at(case: SolvedEngine, place: str, φ: float = 0.0) -> complex:
-    """The pin of a piston (m), x + iy, with the crank at φ."""
+    """Return the pin of a piston (m), x + iy, with the crank at φ."""
     given = case.given
     cylinder = given.cylinders[int(place) - 1]
     turned = φ + cylinder.crank.si - cylinder.bank.si
@@ -45,12 +45,12 @@ def piston_at(case: SolvedEngine, place: str, φ: float = 0.0) -> complex:
 
 
 def crank_at(case: SolvedEngine, place: str, φ: float = 0.0) -> complex:
-    """The pin of a crank (m), x + iy, with the crank at φ."""
+    """Return the pin of a crank (m), x + iy, with the crank at φ."""
     return cmath.rect(case.given.r.si, φ + case.given.cylinders[int(place) - 1].crank.si)
 
 
 def banks(case: SolvedEngine) -> dict[float, str]:
-    """The first cylinder of each bank, by its angle."""
+    """Return the first cylinder of each bank, by its angle."""
     return {one.bank.si: place for place, one in reversed([*zip(case.cylinders, case.given.cylinders, strict=True)])}
 
 
@@ -66,7 +66,7 @@ def extent_of(case: SolvedEngine) -> tuple[float, float]:
 
 
 def scheme(case: SolvedEngine, size: FigureSize = IN_REPORT) -> Scene:
-    """The engine from the end of its shaft and, where its cylinders stand one behind another, its shaft."""
+    """Return the engine from the end of its shaft and, where its cylinders stand one behind another, its shaft."""
     front, μ_r = _from_the_end(case, size)
     if not case.given.has_length:
         return finish(front, notes=(μ_r,))
@@ -105,7 +105,7 @@ def _from_the_end(case: SolvedEngine, size: FigureSize) -> tuple[Canvas, Chain]:
 
 
 def _pins(case: SolvedEngine) -> dict[float, list[Content]]:
-    """The numbers of the cylinders on each pin, by its angle within a turn."""
+    """Return the numbers of the cylinders on each pin, by its angle within a turn."""
     pins: dict[float, list[Content]] = {}
     for place, cylinder in zip(case.cylinders, case.given.cylinders, strict=True):
         pins.setdefault(round(cylinder.crank.si % math.tau, 9) % math.tau, []).append(place)
@@ -113,7 +113,7 @@ def _pins(case: SolvedEngine) -> dict[float, list[Content]]:
 
 
 def _shaft(case: SolvedEngine, size: FigureSize) -> tuple[Canvas, Chain]:
-    """The crankshaft from the side, z to the right, with its throws as high as they stand."""
+    """Return the crankshaft from the side, z to the right, with its throws as high as they stand."""
     places = {place: one.at.si for place, one in zip(case.cylinders, case.given.cylinders, strict=True)}
     start, span = min(places.values()), max(places.values()) - min(places.values())
     usual = nice_up(max(span / LONG, 2 * case.given.r.si / SIDE) * MM)
@@ -142,7 +142,7 @@ def _shaft(case: SolvedEngine, size: FigureSize) -> tuple[Canvas, Chain]:
 
 
 def star(case: SolvedEngine, letter: str, order: int, size: FigureSize = IN_REPORT) -> Scene:
-    """The vectors of all cylinders one after another with the crank at 0, and what closes them."""
+    """Return the vectors of all cylinders one after another with the crank at 0, and what closes them."""
     ledger = case.printed
     scale = orders_ids.scale(letter)
     μ = ledger.number(scale)
@@ -164,7 +164,7 @@ def star(case: SolvedEngine, letter: str, order: int, size: FigureSize = IN_REPO
 
 
 def stars(case: SolvedEngine, letters: str, size: FigureSize = IN_REPORT) -> tuple[Scene, ...]:
-    """The stars of all orders, those that turn with the crank first."""
+    """Return the stars of all orders, those that turn with the crank first."""
     return tuple(star(case, letter, order, size) for letter in letters for order in ORDERS)
 
 
@@ -178,7 +178,7 @@ FIGURES: Mapping[str, tuple[str, DrawEngine]] = {
 
 
 def plates(case: SolvedEngine) -> Iterator[DrawingPlate]:
-    """The scheme and the stars, at standard scales."""
+    """Yield the scheme and the stars, at standard scales."""
     captions = case.words["orders"]["captions"]
 
     def plate(name: str, layer: str, steps: int) -> DrawingPlate:

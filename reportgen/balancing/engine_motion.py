@@ -70,7 +70,7 @@ class Shaking:
 
 
 def animation(case: SolvedEngine) -> Animation:
-    """One turn of the crank."""
+    """Return one turn of the crank."""
     φ = np.linspace(0, math.tau, SAMPLES + 1)
     reach = case.given.r.si + case.given.l.si
     per = HIGH / reach / (2 if len(banks(case)) > 1 else 1)
@@ -131,7 +131,7 @@ def _kept(
 
 
 def _plan(case: SolvedEngine, shaking: Shaking) -> Pane:
-    """The vectors of the parts and of their sum, with the path of the sum."""
+    """Return the vectors of the parts and of their sum, with the path of the sum."""
     parts, letter, whole = shaking.parts, shaking.letter, shaking.whole
     most = max((float(np.abs(one).max()) for one in (*parts.values(), whole)), default=0.0) or FORCE
     per_mm = most / FORCE
@@ -149,7 +149,7 @@ def _plan(case: SolvedEngine, shaking: Shaking) -> Pane:
 
 
 def _charts(case: SolvedEngine, φ: EngineAngles) -> Iterator[Chart]:
-    """The parts of forces and couples along x and y over a turn."""
+    """Yield the parts of forces and couples along x and y over a turn."""
     across = Chain((Symbol("φ"),), str(case.words["orders"]["degrees"]))
     for shaking in _shaking(case, φ):
         unit = case.ledger.printed_unit(KINDS[shaking.kind].unit)

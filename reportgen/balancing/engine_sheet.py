@@ -144,11 +144,11 @@ class EngineSheet:
         return angles
 
     def _weight(self, of: Expression) -> float:
-        """A vector's weight in its star: 1 where its pieces are alike, else what is entered for its cylinder."""
+        """Return a vector's weight in its star: 1 where its pieces are alike, else what is entered for its cylinder."""
         return self.q.si(of) if isinstance(of, Ref) else 1.0
 
     def _extent(self, weights: Mapping[str, Expression], directions: Mapping[str, Ref]) -> float:
-        """The larger of width and height of a star, as its vectors are drawn one after another."""
+        """Return the larger of width and height of a star, as its vectors are drawn one after another."""
         steps = [self._weight(weights[place]) * np.exp(1j * self.q.si(directions[place])) for place in self.cylinders]
         low, high = corners_of(np.cumsum([0.0, *steps]))
         return max((high - low).real, (high - low).imag)
@@ -213,5 +213,5 @@ def times_direction(weight: Expression, direction: Expression) -> Expression:
 
 
 def abs_of(order: int, of: Expression) -> Expression:
-    """The size of a force of an order: the factor of the fourth is negative."""
+    """Return the size of a force of an order: the factor of the fourth is negative."""
     return size(of) if order == ORDERS[-1] else of

@@ -73,7 +73,7 @@ def _place(weight: Counterweight, motion: Motion) -> Complexes:
 
 
 def with_room(report: Report, motion: Motion, scale: float, box: tuple[complex, complex]) -> tuple[complex, complex]:
-    """The corners of a drawing (mm) that holds the counterweights, too."""
+    """Return the corners of a drawing (mm) that holds the counterweights, too."""
     turn = balanced_in(report.analysis)
     places = [_place(weight, motion) * scale for weight in turn.weights]
     if not places:
@@ -89,7 +89,7 @@ def with_room(report: Report, motion: Motion, scale: float, box: tuple[complex, 
 
 
 def values(report: Report, motion: Motion) -> Iterator[tuple[Symbol, str, Floats]]:
-    """The sizes of these forces and the moment on the frame: symbol, kind, values [N]; none if not asked for."""
+    """Yield the sizes of these forces and the moment on the frame: symbol, kind, values [N]; none if not asked for."""
     turn, ledger = balanced_in(report.analysis), report.ledger
     for _, id, force in forces(turn, motion):
         yield ledger.symbol(id), "force", np.abs(force)

@@ -133,7 +133,7 @@ class _Entry:
         q.define(balance_ids.MOMENT, total(moments), scale=self.torque)
 
     def _force_of(self, body: Inertia) -> tuple[Ref, Ref]:
-        """The components of a link's inertia force, against the acceleration of its mass centre."""
+        """Return the components of a link's inertia force, against the acceleration of its mass centre."""
         q, direction = self.q, ids.direction("a", body.centre)
         if direction not in q:
             q.define(
@@ -150,7 +150,7 @@ class _Entry:
         return along, up
 
     def _arms(self, name: str, arm: Expression) -> tuple[Ref, Ref]:
-        """The coordinates of a point from a centre, measured on the drawing of the mechanism."""
+        """Return the coordinates of a point from a centre, measured on the drawing of the mechanism."""
         x, y = (
             self.q.find(id) or self.q.define(id, call(part, arm), scale=self.crank.length)
             for id, part in (
@@ -272,7 +272,7 @@ class _Entry:
         return [minus(plus(*axis)) for axis in terms]
 
     def _arm(self, link: int, name: str, place: complex) -> tuple[Expression, Expression]:
-        """The distance of a point of the crank from its centre, and the angle it is turned by from the pin."""
+        """Return the distance of a point of the crank from its centre, and the angle it is turned by from the pin."""
         q, length = self.q, ids.length(self.crank.centre, name)
         arm = q.find(length) or q.give(length, abs(place))
         if abs(place.imag) <= ON_ITS_LINK * abs(place) and place.real > 0:
@@ -322,7 +322,7 @@ class _Entry:
             self._product(str(link), str(link), [minus(plus(*both)) for both in zip(own, taken, strict=True)])
 
     def _on_link(self, body: Inertia) -> tuple[Expression, Expression]:
-        """The place of a mass centre in its link's frame, from its first joint: along the link and across it."""
+        """Return the place of a mass centre in its link's frame, from its first joint: along the link and across it."""
         q, place = self.q, place_on_link(self.analysis.machine.linkage, body.link, body.centre)
         parts: list[Expression] = []
         for axis, value in zip(AXES, (place.real, place.imag), strict=True):

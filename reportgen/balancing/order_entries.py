@@ -103,7 +103,7 @@ def _whole(angle: float) -> bool:
 
 
 def _star(q: Sheet, layout: Engine, order: int, sense: str) -> Ref:
-    """The size of the sum of the cylinders' unit vectors, by its components."""
+    """Return the size of the sum of the cylinders' unit vectors, by its components."""
     across: list[Expression] = []
     up: list[Expression] = []
     for cylinder in layout.cylinders:

@@ -48,7 +48,7 @@ def _told_later(report: Report) -> bool:
 
 
 def star_lines(report: Report) -> list[str]:
-    """The sums of the cylinders' vectors, order by order, and the couples."""
+    """Return the sums of the cylinders' vectors, order by order, and the couples."""
     lines: list[str] = []
     for order in ORDERS:
         for sense in SENSES:
@@ -59,7 +59,7 @@ def star_lines(report: Report) -> list[str]:
 
 
 def order_lines(report: Report) -> list[str]:
-    """The greatest force of each order."""
+    """Return the greatest force of each order."""
     return report.known(balance_ids.order_force(order) for order in OF_ALL)
 
 
@@ -72,7 +72,7 @@ def factors_table(report: Report) -> Iterator[Sequence[object]]:
 
 
 def stars(report: Report) -> FigureScenes:
-    """The star of each order that turns forward, and of cylinders at an angle that which turns backward."""
+    """Return the star of each order that turns forward, and of cylinders at an angle that which turns backward."""
     layout = _engine(report)
     assert layout is not None
     senses = ("forward",) if layout.in_line else tuple(SENSES)

@@ -30,7 +30,7 @@ class EngineCylinder:
     pin: float
 
     def vector(self, order: int, sense: int) -> complex:
-        """Its vector of an order in the star that turns `FORWARD` or `BACKWARD`, at φ = 0, of the size 1."""
+        """Return its vector of an order in the star that turns `FORWARD` or `BACKWARD`, at φ = 0, of the size 1."""
         return complex(np.exp(1j * (self.bank + sense * order * (self.pin - self.bank))))
 
 
@@ -51,16 +51,18 @@ class Engine:
         return all(abs(np.exp(1j * (each.bank - first)) - 1) < SAME for each in self.cylinders)
 
     def star(self, order: int, sense: int) -> complex:
-        """The sum of the cylinders' vectors of an order."""
+        """Return the sum of the cylinders' vectors of an order."""
         return sum(cylinder.vector(order, sense) for cylinder in self.cylinders)
 
     def force(self, order: int) -> float:
-        """The greatest force of an order over m r ω² A_n: half of what both stars come to."""
+        """Return the greatest force of an order over m r ω² A_n: half of what both stars come to."""
         return (abs(self.star(order, FORWARD)) + abs(self.star(order, BACKWARD))) / 2
 
 
 def engine(linkage: Linkage) -> Engine | None:
-    """The engine that a linkage is, None unless all its cylinders are alike and in line with the crank's centre."""
+    """Return the engine that a linkage is, None unless all its cylinders are alike and in line with the crank's
+    centre.
+    """
     rods, cylinders, lengths = crank_rods(linkage), [], []
     if not isinstance(linkage.driver, Crank):
         return None

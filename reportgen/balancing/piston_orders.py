@@ -32,7 +32,7 @@ def acceleration_factor(order: int, λ: Ref, about: float) -> Expression:
 
 
 def short_series(order: int, λ: Ref) -> Expression:
-    """The first terms of the series, as books have them: λ + λ³/4 + 15λ⁵/128, …"""
+    """Return the first terms of the series, as books have them: λ + λ³/4 + 15λ⁵/128, …"""
     match order:
         case 2:
             return λ + λ**3 / 4 + 15 * λ**5 / 128
@@ -43,7 +43,7 @@ def short_series(order: int, λ: Ref) -> Expression:
 
 
 def first_term(order: int, λ: Ref) -> Expression:
-    """The first term of the series alone, as textbooks have it: a = rω²(cos φ + λ cos 2φ − λ³/4 cos 4φ)."""
+    """Return the first term of the series alone, as textbooks have it: a = rω²(cos φ + λ cos 2φ − λ³/4 cos 4φ)."""
     match order:
         case 2:
             return λ

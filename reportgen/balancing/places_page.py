@@ -17,7 +17,7 @@ class PlacesPage(DesignPage[Designed]):
     """A design with values of one kind at several places."""
 
     def by_place(self, name: str, families: Sequence[Callable[[str], str]], places: Sequence[str]) -> Table:
-        """A row of values for each place."""
+        """Return a row of values for each place."""
         printed, first = self.case.printed, places[0]
         symbols = (printed.symbol(family(first)) for family in families)
         heads = [
@@ -30,7 +30,7 @@ class PlacesPage(DesignPage[Designed]):
     def headed(
         self, name: str, first: str, heads: Sequence[tuple[Symbol, str]], rows: Iterable[tuple[Inlines, ...]]
     ) -> Table:
-        """A table whose head has symbols, and their units below them."""
+        """Return a table whose head has symbols, and their units below them."""
         symbols: list[Inlines] = [(Text(first),), *((InlineMath(symbol),) for symbol, _ in heads)]
         units: list[Inlines] = [(Text(""),), *((Text(unit),) for _, unit in heads)]
         width = min(WIDEST, (PAGE_WIDTH - FIRST_WIDTH) / len(heads))
@@ -38,5 +38,5 @@ class PlacesPage(DesignPage[Designed]):
 
 
 def bare(number: Number) -> Inlines:
-    """A number whose unit stands in the head of its column."""
+    """Return a number whose unit stands in the head of its column."""
     return (Value(replace(number, unit="")),)

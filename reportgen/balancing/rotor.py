@@ -29,14 +29,14 @@ BALANCED = 1e-9
 
 
 def case(assignment: Assignment) -> RotorCase:
-    """The case of an assignment."""
+    """Return the case of an assignment."""
     from reportgen.balancing.rotor_case import RotorCase
 
     return RotorCase(assignment)
 
 
 def table_rows(position: Mapping[str, Any]) -> dict[str, dict[str, float | None]]:
-    """The rows that `solve` prints of the results: corrections (kg·mm, °, kg, mm) and forces on bearings (N)."""
+    """Return the rows that `solve` prints of the results: corrections (kg·mm, °, kg, mm) and forces on bearings (N)."""
     corrections: dict[str, float | None] = {}
     radii: dict[str, float | None] = {}
     for plane, entry in position["corrections"].items():

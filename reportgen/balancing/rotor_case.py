@@ -95,7 +95,7 @@ class RotorPage(PlacesPage[SolvedRotor]):
         return not self.case.two_planes and any(printed[id].at(1) for id in parts if id in printed)
 
     def closing(self, of: str, masses: Sequence[str]) -> Equation:
-        """The vectors of a plan, whose sum is nothing: those of the masses and of the corrections."""
+        """Return the vectors of a plan, whose sum is nothing: those of the masses and of the corrections."""
         vectors = [Symbol(of, place, over="vector") for place in masses]
         if len(vectors) > WORKED:
             vectors = [*vectors[:2], Symbol("…"), vectors[-1]]
@@ -216,7 +216,7 @@ class RotorCase(SolvedRotor):
         return (rotor_motion.animation(self),)
 
     def plates(self, sets: Collection[str] = (), every: bool = False) -> Mapping[str, Sequence[DrawingPlate]]:
-        """Its scheme, its plans and its tables; there are no sets of them to choose from."""
+        """Return its scheme, its plans and its tables; there are no sets of them to choose from."""
         return {"rotor": [*rotor_drawings.plates(self), *self._tables()]}
 
     def _tables(self) -> Iterator[DrawingPlate]:

@@ -57,7 +57,7 @@ class PlacedMass:
 
 
 def placed_masses(case: SolvedRotor) -> list[PlacedMass]:
-    """The unbalanced masses, then the correction masses, where something is known of these."""
+    """Return the unbalanced masses, then the correction masses, where something is known of these."""
     given, ledger = case.given, case.printed
     placed = [
         PlacedMass(number, cmath.rect(mass.r.si, mass.angle.si), mass.z.si, MASS)
@@ -71,7 +71,7 @@ def placed_masses(case: SolvedRotor) -> list[PlacedMass]:
 
 
 def stations(case: SolvedRotor) -> dict[str, float]:
-    """The places of planes and bearings on the axis (m)."""
+    """Return the places of planes and bearings on the axis (m)."""
     given = case.given
     planes = {plane: station.si for plane, station in given.planes_by_name.items()}
     return planes | {name: station.si for name, station in zip(BEARINGS, given.bearings or (), strict=False)}
@@ -81,7 +81,7 @@ def stations(case: SolvedRotor) -> dict[str, float]:
 
 
 def two_views(case: SolvedRotor, size: FigureSize = IN_REPORT) -> Scene:
-    """The rotor from the side and, below, from its right end."""
+    """Return the rotor from the side and, below, from its right end."""
     side, μ_l = _along_axis(case, size)
     front, μ_r = _across_axis(case, size)
     (low, high), (left, top) = bounds(side.items), bounds(front.items)
@@ -90,7 +90,7 @@ def two_views(case: SolvedRotor, size: FigureSize = IN_REPORT) -> Scene:
 
 
 def _along_axis(case: SolvedRotor, size: FigureSize) -> tuple[Canvas, Chain]:
-    """The shaft from the side, z to the right; masses at the height that they have at the angle 0."""
+    """Return the shaft from the side, z to the right; masses at the height that they have at the angle 0."""
     masses, places = placed_masses(case), stations(case)
     ends = [*(one.station for one in masses), *places.values()]
     far = max(abs(one.at) for one in masses)
@@ -127,7 +127,7 @@ def _along_axis(case: SolvedRotor, size: FigureSize) -> tuple[Canvas, Chain]:
 
 
 def ruler(places: Collection[float], per: float, height: float, mm: str) -> tuple[list[Item], list[Request]]:
-    """The axis z below a shaft with the places (m) of what stands on it, the first of them at 0."""
+    """Return the axis z below a shaft with the places (m) of what stands on it, the first of them at 0."""
     start, end = min(places), (max(places) - min(places)) * per
     base, tip = complex(-BEYOND, height), complex(end + BEYOND + 5, height)
     items: list[Item] = [Line(base, tip, style.DIMENSION)]
@@ -140,19 +140,19 @@ def ruler(places: Collection[float], per: float, height: float, mm: str) -> tupl
 
 
 def bearing(at: complex) -> Iterator[Item]:
-    """A bearing on the shaft, its ground above and below it."""
+    """Yield a bearing on the shaft, its ground above and below it."""
     for up in (1j, -1j):
         yield from style.ground(at + PLAY * up - HALF_BEARING, at + PLAY * up + HALF_BEARING, round(up.imag))
 
 
 def mass_on_arm(axis: complex, at: complex, mass: PlacedMass) -> tuple[Item, ...]:
-    """A mass on the arm that holds it."""
+    """Return a mass on the arm that holds it."""
     disc = Circle(at, DISC, mass.pen, style.PAPER if mass.corrects else style.TINT)
     return Line(axis, at, CORRECTION if mass.corrects else ARM), disc
 
 
 def _across_axis(case: SolvedRotor, size: FigureSize) -> tuple[Canvas, Chain]:
-    """The rotor from its right end: angles from the axis x, anticlockwise."""
+    """Return the rotor from its right end: angles from the axis x, anticlockwise."""
     masses = placed_masses(case)
     far = max(abs(one.at) for one in masses)
     usual = nice_up(2 * far * MM / WIDE)
@@ -192,7 +192,7 @@ def unbalance_plan(case: SolvedRotor, size: FigureSize = IN_REPORT) -> Scene:
 
 
 def _polygon(case: SolvedRotor, of: str, sides: Sequence[str], closing: str, size: FigureSize) -> Plan:
-    """A plan from the values as they are written, side after side from the pole O."""
+    """Return a plan from the values as they are written, side after side from the pole O."""
     ledger, family = case.printed, rotor_ids.unbalance if of == "U" else rotor_ids.moment
     μ = ledger.number(rotor_ids.scale(of))
     on_paper = MM * μ.value / size.scale(μ.value) / size.enlarged
@@ -225,7 +225,7 @@ FIGURES: Mapping[str, tuple[str, DrawRotor]] = {
 
 
 def plates(case: SolvedRotor) -> Iterator[DrawingPlate]:
-    """The scheme and the plans, at standard scales."""
+    """Yield the scheme and the plans, at standard scales."""
     captions = case.words["rotor"]["captions"]
 
     def plate(name: str, layer: str, steps: int) -> DrawingPlate:

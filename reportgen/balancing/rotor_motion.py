@@ -53,7 +53,7 @@ RotorTurns = NDArray[np.complex128]
 
 
 def animation(case: SolvedRotor) -> Animation:
-    """One turn: the rotor across its axis and along it, with the forces on its bearings."""
+    """Return one turn: the rotor across its axis and along it, with the forces on its bearings."""
     knots = np.linspace(0, math.tau, SAMPLES + 1)
     turn = np.exp(1j * knots)
     far = max(abs(mass.at) for mass in placed_masses(case))

@@ -104,7 +104,7 @@ class RotorSheet:
         self._enter_masses()
 
     def _lay_off(self, of: str, sizes: Mapping[str, Ref], directions: Mapping[str, Ref]) -> Ref:
-        """The scale of a plan, and its known sides on paper."""
+        """Return the scale of a plan, and its known sides on paper."""
         q = self.q
         shown = q.families[next(iter(sizes.values())).id].how.scale
         steps = [q.si(sizes[place]) * np.exp(1j * q.si(directions[place])) / shown for place in sizes]
@@ -119,7 +119,7 @@ class RotorSheet:
         return μ
 
     def _close(self, of: str, plane: str, sizes: Mapping[str, Ref], directions: Mapping[str, Ref], μ: Ref) -> Ref:
-        """The measured side that closes a plan: the sum of all others, reversed."""
+        """Return the measured side that closes a plan: the sum of all others, reversed."""
         q = self.q
         closing = q.construct(names.drawn(of, plane), -(resultant(sizes, directions) / μ))
         all_sides = sum(abs(q.si(size)) for size in sizes.values()) / q.si(μ)
@@ -163,7 +163,7 @@ class RotorSheet:
         self._enter_polar(LEFT, near)
 
     def _all(self, sizes: Mapping[str, Ref]) -> float:
-        """The sizes of all masses together (SI), of which a share of 1e-9 is nothing."""
+        """Return the sizes of all masses together (SI), of which a share of 1e-9 is nothing."""
         return sum(abs(self.q.si(one)) for one in sizes.values())
 
     def _scale_of(self, plane: str) -> float:
@@ -201,7 +201,7 @@ class RotorSheet:
                 self._enter_force(when, place, parts)
 
     def _at_bearing(self, when: str, axis: str, place: str, opposite: str, sense: int) -> Ref:
-        """The part that a bearing has of all unbalance, by moments about the opposite bearing."""
+        """Return the part that a bearing has of all unbalance, by moments about the opposite bearing."""
         q, z, b = self.q, self.z, self.q["rotor.b"]
         arm = z[opposite] - z[LEFT] if sense < 0 else z[LEFT] - z[opposite]
         if when == BEFORE:
@@ -259,7 +259,7 @@ def resultant(sizes: Mapping[str, Expression], directions: Mapping[str, Expressi
 
 
 def angle_of(q: Sheet, x: Ref, y: Ref) -> Expression:
-    """The direction of a vector from its components, from 0° to 360°."""
+    """Return the direction of a vector from its components, from 0° to 360°."""
     across, along = q.si(y), q.si(x)
     if abs(along) <= DUST * abs(across) or along == 0:
         return Number(90.0 if across >= 0 else 270.0, unit="°")

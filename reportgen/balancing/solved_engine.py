@@ -58,19 +58,23 @@ class SolvedEngine(DesignCase):
         return self.given.n.si
 
     def forces(self, φ: ArrayLike) -> dict[int, NDArray[np.complex128]]:
-        """The force on the frame (N) of each order with the crank at φ, x + iy: Σ K Aₙ cos n(φ + θ − ψ) e^{iψ}."""
+        """Return the force on the frame (N) of each order with the crank at φ, x + iy: Σ K Aₙ cos n(φ + θ − ψ)
+        e^{iψ}.
+        """
         return self._by_order(φ, [1.0] * len(self.cylinders))
 
     def couples(self, φ: ArrayLike) -> dict[int, NDArray[np.complex128]]:
-        """The couple on the frame (N·m) of each order, in the plane of its forces: each of them times its arm c."""
+        """Return the couple on the frame (N·m) of each order, in the plane of its forces: each of them times its arm
+        c.
+        """
         return self._by_order(φ, self._arms)
 
     def rotating(self, φ: ArrayLike) -> NDArray[np.complex128]:
-        """The force of the rotating masses (N) with the crank at φ: Σ m_A r ω² e^{i(φ + θ)}."""
+        """Return the force of the rotating masses (N) with the crank at φ: Σ m_A r ω² e^{i(φ + θ)}."""
         return self._rotating(φ, [1.0] * len(self.cylinders))
 
     def rotating_couple(self, φ: ArrayLike) -> NDArray[np.complex128]:
-        """The couple of the rotating masses (N·m), in the plane of its forces."""
+        """Return the couple of the rotating masses (N·m), in the plane of its forces."""
         return self._rotating(φ, self._arms)
 
     @property
@@ -122,7 +126,7 @@ class SolvedEngine(DesignCase):
                 yield id, "degrees-for-radians", self._star(star, {place: at * 180 / PI for place, at in own.items()})
 
     def _star(self, star: str, angles: Mapping[str, Expression]) -> Expression:
-        """The resultant of a star whose vectors have these angles."""
+        """Return the resultant of a star whose vectors have these angles."""
         if star in COUPLES:
             return abs(total([Ref(orders_ids.arm(place)) * cis(angles[place]) for place in self.cylinders]))
         return abs(total([cis(angles[place]) for place in self.cylinders]))

@@ -54,7 +54,7 @@ class SolvedRotor(DesignCase):
         return tuple(self.given.planes_by_name)
 
     def force_on(self, when: str, place: str) -> complex:
-        """The force on a bearing (N), along the axes that turn with the rotor; what is dust is nothing."""
+        """Return the force on a bearing (N), along the axes that turn with the rotor; what is dust is nothing."""
         ω = self.ledger["rotor.omega"].at(1)
         x, y = (self.ledger[rotor_ids.share(when, axis, place)].at(1) for axis in "xy")
         most = sum(abs(self.ledger[rotor_ids.unbalance(mass)].at(1)) for mass in self.masses)

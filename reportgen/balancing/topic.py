@@ -85,7 +85,9 @@ def faults(parameters: TopicParameters, machine: Machine) -> Iterator[Finding]:
 
 
 def _of_rules(given: CrankCounterweight, machine: Machine) -> Iterator[Finding]:
-    """Each rule once; those of slider-cranks have their rods on the crank; a share is given where a rule takes it."""
+    """Yield faults unless each rule once; those of slider-cranks have their rods on the crank; a share is given
+    where a rule takes it.
+    """
     where = ("parameters", "balancing", "counterweight")
     offered = bool(crank_rods(machine.linkage))
     for index, rule in enumerate(given.rules):

@@ -67,7 +67,7 @@ class BalancingRule:
 
 
 def shaken(report: Report) -> tuple[ShakenLink, ...]:
-    """The links with a part in force or moment on the frame, in the order of the file."""
+    """Return the links with a part in force or moment on the frame, in the order of the file."""
     entered = []
     for body in report.machine.linkage.inertias:
         parts = report.known(balance_ids.force_of_link(body.link, axis) for axis in AXES)
@@ -90,7 +90,7 @@ def seen_lines(report: Report) -> list[str]:
 
 
 def balance_rules(report: Report) -> tuple[BalancingRule, ...]:
-    """The rules asked for, in their order, the first of them the one that is carried out."""
+    """Return the rules asked for, in their order, the first of them the one that is carried out."""
     shown_before: set[str] = set()
     rules = []
     for rule in _turn(report).products:
@@ -151,18 +151,18 @@ def on_link_lines(report: Report) -> list[str]:
 
 
 def main_rule(report: Report) -> str:
-    """The rule that is carried out, as it stands in a sentence."""
+    """Return the rule that is carried out, as it stands in a sentence."""
     return str(report.words["balancing"]["chosen"][next(iter(_turn(report).products))])
 
 
 def other_rules(report: Report) -> list[str]:
-    """The rules that are compared with it, in words."""
+    """Return the rules that are compared with it, in words."""
     _, *others = _turn(report).products
     return [report.words["balancing"]["told"][rule] for rule in others]
 
 
 def greatest_left(report: Report) -> Value:
-    """The greatest force that the counterweight which is carried out leaves."""
+    """Return the greatest force that the counterweight which is carried out leaves."""
     return Value(report.ledger.number(balance_ids.greatest("F", next(iter(_turn(report).products)))))
 
 
@@ -181,7 +181,7 @@ def balanced_table(report: Report) -> list[str]:
 
 
 def rules_table(report: Report) -> Iterator[Sequence[object]]:
-    """Each rule with its U, angle, greatest and mean force, the first row without a counterweight."""
+    """Yield each rule with its U, angle, greatest and mean force, the first row without a counterweight."""
     words, turn = report.words["balancing"]["rules"], _turn(report)
     for state in (BEFORE, *turn.products):
         named = (balance_ids.rule_product, balance_ids.rule_angle)
@@ -191,7 +191,7 @@ def rules_table(report: Report) -> Iterator[Sequence[object]]:
 
 
 def cost_table(report: Report) -> Iterator[Sequence[object]]:
-    """The greatest force, moments and the masses before and after."""
+    """Yield the greatest force, moments and the masses before and after."""
     after = next(iter(_turn(report).products), AFTER)
     for quantity, state in (("F", after), ("M", AFTER), ("cb", AFTER)):
         pair = report.known(balance_ids.greatest(quantity, when) for when in (BEFORE, state))
@@ -236,14 +236,14 @@ def _of_turn(report: Report) -> tuple[np.ndarray, np.ndarray, tuple[int, ...], t
 
 
 def hodograph(report: Report) -> FigureScenes:
-    """The ends of F, laid off from one pole, over the turn."""
+    """Return the ends of F, laid off from one pole, over the turn."""
     force, _, marks, names = _of_turn(report)
     curve = PlottedCurve("", force.real, force.imag, marks, names)
     return FigureScenes((_polar(report, (curve,), balance_ids.component),))
 
 
 def balanced_hodograph(report: Report) -> FigureScenes:
-    """The hodographs of F without and with the counterweight that is carried out."""
+    """Return the hodographs of F without and with the counterweight that is carried out."""
     force, crank, marks, names = _of_turn(report)
     (weight,) = _turn(report).weights
     left = force + weight.product * report.machine.speed**2 * crank
@@ -255,7 +255,7 @@ def balanced_hodograph(report: Report) -> FigureScenes:
 
 
 def discs(report: Report) -> FigureScenes:
-    """The scheme with the counterweights that are carried out."""
+    """Return the scheme with the counterweights that are carried out."""
     factor, index, motion = reduction(report), shown_at(report), report.analysis.motion
     scale = drawing_scale(report) * factor
     shown = []

@@ -40,15 +40,15 @@ def _is_common(letter: bytes) -> bool:
 
 
 def joined(text: str) -> str:
-    """A text without the blanks between letters of Chinese, which stand there for the looks alone."""
+    """Return a text without the blanks between letters of Chinese, which stand there for the looks alone."""
     return _BETWEEN.sub("", text)
 
 
 def full_name(*parts: str) -> str:
-    """The parts of a name in their order, with a blank between them unless both are Chinese."""
+    """Return the parts of a name in their order, with a blank between them unless both are Chinese."""
     return joined(" ".join(parts))
 
 
 def narrow(text: str) -> str:
-    """A text with digits, letters and marks of the width of Han as those of a keyboard: －０．５ as -0.5."""
+    """Return a text with digits, letters and marks of the width of Han as those of a keyboard: －０．５ as -0.5."""
     return text.translate(_WIDE)

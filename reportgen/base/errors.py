@@ -116,7 +116,7 @@ class Problem:
     remedies: tuple[str, ...] = field(default=(), compare=False)
 
     def in_file(self, file: str) -> Problem:
-        """The same problem, its file named as `file`."""
+        """Return the same problem, its file named as `file`."""
         return replace(self, mark=replace(self.mark, file=file))
 
     def __str__(self) -> str:

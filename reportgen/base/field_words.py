@@ -49,7 +49,7 @@ class FieldWords:
 
 
 def field_words(kind: str, language: Language) -> Mapping[str, FieldWords]:
-    """The words of all keys of a kind's file, by their paths, in the order in which a form has them.
+    """Return the words of all keys of a kind's file, by their paths, in the order in which a form has them.
 
     A kind without the section has the common ones.  Raises `TemplateError` for a section that is no table.
     """
@@ -59,7 +59,7 @@ def field_words(kind: str, language: Language) -> Mapping[str, FieldWords]:
 
 
 def shared_keys(language: Language) -> frozenset[str]:
-    """The parameters that are called alike in every kind that has them."""
+    """Return the parameters that are called alike in every kind that has them."""
     common = told_in(language, FILE)
     tables = [_common(common, common.stat().st_mtime_ns)[PARAMETERS], *map(_own, _of_topics(language))]
     return frozenset(key for groups in tables for keys in groups.values() for key in keys)
@@ -75,7 +75,7 @@ def choice_words(language: Language) -> Mapping[str, str]:
 
 
 def group_titles(language: Language) -> list[str]:
-    """The titles of groups in the order in which a form has them."""
+    """Return the titles of groups in the order in which a form has them."""
     common = told_in(language, FILE)
     return list(_common(common, common.stat().st_mtime_ns)["groups"].values())
 
@@ -143,7 +143,7 @@ _ENTRY = re.compile(r"(?P<indent> *)(?:# )?(?P<key>[^\W\d][\w-]*):(?P<value>.*)"
 
 
 def remarked(text: str, words: Mapping[str, FieldWords], more: Callable[[str, str], str]) -> str:
-    """A file to begin with, with the words of each key behind it, and `more` to be said of its path and value.
+    """Return a file to begin with, with the words of each key behind it, and `more` to be said of its path and value.
 
     A key that is followed by keys of its own, and one that has a remark already, stays as it is.
     """

@@ -112,7 +112,7 @@ def write_stream(target: Path, content: bytes) -> None:
 
 
 def _beside(target: Path, until: ExitStack) -> Path:
-    """An empty file beside the one that it is to become, with the rights of a new file; it goes with `until`."""
+    """Return an empty file beside the one that it is to become, with the rights of a new file; it goes with `until`."""
     handle, name = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.")
     os.close(handle)
     until.callback(Path(name).unlink, missing_ok=True)
@@ -123,7 +123,7 @@ def _beside(target: Path, until: ExitStack) -> Path:
 
 
 def _second_name(target: Path, until: ExitStack) -> Path:
-    """A second name of a file; a copy where a file cannot have two."""
+    """Return a second name of a file; a copy where a file cannot have two."""
     name = _beside(target, until)
     name.unlink()
     try:
@@ -176,7 +176,7 @@ def cause(error: OSError) -> str:
 
 
 def contents(path: Path, most: int = -1) -> bytes:
-    """The bytes of a file, `most` of them if that is no less than 0.  Raises `OSError`, and waits for nobody."""
+    """Return the bytes of a file, `most` of them if that is no less than 0.  Raises `OSError`, and waits for nobody."""
     mode = path.stat().st_mode
     if not (stat.S_ISREG(mode) or stat.S_ISDIR(mode)):
         raise NotRegularError(errno.EINVAL, "no regular file", str(path))
@@ -196,13 +196,13 @@ def leads_out(path: Path, *folders: Path) -> bool:
 
 
 def standing(folder: Path, kind: str, below: str = "") -> set[Path]:
-    """The files of a folder, or of those `below` it, that belong to a product by their names in any case."""
+    """Return the files of a folder, or of those `below` it, that belong to a product by their names in any case."""
     pattern = re.compile(file_names(kind), re.IGNORECASE)
     return {path for path in folder.glob(f"{below}*") if pattern.fullmatch(path.name)}
 
 
 def overwritten(outputs: Iterable[Path], inputs: Iterable[Path]) -> Iterator[Fault]:
-    """A fault for each output that is an input, by whatever name: a link, another way, another case."""
+    """Yield a fault for each output that is an input, by whatever name: a link, another way, another case."""
     known = {identity: path for path in inputs for identity in _identities(path)}
     for output in outputs:
         if same := [known[identity] for identity in _identities(output) if identity in known]:
@@ -343,13 +343,13 @@ def keep(name: str, data: bytes) -> Path | None:
 
 
 def _seal(data: bytes) -> bytes:
-    """The first line of what is kept: the version of the program and a checksum."""
+    """Return the first line of what is kept: the version of the program and a checksum."""
     return f"reportgen {version()} {sha256(data).hexdigest()}".encode()
 
 
 @cache
 def version() -> str:
-    """The version as installed; "0" in a checkout that is not installed."""
+    """Return the version as installed; "0" in a checkout that is not installed."""
     try:
         return metadata.version("reportgen")
     except metadata.PackageNotFoundError:
@@ -377,7 +377,7 @@ def prune(folder_kept: Path) -> None:
 
 @cache
 def folder() -> Path | None:
-    """The folder that things are kept in; None where there can be none of this user's own."""
+    """Return the folder that things are kept in; None where there can be none of this user's own."""
     from platformdirs import user_cache_path
 
     private = user_cache_path("reportgen", appauthor=False)

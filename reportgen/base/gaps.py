@@ -19,7 +19,7 @@ _ENTRY = re.compile(r"\{[^{}]*[.\[!]")
 
 
 def gaps(template: str) -> set[str]:
-    """The names of what fills a text in."""
+    """Return the names of what fills a text in."""
     return {name for _, name, _, _ in Formatter().parse(template) if name}
 
 
@@ -35,7 +35,7 @@ def plain_gaps(text: str) -> bool:
 
 
 def filled(text: str, values: Sequence[Any], named: Mapping[str, Any]) -> str:
-    """A text with its gaps filled.
+    """Return a text with its gaps filled.
 
     Raises `LookupError`, `TypeError` or `ValueError` for one that nothing fills, or no text and no number.
     """

@@ -16,7 +16,7 @@ SAMPLE = "new"
 
 @cache
 def kinds() -> Mapping[str, str]:
-    """The module of every kind, dotted, by the name that stands in a file, in alphabetical order.
+    """Return the module of every kind, dotted, by the name that stands in a file, in alphabetical order.
 
     A kind is a module in a room of the package that is called as its words are; in the catalogue before any other room.
     """
@@ -27,10 +27,10 @@ def kinds() -> Mapping[str, str]:
 
 
 def title(name: str, language: Language) -> str:
-    """The line of description of a kind, from its words."""
+    """Return the line of description of a kind, from its words."""
     return str(load_words((told_in(language, f"{MACHINES}/{name}.md"),))["title"])
 
 
 def titles(language: Language) -> dict[str, str]:
-    """Each kind with its line of description."""
+    """Return each kind with its line of description."""
     return {name: title(name, language) for name in kinds()}

@@ -160,7 +160,7 @@ class LanguageSetting:
         return "." if self.spaced else ""
 
     def aside(self, text: str) -> str:
-        """A remark in parentheses as it follows a word."""
+        """Return a remark in parentheses as it follows a word."""
         return f" ({text})" if self.spaced else f"（{text}）"
 
     def is_draft(self, kind: str = "") -> bool:
@@ -175,7 +175,7 @@ def setting_of(language: Language) -> LanguageSetting:
 
 
 def decimal_mark(language: Language) -> DecimalMark:
-    """The mark before the decimals of a number."""
+    """Return the mark before the decimals of a number."""
     return setting_of(language).decimal
 
 
@@ -183,19 +183,19 @@ class UnitNames(dict[str, str]):
     """Units as a language prints them: whole ones by name, any other by the letters in it, m/s as м/с."""
 
     def get(self, unit: str, default: object = None) -> str:
-        """The unit as it is printed; what has no other name stays as it is."""
+        """Return the unit as it is printed; what has no other name stays as it is."""
         return self[unit] if unit in self else _LETTERS.sub(lambda found: dict.get(self, found[0], found[0]), unit)
 
 
 @cache
 def unit_names(language: Language) -> UnitNames:
-    """The units as the language prints them."""
+    """Return the units as the language prints them."""
     return UnitNames(setting_of(language).units)
 
 
 @lru_cache(maxsize=1024)
 def common_unit(text: str) -> str:
-    """A unit as typed in any language, with the letters that all of them read: м/с as m/s."""
+    """Return a unit as typed in any language, with the letters that all of them read: м/с as m/s."""
     if text.isascii():
         return text
     names = _typed_names()
@@ -225,7 +225,7 @@ def _is_moment(force: str, length: str) -> bool:
 
 
 def _in_letters(word: str, names: Mapping[str, str]) -> str:
-    """A word of a unit in Latin letters; of two units without a sign between them, Нм, the product."""
+    """Return a word of a unit in Latin letters; of two units without a sign between them, Нм, the product."""
     if word in names:
         return names[word]
     halves = ((word[:n], word[n:]) for n in range(1, len(word)))
@@ -234,7 +234,7 @@ def _in_letters(word: str, names: Mapping[str, str]) -> str:
 
 
 def read_setting(file: Path) -> LanguageSetting:
-    """A file `language.yaml`.  Raises `TemplateError` with file and line for what does not belong there."""
+    """Return a file `language.yaml`.  Raises `TemplateError` with file and line for what does not belong there."""
     text = text_in(file)
     if not isinstance(text, str):
         raise TemplateError(f"{file}: {text.wordless}")
@@ -275,7 +275,7 @@ def _table(form: type[Any], node: Node | None, place: str) -> Any:
 
 
 def _value(kind: str, node: Node) -> Any:
-    """A value of the type that a field has."""
+    """Return a value of the type that a field has."""
     if kind.endswith("tuple[str, ...]") and isinstance(node, SequenceNode):
         if all(isinstance(item, Scalar) for item in node.items):
             return tuple(item.text for item in node.items if isinstance(item, Scalar))

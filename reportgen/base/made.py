@@ -36,7 +36,7 @@ class Made:
     files: Mapping[str, str] = field(default_factory=dict)
 
     def edited(self, folder: Path) -> Iterator[Path]:
-        """The files that were changed since they were made, an answer sheet that is filled in."""
+        """Yield the files that were changed since they were made, an answer sheet that is filled in."""
         for name, known in self.files.items():
             if hash_of(folder / name) not in ("", known):
                 yield folder / name
@@ -47,7 +47,7 @@ class Made:
         return Made(self.made_of, {name: self.files[name] for name in self.files if name in there})
 
     def outlived(self, made: Collection[str], folder: Path) -> Iterator[Path]:
-        """The files that are unaltered and are `made` no more; a name with a folder is none of them."""
+        """Yield the files that are unaltered and are `made` no more; a name with a folder is none of them."""
         for name, known in self.files.items():
             if name not in made and PurePath(name).name == name and hash_of(folder / name) == known:
                 yield folder / name
@@ -73,7 +73,7 @@ def assignment_hash(content: bytes, beside: Mapping[str, bytes]) -> str:
 def made_of(
     assignment: str, engine: str, language: str | None, templates: str, version: str, **more: str
 ) -> dict[str, str | None]:
-    """The values of `MADE_OF`, and whatever else decides the bytes of a product if that is not empty."""
+    """Return the values of `MADE_OF`, and whatever else decides the bytes of a product if that is not empty."""
     known = dict(zip(MADE_OF, (assignment, engine, language, templates, version), strict=True))
     return {**known, **{name: value for name, value in more.items() if value}}
 
@@ -120,7 +120,7 @@ def _text(record: Mapping[str, list[Made]]) -> bytes:
 
 
 def _read(folder: Path) -> dict[str, list[Made]]:
-    """The record of a folder by the kinds of files; what cannot be understood counts as missing."""
+    """Return the record of a folder by the kinds of files; what cannot be understood counts as missing."""
     try:
         content: Any = json.loads(contents(folder / RECORD, LARGEST))
         if content["format"] != FORMAT:

@@ -25,7 +25,7 @@ CENTURY = 2000
 
 
 def moment(text: str, *, end: bool = False) -> datetime.datetime | None:
-    """The moment that a text names, None if it names none; a day alone begins, or with `end` is over."""
+    """Return the moment that a text names, None if it names none; a day alone begins, or with `end` is over."""
     said = re.sub(r"(?<=\d)t(?=\d)", " ", " ".join(unicodedata.normalize("NFC", text).casefold().split()))
     try:
         time, rest = _time(said)
@@ -38,7 +38,7 @@ def moment(text: str, *, end: bool = False) -> datetime.datetime | None:
 
 
 def _time(said: str) -> tuple[datetime.time | None, str]:
-    """The time of day and what is left of the text; raises `ValueError` for a time that no clock shows."""
+    """Return the time of day and what is left of the text; raises `ValueError` for a time that no clock shows."""
     match = _TIME.search(said)
     if match is None:
         return None, said
@@ -54,7 +54,7 @@ def _time(said: str) -> tuple[datetime.time | None, str]:
 
 
 def _day(said: str) -> datetime.date | None:
-    """The date that a text names; raises `ValueError` for one that no calendar has."""
+    """Return the date that a text names; raises `ValueError` for one that no calendar has."""
     if match := _ISO.search(said):
         return datetime.date(int(match[1]), int(match[2] or match[4]), int(match[3] or match[5]))
     if match := _FIGURES.search(said):
@@ -70,14 +70,14 @@ def _day(said: str) -> datetime.date | None:
 
 
 def _among(words: Mapping[str, int], said: str) -> str:
-    """The longest of some words that stands in a text by itself, "" for none."""
+    """Return the longest of some words that stands in a text by itself, "" for none."""
     standing = (word for word in words if re.search(rf"(?<!\w){re.escape(word)}(?!\w)", said))
     return max(standing, key=len, default="")
 
 
 @cache
 def _months() -> Mapping[str, int]:
-    """The number of a month by each of its names."""
+    """Return the number of a month by each of its names."""
     return {
         name: number
         for language in languages()

@@ -23,7 +23,9 @@ LOOK = (
 
 
 def pages(language: Language | None = None) -> Mapping[str, Path]:
-    """The file of each page by its name, the first one first; of a page in several languages that of the one spoken."""
+    """Return the file of each page by its name, the first one first; of a page in several languages that of the one
+    spoken.
+    """
     folder = documentation()
     first = folder if (folder / f"{FIRST}{SUFFIX}").is_file() else folder.parent
     names = [path.stem for path in sorted(folder.glob(f"*{SUFFIX}")) if "." not in path.stem and path.stem != FIRST]
@@ -36,13 +38,15 @@ def pages(language: Language | None = None) -> Mapping[str, Path]:
 
 
 def heading(page: Path) -> str:
-    """The title of a page."""
+    """Return the title of a page."""
     lines = page.read_text(encoding="utf-8").splitlines()
     return next((line.removeprefix("# ") for line in lines if line.startswith("# ")), page.stem)
 
 
 def as_html(page: Path) -> Path:
-    """A page as a file for a browser, in the folder of temporary files; its links lead to the Markdown beside it."""
+    """Return a page as a file for a browser, in the folder of temporary files; its links lead to the Markdown beside
+    it.
+    """
     from markdown_it import MarkdownIt
 
     body = MarkdownIt("commonmark").enable("table").render(page.read_text(encoding="utf-8"))
@@ -59,7 +63,7 @@ def as_html(page: Path) -> Path:
 
 
 def _with_anchors(body: str) -> str:
-    """The headings with the ids that links name: small letters, blanks as strokes."""
+    """Return the headings with the ids that links name: small letters, blanks as strokes."""
 
     def anchored(match: re.Match[str]) -> str:
         plain = html.unescape(re.sub(r"<[^>]*>", "", match[2]))

@@ -41,14 +41,14 @@ def view(*names: str) -> Callable[[Shown], Shown]:
 
 
 def members(of: type) -> frozenset[str]:
-    """The members that are shown of a type: its own and those of its bases."""
+    """Return the members that are shown of a type: its own and those of its bases."""
     if of not in _ALL:
         _ALL[of] = frozenset().union(*(MEMBERS.get(one, ()) for one in of.__mro__))
     return _ALL[of]
 
 
 def member(of: object, name: str) -> Any:
-    """A shown member of a value, or the entry of a mapping.  Raises `LookupError` for any other."""
+    """Return a shown member of a value, or the entry of a mapping.  Raises `LookupError` for any other."""
     if isinstance(of, Mapping):
         return of[name]
     if name not in members(type(of)) or name.startswith("_"):

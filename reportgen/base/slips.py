@@ -28,7 +28,7 @@ def in_quotes(text: str) -> str | None:
 
 
 def meant(key: str) -> str:
-    """The key that a text was meant to be, the text itself without a slip."""
+    """Return the key that a text was meant to be, the text itself without a slip."""
     unparted = _UNPARTED.fullmatch(key)
     return unparted["key"] if unparted else in_quotes(key) or _ODD_BLANK.sub("", key)
 
@@ -43,7 +43,7 @@ def slip(text: str, mark: Mark) -> Fault | None:
 
 
 def slips_above(lines: list[str], line: int, file: str) -> list[Fault]:
-    """The slips of the line (from 1) where YAML stumbles, or else of the lines right above it."""
+    """Return the slips of the line (from 1) where YAML stumbles, or else of the lines right above it."""
     faults: list[Fault] = []
     for number in range(min(line, len(lines)), 0, -1):
         if not _bare(lines[number - 1]).strip():
@@ -66,7 +66,7 @@ def misplaced(lines: list[str], mark: Mark) -> Mark:
 
 
 def _bare(line: str) -> str:
-    """A line without its comment."""
+    """Return a line without its comment."""
     return re.sub(r"(^|\s)#.*", "", line)
 
 
@@ -85,7 +85,7 @@ def _odd_blank(blank: re.Match[str], mark: Mark) -> Fault:
 
 
 def _unparted(text: str, mark: Mark) -> Fault | None:
-    """A key and its value that nothing parts, or an equals sign."""
+    """Return a key and its value that nothing parts, or an equals sign."""
     match = _UNPARTED.fullmatch(text)
     if match is None:
         return None

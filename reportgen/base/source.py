@@ -109,7 +109,7 @@ class Source:
 
 
 def in_a_line(text: str) -> str:
-    """A text in one line that was typed in several."""
+    """Return a text in one line that was typed in several."""
     return " ".join(text.rstrip("\n").split("\n")) if "\n" in text else text
 
 
@@ -127,13 +127,13 @@ def scalars(node: Node | None) -> Iterator[Scalar]:
 
 
 def read_source(path: Path) -> Source:
-    """The nodes of a file; every fault of its bytes and syntax is in `faults`, none is raised."""
+    """Return the nodes of a file; every fault of its bytes and syntax is in `faults`, none is raised."""
     text = text_in(path)
     return Source(str(path), faults=(text,)) if isinstance(text, Fault) else read_text(text, str(path))
 
 
 def text_in(path: Path) -> str | Fault:
-    """The text of a file, or what keeps it from being read."""
+    """Return the text of a file, or what keeps it from being read."""
     file = str(path)
     try:
         data = contents(path, LARGEST + 1)
@@ -148,7 +148,7 @@ def text_in(path: Path) -> str | Fault:
 
 
 def encoding_of(data: bytes) -> tuple[bytes, str]:
-    """The mark at the beginning of a text and the encoding that it tells; without one UTF-8, GBK or cp1251."""
+    """Return the mark at the beginning of a text and the encoding that it tells; without one UTF-8, GBK or cp1251."""
     marked = ((mark, codec) for mark, codec in ENCODINGS.items() if data.startswith(mark))
     if known := next(marked, None):
         return known
@@ -162,7 +162,7 @@ def encoding_of(data: bytes) -> tuple[bytes, str]:
 
 
 def decoded(data: bytes, file: str) -> str | Fault:
-    """The text of bytes, or where they are none.
+    """Return the text of bytes, or where they are none.
 
     They are UTF-8, or UTF-16 with its mark, as Notepad and PowerShell write it, Chinese in GBK, or Russian in cp1251.
     """
@@ -326,7 +326,7 @@ def _node(node: yaml.Node, file: str, faults: list[Fault]) -> Node:
 
 
 def _entries(node: yaml.MappingNode, file: str, faults: list[Fault]) -> Iterator[tuple[Scalar, Node]]:
-    """The entries of a mapping; a key met again is a fault and is left out."""
+    """Yield the entries of a mapping; a key met again is a fault and is left out."""
     seen: dict[str, Mark] = {}
     for key_node, value_node in _rejoined(node):
         key, value = _node(key_node, file, faults), _node(value_node, file, faults)
@@ -342,7 +342,7 @@ def _entries(node: yaml.MappingNode, file: str, faults: list[Fault]) -> Iterator
 
 
 def _rejoined(node: yaml.MappingNode) -> list[tuple[yaml.Node, yaml.Node]]:
-    """The entries of a mapping, a number with a comma as one text again: {F: 1,600 N} has no key “600 N”."""
+    """Return the entries of a mapping, a number with a comma as one text again: {F: 1,600 N} has no key “600 N”."""
     entries: list[tuple[yaml.Node, yaml.Node]] = []
     for key, value in node.value:
         if node.flow_style and entries and _is_parted(entries[-1][1], key, value):
@@ -389,5 +389,5 @@ def _syntax(fault: yaml.MarkedYAMLError, file: str) -> Fault:
 
 
 def mark_after(before: str, file: str) -> Mark:
-    """The place right after a piece of text from the beginning of a file."""
+    """Return the place right after a piece of text from the beginning of a file."""
     return Mark(file, before.count("\n") + 1, len(before) - before.rfind("\n"))

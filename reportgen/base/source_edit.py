@@ -32,7 +32,7 @@ class EditError(ValueError):
 
 
 def with_value(text: str, where: Where, value: Node) -> str:
-    """The text with a value at a place, put in if there is none; a list takes one more item at its end.
+    """Return the text with a value at a place, put in if there is none; a list takes one more item at its end.
 
     Raises `EditError` for a text that is no table, and where the change would be read as anything else.
     """
@@ -57,7 +57,7 @@ def with_value(text: str, where: Where, value: Node) -> str:
 
 
 def without(text: str, where: Where) -> str:
-    """The text without a key or an item.  A key with its value in one line becomes a remark, which keeps both.
+    """Return the text without a key or an item.  A key with its value in one line becomes a remark, which keeps both.
 
     Raises `EditError` where nothing stands there.
     """
@@ -88,7 +88,7 @@ def without(text: str, where: Where) -> str:
 
 
 def with_key(text: str, where: Where, key: str, value: Scalar) -> str:
-    """The text with another key and value in place of those at a place; raises `EditError`."""
+    """Return the text with another key and value in place of those at a place; raises `EditError`."""
     top = _top(text)
     table = at(top, where[:-1])
     entry = table.find(where[-1]) if isinstance(table, MappingNode) else None
@@ -105,7 +105,9 @@ def with_key(text: str, where: Where, key: str, value: Scalar) -> str:
 
 
 def exchanged(text: str, where: Where, first: int) -> str:
-    """The text with the item `first` of the list at a place behind the one that follows it; raises `EditError`."""
+    """Return the text with the item `first` of the list at a place behind the one that follows it; raises
+    `EditError`.
+    """
     top = _top(text)
     listed = at(top, where)
     if not isinstance(listed, SequenceNode) or not 0 <= first < len(listed.items) - 1:
@@ -130,7 +132,9 @@ def as_list(text: str) -> SequenceNode:
 
 
 def _read(text: str) -> Source:
-    """The nodes of a text: by libyaml, which takes a tenth of the time, unless it may be set in itself very deep."""
+    """Return the nodes of a text: by libyaml, which takes a tenth of the time, unless it may be set in itself very
+    deep.
+    """
     return read_own(text) if text.count("[") + text.count("{") < BRACKETS else read_text(text)
 
 
@@ -142,7 +146,7 @@ def _top(text: str) -> MappingNode:
 
 
 def _above(top: MappingNode, where: Where) -> tuple[Node, Where]:
-    """The deepest node on the way to a place, and the steps that are left from there."""
+    """Return the deepest node on the way to a place, and the steps that are left from there."""
     node: Node = top
     for depth, _ in enumerate(where):
         inner = at(top, where[: depth + 1])
@@ -153,7 +157,7 @@ def _above(top: MappingNode, where: Where) -> tuple[Node, Where]:
 
 
 def _within(keys: Where, value: Node) -> Node:
-    """A value in as many tables as there are keys."""
+    """Return a value in as many tables as there are keys."""
     for key in reversed(keys):
         value = MappingNode(((Scalar(str(key), value.mark), value),), value.mark)
     return value
@@ -180,7 +184,7 @@ def _line_end(text: str, index: int) -> int:
 
 
 def _content_end(text: str, index: int) -> int:
-    """The end of what is written before an index: the break behind a text in block form is none of it."""
+    """Return the end of what is written before an index: the break behind a text in block form is none of it."""
     return index - len(text[:index]) + len(text[:index].rstrip("\r\n"))
 
 
@@ -230,7 +234,7 @@ def _with_item(text: str, listed: SequenceNode, value: Node) -> str:
 
 
 def _with_entry(text: str, table: MappingNode, key: str, value: Node) -> str:
-    """The text with one more entry of a table, behind its last one."""
+    """Return the text with one more entry of a table, behind its last one."""
     if _is_flow(text, table):
         closing = table.span[1] - 1
         before = text[:closing].rstrip() if not text[:closing].rstrip().endswith(":") else text[:closing]
@@ -243,7 +247,9 @@ def _with_entry(text: str, table: MappingNode, key: str, value: Node) -> str:
 
 
 def _remarks(text: str, top: MappingNode, table: MappingNode) -> Iterator[tuple[int, re.Match[str]]]:
-    """The remarks among the entries of a table and right behind them that look like entries, at its very column."""
+    """Yield the remarks among the entries of a table and right behind them that look like entries, at its very
+    column.
+    """
     depth = table.span[0] - _line_start(text, table.span[0])
     index = 0 if table is top else _line_start(text, table.span[0])
     while index < len(text):
@@ -258,7 +264,7 @@ def _remarks(text: str, top: MappingNode, table: MappingNode) -> Iterator[tuple[
 
 
 def _from_remark(text: str, top: MappingNode, table: MappingNode, rest: Where, value: Node) -> str | None:
-    """The text with a value at a key that stands in its table as a remark; None if there is no such remark."""
+    """Return the text with a value at a key that stands in its table as a remark; None if there is no such remark."""
     if _is_flow(text, table):
         return None
     for start, match in _remarks(text, top, table):
@@ -285,7 +291,7 @@ def _only_more(old: Any, new: Any) -> bool:
 
 
 def _without_in_flow(text: str, above: MappingNode | SequenceNode, step: str | int) -> str:
-    """The text without an entry in brackets, and without the comma that parted it."""
+    """Return the text without an entry in brackets, and without the comma that parted it."""
     if isinstance(above, MappingNode):
         spans = [(key.span[0], max(value.span[1], key.span[1])) for key, value in above.entries]
         index = [key.text for key, _ in above.entries].index(str(step))
@@ -309,7 +315,7 @@ def _get(content: Any, where: Where) -> Any:
 
 
 def _less(content: Any, where: Where) -> Any:
-    """A content without what stands at a place; a table that is left empty is nothing."""
+    """Return a content without what stands at a place; a table that is left empty is nothing."""
     above = _get(content, where[:-1])
     del above[where[-1]]
     if not above and isinstance(above, dict) and where[:-1]:
@@ -324,14 +330,14 @@ def _agreeing(text: str, wanted: Any) -> str:
 
 
 def _bare(content: Any) -> Any:
-    """A content in which an empty table is as good as none."""
+    """Return a content in which an empty table is as good as none."""
     if isinstance(content, dict):
         return {key: _bare(value) for key, value in content.items()} or None
     return [_bare(item) for item in content] if isinstance(content, list) else content
 
 
 def _checked(text: str, where: Where, value: Node, top: MappingNode) -> str:
-    """The changed text, if it has the value at its place and all else as before."""
+    """Return the changed text, if it has the value at its place and all else as before."""
     source = _read(text)
     wanted = plain(top)
     _put(wanted, where, plain(value))

@@ -16,7 +16,7 @@ _ESCAPES = {'"': '\\"', "\\": "\\\\", "\n": "\\n", "\t": "\\t", "\r": "\\r"}
 
 
 def at(node: Node | None, where: Where) -> Node | None:
-    """The node at a place; None if there is none."""
+    """Return the node at a place; None if there is none."""
     for step in where:
         if isinstance(node, MappingNode):
             entry = node.find(step)
@@ -29,7 +29,7 @@ def at(node: Node | None, where: Where) -> Node | None:
 
 
 def put(node: Node, where: Where, value: Node) -> Node:
-    """The node with `value` at a place; missing tables on the way are made, lists are not made longer."""
+    """Return the node with `value` at a place; missing tables on the way are made, lists are not made longer."""
     if not where:
         return value
     step, rest = where[0], where[1:]
@@ -44,17 +44,17 @@ def put(node: Node, where: Where, value: Node) -> Node:
 
 
 def without(table: MappingNode, keys: Collection[str]) -> MappingNode:
-    """The table without some of its keys."""
+    """Return the table without some of its keys."""
     return replace(table, entries=tuple(entry for entry in table.entries if entry[0].text not in keys))
 
 
 def path_text(where: Where) -> str:
-    """A place as users write it: parameters.H, parameters.groups.0.length."""
+    """Return a place as users write it: parameters.H, parameters.groups.0.length."""
     return ".".join(map(str, where))
 
 
 def text_of(table: MappingNode, source: str, original: MappingNode) -> str:
-    """The file of a table whose unchanged parts are those of `original`, which was read from `source`."""
+    """Return the file of a table whose unchanged parts are those of `original`, which was read from `source`."""
     kept = _block(table, original, source.splitlines(), 0)
     read = read_own(kept)
     agrees = not read.faults and read.top is not None and plain(read.top) == plain(table)
@@ -62,7 +62,7 @@ def text_of(table: MappingNode, source: str, original: MappingNode) -> str:
 
 
 def quoted(text: str, always: bool = False) -> str:
-    """A scalar of YAML that is read as exactly this text."""
+    """Return a scalar of YAML that is read as exactly this text."""
     if not always and _PLAIN.fullmatch(text) and not _RESERVED.fullmatch(text):
         return text
     return f'"{"".join(map(_escaped, text))}"'
@@ -77,7 +77,7 @@ def _escaped(letter: str) -> str:
 
 
 def _block(table: MappingNode, original: MappingNode, lines: Sequence[str], depth: int) -> str:
-    """A table in block form: entries that are the very ones of the source by their lines, others anew."""
+    """Return a table in block form: entries that are the very ones of the source by their lines, others anew."""
     spans = _spans(original, lines)
     text = ""
     for key, value in table.entries:
@@ -107,7 +107,7 @@ def _is_block(key: Scalar, table: MappingNode) -> bool:
 
 
 def _spans(table: MappingNode, lines: Sequence[str]) -> dict[str, Sequence[str]]:
-    """The lines of each entry, up to the next; none for entries that share lines."""
+    """Return the lines of each entry, up to the next; none for entries that share lines."""
     keys = [key for key, _ in table.entries]
     starts = [key.mark.line for key in keys]
     shared = any(lines[key.mark.line - 1][: key.mark.column - 1].strip() for key in keys)
@@ -118,7 +118,7 @@ def _spans(table: MappingNode, lines: Sequence[str]) -> dict[str, Sequence[str]]
 
 
 def _with_comment(entry: str, span: Sequence[str], value: Node) -> str:
-    """An entry written anew, with the comment of its old line and the lines of comment after it."""
+    """Return an entry written anew, with the comment of its old line and the lines of comment after it."""
     after = []
     for line in reversed(span[1:]):
         if line.strip() and not line.lstrip().startswith("#"):
@@ -129,7 +129,7 @@ def _with_comment(entry: str, span: Sequence[str], value: Node) -> str:
 
 
 def entry_text(key: Scalar, value: Node, depth: int) -> str:
-    """A key and its value so far to the right, in one line if that is short or there is nothing in it."""
+    """Return a key and its value so far to the right, in one line if that is short or there is nothing in it."""
     name, space = quoted(key.text), " " * depth
     line = flow(value)
     if isinstance(value, Scalar) or line in ("[]", "{}") or len(space) + len(name) + len(line) + 2 <= WIDTH:
@@ -140,7 +140,7 @@ def entry_text(key: Scalar, value: Node, depth: int) -> str:
 
 
 def item_lines(item: Node, depth: int) -> list[str]:
-    """An item of a list, so far to the right, in one line; a long table with tables in it by its entries."""
+    """Return an item of a list, so far to the right, in one line; a long table with tables in it by its entries."""
     line = flow(item)
     nested = isinstance(item, MappingNode) and any(isinstance(value, MappingNode) for _, value in item.entries)
     if depth + 2 + len(line) <= WIDTH or not isinstance(item, MappingNode) or not nested:
@@ -154,7 +154,7 @@ def _lines(table: MappingNode, depth: int) -> str:
 
 
 def flow(node: Node) -> str:
-    """A node in one line."""
+    """Return a node in one line."""
     match node:
         case Scalar(text, null=null, quoted=in_marks):
             return "" if null else quoted(text, in_marks)

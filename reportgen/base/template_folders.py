@@ -24,7 +24,7 @@ TOPICS = "topics"
 
 
 def templates() -> Path:
-    """The folder of words and frames: packed into the package, or beside it in a checkout."""
+    """Return the folder of words and frames: packed into the package, or beside it in a checkout."""
     return _packed("templates", "templates")
 
 
@@ -37,12 +37,12 @@ def languages() -> tuple[Language, ...]:
 
 
 def samples() -> Path:
-    """The folder of examples, in the same way."""
+    """Return the folder of examples, in the same way."""
     return _packed("samples", "assignments")
 
 
 def documentation() -> Path:
-    """The folder of the documentation, in the same way."""
+    """Return the folder of the documentation, in the same way."""
     return _packed("docs", "docs")
 
 
@@ -82,14 +82,14 @@ def schools() -> list[str]:
 
 
 def school_folder(school: Path | str) -> Path:
-    """The folder of a school's own templates."""
+    """Return the folder of a school's own templates."""
     return templates() / school
 
 
 def search_path(
     language: Language, kind: str = "", school: Path | str = "", root: Path | None = None
 ) -> tuple[Path, ...]:
-    """The places in which sections and words are looked for; the first that has a name wins.
+    """Return the places in which sections and words are looked for; the first that has a name wins.
 
     The file of a school (its folder, or its name among the templates), then that of one kind of machine, then the
     folder of the language.
@@ -103,7 +103,7 @@ def search_path(
 
 
 def kind_file(language: Language, kind: str, root: Path | None = None) -> Path:
-    """The file with all words of one kind of machine."""
+    """Return the file with all words of one kind of machine."""
     return (root or templates()) / language / MACHINES / f"{kind}.md"
 
 
@@ -118,6 +118,6 @@ def topic_file(topic: str) -> str:
 
 
 def told_in(language: Language, name: str) -> Path:
-    """A file of words of a language, a kind's, `catalogue/cam.md`, too; that of reference where it has none."""
+    """Return a file of words of a language, a kind's, `catalogue/cam.md`, too; that of reference where it has none."""
     own = templates() / language / name
     return own if own.is_file() else templates() / REFERENCE / name

@@ -20,5 +20,5 @@ _PLAIN = str.maketrans({**dict.fromkeys(UNSEEN, ""), **dict.fromkeys(MINUSES, "-
 
 
 def plain_signs(text: str) -> str:
-    """The text with one kind of minus and dot, and without letters that nobody sees."""
+    """Return the text with one kind of minus and dot, and without letters that nobody sees."""
     return text.translate(_PLAIN)

@@ -127,12 +127,12 @@ class QuantityFault(ValueError):
 
 
 def read_number(text: str) -> float:
-    """A finite number; raises `QuantityFault` (decimal-comma, not-finite, unexpected-unit, not-a-number)."""
+    """Return a finite number; raises `QuantityFault` (decimal-comma, not-finite, unexpected-unit, not-a-number)."""
     return read_ratio(text, fractions=False).si
 
 
 def read_ratio(text: str, *, fractions: bool = True) -> Given:
-    """A number without unit, `0.35` or (with `fractions`) `1/3.6`; raises `QuantityFault`."""
+    """Return a number without unit, `0.35` or (with `fractions`) `1/3.6`; raises `QuantityFault`."""
     cleaned = _cleaned(text)
     match = _RATIO.fullmatch(cleaned)
     if match is None or (match[2] and not fractions):
@@ -147,7 +147,7 @@ def read_ratio(text: str, *, fractions: bool = True) -> Given:
 
 
 def read_quantity(text: str, unit: str) -> Given:
-    """A quantity of the dimension of `unit`; raises `QuantityFault` (also missing-, wrong-, unknown-unit)."""
+    """Return a quantity of the dimension of `unit`; raises `QuantityFault` (also missing-, wrong-, unknown-unit)."""
     cleaned = _cleaned(text)
     match = _QUANTITY.fullmatch(cleaned)
     if match is None:
@@ -164,7 +164,8 @@ def read_quantity(text: str, unit: str) -> Given:
 
 
 def two_readings(text: str) -> tuple[str, str] | None:
-    """A number that is read as decimals and may be meant as thousands, written both ways: 1.4 N and 1400 N for 1.400 N.
+    """Return a number that is read as decimals and may be meant as thousands, written both ways: 1.4 N and 1400 N
+    for 1.400 N.
 
     None for any other text; 1.375 mm and 0.350 leave no doubt.
     """
@@ -211,7 +212,7 @@ def measures(unit: str, like: str) -> bool:
 
 
 def read_unit(text: str, unit: str) -> float:
-    """The SI factor of a unit of the same dimension as `unit`; raises `QuantityFault`."""
+    """Return the SI factor of a unit of the same dimension as `unit`; raises `QuantityFault`."""
     try:
         factor, dimension = scale(text.strip())
     except ValueError:
@@ -252,7 +253,7 @@ def _registry() -> Any:
 
 
 def _cleaned(text: str) -> str:
-    """The text without outer blanks, its minus sign plain; raises for what can be no number at all."""
+    """Return the text without outer blanks, its minus sign plain; raises for what can be no number at all."""
     cleaned = text.strip().replace("\N{MINUS SIGN}", "-")
     if len(cleaned) > _LONGEST:
         raise QuantityFault("not-a-number", text=text)
@@ -278,13 +279,13 @@ TIE = 1e-9
 
 
 def rounded(values: Numbers, decimals: int) -> Numbers:
-    """A number, or each of an array, rounded half up as by hand, 2.675 to 2.68; never a negative zero."""
+    """Return a number, or each of an array, rounded half up as by hand, 2.675 to 2.68; never a negative zero."""
     step = 10.0**decimals
     return (abs(values) * step + 0.5 + TIE) // 1 / step * (1 - 2 * (values < 0)) + 0.0
 
 
 def write(value: float, decimals: int | None, language: Language) -> str:
-    """The text of a number: fixed `decimals`, or the shortest exact form when None.
+    """Return the text of a number: fixed `decimals`, or the shortest exact form when None.
 
     Its decimal mark is that of the language; it has a true minus sign and no thousands mark.  What is very large or
     very small is written with a power of ten.
@@ -335,7 +336,9 @@ def power_of_ten(exponent: int) -> str:
 
 
 def grouped(value: float) -> str:
-    """A bound as a message tells it: 0.000001, 10 000 000, with the decimal point of the file; beyond that 10⁹."""
+    """Return a bound as a message tells it: 0.000001, 10 000 000, with the decimal point of the file; beyond that
+    10⁹.
+    """
     if parts := by_power_of_ten(value, None):
         return f"{parts.factor:g}·{power_of_ten(parts.exponent)}".removeprefix("1·").replace("-1·", MINUS)
     whole, point, decimals = f"{Decimal(repr(float(value))).normalize():f}".partition(".")
@@ -364,7 +367,7 @@ SERIES = (1.0, 2.0, 2.5, 4.0, 5.0)
 
 
 def nice_up(value: float, series: Sequence[float] = SERIES) -> float:
-    """The smallest s·10ⁿ, s of the series, that is not below `value`, in its unit.
+    """Return the smallest s·10ⁿ, s of the series, that is not below `value`, in its unit.
 
     Raises `ValueError` unless `value` is positive and finite.
     """
@@ -377,7 +380,9 @@ def nice_up(value: float, series: Sequence[float] = SERIES) -> float:
 
 
 def nice_down(value: float, series: Sequence[float] = SERIES) -> float:
-    """The largest s·10ⁿ, s of the series, not above `value`, in its unit; raises `ValueError` as `nice_up` does."""
+    """Return the largest s·10ⁿ, s of the series, not above `value`, in its unit; raises `ValueError` as `nice_up`
+    does.
+    """
     if not (value > 0 and math.isfinite(value)):
         raise ValueError("a scale is a positive number")
     decade = math.floor(math.log10(value))

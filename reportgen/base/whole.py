@@ -34,7 +34,7 @@ def is_topic_whole(language: Language, topic: str) -> bool:
 
 
 def offered(language: Language) -> list[str]:
-    """The kinds whose words are whole in a language."""
+    """Return the kinds whose words are whole in a language."""
     return [kind for kind in kinds() if is_whole(language, kind)]
 
 
@@ -51,7 +51,7 @@ def _has_all(language: Language) -> bool:
 
 
 def _missing(own: Path, reference: Path) -> Iterator[str]:
-    """The sections and the words that a file lacks; all if there is no such file."""
+    """Yield the sections and the words that a file lacks; all if there is no such file."""
     here, there = sections(own), sections(reference)
     yield from there.keys() - here.keys()
     if SECTION in here and SECTION in there:

@@ -76,7 +76,7 @@ def templates_hash() -> str:
 
 
 def named_school() -> Path | None:
-    """The school's folder that was named for all files of a run.
+    """Return the school's folder that was named for all files of a run.
 
     Raises `TemplateError` where it is none, and where a link in it leads out.
     """
@@ -107,7 +107,7 @@ def load_words(places: Sequence[Path]) -> Mapping[str, Any]:
 
 
 def _words_in(place: Path, of_others: bool) -> Mapping[str, Any] | None:
-    """The words of a file of sections, perhaps not the program's own, or of a folder."""
+    """Return the words of a file of sections, perhaps not the program's own, or of a folder."""
     if place.suffix == ".md":
         section = sections(place).get(SECTION)
         return None if section is None else _as_written(section, place, of_others)
@@ -141,13 +141,13 @@ def _read(path: Path) -> Mapping[str, Any]:
 
 @lru_cache(maxsize=FILES)
 def _as_of(path: Path, changed: int, size: int) -> Mapping[str, Any]:
-    """A file's words, read once for as long as it stays the same; nobody changes them."""
+    """Return a file's words, read once for as long as it stays the same; nobody changes them."""
     return _table(read_words(path))
 
 
 @lru_cache(maxsize=FILES)
 def _as_written(section: Passage, place: Path, of_others: bool) -> Mapping[str, Any]:
-    """The words that a section holds; those of others are read with care.
+    """Return the words that a section holds; those of others are read with care.
 
     Raises `TemplateError` for a gap that is filled with more than a value, for a text too long, for a strange sign.
     """
@@ -189,13 +189,13 @@ def unfilled(text: str, known: Iterable[str], language: Language) -> str:
 
 
 def of_file(file: Path) -> Language:
-    """The language of a file of templates."""
+    """Return the language of a file of templates."""
     names = (file.stem, file.parent.name, file.parent.parent.name)
     return next((name for name in names if name in languages()), DEFAULT_LANGUAGE)
 
 
 def _table(source: Source, above: int = 0) -> Mapping[str, Any]:
-    """The table that a file is, or the part of one below its first lines."""
+    """Return the table that a file is, or the part of one below its first lines."""
     if source.faults:
         raise TemplateError("\n".join(f"{_below(fault.mark, above)}: {fault.wordless}" for fault in source.faults))
     if not isinstance(source.top, MappingNode):
@@ -215,7 +215,7 @@ def _below(mark: Mark, above: int) -> Mark:
 
 
 def _over(below: Mapping[str, Any], above: Mapping[str, Any], place: Path, where: Where = ()) -> Mapping[str, Any]:
-    """Both tables in one; where both have a word, the one `above`, whose words also come first.
+    """Return both tables in one; where both have a word, the one `above`, whose words also come first.
 
     Raises `TemplateError` with a place in the file `above` where its words have another form.
     """
@@ -239,7 +239,7 @@ def _alike(present: Any, standing_in: Any) -> bool:
 
 
 def language_of(source: Source) -> Language:
-    """The language a file asks for, found by its line so that faulty syntax does not matter.
+    """Return the language a file asks for, found by its line so that faulty syntax does not matter.
 
     A file that asks for none is reported in the language of who names none; one that cannot be read says nothing.
     """
@@ -260,7 +260,7 @@ def speak(language: Language) -> None:
 
 
 def spoken() -> Language:
-    """The language of what no file and no option says one for: what was set, else that of the locale.
+    """Return the language of what no file and no option says one for: what was set, else that of the locale.
 
     A locale that is none (C) leaves it at that of who names none; one that there is not is told in that of reference.
     """
@@ -275,19 +275,19 @@ def spoken() -> Language:
 
 @cache
 def messages(language: Language) -> Mapping[str, Any]:
-    """The message table: `faults`, `hints`, `words` (kinds of value, reasons), `columns` and `cli`."""
+    """Return the message table: `faults`, `hints`, `words` (kinds of value, reasons), `columns` and `cli`."""
     return _with_reference(language, MESSAGES_FILE, MESSAGES_SECTION)
 
 
 @cache
 def helps(language: Language) -> Mapping[str, Any]:
-    """The help of the command line: its `frame`, the short `start`, and `texts` by their English ones."""
+    """Return the help of the command line: its `frame`, the short `start`, and `texts` by their English ones."""
     return _with_reference(language, "help.yaml")
 
 
 @cache
 def common_words(language: Language) -> Mapping[str, Any]:
-    """The short words of a language that no kind and no school changes."""
+    """Return the short words of a language that no kind and no school changes."""
     return _with_reference(language, FILE, SECTION)
 
 
@@ -300,7 +300,7 @@ def _with_reference(language: Language, name: str, section: str = "") -> Mapping
 
 
 def _beneath(below: Mapping[str, Any], above: Mapping[str, Any]) -> Mapping[str, Any]:
-    """The words `above`, and those of `below` under keys that are not there."""
+    """Return the words `above`, and those of `below` under keys that are not there."""
     both = {
         key: _beneath(below[key], value)
         if isinstance(value, Mapping) and isinstance(below.get(key), Mapping)
@@ -311,23 +311,23 @@ def _beneath(below: Mapping[str, Any], above: Mapping[str, Any]) -> Mapping[str,
 
 
 def word(key: str, language: Language | None, /, **arguments: object) -> str:
-    """A text of the command line with its arguments filled in."""
+    """Return a text of the command line with its arguments filled in."""
     said = {name: one if isinstance(one, FILLS) else str(one) for name, one in arguments.items()}
     return str(messages(language or spoken())["cli"][key]).format(**said)
 
 
 def counted(key: str, language: Language | None, count: int, /, **arguments: object) -> str:
-    """A text of the command line that counts something; for one it has words of its own, under `key`_one."""
+    """Return a text of the command line that counts something; for one it has words of its own, under `key`_one."""
     return word(f"{key}_one" if count == 1 else key, language, count=count, **arguments)
 
 
 def unexpected(error: BaseException, language: Language | None) -> str:
-    """A fault of the program itself, in one line."""
+    """Return a fault of the program itself, in one line."""
     return word("unexpected", language, name=type(error).__name__, text=" ".join(str(error).split()))
 
 
 def as_problem(fault: Fault, language: Language | None, level: Level = "error") -> Problem:
-    """The fault in words; its hint is given when the arguments it speaks of are known."""
+    """Return the fault in words; its hint is given when the arguments it speaks of are known."""
     table = messages(language or spoken())
     # What is known is the program's own, and told in full.
     arguments = {name: text if name in {"known", "place"} else _shown(text) for name, text in fault.arguments.items()}
@@ -347,7 +347,7 @@ def as_problem(fault: Fault, language: Language | None, level: Level = "error") 
 
 
 def as_error(faults: Iterable[Fault], language: Language | None) -> AssignmentError:
-    """The error that carries these faults in words, each once."""
+    """Return the error that carries these faults in words, each once."""
     return AssignmentError(list(dict.fromkeys(as_problem(fault, language) for fault in faults)))
 
 
@@ -360,14 +360,16 @@ def close_or_known(key: str, known: Sequence[str]) -> dict[str, str]:
 
 
 def unknown(key: str, text: str, known: Sequence[str], language: Language | None) -> str:
-    """A text of the command line about an unknown name, with the known one it was probably meant to be, or all."""
+    """Return a text of the command line about an unknown name, with the known one it was probably meant to be, or
+    all.
+    """
     near = close_or_known(text, known)
     hint = messages(language or spoken())["hints"]["unknown-key" if "close" in near else "unknown-key-otherwise"]
     return f"{word(key, language, text=_shown(text))}: {hint.format(**near)}"
 
 
 def _shown(text: str) -> str:
-    """A piece of the file as it can stand in a message: one line, no control characters, not endless."""
+    """Return a piece of the file as it can stand in a message: one line, no control characters, not endless."""
     clean = "".join("\N{REPLACEMENT CHARACTER}" if unicodedata.category(c) in {"Cc", "Cs"} else c for c in text)
     return clean if len(clean) <= LONGEST_SHOWN else f"{clean[:LONGEST_SHOWN]}…"
 
@@ -391,7 +393,7 @@ class Passage:
 
 
 def sections(file: Path) -> Mapping[str, Passage]:
-    """The sections of a file by their names, in its order; none if there is no such file.
+    """Return the sections of a file by their names, in its order; none if there is no such file.
 
     What stands before the first is a note about the file, and blank lines between two belong to neither.  Raises
     `TemplateError` with file and line for a name that is empty or met again and for what cannot be read.
@@ -408,7 +410,7 @@ _NAME = re.compile(r"[\w-]+(/[\w-]+)?")
 
 
 def find(name: str, places: Sequence[Path]) -> Passage | None:
-    """The section of this name in the first of some places (files, folders) that has it."""
+    """Return the section of this name in the first of some places (files, folders) that has it."""
     if not _NAME.fullmatch(name):
         return None
     passages = (sections(file).get(section) for place in places for file, section in homes(name, place))
@@ -447,7 +449,7 @@ def refuse_strangers(places: Sequence[Path]) -> None:
 
 
 def _names(language: Path) -> Iterator[str]:
-    """The names of all sections of a language, those of the machines included."""
+    """Yield the names of all sections of a language, those of the machines included."""
     for file in language.glob("*.md"):
         yield from (name if file.stem == "report" else f"{file.stem}/{name}" for name in sections(file))
     for file in (*topic_files(language), *(language / MACHINES).glob("*.md")):
@@ -456,7 +458,7 @@ def _names(language: Path) -> Iterator[str]:
 
 @lru_cache(maxsize=KEPT_FILES)
 def _sections_of(file: Path, changed: int, size: int) -> Mapping[str, Passage]:
-    """The sections of a file, read once for as long as it stays the same."""
+    """Return the sections of a file, read once for as long as it stays the same."""
     text = text_in(file)
     if isinstance(text, Fault):
         raise TemplateError(str(as_problem(text, of_file(file))))

@@ -49,7 +49,7 @@ from reportgen.machine.laws import FULL_TURN, STEPS
 
 
 def module(kind: str) -> ModuleType:
-    """The module of a kind; raises `KeyError` for a kind nobody knows."""
+    """Return the module of a kind; raises `KeyError` for a kind nobody knows."""
     return import_module(kinds()[kind])
 
 
@@ -80,7 +80,7 @@ def _extended(parameters: type[Part], names: tuple[str, ...]) -> Extended:
 
 
 def assess(source: Source, path: Path) -> tuple[Assignment | None, list[Fault]]:
-    """The assignment of nodes that were read from `path` or put together from several files; else its faults."""
+    """Return the assignment of nodes that were read from `path` or put together from several files; else its faults."""
     assignment, faults = understood(source, path)
     if assignment is not None and (machine_of := getattr(module(assignment.kind), "machine", None)) is not None:
         machine = machine_of(assignment)
@@ -134,7 +134,8 @@ def _out_of_reach(machine: Machine) -> Iterator[Finding]:
 
 
 def load(path: Path | str, language: Language | None = None, whole: Path | None = None) -> Assignment:
-    """The assignment of a file, in its own language or in `language`; of a part, with what it takes in the `whole`.
+    """Return the assignment of a file, in its own language or in `language`; of a part, with what it takes in the
+    `whole`.
 
     Raises `AssignmentError` with all faults of the file, located.
     """
@@ -147,7 +148,7 @@ def with_taken(source: Source, path: Path, whole: Path | None) -> Source:
 
 
 def _in_order(source: Source, path: Path, language: Language | None) -> Assignment:
-    """The assignment of nodes that were read from `path`; raises `AssignmentError`."""
+    """Return the assignment of nodes that were read from `path`; raises `AssignmentError`."""
     assignment, faults = assess(source, path)
     faults = [*reading.name_faults(path), *faults]
     if assignment is None or faults:
@@ -211,7 +212,7 @@ def _doubts(assignment: Assignment) -> Iterator[Finding]:
 
 
 def examples(name: str) -> dict[str, Path]:
-    """The examples of a kind that come with the program, by the stems of their files."""
+    """Return the examples of a kind that come with the program, by the stems of their files."""
     heads = {path: path.read_text(encoding="utf-8") for path in sorted(samples().rglob("*.yaml"))}
     of_kind = re.compile(rf"^kind: {name}$", re.MULTILINE)
     # A spec, which has a salt, is one for a class.
@@ -219,7 +220,7 @@ def examples(name: str) -> dict[str, Path]:
 
 
 def example(path: Path, language: Language | None = None) -> str:
-    """The text of an example, reported in a language if one is given."""
+    """Return the text of an example, reported in a language if one is given."""
     source = read_source(path)
     assert isinstance(source.top, MappingNode), "an example is in order"
     if language is None:
@@ -251,7 +252,9 @@ def schema(language: Language | None = None) -> dict[str, Any]:
 
 
 def sample(name: str, language: Language) -> str:
-    """The commented assignment file to fill in of a kind; raises `KeyError`, `TemplateError` where it has none."""
+    """Return the commented assignment file to fill in of a kind; raises `KeyError`, `TemplateError` where it has
+    none.
+    """
     known = kind(name)
     file = told_in(language, f"{MACHINES}/{name}.md")
     if (section := sections(file).get(SAMPLE)) is None:

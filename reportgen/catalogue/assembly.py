@@ -55,7 +55,7 @@ class Way:
     turning: bool = True
 
     def shown(self, place: float) -> str:
-        """A place in degrees, −180…180, or in millimetres, without trailing zeros."""
+        """Return a place in degrees, −180…180, or in millimetres, without trailing zeros."""
         return f"{np.degrees(np.angle(np.exp(1j * place))) if self.turning else place * 1e3:.4g}"
 
 
@@ -65,7 +65,9 @@ WHOLE_TURN = Way()
 def findings(
     linkage: Linkage, members: Mapping[tuple[int, int], Member], driven: Way = WHOLE_TURN
 ) -> Iterator[Finding]:
-    """The first group that the driver cannot carry through all its way: with its links and the driver's places."""
+    """Report the first group that the driver cannot carry through all its way: with its links and the driver's
+    places.
+    """
     places = np.linspace(driven.start, driven.end, STEPS + 1)
     motion = solve_motion(linkage, places, 1.0)
     size = _size(motion)
@@ -99,7 +101,7 @@ def findings(
 
 
 def near_dead_point(linkage: Linkage, driven: Way, where: Where) -> Iterator[Finding]:
-    """The first group that comes so near to a dead point that its accelerations and forces are mere rounding."""
+    """Report the first group that comes so near to a dead point that its accelerations and forces are mere rounding."""
     places = np.linspace(driven.start, driven.end, STEPS + 1)
     motion = solve_motion(linkage, places, 1.0)
     size, of_slide = _size(motion), "" if driven.turning else "-slide"
@@ -124,7 +126,9 @@ def near_dead_point(linkage: Linkage, driven: Way, where: Where) -> Iterator[Fin
 
 
 def at_instants(linkage: Linkage, places: Floats, turning: bool) -> Iterator[Finding]:
-    """The instants at which a group does not assemble, or is so near to a dead point that its forces are rounding."""
+    """Report the instants at which a group does not assemble, or is so near to a dead point that its forces are
+    rounding.
+    """
     motion, shown = solve_motion(linkage, places, 1.0), Way(turning=turning).shown
     size, limit = _size(motion), np.sin(np.radians(LEAST_ANGLE))
     for index, place in enumerate(map(float, places)):
@@ -154,7 +158,9 @@ def room(linkage: Linkage, angles: Floats) -> tuple[float, float]:
 
 
 def too_large(linkage: Linkage, angles: Floats, drawn: float, where: Where) -> Iterator[Finding]:
-    """A mechanism that no sheet A0 holds at angles [N] of its crank, which is drawn `drawn` long (m on paper)."""
+    """Report a mechanism that no sheet A0 holds at angles [N] of its crank, which is drawn `drawn` long (m on
+    paper).
+    """
     assert isinstance(linkage.driver, Crank)
     scale = drawn / linkage.driver.length
     width, height = (size * scale for size in room(linkage, angles))
@@ -169,7 +175,9 @@ def too_large(linkage: Linkage, angles: Floats, drawn: float, where: Where) -> I
 
 
 def to_and_fro(linkage: Linkage, slider: int, motion_at: MotionAt, where: Where) -> Iterator[Finding]:
-    """A slider that has dead centres goes once to and fro in a turn, so that it turns back twice."""
+    """Yield faults unless a slider that has dead centres goes once to and fro in a turn, so that it turns back
+    twice.
+    """
     count = len(turning_points(linkage, slider, motion_at))
     if count != 2:
         yield Finding("not-to-and-fro", where, {"text": str(slider), "count": str(count)})
@@ -208,7 +216,7 @@ def clearance(dyad: Dyad, motion: Motion, size: float) -> Floats:
 
 
 def _rail(guide: Guide, motion: Motion) -> tuple[Complexes | complex, Complexes]:
-    """A point of a guide and its direction."""
+    """Return a point of a guide and its direction."""
     if guide.link == GROUND:
         return guide.at, unit(guide.angle)
     turned = unit(motion.links[guide.link].angle)
@@ -216,14 +224,14 @@ def _rail(guide: Guide, motion: Motion) -> tuple[Complexes | complex, Complexes]
 
 
 def _size(motion: Motion) -> float:
-    """The greatest extent of all that the linkage's points come to (m)."""
+    """Return the greatest extent of all that the linkage's points come to (m)."""
     places = np.concatenate([point.p for point in motion.points.values()])
     places = places[np.isfinite(places)]
     return max(float(np.ptp(places.real)), float(np.ptp(places.imag)))
 
 
 def _first_gap(clear: Clear, driven: Way, places: Floats, inside: np.ndarray) -> tuple[float, float]:
-    """The ends of the first range where the group does not assemble; of a turn, the first after it assembles."""
+    """Return the ends of the first range where the group does not assemble; of a turn, the first after it assembles."""
     if driven.turning:
         places = places + places[int(np.flatnonzero(inside)[0])] - driven.start
         inside = clear(places) >= -ROUND_OF_CLEARANCE
@@ -231,7 +239,7 @@ def _first_gap(clear: Clear, driven: Way, places: Floats, inside: np.ndarray) ->
 
 
 def _gap(clear: Clear, places: Floats, inside: np.ndarray) -> tuple[float, float]:
-    """The ends of the first run of places that are not `inside`."""
+    """Return the ends of the first run of places that are not `inside`."""
     first = int(np.flatnonzero(~inside)[0])
     later = np.flatnonzero(inside[first:])
     last = first + int(later[0]) - 1 if later.size else places.size - 1
@@ -244,7 +252,7 @@ def _gap(clear: Clear, places: Floats, inside: np.ndarray) -> tuple[float, float
 
 
 def _edge(clear: Clear, inside: float, outside: float) -> float:
-    """The place between a reachable and an unreachable one at which the links just reach each other."""
+    """Return the place between a reachable and an unreachable one at which the links just reach each other."""
 
     def assembles(places: Floats) -> Flags:
         return np.asarray(clear(places.ravel()).reshape(places.shape) >= 0)

@@ -27,7 +27,7 @@ def scaled(factor: Expression, vector: VectorComponents) -> VectorComponents:
 
 
 def turned(vector: VectorComponents) -> VectorComponents:
-    """The vector turned by 90° anticlockwise."""
+    """Return the vector turned by 90° anticlockwise."""
     return minus(vector[1]), vector[0]
 
 
@@ -35,32 +35,32 @@ def turned(vector: VectorComponents) -> VectorComponents:
 
 
 def degrees(angle: float) -> Number:
-    """A typed angle (rad) as it stands in a formula."""
+    """Return a typed angle (rad) as it stands in a formula."""
     return Number(as_typed(math.degrees(angle)), unit="°")
 
 
 def as_typed(value: float) -> float:
-    """A number without the dust of its conversion to SI."""
+    """Return a number without the dust of its conversion to SI."""
     return float(f"{value:.13g}") + 0.0
 
 
 def along(angle: Expression) -> VectorComponents:
-    """The unit vector e at an angle."""
+    """Return the unit vector e at an angle."""
     return cosine(angle), sine(angle)
 
 
 def on(vector: VectorComponents, angle: Expression) -> Expression:
-    """The projection on e at an angle."""
+    """Return the projection on e at an angle."""
     e = along(angle)
     return plus(times(vector[0], e[0]), times(vector[1], e[1]))
 
 
 def across(vector: VectorComponents, angle: Expression) -> Expression:
-    """The projection on n, square to e at an angle."""
+    """Return the projection on n, square to e at an angle."""
     e = along(angle)
     return plus(times(vector[1], e[0]), minus(times(vector[0], e[1])))
 
 
 def typed(place: complex) -> VectorComponents:
-    """A typed place (m) as it stands in formulas."""
+    """Return a typed place (m) as it stands in formulas."""
     return Number(as_typed(place.real)), Number(as_typed(place.imag))

@@ -129,7 +129,7 @@ CrankLoading = Annotated[Constant | OverAngle, Field(discriminator="by")]
 
 
 def pins(linkage: Linkage) -> dict[int, set[str]]:
-    """The points of every moving link: its joints and what is fixed to it."""
+    """Return the points of every moving link: its joints and what is fixed to it."""
     driver = linkage.driver
     found = {DRIVER: {driver.pin}}
     if isinstance(driver, Crank):
@@ -150,7 +150,7 @@ def listed(numbers: Collection[int]) -> str:
 
 
 def on_link(points: Mapping[int, set[str]], link: int, name: str | None, at: Where) -> Iterator[Finding]:
-    """A link that is not there, or a point that it does not have; `points` are those of the links."""
+    """Report a link that is not there, or a point that it does not have; `points` are those of the links."""
     if link not in points:
         yield Finding("no-such-link", (*at, "link"), {"text": str(link), "known": listed(points)})
     elif name is not None and name not in points[link]:
@@ -159,7 +159,8 @@ def on_link(points: Mapping[int, set[str]], link: int, name: str | None, at: Whe
 
 
 def faults(load: PlainLoad, points: Mapping[int, set[str]], end: float, at: Where) -> Iterator[Finding]:
-    """A load is on a link and a point that are there, of `points` by link, and given as loads of its sort are.
+    """Yield faults unless a load is on a link and a point that are there, of `points` by link, and given as loads of
+    its sort are.
 
     The driver goes from 0 to `end` (rad or m).
     """
@@ -221,7 +222,8 @@ def loads(
     *,
     through: bool = True,
 ) -> tuple[Applied | Torque, ...]:
-    """The loads in the order of the file, beside `others`; a faulty one, which the file's checks tell, is left out.
+    """Return the loads in the order of the file, beside `others`; a faulty one, which the file's checks tell, is
+    left out.
 
     The driver goes `through` the whole cycle, or stands at single instants.
     """
@@ -236,7 +238,7 @@ def loads(
 def rows(
     declared: Sequence[Constant | OverAngle], made: Sequence[Applied | Torque], idle: Collection[str]
 ) -> tuple[LoadRow, ...]:
-    """The loads that act, as words tell of them; of faulty ones nothing is told."""
+    """Return the loads that act, as words tell of them; of faulty ones nothing is told."""
     if len(declared) != len(made):
         return ()
     pairs = zip(declared, made, strict=True)
@@ -244,7 +246,7 @@ def rows(
 
 
 def applied(load: PlainLoad, law: Law, others: Iterable[Applied | Torque]) -> Applied | Torque:
-    """A force at the load's point, or a torque where it has none."""
+    """Return a force at the load's point, or a torque where it has none."""
     if load.at is None:
         return Torque(named(ids.applied_torque, load.link, others), load.link, law)
     along = fixed(cmath.exp(1j * load.direction.si))
@@ -323,7 +325,7 @@ class LoadRow:
 
 
 def row_of(load: PlainLoad, name: str) -> LoadRow:
-    """A load as words tell of it."""
+    """Return a load as words tell of it."""
     acting, direction = partial(LoadRow, name, load.link, load.by, load.at is None), as_typed(load.direction)
     row = partial(acting, load.at or "", direction)
     if not isinstance(load, Constant):

@@ -63,7 +63,7 @@ def outline(
 
 
 def with_crank(q: GivenSheet, linkage: Linkage) -> Linkage:
-    """The linkage with the body of its crank, if the file gives one that its kind does not place by itself."""
+    """Return the linkage with the body of its crank, if the file gives one that its kind does not place by itself."""
     driver, given = linkage.driver, q.given
     centre = f"S{DRIVER}"
     placed = any(point.name == centre for point in linkage.points)
@@ -101,7 +101,7 @@ def driven(
     equations: Mapping[str, tuple[Chain, ...]] | None = None,
     **own: Any,
 ) -> Machine:
-    """The machine of an assignment whose crank stands at the angle `start` (rad) in position 1.
+    """Return the machine of an assignment whose crank stands at the angle `start` (rad) in position 1.
 
     `sections` go to `outline`; `formulas`, `compared` and `equations` are its `ClosedFormulas`; all further fields of
     its `Machine` are given by name.  Loads that are zero throughout are left out.

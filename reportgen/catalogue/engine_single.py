@@ -69,7 +69,7 @@ def _start(geometry: OffsetSlider, positions: Positions) -> float:
 
 
 def _special(geometry: OffsetSlider, start: float) -> tuple[float, ...]:
-    """The driver's turns from the first position to the dead centres and the greatest piston speeds."""
+    """Return the driver's turns from the first position to the dead centres and the greatest piston speeds."""
     return tuple(phi - start for phi in (geometry.stretched, geometry.folded, *geometry.fastest()))
 
 
@@ -157,14 +157,14 @@ def _enter_lengths(q: GivenSheet, given: Parameters) -> tuple[Ref, Ref]:
 
 
 def _geometry(given: Parameters, positions: Positions) -> OffsetSlider:
-    """The mechanism in the axes that turn with the rotation, the cylinder on their positive side."""
+    """Return the mechanism in the axes that turn with the rotation, the cylinder on their positive side."""
     q = GivenSheet(given)
     R, L = _enter_lengths(q, given)
     return OffsetSlider(q.si(R), q.si(L), given.e.si, UP, positions.sign)
 
 
 def machine(assignment: Assignment) -> Machine:
-    """The engine of an assignment: synthesis of crank and rod, linkage, gas, closed formulas."""
+    """Return the engine of an assignment: synthesis of crank and rod, linkage, gas, closed formulas."""
     given: Parameters = assignment.parameters
     positions, crank = assignment.positions, assignment.drawing.crank
     q = GivenSheet(given)

@@ -85,7 +85,7 @@ def possible_phases(crank_angle: float, positions: Positions) -> dict[tuple[Stro
 
 
 def _check_firing(draft: Draft) -> Iterator[Finding]:
-    """The firing pair is one that the crank allows."""
+    """Yield faults unless the firing pair is one that the crank allows."""
     parameters, indicator, positions = map(draft.sections.get, ("parameters", "indicator", "positions"))
     if parameters is None or positions is None or indicator is None or indicator.firing is None:
         return
@@ -99,7 +99,7 @@ CHECKS = (*given_loads.DIAGRAM_CHECKS, _check_firing)
 
 
 def machine(assignment: Assignment) -> Machine:
-    """The engine of an assignment: synthesis R = H/2, L = R/λ, linkage, gas, closed formulas."""
+    """Return the engine of an assignment: synthesis R = H/2, L = R/λ, linkage, gas, closed formulas."""
     given: Parameters = assignment.parameters
     positions, turn = assignment.positions, assignment.positions.sign
     q = GivenSheet(given)

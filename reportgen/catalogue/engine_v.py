@@ -62,7 +62,7 @@ class Parameters(Driven, masses=(2, 3, 4, 5), moments=(2, 4), shares=(2, 4), loa
 
 
 def _places(given: Parameters, positions: Positions) -> tuple[tuple[float, ...], tuple[str, ...]]:
-    """The even positions, and lettered those where the main piston is at a dead point."""
+    """Return the even positions, and lettered those where the main piston is at a dead point."""
     top = positions.sign * (given.alpha.si - positions.start_or())
     return lettered(positions.count, given.turns, (top, top + math.pi))
 
@@ -92,7 +92,9 @@ def _check_loads(draft: Draft) -> Iterator[Finding]:
 
 @of_parameters
 def _check_assembly(given: Parameters) -> Iterator[Finding]:
-    """Both pistons follow the crank through a whole turn and turn back twice; the articulation is on the main rod."""
+    """Yield faults unless both pistons follow the crank through a whole turn and turn back twice; the articulation
+    is on the main rod.
+    """
     if given.BD.si >= given.BC.si:
         most = f"< BC = {given.BC.si * 1e3:g} mm"
         yield Finding("out-of-range", ("parameters", "BD"), {"text": given.BD.text, "range": most})
@@ -167,7 +169,7 @@ def _linkage(given: Parameters, q: GivenSheet) -> Linkage:
 
 
 def machine(assignment: Assignment) -> Machine:
-    """The engine of an assignment: linkage, forces on the pistons, closed formulas."""
+    """Return the engine of an assignment: linkage, forces on the pistons, closed formulas."""
     given: Parameters = assignment.parameters
     positions, turn = assignment.positions, assignment.positions.sign
     q = _sheet(given, turn, assignment.drawing.crank)

@@ -73,7 +73,7 @@ def _turns(q: Sheet) -> bool:
 
 
 def cosine(a: Expression, b: Expression, opposite: Expression) -> Expression:
-    """The law of cosines for the angle between two sides."""
+    """Return the law of cosines for the angle between two sides."""
     return (a**2 + b**2 - opposite**2) / (2 * a * b)
 
 
@@ -95,7 +95,7 @@ def proportions(q: Sheet) -> None:
 def extremes(
     q: Sheet, crank: Ref, coupler: Ref, rocker: Ref, ends: tuple[str, str], *, frame: Expression, square: Expression
 ) -> None:
-    """Both extreme positions of a rocker, its swing ψ = ψ₁ − ψ₂ and the ratio of times K = (180° + θ)/(180° − θ).
+    """Enter both extreme positions of a rocker, its swing ψ = ψ₁ − ψ₂ and the ratio of times K = (180° + θ)/(180° − θ).
 
     Crank and coupler lie in one line from the crank's centre, θ = α₁ − α₂ is the angle between both lines.  The lines
     to the rocker's pin there are called `ends`; the angles at the crank's centre are α, at the rocker's ψ.  The frame
@@ -190,7 +190,7 @@ def _positions(q: Sheet, angle: Floats, side: int) -> tuple[Ref, Ref, Ref]:
 def _entries(
     q: Sheet, matrix: str, letter: str, kind: str, scale: float, entries: Mapping[str, Expression]
 ) -> list[Ref]:
-    """The entries of a matrix by their places: a₁₁ of [A], ȧ₁₁ of [Ȧ]."""
+    """Return the entries of a matrix by their places: a₁₁ of [A], ȧ₁₁ of [Ȧ]."""
     return [
         q.define(ids.matrix_entry(matrix, place), entry, Symbol(letter, place), kind, scale=scale)
         for place, entry in entries.items()
@@ -221,7 +221,7 @@ def _coupler_point(q: Sheet, point: LinkPoint, turn: int) -> None:
 
 
 def equations(turn: int, accelerates: float) -> dict[str, tuple[Chain, ...]]:
-    """The closed loop by components; the matrix equations in symbols, and `-numbers` with entries to fill in.
+    """Return the closed loop by components; the matrix equations in symbols, and `-numbers` with entries to fill in.
 
     The crank `accelerates` in the sense of ω₁ (> 0), against it (< 0) or not at all.
     """
@@ -332,7 +332,7 @@ def _sheet(given: Parameters, crank: Given | None = None) -> GivenSheet:
 
 
 def _linkage(given: Parameters, q: GivenSheet) -> Linkage:
-    """The mechanism with A in the origin."""
+    """Return the mechanism with A in the origin."""
     e = () if given.E is None else (LinkPoint("E", 2, complex(given.E.along.si, given.E.across.si)),)
     f = () if given.BF is None else (LinkPoint("F", 2, complex(given.BF.si)),)
     lengths = q.si("l.BC"), q.si("l.DC")
@@ -348,7 +348,7 @@ def _linkage(given: Parameters, q: GivenSheet) -> Linkage:
 
 @of_turning
 def _check_turning(given: Parameters) -> Iterator[Finding]:
-    """The crank turns fully, without dead points, and link 3 does what the file says of it."""
+    """Yield faults unless the crank turns fully, without dead points, and link 3 does what the file says of it."""
     linkage = _linkage(given, _sheet(given))
     obstacles = list(assembly.findings(linkage, {(2, 3): assembly.Member("BC, CD", ("parameters", "BC"))}))
     yield from obstacles
@@ -363,7 +363,7 @@ CHECKS = (_check_turning,)
 
 
 def machine(assignment: Assignment) -> Machine:
-    """The four-bar linkage of an assignment: linkage, loads, analytic method."""
+    """Return the four-bar linkage of an assignment: linkage, loads, analytic method."""
     given: Parameters = assignment.parameters
     positions, turn = assignment.positions, assignment.positions.sign
     q = _sheet(given, assignment.drawing.crank)

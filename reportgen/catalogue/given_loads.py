@@ -162,7 +162,7 @@ class PressingForce(Part):
 
 
 def stroke_of(force: ConstantForce | ForceOverStroke | ForceOverAngle | None) -> str:
-    """The stroke on which a working force acts, both unless it says otherwise."""
+    """Return the stroke on which a working force acts, both unless it says otherwise."""
     return force.stroke if isinstance(force, ConstantForce) else "both"
 
 
@@ -193,7 +193,7 @@ class LinkTorque(Part):
 def torque_on(
     given: LinkTorque | None, link: int, linkage: Linkage, positions: Positions, start: float
 ) -> tuple[Torque, ...]:
-    """The torque on a link of a crank's linkage whose crank stands at the angle `start` (rad) in position 1."""
+    """Return the torque on a link of a crank's linkage whose crank stands at the angle `start` (rad) in position 1."""
     if given is None:
         return ()
     size, motion_at = given.M.si, crank_motion(linkage, positions, start)

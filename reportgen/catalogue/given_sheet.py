@@ -31,7 +31,7 @@ MOST_FIGURES = 6
 
 
 def _figures(value: float) -> int:
-    """The significant figures of a number, without the last bits of floats."""
+    """Return the significant figures of a number, without the last bits of floats."""
     return len(f"{abs(value):.11e}".partition("e")[0].replace(".", "").rstrip("0"))
 
 
@@ -81,11 +81,11 @@ class GivenSheet(Sheet):
                 section.enter_speed(topics, self.datum)
 
     def drawn(self, start: str, end: str, asked: Given | None, default: float = CRANK_DRAWN) -> None:
-        """The crank's drawn length: as asked for, else `default` (m on paper)."""
+        """Enter the crank's drawn length: as asked for, else `default` (m on paper)."""
         self.give(ids.drawn(start, end), asked.si if asked else default, drawn_length(start, end))
 
     def drawn_by(self, scale: float, start: str, end: str, crank: Ref) -> None:
-        """The crank's drawn length (mm) by a round scale (m per mm) of the drawing."""
+        """Enter the crank's drawn length (mm) by a round scale (m per mm) of the drawing."""
         μ = self.give("scale", scale, Symbol("μ", "l"), "length scale")
         self.define(ids.drawn(start, end), crank / μ, drawn_length(start, end))
 
@@ -150,13 +150,13 @@ class GivenSheet(Sheet):
         self.moment(link, None if m is None else m * length**2 / 12)
 
     def point(self, name: str, place: FixedPoint) -> None:
-        """The coordinates of a fixed point as typed."""
+        """Enter the coordinates of a fixed point as typed."""
         x = self.datum(ids.coordinate(name, "x"), place.x, Symbol("x", name), "length")
         y = self.datum(ids.coordinate(name, "y"), place.y, Symbol("y", name), "length")
         self.construct(ids.place(name), x + turned(y))
 
     def coordinates(self, name: str) -> tuple[Expression, Expression]:
-        """The coordinates of a fixed point as far as they stand here and are not 0."""
+        """Return the coordinates of a fixed point as far as they stand here and are not 0."""
         x, y = (self.find(ids.coordinate(name, axis)) or self.find(ids.frame_coordinate(axis, name)) for axis in "xy")
         return x if x and self.si(x) else NOTHING, y if y and self.si(y) else NOTHING
 
@@ -174,12 +174,12 @@ class GivenSheet(Sheet):
         self.mass(slider)
 
     def centre_points(self, pins: Mapping[int, str]) -> tuple[LinkPoint, ...]:
-        """The mass centres S2, … that stand here, by their links and the pins they are measured from."""
+        """Return the mass centres S2, … that stand here, by their links and the pins they are measured from."""
         arms = {link: self.find(ids.length(pin, f"S{link}")) for link, pin in pins.items()}
         return tuple(LinkPoint(f"S{link}", link, complex(self.si(arm))) for link, arm in arms.items() if arm)
 
     def inertias(self, centres: Mapping[int, str]) -> tuple[Inertia, ...]:
-        """The links with a mass or a moment of inertia, by their mass centres."""
+        """Return the links with a mass or a moment of inertia, by their mass centres."""
 
         def size(id: str) -> float:
             return self.si(id) if id in self else 0.0
@@ -235,6 +235,6 @@ def accelerating(accelerates: float) -> Expression:
 
 
 def accelerated(q: Sheet, turn: int, at_constant_speed: Expression, rate: Expression) -> Expression:
-    """A second derivative of what the crank's angle φ gives: q̈ = q″ω₁² + q′ε₁, with q′ = q̇/ω₁."""
+    """Return a second derivative of what the crank's angle φ gives: q̈ = q″ω₁² + q′ε₁, with q′ = q̇/ω₁."""
     ε1 = driver_acceleration(q, turn)
     return at_constant_speed if ε1 is NOTHING else at_constant_speed + ε1 * rate / q["omega.1"]

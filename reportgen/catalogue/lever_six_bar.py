@@ -134,7 +134,7 @@ def _synthesis(q: GivenSheet, asked: Swing) -> None:
 
 
 def _linkage(given: Parameters, q: GivenSheet) -> Linkage:
-    """The mechanism with B in the origin."""
+    """Return the mechanism with B in the origin."""
     left, right = (1 if side else -1 for side in (given.C == "left", given.F == "right"))
     return Linkage(
         ground={"B": 0j, "D": complex(q.si("D.x"), q.si("D.y"))},
@@ -162,7 +162,7 @@ def _has_swing(q: GivenSheet) -> bool:
 
 
 def _lengths(given: Parameters) -> Iterator[Finding]:
-    """The swing that is asked for can be had, and E lies on the coupler."""
+    """Yield faults unless the swing that is asked for can be had, and E lies on the coupler."""
     if given.swing is None and (given.AB is None or given.AC is None):
         return
     q = _sheet(given)
@@ -178,7 +178,7 @@ def _lengths(given: Parameters) -> Iterator[Finding]:
 
 @of_turning
 def _check_turning(given: Parameters) -> Iterator[Finding]:
-    """The crank turns fully, without dead points, and CD is a rocker."""
+    """Yield faults unless the crank turns fully, without dead points, and CD is a rocker."""
     if (given.swing or (given.AB and given.AC)) is None or list(_lengths(given)):
         return
     linkage = _linkage(given, _sheet(given))
@@ -216,7 +216,7 @@ SUMMARY = (
 
 
 def machine(assignment: Assignment) -> Machine:
-    """The six-link lever mechanism of an assignment: linkage, load, a summary of its velocities."""
+    """Return the six-link lever mechanism of an assignment: linkage, load, a summary of its velocities."""
     given: Parameters = assignment.parameters
     positions = assignment.positions
     q = _sheet(given, assignment.drawing.crank)
@@ -272,7 +272,7 @@ def _stroke(q: Sheet, slider: Stroke, start: float, turn: int) -> None:
 
 
 def _applied(given: Parameters, linkage: Linkage, positions: Positions, start: float) -> tuple[Applied, ...]:
-    """The force on the slider, positive to the right."""
+    """Return the force on the slider, positive to the right."""
     if given.force is None:
         return ()
     size, sense = given.force.P.si, given.force.sense

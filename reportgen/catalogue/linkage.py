@@ -76,7 +76,7 @@ def _places(given: Parameters, positions: Positions) -> tuple[tuple[float, ...],
 
 
 def machine(assignment: Assignment) -> Machine:
-    """The linkage of an assignment with its loads and the report's outline."""
+    """Return the linkage of an assignment with its loads and the report's outline."""
     given: Parameters = assignment.parameters
     positions, driver, linkage = assignment.positions, given.driver, given.linkage
     places, labels = _places(given, positions)
@@ -178,7 +178,7 @@ def _sheet(given: Parameters, linkage: Linkage, built: Machine, drawn: float | N
 
 
 def _drawn(built: Machine, crank: float) -> float:
-    """The drawn length of the crank (m): μ_l is the least of the series with which the mechanism fits its box.
+    """Return the drawn length of the crank (m): μ_l is the least of the series with which the mechanism fits its box.
 
     A crank that is drawn at instants need not get round.
     """
@@ -193,7 +193,7 @@ def _drawn(built: Machine, crank: float) -> float:
 def _loads(
     given: file.Parameters, linkage: Linkage, motion_at: MotionAt, *, through: bool, span: float
 ) -> tuple[Applied | Torque, ...]:
-    """The loads in the order of the file, named P (forces) and M (torques) with their link's number."""
+    """Return the loads in the order of the file, named P (forces) and M (torques) with their link's number."""
     loads: list[Applied | Torque] = []
     for load in given.loads:
         if isinstance(load, file.OverStroke | file.Gas):

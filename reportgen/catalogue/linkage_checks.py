@@ -89,7 +89,7 @@ class _Placed:
 
 
 def _structure(given: file.Parameters) -> Iterator[Finding]:
-    """Every point and link is new where it is declared and placed where it is used."""
+    """Yield faults unless every point and link is new where it is declared and placed where it is used."""
     middles = [group.joints[0 if group.type == "PRP" else 1] for group in given.groups]
     placed = _Placed(coming=frozenset((*middles, *given.points)))
     placed.points |= set(given.frame)
@@ -212,7 +212,7 @@ def _declared(given: file.Parameters) -> Iterator[Finding]:
 
 
 def _assembly(given: file.Parameters, positions: Positions) -> Iterator[Finding]:
-    """The first group that does not follow the driver; else blocks that leave their slots, sliders of tables.
+    """Report the first group that does not follow the driver; else blocks that leave their slots, sliders of tables.
 
     At single instants the crank need not get round, unless a load goes by the stroke of a slider.
     """
@@ -257,7 +257,7 @@ def _along_the_way(
 
 
 def _rods(group: file.GroupSection) -> str:
-    """A group's links by the letters of their joints."""
+    """Return a group's links by the letters of their joints."""
     names = group.joints
     match group.type:
         case "RRR":
@@ -271,7 +271,7 @@ def _rods(group: file.GroupSection) -> str:
 
 
 def _slots(given: file.Parameters, made: Linkage, motion: Motion) -> Iterator[Finding]:
-    """Every block stays in its slot, where a slot's ends are given."""
+    """Yield faults unless every block stays in its slot, where a slot's ends are given."""
     for index, group in enumerate(given.groups):
         at = (*TOP, "groups", index)
         i, j = group.links

@@ -50,7 +50,7 @@ Ways = Annotated[tuple[Coordinate, ...], Field(min_length=2, max_length=2)]
 
 
 def place(at: tuple[Given, ...]) -> complex:
-    """A pair of coordinates as a point (m)."""
+    """Return a pair of coordinates as a point (m)."""
     return complex(at[0].si, at[1].si)
 
 
@@ -243,7 +243,7 @@ GroupSection = Annotated[RRR | RRP | RPR | PRP | RPP, Field(discriminator="type"
 
 
 def rails(group: GroupSection) -> list[tuple[int, GuideSection, Where]]:
-    """The guides of a group: the link that slides on each, the guide, its place in the group's section."""
+    """Return the guides of a group: the link that slides on each, the guide, its place in the group's section."""
     match group:
         case PRP(links=links, guides=guides):
             return [(links[index], guide, ("guides", index)) for index, guide in enumerate(guides)]

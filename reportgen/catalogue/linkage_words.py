@@ -98,7 +98,7 @@ def facts(given: file.Parameters, loads: tuple[str, ...], acting: Container[str]
 
 
 def arms(given: file.Parameters) -> Iterator[str]:
-    """The lengths that do not change, by their ends: crank, rods, points of the links."""
+    """Yield the lengths that do not change, by their ends: crank, rods, points of the links."""
     if isinstance(given.driver, file.CrankDriver):
         yield f"{given.driver.centre}{given.driver.pin}"
     for group in given.groups:

@@ -95,12 +95,12 @@ class LoopBody:
     eps: Expression = NOTHING
 
     def place(self, local: complex) -> VectorComponents:
-        """The place of a point by its typed distances (m) along the link and across it."""
+        """Return the place of a point by its typed distances (m) along the link and across it."""
         e, (u, w) = along(self.angle), typed(local)
         return add(self.origin.p, scaled(u, e), scaled(w, turned(e)))
 
     def carried(self, at: VectorComponents) -> Moving:
-        """Its point at a place: v = v_O + ω ir, a = a_O + ε ir − ω² r."""
+        """Return its point at a place: v = v_O + ω ir, a = a_O + ε ir − ω² r."""
         r = less(at, self.origin.p)
         v = add(self.origin.v, scaled(self.omega, turned(r)))
         inward = scaled(minus(square(self.omega)), r)
@@ -231,7 +231,7 @@ class ClosedLoops:
         return self.known("acceleration", ids.angular_acceleration(link), formula)
 
     def shown(self, u: VectorComponents, w: VectorComponents, velocity: Sides, acceleration: Sides) -> None:
-        """The equations in matrix form: both unknowns and the right-hand side of each."""
+        """Enter the equations in matrix form: both unknowns and the right-hand side of each."""
         A = Matrix(((u[0], w[0]), (u[1], w[1])))
         for what, sides in {"velocity": velocity, "acceleration": acceleration}.items():
             first, second, right = sides
@@ -243,7 +243,7 @@ class ClosedLoops:
     # --- ends of a group
 
     def rail(self, slider: int, end: str | Guide) -> LoopRail:
-        """A guide as it moves."""
+        """Return a guide as it moves."""
         assert isinstance(end, Guide)
         body = self.links[end.link]
         if end.link == GROUND:
@@ -253,7 +253,7 @@ class ClosedLoops:
         return LoopRail(body.place(end.at), turned_angle, body, end.link)
 
     def beneath(self, name: str, rail: LoopRail, at: VectorComponents, plan: bool = True) -> Moving:
-        """The point of a guide's link that lies under a point."""
+        """Return the point of a guide's link that lies under a point."""
         if rail.link == GROUND:
             return Moving(at)
         point_beneath = under(name, rail.link, self.owner)

@@ -36,7 +36,7 @@ class Parameters(Driven, masses=(2, 3), loads=("force",)):
 
 
 def machine(assignment: Assignment) -> Machine:
-    """The Scotch yoke of an assignment: linkage, force on the yoke, closed formulas."""
+    """Return the Scotch yoke of an assignment: linkage, force on the yoke, closed formulas."""
     given: Parameters = assignment.parameters
     positions, turn = assignment.positions, assignment.positions.sign
     q = GivenSheet(given)
@@ -103,7 +103,7 @@ def machine(assignment: Assignment) -> Machine:
 
 
 def equations(accelerates: float) -> dict[str, tuple[Chain, ...]]:
-    """The place of the yoke and of the block in its slot, and their rates, as the crank `accelerates` or not."""
+    """Return the place of the yoke and of the block in its slot, and their rates, as the crank `accelerates` or not."""
     r, φ, ω1, ε1 = Symbol("l", "OA"), Symbol("φ"), Symbol("ω", "1"), accelerating(accelerates)
     return {
         "closure": (Chain((Symbol("s", "B"), r * cos(φ))), Chain((Symbol("s", "A"), r * sin(φ)))),

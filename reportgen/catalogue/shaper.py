@@ -90,14 +90,16 @@ def _sheet(given: Parameters, crank: Given | None = None) -> GivenSheet:
 
 
 def _geometry(given: Parameters, q: GivenSheet, turn: int) -> Ram:
-    """The mechanism in the axes that turn with the rotation."""
+    """Return the mechanism in the axes that turn with the rotation."""
     crank = SlottedCrank(q.si("l.AB"), q.si("a"), math.pi / 2, turn)
     return Ram(crank, q.si("l.CD"), q.si("l.DE"), q.si("b"))
 
 
 @of_parameters
 def _check_assembly(given: Parameters) -> Iterator[Finding]:
-    """The rocker swings, the block stays in it, and link 4 reaches from D to the ram's line all through the turn."""
+    """Yield faults unless the rocker swings, the block stays in it, and link 4 reaches from D to the ram's line all
+    through the turn.
+    """
     geometry = _geometry(given, _sheet(given), 1)
     crank = geometry.crank.r
     block = {"block": "2", "link": "3", "group": "(2, 3)", "pivot": "C"}
@@ -128,7 +130,7 @@ def _cutting_interval(q: Sheet, breaks: Iterable[float], start: float) -> None:
 
 
 def machine(assignment: Assignment) -> Machine:
-    """The shaper of an assignment: linkage, cutting force, closed formulas."""
+    """Return the shaper of an assignment: linkage, cutting force, closed formulas."""
     given: Parameters = assignment.parameters
     positions, cutting = assignment.positions, given.cutting
     q = _sheet(given, assignment.drawing.crank)

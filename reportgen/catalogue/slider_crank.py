@@ -45,7 +45,7 @@ class Parameters(Driven, masses=(2, 3), moments=(2,), loads=("force",)):
 
 @of_parameters
 def _check_turning(given: Parameters) -> Iterator[Finding]:
-    """The crank turns fully: l > r + |e|."""
+    """Yield faults unless the crank turns fully: l > r + |e|."""
     if given.l.si <= given.r.si + abs(given.e.si):
         least = f"> r + |e| = {(given.r.si + abs(given.e.si)) * 1e3:g} mm"
         yield Finding("out-of-range", ("parameters", "l"), {"text": given.l.text, "range": least})
@@ -55,7 +55,7 @@ CHECKS = (*given_loads.FORCE_CHECKS, _check_turning)
 
 
 def machine(assignment: Assignment) -> Machine:
-    """The slider-crank of an assignment: linkage, working force, closed formulas."""
+    """Return the slider-crank of an assignment: linkage, working force, closed formulas."""
     given: Parameters = assignment.parameters
     positions, turn = assignment.positions, assignment.positions.sign
     q = GivenSheet(given)

@@ -68,7 +68,7 @@ def centred_slider(
     centre: str = "",
     axes: str = "xy",
 ) -> None:
-    """The closed formulas at φ = `angle` [N] of a slider whose pin is `joint`; uses R, L, lambda, omega.1.
+    """Enter the closed formulas at φ = `angle` [N] of a slider whose pin is `joint`; uses R, L, lambda, omega.1.
 
     Enters `phi.3`, `beta.2`, `x.3`, `f.v.B`, `f.a.B`, `f.omega.2`, `f.eps.2`, and of a point `centre` on the rod,
     at the length of id `along` from the crank pin, the components along the `axes`, `f.v.S2`, `f.a.S2`.
@@ -104,7 +104,7 @@ def centred_slider(
 def components(
     q: Sheet, what: str, point: str, x: Expression, y: Expression, *, axes: str = "xy"
 ) -> tuple[Ref, Ref, Ref]:
-    """The velocity or acceleration of a point by its components along axes of these letters, and its size."""
+    """Return the velocity or acceleration of a point by its components along axes of these letters, and its size."""
     kind = {"v": "velocity", "a": "acceleration"}[what]
     along = q.define(ids.formula_component("x", point, what), x, Symbol(what, point + axes[0]), kind, scale=1.0)
     across = q.define(ids.formula_component("y", point, what), y, Symbol(what, point + axes[1]), kind, scale=1.0)
@@ -199,7 +199,7 @@ class OffsetSlider:
         return self._placed(complex(math.sqrt(reach**2 - self.e**2), self.e))
 
     def crank_angle(self, phi: float) -> float:
-        """The crank's angle (rad) from +x of the drawing."""
+        """Return the crank's angle (rad) from +x of the drawing."""
         return self.axis + self.turn * phi
 
     def phi(self, crank_angle: float) -> float:
@@ -224,7 +224,7 @@ class OffsetSlider:
         return float(low[0]), float(low[1])
 
     def course(self, start: float, turns: int) -> Stroke:
-        """The way of slider 3 in a machine that starts at φ = `start` (rad) and has a cycle of `turns` turns."""
+        """Return the way of slider 3 in a machine that starts at φ = `start` (rad) and has a cycle of `turns` turns."""
         return Stroke(
             link=3,
             rod=2,
@@ -243,7 +243,7 @@ class OffsetSlider:
         return self._placed(1j * self.e)
 
     def linkage(self, inertias: Sequence[Inertia], gravity: float, centre: float | None = None) -> Linkage:
-        """The mechanism; S2 on the rod at `centre` (m) from B, if it is wanted."""
+        """Return the mechanism; S2 on the rod at `centre` (m) from B, if it is wanted."""
         return Linkage(
             ground={"A": 0j},
             driver=Crank("A", "B", self.r),
@@ -283,7 +283,7 @@ def offset_slider(q: Sheet, turn: int, angle: Floats, offset: Expression | None,
 
 
 def loop_equations(turn: int, offset: bool, accelerates: float = 0.0) -> dict[str, tuple[Chain, ...]]:
-    """The closed loop of the links by components, and its first and second derivatives.
+    """Return the closed loop of the links by components, and its first and second derivatives.
 
     The crank `accelerates` in the sense of ω₁ (> 0), against it (< 0) or not at all.
     """

@@ -70,12 +70,12 @@ class SlottedCrank:
         return math.asin(self.r / self.d)
 
     def place(self, own: complex) -> complex:
-        """A point of the own axes, seen from A, on the drawing (m)."""
+        """Return a point of the own axes, seen from A, on the drawing (m)."""
         up = cmath.exp(1j * self.axis)
         return -1j * self.turn * up * own.real + up * own.imag
 
     def crank_angle(self, phi: float) -> float:
-        """The crank's angle (rad) from +x of the drawing."""
+        """Return the crank's angle (rad) from +x of the drawing."""
         return self.axis + self.turn * (phi - math.pi / 2)
 
     def phi(self, crank_angle: float) -> float:
@@ -98,7 +98,7 @@ class SlottedCrank:
 
 
 def drawn_crank(crank: float, height: float) -> float:
-    """The drawn length of a crank (m on paper) with which what is `height` (m) high stays on the page."""
+    """Return the drawn length of a crank (m on paper) with which what is `height` (m) high stays on the page."""
     return next((drawn for drawn in DRAWN_CRANKS if drawn * height / crank <= HIGHEST), DRAWN_CRANKS[-1])
 
 
@@ -124,7 +124,9 @@ class Ram:
         return self.crank.place(complex(along, self.height - self.crank.d))
 
     def course(self, start: float) -> Stroke:
-        """The ram's way from the beginning of its working stroke, for a machine that starts at φ₁ = `start` (rad)."""
+        """Return the ram's way from the beginning of its working stroke, for a machine that starts at φ₁ = `start`
+        (rad).
+        """
         return Stroke(
             link=5,
             rod=4,
@@ -143,7 +145,9 @@ class Ram:
         return self.crank.place(1j * (self.height - self.crank.d))
 
     def linkage(self, points: Sequence[LinkPoint], inertias: Sequence[Inertia], gravity: float) -> Linkage:
-        """The mechanism (gravity in m/s²); the ram's guide points against its working way, E lies on its side of D."""
+        """Return the mechanism (gravity in m/s²); the ram's guide points against its working way, E lies on its side
+        of D.
+        """
         towards = self.crank.place(1 + 0j)
         guide = Guide(self.line, math.atan2(towards.imag, towards.real))
         return Linkage(
@@ -323,7 +327,7 @@ RAM_COMPARED = (
 
 
 def lever_equations(turn: int, r: Symbol, d: Symbol, accelerates: float) -> dict[str, tuple[Chain, ...]]:
-    """The triangle ABC on x and y, along and across the lever, and what its derivatives say of the lever."""
+    """Return the triangle ABC on x and y, along and across the lever, and what its derivatives say of the lever."""
     S, φ1, φ3, ω1, ω3 = Symbol("S"), Symbol("φ", "1"), Symbol("φ", "3"), Symbol("ω", "1"), Symbol("ω", "3")
     v_r, ε3 = Symbol("v", "r"), Symbol("ε", "3")
     ε1 = accelerating(accelerates)
@@ -337,7 +341,7 @@ def lever_equations(turn: int, r: Symbol, d: Symbol, accelerates: float) -> dict
 
 
 def ram_equations(turn: int, accelerates: float) -> dict[str, tuple[Chain, ...]]:
-    """Both closed loops by components, and their first and second derivatives."""
+    """Return both closed loops by components, and their first and second derivatives."""
     l1, l3, l4 = (Symbol("l", link) for link in "134")
     φ3, φ4, ω3, ω4, ε3, ε4 = (Symbol(letter, link) for letter in "φωε" for link in "34")
     nothing = Number(0.0)

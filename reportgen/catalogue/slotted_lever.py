@@ -43,7 +43,7 @@ class Parameters(Driven, masses=(2, 3), moments=(3,), shares=(3,), loads=("torqu
 
 @of_parameters
 def _check_block(given: Parameters) -> Iterator[Finding]:
-    """The block stays on the lever, and clear of the lever's own pivot."""
+    """Yield faults unless the block stays on the lever, and clear of the lever's own pivot."""
     geometry = SlottedCrank(given.AB.si, given.AC.si, given.axis.si, 1)
     if given.AB.si == given.AC.si:
         near = math.degrees(geometry.crank_angle(-math.pi / 2)) % 360
@@ -64,7 +64,7 @@ CHECKS = (_check_block,)
 
 
 def machine(assignment: Assignment) -> Machine:
-    """The slotted lever of an assignment: linkage, torque, closed formulas."""
+    """Return the slotted lever of an assignment: linkage, torque, closed formulas."""
     given: Parameters = assignment.parameters
     positions, crank = assignment.positions, assignment.drawing.crank
     q = GivenSheet(given)

@@ -72,7 +72,9 @@ def _linkage(given: Parameters, q: GivenSheet) -> Linkage:
 
 @of_parameters
 def _check_turning(given: Parameters) -> Iterator[Finding]:
-    """The crank turns fully, without dead points, B stays below D, and the slider goes once down and up."""
+    """Yield faults unless the crank turns fully, without dead points, B stays below D, and the slider goes once down
+    and up.
+    """
     linkage = _linkage(given, _sheet(given))
     members = {
         (2, 3): assembly.Member("AB, BD", ("parameters", "AB")),
@@ -91,7 +93,7 @@ CHECKS = (*given_loads.PRESS_CHECKS, _check_turning)
 
 
 def machine(assignment: Assignment) -> Machine:
-    """The toggle press of an assignment: linkage, pressing force, closed formulas."""
+    """Return the toggle press of an assignment: linkage, pressing force, closed formulas."""
     given: Parameters = assignment.parameters
     positions, turn, press = assignment.positions, assignment.positions.sign, given.press
     q = _sheet(given, assignment.drawing.crank)

@@ -20,10 +20,10 @@ UNITS = {
 
 
 def as_typed(given: Given) -> Number:
-    """A quantity as its file has it."""
+    """Return a quantity as its file has it."""
     return Number(given.value, unit=UNITS.get(given.unit, given.unit))
 
 
 def size_of(given: Given) -> Given:
-    """A quantity without its sign."""
+    """Return a quantity without its sign."""
     return Given(abs(given.si), abs(given.value), given.unit, given.text.strip().lstrip("-−+"))

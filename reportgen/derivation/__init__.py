@@ -135,7 +135,7 @@ def _between_nodes(
 
 
 def _stroke(q: Sheet, course: Stroke) -> Ref:
-    """The stroke of a slider: H as given, or with five figures as its dead centres are found."""
+    """Return the stroke of a slider: H as given, or with five figures as its dead centres are found."""
     if "H" in q and abs(q.si("H") - course.stroke) <= ZERO * course.stroke:
         return q["H"]
     if (entered := q.find(ids.stroke(course.link))) is not None:

@@ -197,7 +197,7 @@ def _tangential(g: Group, link: int, digits: str, pin: str, middle: str, loads: 
 
 
 def _reach(g: Group) -> Ref:
-    """The length from T to the line of R_ij: TP itself, or from the foot H of T on the slot's line."""
+    """Return the length from T to the line of R_ij: TP itself, or from the foot H of T on the slot's line."""
     q, middle, end = g.q, g.dyad.middle, g.dyad.end
     if not g.dyad.lengths[1]:
         return q[ids.length(end, middle)]
@@ -306,7 +306,7 @@ DYADS: Mapping[DyadKind, Callable[[Group], Polygon]] = {"RRR": _rrr, "RRP": _rrp
 
 
 def driver(statics: Statics) -> Polygon:
-    """The driver under the groups' reactions and its own loads: R01, and what balances it (`M.eq`)."""
+    """Return the driver under the groups' reactions and its own loads: R01, and what balances it (`M.eq`)."""
     machine = statics.scheme.linkage.driver
     own = tuple(sorted(statics.on(DRIVER), key=lambda load: load.origin is not Origin.reaction))
     if isinstance(machine, Crank):
@@ -394,7 +394,7 @@ def lever(statics: Statics, loads: tuple[LoadOn, ...]) -> None:
 
 
 def _omega(statics: Statics, link: int) -> Expression | None:
-    """A link's signed angular velocity, None if it does not turn."""
+    """Return a link's signed angular velocity, None if it does not turn."""
     q = statics.q
     if ids.signed("omega", link) in q:
         return q[ids.signed("omega", link)]

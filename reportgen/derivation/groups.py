@@ -122,7 +122,7 @@ def acceleration(k: Kinematics, first: Side, second: Side) -> None:
 
 
 def _guide_point(k: Kinematics, what: What, side: Side) -> None:
-    """The point of a moving guide's link that lies under the sliding point."""
+    """Enter the point of a moving guide's link that lies under the sliding point."""
     if side.carrier is not None and not side.still:
         arm = k.place(side.point) - k.place(k.links[side.carrier].origin)
         k.vertex(what, image(side.base), k.image_at(what, side.carrier, arm))
@@ -134,12 +134,12 @@ def _start(k: Kinematics, what: What, side: Side) -> Expression:
 
 
 def _sought(k: Kinematics, side: Side) -> Expression:
-    """The direction of the unknown velocity or acceleration of a side."""
+    """Return the direction of the unknown velocity or acceleration of a side."""
     return turned(k.q[ids.rod(side.link)]) if side.turns else k.q[side.along]
 
 
 def _along(k: Kinematics, side: Side) -> Expression:
-    """The relative velocity on the plan, from the base's image to the point's."""
+    """Return the relative velocity on the plan, from the base's image to the point's."""
     return k.q[ids.plan_point("v", image(side.point))] - _start(k, "v", side)
 
 
@@ -250,7 +250,7 @@ def _guide(end: str | Guide) -> Guide:
 
 
 def _rod(k: Kinematics, link: int, start: str, middle: str) -> None:
-    """A rod of fixed length from an outer joint to the inner one; its unit axis, if it carries a guide."""
+    """Enter a rod of fixed length from an outer joint to the inner one; its unit axis, if it carries a guide."""
     rod = k.q.construct(ids.rod(link), k.place(middle) - k.place(start))
     ends = (end for dyad in k.scheme.linkage.dyads for end in (dyad.start, dyad.end))
     carries = any(isinstance(end, Guide) and end.link == link for end in ends)
@@ -342,7 +342,7 @@ PLACES: Mapping[DyadKind, Callable[[Kinematics, Dyad], None]] = {
 
 
 def _points(k: Kinematics, link: int) -> tuple[LinkPoint, ...]:
-    """The named points of a link besides its joints."""
+    """Return the named points of a link besides its joints."""
     return tuple(place for place in k.scheme.linkage.points if place.link == link)
 
 
@@ -352,7 +352,7 @@ def _off_line(point: LinkPoint) -> bool:
 
 
 def _turn_of(link: int, sides: tuple[Side, Side]) -> Side | None:
-    """The side that a link turns on, None for one that slides."""
+    """Return the side that a link turns on, None for one that slides."""
     return next((side for side in sides if side.turns and side.link == link), None)
 
 

@@ -91,18 +91,18 @@ class Statics:
         return self.force * (driver.length if isinstance(driver, Crank) else longest(self.scheme.linkage))
 
     def on(self, link: int) -> tuple[LoadOn, ...]:
-        """The loads of a link."""
+        """Return the loads of a link."""
         return tuple(load for load in self.loads if load.link == link)
 
     def image(self, what: str, name: str) -> Expression:
-        """A point's image on a plan, 0 for a fixed one."""
+        """Return a point's image on a plan, 0 for a fixed one."""
         return NOWHERE if self.scheme.still(name) else self.q[ids.plan_point(what, image(name))]
 
     def vector(self, load: LoadOn) -> Ref:
         return self.q[ids.force_vector(load.name)]
 
     def couple(self, load: LoadOn) -> Ref | None:
-        """A load's couple, None if it has none."""
+        """Return a load's couple, None if it has none."""
         return self.q.find(ids.couple(load.name))
 
     def beside(self, load: LoadOn, divisor: Expression) -> Expression:
@@ -211,19 +211,19 @@ def opposite(q: Sheet, here: str, there: str, link: int, point: str, plan: str) 
 
 
 def _divisor(statics: Statics, load: LoadOn) -> Expression:
-    """A load's size; that of a reaction is 0 where it is but rounding."""
+    """Return a load's size; that of a reaction is 0 where it is but rounding."""
     if load.origin is Origin.reaction and statics.couple(load) is not None:
         return above(load.size, FAINT * statics.force)
     return load.size
 
 
 def above(size: Expression, floor: float) -> Expression:
-    """A size (SI), 0 where it does not exceed `floor` (SI)."""
+    """Return a size (SI), 0 where it does not exceed `floor` (SI)."""
     return size * sign(call("max", 0.0, size - floor))
 
 
 def arm(statics: Statics, load: LoadOn, centre: str) -> Ref:
-    """The signed arm, measured on the drawing, of a load about a point: h = M/(F μ_l), its couple included."""
+    """Return the signed arm, measured on the drawing, of a load about a point: h = M/(F μ_l), its couple included."""
     q, couple = statics.q, statics.couple(load)
     moment = cross(q[ids.place(load.point)] - q[ids.place(centre)], statics.vector(load))
     divisor = _divisor(statics, load)
@@ -253,7 +253,7 @@ def moments(statics: Statics, loads: Iterable[LoadOn], centre: str) -> Expressio
 
 
 def lone_couple(statics: Statics, load: LoadOn) -> Expression:
-    """The couple of a load at positions where its force is nothing; left out of a line elsewhere."""
+    """Return the couple of a load at positions where its force is nothing; left out of a line elsewhere."""
     q, id, couple = statics.q, ids.lone_couple(load.name), statics.couple(load)
     assert couple is not None
     if id not in q:

@@ -97,14 +97,14 @@ class Kinematics:
     # --- points and their images
 
     def place(self, name: str) -> Ref:
-        """A point of the mechanism."""
+        """Return a point of the mechanism."""
         return self.q[ids.place(name)]
 
     def is_fixed(self, name: str) -> bool:
         return self.scheme.owner.get(name) == GROUND
 
     def image(self, what: What, name: str) -> Expression:
-        """A point on a plan: 0, the pole, for one fixed to the ground."""
+        """Return a point on a plan: 0, the pole, for one fixed to the ground."""
         return NOWHERE if self.is_fixed(name) else self.q[ids.plan_point(what, image(name))]
 
     def vertex(self, what: What, name: str, place: Expression) -> Ref:
@@ -113,11 +113,11 @@ class Kinematics:
         return self.vertices[what][-1]
 
     def letter(self, what: What, name: str) -> Symbol:
-        """A point's letter on a plan, that of the pole for one fixed to the ground."""
+        """Return a point's letter on a plan, that of the pole for one fixed to the ground."""
         return Symbol(POLES[what]) if self.is_fixed(name) else on_plan(name, what == "a")
 
     def image_at(self, what: What, link: int, arm: Expression) -> Expression:
-        """The image of the point of a link that lies at `arm` from the origin of its frame."""
+        """Return the image of the point of a link that lies at `arm` from the origin of its frame."""
         q, placed = self.q, self.links[link]
         base = self.image(what, placed.origin)
         if link == DRIVER and what == "a" and placed.eps is not None:
@@ -157,28 +157,29 @@ class Kinematics:
     # --- sizes on paper
 
     def paper(self, what: What) -> float:
-        """The size of a plan on paper (m)."""
+        """Return the size of a plan on paper (m)."""
         return self.sizes.of(what) / self.q.si(ids.scale(what))
 
     def span(self) -> float:
-        """The size of the mechanism as it is drawn (m)."""
+        """Return the size of the mechanism as it is drawn (m)."""
         return longest(self.scheme.linkage) / self.q.si("mu.l")
 
     def segment(self, id: str, first: Symbol | str, second: Symbol | str, along: Expression, what: What) -> Ref:
-        """A segment measured on a plan."""
+        """Return a segment measured on a plan."""
         return self.q.define(id, abs(along), segment(first, second), scale=self.paper(what))
 
     def constant(self, id: str, value: complex) -> Ref:
-        """A constant point (m) or direction (of length 1) as a quantity, entered once."""
+        """Return a constant point (m) or direction (of length 1) as a quantity, entered once."""
         return self.q[id] if id in self.q else self.q.give(id, complex(value), Symbol(id), "ratio")
 
     def length(self, start: str, end: str, value: float) -> Ref:
-        """A link's length (m), entered as given unless the machine has done so."""
+        """Return a link's length (m), entered as given unless the machine has done so."""
         id = ids.length(start, end)
         return self.q[id] if id in self.q else self.q.give(id, value, exact=is_short(value))
 
     def distance(self, start: str, end: str, along: float, across: float, rod: Ref | None = None) -> Ref:
-        """A distance (m) of which coordinates along and across a link are given: √(x² + y²), or from the rod's end.
+        """Return a distance (m) of which coordinates along and across a link are given: √(x² + y²), or from the
+        rod's end.
 
         From that end, whose `rod` has the length l, it is √((l − x)² + y²).
         """
@@ -200,7 +201,7 @@ class Kinematics:
     # --- links
 
     def axis(self, link: int) -> Expression:
-        """The unit vector along the real axis of a link's frame."""
+        """Return the unit vector along the real axis of a link's frame."""
         if link == GROUND:
             return Number(1.0)
         axis = self.links[link].axis
@@ -208,7 +209,7 @@ class Kinematics:
         return axis
 
     def guide(self, slider: int, guide: Guide) -> tuple[Ref, Ref]:
-        """A guide's point and direction, carried along by its link."""
+        """Return a guide's point and direction, carried along by its link."""
         at, along = ids.guide_place(slider), ids.guide(slider)
         if guide.link == GROUND:
             return self.constant(at, guide.at), self.constant(along, cmath.exp(1j * guide.angle))
@@ -231,7 +232,7 @@ class Kinematics:
         q.define(ids.signed(rate, link), signed, scale=size, of=rotation(link))
 
     def omega(self, link: int) -> Expression:
-        """The signed angular velocity of a link that turns."""
+        """Return the signed angular velocity of a link that turns."""
         if link == DRIVER:
             return self.q["omega.1"] if self.turn > 0 else -self.q["omega.1"]
         return Ref(ids.signed("omega", link))
@@ -246,7 +247,7 @@ class Kinematics:
 
 
 def longest(linkage: Linkage) -> float:
-    """The longest length of a linkage (m): of a rod, or between fixed points."""
+    """Return the longest length of a linkage (m): of a rod, or between fixed points."""
     fixed = list(linkage.ground.values())
     spans = [abs(p - q) for p in fixed for q in fixed]
     rods = [length for dyad in linkage.dyads for length in dyad.lengths]
@@ -380,7 +381,9 @@ def slide(
 
 
 def chosen_scale(trial: Kinematics, what: What, worked: Sequence[int]) -> float | None:
-    """The scale of all plans (SI), from a trial; None if the crank's gives the worked ones their size already."""
+    """Return the scale of all plans (SI), from a trial; None if the crank's gives the worked ones their size
+    already.
+    """
     q, μ = trial.q, trial.q.si(ids.scale(what))
     sizes = extents([np.zeros(1), *map(q.value, trial.vertices[what])], q.positions) * μ
     shown = sizes[:, [k - 1 for k in worked]] if worked else sizes
@@ -404,7 +407,7 @@ FARTHEST = 0.4
 
 
 def links_in_plane_motion(scheme: Scheme) -> tuple[Side, ...]:
-    """The links with two points whose velocities are drawn, each as one point turning about another."""
+    """Return the links with two points whose velocities are drawn, each as one point turning about another."""
     both = (side for dyad in scheme.linkage.dyads for side in sides(scheme, dyad))
     return tuple(side for side in both if side.turns and not side.still)
 
@@ -454,7 +457,9 @@ def _reach(k: Kinematics, centre: np.ndarray) -> np.ndarray:
 
 
 def _normal(k: Kinematics, name: str) -> Expression:
-    """A direction square to a point's velocity: by what leads it, so also where it stands still, else by the plan."""
+    """Return a direction square to a point's velocity: by what leads it, so also where it stands still, else by the
+    plan.
+    """
     scheme, driver = k.scheme, k.scheme.linkage.driver
     owner = scheme.owner.get(name)
     if owner == DRIVER:

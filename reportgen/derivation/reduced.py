@@ -40,7 +40,9 @@ def enter_reduced(q: Sheet, analysis: Analysis, torque: np.ndarray, largest: flo
 
 
 def moving_bodies(q: Sheet, linkage: Linkage) -> Iterator[tuple[Inertia, str, str]]:
-    """The bodies with the ids of the speeds of their mass centre and of their turning, "" without such an inertia."""
+    """Yield the bodies with the ids of the speeds of their mass centre and of their turning, "" without such an
+    inertia.
+    """
     for body in linkage.inertias:
         centre, rotation = ids.velocity(body.centre), ids.angular_velocity(body.link)
         moving = centre if body.mass > 0 and centre in q else ""

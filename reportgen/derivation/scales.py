@@ -36,24 +36,30 @@ def extents(points: Iterable[np.ndarray], positions: int) -> np.ndarray:
 
 
 def fitting(sizes: np.ndarray, box: tuple[float, float]) -> float:
-    """The smallest round scale with which all plans of the `sizes` [2, K] (SI) fit the box (m); 0 without any."""
+    """Return the smallest round scale with which all plans of the `sizes` [2, K] (SI) fit the box (m); 0 without
+    any.
+    """
     needed = float(np.max(sizes / np.array(box)[:, None], initial=0.0))
     return nice_up(needed / PER_MM) * PER_MM if needed > 0 else 0.0
 
 
 def fitting_axis(length: float, room: float) -> float:
-    """The smallest round scale at which a length (SI) fits an axis (m of paper)."""
+    """Return the smallest round scale at which a length (SI) fits an axis (m of paper)."""
     return nice_up(length / room / PER_MM) * PER_MM
 
 
 def filling(sizes: np.ndarray, least: float) -> float:
-    """The largest round scale that draws each plan of the `sizes` [2, K] (SI) at least so long (m); 0 without any."""
+    """Return the largest round scale that draws each plan of the `sizes` [2, K] (SI) at least so long (m); 0 without
+    any.
+    """
     smallest = float(np.min(sizes.max(axis=0, initial=0.0), initial=np.inf))
     return nice_down(smallest / least / PER_MM) * PER_MM if 0 < smallest < np.inf else 0.0
 
 
 def common_scale(sizes: np.ndarray, worked: Sequence[int], least: float) -> float:
-    """One scale for plans at all positions [2, N]: the worked ones (from 1) at least so long if they fit their page."""
+    """Return one scale for plans at all positions [2, N]: the worked ones (from 1) at least so long if they fit
+    their page.
+    """
     chosen = sizes[:, [k - 1 for k in worked]] if worked else sizes
     shown, every = (part[:, np.isfinite(part).all(axis=0) & (part.max(axis=0) > 0)] for part in (chosen, sizes))
     on_sheet = min(fitting(every, box) for box in SHEET_BOXES)
@@ -61,7 +67,7 @@ def common_scale(sizes: np.ndarray, worked: Sequence[int], least: float) -> floa
 
 
 def own_scales(sizes: np.ndarray, least: float, read_at: Iterable[np.ndarray] = ()) -> np.ndarray:
-    """A scale for the plan of each position [N]: it is at least so long, or fits a page of text just so.
+    """Return a scale for the plan of each position [N]: it is at least so long, or fits a page of text just so.
 
     The largest of them therefore serves all plans together.  A position without forces takes that one.  Forces
     `read_at` other scales are laid off at none that is finer: what a ruler left of them would be drawn larger.
@@ -77,5 +83,5 @@ def own_scales(sizes: np.ndarray, least: float, read_at: Iterable[np.ndarray] = 
 
 
 def no_scales(sizes: np.ndarray, least: float, read_at: Iterable[np.ndarray] = ()) -> np.ndarray:
-    """One scale for all positions, whatever they need: for plans that nobody draws at it."""
+    """Return one scale for all positions, whatever they need: for plans that nobody draws at it."""
     return np.full(sizes.shape[1], PER_MM)

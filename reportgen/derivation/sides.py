@@ -28,7 +28,7 @@ from reportgen.machine import DRIVER, GROUND, Crank, Dyad, DyadKind, Guide, Link
 
 
 def image(name: str) -> str:
-    """A point's letter on a plan: S2 → s2."""
+    """Return a point's letter on a plan: S2 → s2."""
     return name.lower()
 
 
@@ -151,7 +151,7 @@ def scheme(linkage: Linkage) -> Scheme:
 
 
 def sides(plan: Scheme, dyad: Dyad) -> tuple[Side, Side]:
-    """The two sides of a group's vector equations."""
+    """Return the two sides of a group's vector equations."""
     return SIDES[dyad.kind](plan, dyad)
 
 
@@ -161,7 +161,7 @@ def _turn(plan: Scheme, point: str, base: str | Guide, link: int, measured: bool
 
 
 def _on_guide(plan: Scheme, point: str, guide: str | Guide, slider: int, *others: str, alike: bool = False) -> Side:
-    """A point that slides over its guide's link; `others` are names already taken in the group."""
+    """Return a point that slides over its guide's link; `others` are names already taken in the group."""
     assert isinstance(guide, Guide)
     base = under(point, guide.link, {*plan.owner, *others})
     on = guide.link
@@ -170,7 +170,7 @@ def _on_guide(plan: Scheme, point: str, guide: str | Guide, slider: int, *others
 
 
 def _over_pin(plan: Scheme, dyad: Dyad, point: str) -> Side:
-    """The point of link j under the outer pin P slides over P."""
+    """Return the point of link j under the outer pin P slides over P."""
     assert isinstance(dyad.start, str)
     i, j = dyad.links
     pin = dyad.start

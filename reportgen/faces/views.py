@@ -43,7 +43,7 @@ class WideSlider:
 
 
 def wide_sliders(report: Report) -> tuple[WideSlider, ...]:
-    """The sliders whose faces are given, in the order of the file."""
+    """Return the sliders whose faces are given, in the order of the file."""
     linkage, sliders = report.machine.linkage, []
     pins = {link: dyad.middle for dyad in linkage.dyads for link in dyad.links}
     for link in wide_sliders_of(report):

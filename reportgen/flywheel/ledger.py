@@ -89,7 +89,9 @@ def _constant_group(q: Sheet, linkage: Linkage, regulated: RegulatedCycle, speed
 
 
 def _constant(q: Sheet, linkage: Linkage) -> tuple[Ref | None, float]:
-    """The reduced inertia J_0 (kg·m²) of the links whose speeds are constant beside the crank's; None without any."""
+    """Return the reduced inertia J_0 (kg·m²) of the links whose speeds are constant beside the crank's; None without
+    any.
+    """
     ω1 = q["omega.1"]
     terms: list[Expression] = []
     for body, moving, turning in moving_bodies(q, linkage):

@@ -26,7 +26,7 @@ ORDER = 8
 def regulate(
     angle: Floats, torque: Floats, work: Floats, inertia: Floats, speed: float, unevenness: float
 ) -> RegulatedCycle:
-    """The flywheel for mean speed ω_m and unevenness δ, from M_r, its work ∫M_r dφ and J_r at angles [N].
+    """Return the flywheel for mean speed ω_m and unevenness δ, from M_r, its work ∫M_r dφ and J_r at angles [N].
 
     The angles span the whole cycle.  `moment` is 0 or less where the links alone are even enough; the speed is
     then not that of a flywheel, and nan.
@@ -70,7 +70,8 @@ def _torque(analysis: Analysis) -> Floats:
 
 
 def flywheel(machine: Machine, unevenness: float) -> RegulatedCycle:
-    """The flywheel (kg·m²) for the unevenness δ, over angles among which are all positions and corners of the loads.
+    """Return the flywheel (kg·m²) for the unevenness δ, over angles among which are all positions and corners of the
+    loads.
 
     The reduced torque is that of weights, loads and the friction of the joints.  Raises `LocksError`.
     """

@@ -70,7 +70,7 @@ def flywheel_work(report: Report) -> FigureScenes:
 
 
 def wittenbauer(report: Report) -> FigureScenes:
-    """A over J_r from the axis J = 0 on, which the tangents of the two bounds of speed meet at a and b."""
+    """Return a over J_r from the axis J = 0 on, which the tangents of the two bounds of speed meet at a and b."""
     wheel, ledger = _wheel(report), report.ledger
     ends = np.array([0.0, wheel.inertia.max()])
     bounds = (("max", "A.upper", wheel.upper, wheel.fastest), ("min", "A.lower", wheel.lower, wheel.slowest))
@@ -102,12 +102,12 @@ def energy_bounds(report: Report) -> list[str]:
 
 
 def tangent_lines(report: Report) -> list[str]:
-    """The scales of the energy–mass diagram and the inclinations of its tangents."""
+    """Return the scales of the energy–mass diagram and the inclinations of its tangents."""
     return report.known(["mu.J", "mu.A", ids.tangent("max"), ids.tangent("min")])
 
 
 def constant_links(report: Report) -> list[str]:
-    """The moment of inertia of the links that belong to the flywheel's group in Mertsalov's method."""
+    """Return the moment of inertia of the links that belong to the flywheel's group in Mertsalov's method."""
     return report.known(["J.0"])
 
 

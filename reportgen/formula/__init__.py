@@ -1,9 +1,9 @@
-"""Expressions that both render and evaluate, written as mathematics is.
+"""Expression trees that can be printed as mathematics and evaluated.
 
-One small algebra serves three readers.  The *ledger* defines every quantity by an expression over
-other quantities (`Ref`); the *document* shows it with symbols, then with the printed numbers; a
-*checker* evaluates either (`formula.evaluation`).  Passes are plain functions over the frozen nodes, so a
-new writer needs no new node and a new node needs no new writer method.
+One algebra serves three readers. The *ledger* defines every quantity by an expression over other quantities
+(`Ref`). The *document* prints it with symbols, then with the printed numbers. A *checker* evaluates either
+(`formula.evaluation`). Passes are plain functions over the frozen nodes, so a new writer needs no new node and a
+new node needs no new writer method.
 
     v = ω1 * R * sin(φ + β) / cos(β)
 """
@@ -21,8 +21,8 @@ from reportgen.base.units import rounded
 
 
 class _Algebra:
-    """The operators.  A sum or a product takes in its left operand's terms alone, so that parentheses are printed
-    where they are written; a minus before a product or a fraction stands before the whole of it.
+    """The arithmetic operators. A sum or product merges only the terms of its left operand, so that parentheses
+    are printed where they are written. A minus before a product or a fraction applies to the whole of it.
     """
 
     __slots__ = ()
@@ -204,12 +204,12 @@ E = Symbol("e", value=math.e)
 
 
 def as_expression(value: Operand) -> Expression:
-    """A node as it is, a number as an exact `Number`."""
+    """Return a node as it is, a number as an exact `Number`."""
     return Number(float(value)) if isinstance(value, (int, float)) else value
 
 
 def _node(value: Any) -> Expression:
-    """A node, which the type checker knows as the base of all."""
+    """Return a node, which the type checker knows as the base of all."""
     return cast(Expression, value)
 
 
@@ -218,13 +218,13 @@ def _terms(node: Any) -> tuple[Expression, ...]:
 
 
 def total(terms: Iterable[Expression]) -> Expression:
-    """The sum of terms as they are, none of them taken apart; a single one is itself."""
+    """Return the sum of terms as they are, none of them taken apart; a single one is itself."""
     every = tuple(terms)
     return every[0] if len(every) == 1 else Sum(every)
 
 
 def call(name: str, *arguments: Operand) -> Call:
-    """A function of `evaluation.FUNCTIONS` by its name."""
+    """Return a function of `evaluation.FUNCTIONS` by its name."""
     return Call(name, tuple(map(as_expression, arguments)))
 
 
@@ -255,14 +255,14 @@ arcinv: OfOne = partial(call, "arcinv")
 
 
 def signed(sense: float, of: Expression) -> Expression:
-    """An expression as it stands, or with the other sign where `sense` is negative."""
+    """Return an expression unchanged, or with the other sign if `sense` is negative."""
     if sense > 0:
         return of
     return of.of if isinstance(of, Negative) else Negative(of)
 
 
 def size(of: Operand) -> Call:
-    """|of| of a number with a sign, printed as it stands; abs is measured on a drawing."""
+    """Return |of| of a signed number, printed unchanged; abs is measured on a drawing."""
     return call("size", of)
 
 
@@ -271,7 +271,9 @@ def atan2(across: Operand, along: Operand) -> Call:
 
 
 def branch(number: Operand, *branches: Operand) -> Call:
-    """What is worked out otherwise at each position: the branch of its number, from 0; its line prints that one."""
+    """Return a call that selects one of `branches` at each position by its number, from 0; the line prints that
+    one only.
+    """
     return call("branch", number, *branches)
 
 
@@ -281,13 +283,13 @@ NOTHING, ONE, MINUS_ONE = map(Number, (0.0, 1.0, -1.0))
 
 
 def plus(*terms: Expression) -> Expression:
-    """The sum of terms, those that are 0 left out."""
+    """Return the sum of terms, those that are 0 left out."""
     parts = [part for term in terms for part in (term.terms if isinstance(term, Sum) else (term,)) if part != NOTHING]
     return total(parts) if parts else NOTHING
 
 
 def minus(of: Expression) -> Expression:
-    """The same with the other sign, term by term."""
+    """Return the same with the other sign, term by term."""
     match of:
         case Sum(terms):
             return Sum(tuple(map(minus, terms)))
@@ -299,7 +301,7 @@ def minus(of: Expression) -> Expression:
 
 
 def times(*factors: Expression) -> Expression:
-    """The product of factors, 0 if one of them is 0; factors 1 are left out, −1 gives its sign."""
+    """Return the product of factors, 0 if one of them is 0; factors 1 are left out, −1 gives its sign."""
     if NOTHING in factors:
         return NOTHING
     kept = [factor for factor in factors if factor not in (ONE, MINUS_ONE)] or [ONE]
@@ -314,7 +316,7 @@ def _begins_negative(of: Expression) -> bool:
 
 
 def over(top: Expression, bottom: Expression) -> Expression:
-    """A fraction; 0 where its top is."""
+    """Return a fraction; 0 where its top is."""
     if top == NOTHING:
         return NOTHING
     if bottom in (ONE, MINUS_ONE):
@@ -346,7 +348,7 @@ def cosine(of: Expression) -> Expression:
 
 
 def _quarters(angle: Expression) -> int | None:
-    """How many right angles a typed angle is, of a turn's four; None for any other angle."""
+    """Return a typed angle as a number of right angles modulo 4; None if it is not a multiple of 90°."""
     square = isinstance(angle, Number) and angle.value % 90 == 0
     return int(angle.value // 90) % 4 if isinstance(angle, Number) and square else None
 
@@ -359,17 +361,17 @@ def is_zero(angle: Expression) -> bool:
 
 
 def meet(p: Operand, u: Operand, q: Operand, w: Operand) -> Call:
-    """Where the line through p along u meets the line through q along w."""
+    """Return the intersection of the line through p along u with the line through q along w."""
     return call("meet", p, u, q, w)
 
 
 def circle_line(centre: Operand, radius: Operand, p: Operand, u: Operand, sign: float) -> Call:
-    """Where a circle meets the line through p along u, all in one unit: the farther end along u for sign +1."""
+    """Return the intersection of a circle and the line through p along u, in one unit; sign +1: farther along u."""
     return call("circle_line", centre, radius, p, u, sign)
 
 
 def circle_circle(c1: Operand, r1: Operand, c2: Operand, r2: Operand, sign: float) -> Call:
-    """Where two circles meet, all in one unit: to the left of the way from c1 to c2 for sign +1."""
+    """Return the intersection of two circles, in one unit; sign +1: to the left of the way from c1 to c2."""
     return call("circle_circle", c1, r1, c2, r2, sign)
 
 
@@ -392,7 +394,7 @@ quotient: OfTwo = partial(call, "quotient")
 
 
 def unit(vector: Operand) -> Call:
-    """A vector's direction, a vector of length 1; 0 for one of no length."""
+    """Return a vector's direction, a vector of length 1; 0 for one of no length."""
     return quotient(vector, call("abs", vector))
 
 
@@ -400,7 +402,7 @@ def unit(vector: Operand) -> Call:
 
 
 def children(node: Expression) -> tuple[Expression, ...]:
-    """The direct sub-expressions of a node, in printed order."""
+    """Return the direct sub-expressions of a node, in printed order."""
     match node:
         case Sum(parts) | Product(parts) | Call(_, parts) | Chain(parts):
             return parts
@@ -417,7 +419,7 @@ def children(node: Expression) -> tuple[Expression, ...]:
 
 
 def rebuild(node: Expression, change: Callable[[Expression], Expression]) -> Expression:
-    """The node with `change` applied to each direct sub-expression."""
+    """Return the node with `change` applied to each direct sub-expression."""
     match node:
         case Sum(parts) | Product(parts):
             return type(node)(tuple(map(change, parts)))
@@ -436,19 +438,19 @@ def rebuild(node: Expression, change: Callable[[Expression], Expression]) -> Exp
 
 
 def walk(node: Expression) -> Iterator[Expression]:
-    """The node and everything below it, in printed order."""
+    """Yield the node and everything below it, in printed order."""
     yield node
     for child in children(node):
         yield from walk(child)
 
 
 def refs(node: Expression) -> tuple[str, ...]:
-    """Ids of the quantities an expression stands on, each once, in order of first appearance."""
+    """Return the ids of the quantities in an expression, each once, in order of first appearance."""
     return tuple(dict.fromkeys(part.id for part in walk(node) if isinstance(part, Ref)))
 
 
 def substitute(node: Expression, change: Callable[[Ref], Expression]) -> Expression:
-    """The expression with every `Ref` replaced by what `change` gives for it."""
+    """Return the expression with every `Ref` replaced by what `change` gives for it."""
     if isinstance(node, Ref):
         return change(node)
     return rebuild(node, lambda child: substitute(child, change))

@@ -1,15 +1,17 @@
-"""The figures that a computed design carries, so that what is printed is right to one unit of its last decimal.
+"""Choose the number of decimals of computed values, so that each printed result is right to one unit of its last
+decimal.
 
-A line goes on from the values above it as they are written, and its result bears their rounding:
+Each line is computed from the printed values above it, so its result carries their rounding errors:
 
-    r − r₀ = Σ (∂r/∂q) Δq,  Δq the rounding of each value q that r stands on, its own among them
+    r − r₀ = Σ (∂r/∂q) Δq,  Δq the rounding of each value q that r depends on, its own included
 
-Where a printed value would be more than a unit of its last decimal off, the value above it whose rounding does most to
-that is carried with one decimal more, and all is written anew.  So each line still follows on a calculator, angles and
-the like have as many decimals as the results need, and nothing has more than usual that does not need them.
+If a printed value is off by more than a unit of its last decimal, the value above it that contributes most to the
+error gets one more decimal, and everything is computed again. So each line can be checked on a calculator, and
+values such as angles get as many decimals as the results need, but no more.
 
-Roundings are taken as they are: to hold for the worst of them at once, a chain of twelve lines would have to begin with
-16 decimals.  What is measured on a drawing is as exact as that, and what stands on it has the figures that this gives.
+The actual roundings are used: a chain of twelve lines would have to begin with 16 decimals to be safe in the worst
+case. Values measured on a drawing have the accuracy of the drawing, and values computed from them have the figures
+that this gives.
 """
 
 from __future__ import annotations
@@ -34,11 +36,11 @@ MOST = 10
 """Decimals that anything is carried with at most."""
 
 Derivatives = Mapping[str, Mapping[str, np.ndarray]]
-"""Of each value ∂r/∂q (SI) by those that it stands on, one or one per position."""
+"""Derivatives ∂r/∂q (SI) of each value by those that it depends on: one value, or one per position."""
 
 
 def carried(ledger: Ledger) -> Ledger:
-    """The ledger as it is written down when every computed value carries the figures that others need of it."""
+    """Return the ledger as it is written down when every computed value carries the figures that others need of it."""
     decimals = dict(usual_decimals(ledger))
     measured = {id for id, family in ledger.families.items() if family.kind == MEASURED and decimals[id] is not None}
     drawn = _standing_on(ledger, measured)
@@ -59,7 +61,7 @@ def carried(ledger: Ledger) -> Ledger:
 
 
 def _standing_on(ledger: Ledger, some: AbstractSet[str]) -> set[str]:
-    """What is worked out from some quantities."""
+    """Return the ids that depend on any of some quantities."""
     standing = set[str]()
     for id, inputs in ledger.inputs.items():
         if id not in some and not {*inputs}.isdisjoint(standing | some):
@@ -68,7 +70,7 @@ def _standing_on(ledger: Ledger, some: AbstractSet[str]) -> set[str]:
 
 
 def _as_drawn(ledger: Ledger, id: str, measured: Mapping[str, np.ndarray]) -> int:
-    """The decimals that what is measured leaves a value: in the last of them it is right to one unit."""
+    """Return the decimals that what is measured leaves a value: in the last of them it is right to one unit."""
     off = sum(_half_unit(ledger[one]) * float(np.max(np.abs(by))) for one, by in measured.items())
     return max(math.floor(-math.log10(2 * off / ledger[id].how.scale)), 0) if off else MOST
 
@@ -79,7 +81,9 @@ def _half_unit(family: Family, decimals: int | None = None) -> float:
 
 
 def _derivatives(ledger: Ledger, decimals: Mapping[str, int | None]) -> Derivatives:
-    """Each value is moved by half a unit of its last decimal, in a world of its own: [values, positions]."""
+    """Return the derivatives of the ledger: each value is moved by half a unit of its last decimal, in one row of
+    arrays [values, positions].
+    """
     # What is nothing is written as 0, whatever stands above it.
     nothing = {id for id, family in ledger.families.items() if np.all(np.abs(family.values) <= ZERO * family.scale)}
     rounded = [id for id, own in decimals.items() if own is not None and id not in nothing]
@@ -105,7 +109,9 @@ def _derivatives(ledger: Ledger, decimals: Mapping[str, int | None]) -> Derivati
 
 
 def _causes(ledger: Ledger, rounded: Ledger, derivatives: Derivatives, roundings: Mapping[str, np.ndarray]) -> set[str]:
-    """Of each value that is too far off what does most to it; none of a value below one that will be finer."""
+    """Return, for each value that is too far off, the input that contributes most; skip values below one that will
+    be finer.
+    """
     causes = set[str]()
     for id, by in derivatives.items():
         decimals, how = rounded.decimals[id], ledger[id].how
@@ -127,7 +133,7 @@ def _causes(ledger: Ledger, rounded: Ledger, derivatives: Derivatives, roundings
 
 
 def _ends(family: Family, values: np.ndarray) -> bool:
-    """Whether a value has few digits because it is exactly that, and not for being made of rounded ones."""
+    """Return True if a value has few digits because it is exact, not because it is computed from rounded values."""
     exact = np.real(family.values)
     same = np.abs(np.real(values) - exact) <= DUST * np.abs(exact)
     return is_short(exact / family.how.scale) and bool(np.all(same))

@@ -1,8 +1,8 @@
-"""Constructions of plane geometry: what a compass and a ruler find.
+"""Compass-and-ruler constructions of plane geometry.
 
-Points and vectors are complex numbers, arrays of them at every position, or vectors by symbols: whatever is added,
-multiplied and has `real`, `imag` and `conjugate`, so that drawing, computing and literal solutions share each formula.
-A `root` says what a square root of such sizes is, and what becomes of one that does not exist.
+Points and vectors are complex numbers, arrays of complex numbers over positions, or symbolic vectors: anything with
+`+`, `*`, `real`, `imag` and `conjugate`. So drawing, computing and literal solutions share each formula. A `root`
+function computes square roots and decides what a root that does not exist becomes.
 """
 
 from __future__ import annotations
@@ -34,17 +34,18 @@ def cross(a: Value, b: Value) -> Value:
 
 
 def foot(point: Value, p: Value, u: Value) -> Value:
-    """The foot of the perpendicular from a point on the line through p along u, of length 1."""
+    """Return the foot of the perpendicular from a point on the line through p along u, of length 1."""
     return p + u * dot(u, point - p)
 
 
 def meet(p: Value, u: Value, q: Value, w: Value) -> Value:
-    """Where the line through p along u meets the line through q along w."""
+    """Return the intersection of the line through p along u with the line through q along w."""
     return p + u * cross(q - p, w) / cross(u, w)
 
 
 def along_line(centre: Value, radius: Value, p: Value, u: Value, sign: Value, root: SquareRoot = real_root) -> Value:
-    """How far along the line through p along u, of length 1, a circle meets it: s = d·u ± √(r² − (d×u)²), d = c − p.
+    """Return the distance s from p along u (length 1) at which a circle meets the line: s = d·u ± √(r² − (d×u)²),
+    d = c − p.
 
     The sign +1 takes the farther end along u.
     """
@@ -52,13 +53,15 @@ def along_line(centre: Value, radius: Value, p: Value, u: Value, sign: Value, ro
 
 
 def circle_line(centre: Value, radius: Value, p: Value, u: Value, sign: Value, root: SquareRoot = real_root) -> Value:
-    """Where a circle meets the line through p along u, of length 1; sign +1 takes the farther end along u."""
+    """Return the intersection of a circle and the line through p along u, of length 1; sign +1 is the farther one
+    along u.
+    """
     middle = foot(centre, p, u)
     return middle + u * (sign * root(radius**2 - abs(centre - middle) ** 2))
 
 
 def circle_circle(c1: Value, r1: Value, c2: Value, r2: Value, sign: Value, root: SquareRoot = real_root) -> Value:
-    """Where two circles meet, a point at two distances; sign +1 takes the one to the left of the way from c1 to c2."""
+    """Return the intersection of two circles; sign +1 is the one to the left of the way from c1 to c2."""
     span = abs(c2 - c1)
     u = (c2 - c1) / span
     along = (r1**2 - r2**2 + span**2) / (2 * span)

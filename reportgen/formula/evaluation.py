@@ -1,4 +1,4 @@
-"""The values of expressions: functions by their names, constructions of plane geometry among them."""
+"""Evaluate expressions: the functions that a `Call` may name, including constructions of plane geometry."""
 
 from __future__ import annotations
 
@@ -34,12 +34,14 @@ BEHIND = 1e-12
 
 
 def circle_line(centre: Value, radius: Value, p: Value, u: Value, sign: Value) -> Value:
-    """Where a circle meets the line through p along u, a vector of any length."""
+    """Return the intersection of a circle and the line through p along u, a vector of any length."""
     return constructions.circle_line(centre, radius, p, u / abs(u), sign)
 
 
 def nothing(value: Value) -> Value:
-    """Where a value is nothing beside the greatest of all positions, the last axis; there a sense would be noise."""
+    """Return True where a value is negligible beside the greatest of all positions (last axis): its sign would be
+    noise.
+    """
     sizes = np.abs(value)
     if sizes.ndim == 0:
         return sizes == 0
@@ -59,7 +61,7 @@ def sign(value: Value) -> Value:
 
 
 def arg(vector: Value) -> Value:
-    """A vector's direction from +x, in (−π, π], one just above −π counted as π; 0 for what is nothing."""
+    """Return a vector's direction from +x, in (−π, π], one just above −π counted as π; 0 for what is nothing."""
     angle = np.where(nothing(vector), 0.0, np.angle(vector))
     return np.where(angle <= BEHIND - np.pi, np.pi, angle)
 
@@ -76,7 +78,7 @@ def if_zero(a: Value, b: Value) -> Value:
 
 
 def within(value: Value, least: Value, most: Value) -> Value:
-    """The value itself, nan where it is less than `least` or more than `most`."""
+    """Return the value itself, nan where it is less than `least` or more than `most`."""
     value = np.asarray(value)
     return np.where((value >= least) & (value <= most), value, np.nan)
 
@@ -92,7 +94,7 @@ EDGE = 1e-9
 
 
 def around(angle: Value) -> Value:
-    """The angle within one turn from 0; one just below a whole turn is 0."""
+    """Return the angle within one turn from 0; one just below a whole turn is 0."""
     return np.mod(angle + EDGE, 2 * np.pi) - EDGE
 
 
@@ -102,49 +104,51 @@ def amid(value: Value, least: Value, most: Value) -> Value:
 
 
 def beyond(value: Value, place: Value, least: Value, most: Value) -> Value:
-    """The value where the place, which a couple lacks, does not lie between `least` and `most`; nan elsewhere."""
+    """Return the value where the place, which a couple lacks, does not lie between `least` and `most`; nan
+    elsewhere.
+    """
     return np.where((place >= least) & (place <= most), np.nan, value)
 
 
 def where_positive(value: Value, place: Value) -> Value:
-    """The value where another one is above 0, nan elsewhere."""
+    """Return the value where another one is above 0, nan elsewhere."""
     return np.where(np.asarray(place) > 0, value, np.nan)
 
 
 def mean(values: Value, weights: Value = 1.0) -> Value:
-    """The mean over positions, the last axis; it keeps that axis, so that it stands for all of them."""
+    """Return the mean over positions (last axis); the axis is kept with length 1."""
     values, weights = np.broadcast_arrays(np.atleast_1d(values), weights)
     return np.sum(values * weights, axis=-1, keepdims=True) / np.sum(weights, axis=-1, keepdims=True)
 
 
 def level(value: Value, steps: Value) -> Value:
-    """The mean over a cycle by the trapezoid rule, `steps` being the ways from each position to the next."""
+    """Return the mean over a cycle by the trapezoid rule, `steps` being the ways from each position to the next."""
     mean_of_step = (np.asarray(value) + np.roll(value, -1, axis=-1)) / 2
     return np.sum(mean_of_step * steps, axis=-1, keepdims=True) / np.sum(steps)
 
 
 def excess(value: Value, steps: Value) -> Value:
-    """The integral of what is above the mean, from the first position to each, by the trapezoid rule."""
+    """Return the integral of what is above the mean, from the first position to each, by the trapezoid rule."""
     above = np.asarray(value) - level(value, steps)
     parts = (above + np.roll(above, -1, axis=-1)) / 2 * steps
     return np.roll(np.cumsum(parts, axis=-1), 1, axis=-1) - np.sum(parts, axis=-1, keepdims=True)
 
 
 def along(a: Value, v: Value) -> Value:
-    """The component of a along v; 0 where v is nothing beside the greatest of all positions."""
+    """Return the component of a along v; 0 where v is nothing beside the greatest of all positions."""
     size = np.abs(v)
     moves = size > EDGE * np.max(size, axis=-1, keepdims=True)
     return np.where(moves, constructions.dot(a, v) / np.where(moves, size, 1.0), 0.0)
 
 
 def summed(value: Value, steps: Value) -> Value:
-    """The integral from the first position to each, by the trapezoid rule."""
+    """Return the integral from the first position to each, by the trapezoid rule."""
     parts = (np.asarray(value) + np.roll(value, -1, axis=-1)) / 2 * steps
     return np.roll(np.cumsum(parts, axis=-1), 1, axis=-1) * (np.arange(parts.shape[-1]) > 0)
 
 
 def stepped(speed: Value, torque: Value, inertia: Value, steps: Value) -> Value:
-    """The speed of a crank from position to position, from that at the first, with what acts and moves at each.
+    """Return the speed of a crank from position to position, from that at the first, with what acts and moves at each.
 
     ω′ = M Δφ/(J ω) + (3J − J′)ω/(2J): the equation of energy, ΔT = M Δφ, with Δ(J ω²)/2 to the first order.
     """
@@ -157,17 +161,19 @@ def stepped(speed: Value, torque: Value, inertia: Value, steps: Value) -> Value:
 
 
 def heading(vector: Value) -> Value:
-    """A vector's direction from +x, in [0, 2π), one just below a full turn counted as 0; 0 for what is nothing."""
+    """Return a vector's direction from +x, in [0, 2π), one just below a full turn counted as 0; 0 for what is
+    nothing.
+    """
     return np.mod(np.where(nothing(vector), 0.0, np.angle(vector)) + BEHIND, 2 * np.pi) - BEHIND
 
 
 def inv(angle: Value) -> Value:
-    """The involute of an angle (rad): inv α = tan α − α."""
+    """Return the involute of an angle (rad): inv α = tan α − α."""
     return np.tan(angle) - angle
 
 
 def arcinv(value: Value) -> Value:
-    """The angle α (rad) of which inv α is the value, `nan` below 0.
+    """Return the angle α (rad) of which inv α is the value, `nan` below 0.
 
     inv is convex and both α³/3 and tan α − π/2 lie below it, so Newton's way from the lesser of their angles goes down.
     """
@@ -224,13 +230,13 @@ FUNCTIONS: Mapping[str, Callable[..., Value]] = {
     "inv": inv,
     "arcinv": arcinv,
 }
-"""What a `Call` may name.  sin, cos and tan take radians; a `Number` in degrees converts itself."""
+"""Functions that a `Call` may name. sin, cos and tan take radians; a `Number` in degrees converts itself."""
 
 TRIGONOMETRIC = frozenset({"sin", "cos", "tan"})
 
 
 def evaluate(node: Expression, values: Mapping[str, Value] | None = None) -> Value:
-    """The value of an expression; `values` gives that of every `Ref` by id.
+    """Return the value of an expression; `values` gives that of every `Ref` by id.
 
     Printed numbers evaluate as shown, degrees as radians.  Raises `KeyError` for an unknown id and
     `ValueError` for a symbol without a value.

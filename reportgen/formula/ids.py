@@ -1,9 +1,9 @@
-"""The ids of all quantities, a family each: `ids.velocity("B")` is v.B, `ids.reaction("12", "t")` is R.12.t.
+"""The ids of all quantities, by families: `ids.velocity("B")` is v.B, `ids.reaction("12", "t")` is R.12.t.
 
-A quantity that is one of its kind has its id as text (`mu.l`, `omega.1`, `M.eq`).  No two families read the same id,
-but that the distance of a centre of percussion is a length, too, and that those which put a word before any other id
-read more: where two do, the one that stands first means it.  One template has two names where machines differ: s.3 is
-the way of a slider, or where the mass centre lies on a rod.
+A quantity that is the only one of its family has its id as text (`mu.l`, `omega.1`, `M.eq`). No two families match
+the same id, with two exceptions: the distance of a centre of percussion is also a length, and families that put a
+word before any other id match more. If two families match, the first one applies. One template has two names where
+machines differ: s.3 is the way of a slider, or the place of the mass centre on a rod.
 """
 
 from __future__ import annotations
@@ -56,7 +56,7 @@ PLACES: Mapping[str, str] = {
     "edge": ".+",
     "id": ".+",
 }
-"""What may stand in a place, as a regular expression; in any other place one word without dots."""
+"""Regular expressions of the words allowed in a place; any other place takes one word without dots."""
 
 _PLACE = re.compile(r"\{(\w+)\}")
 _MAY_BE_MISSING = re.compile(r"\[(.*?)\]")
@@ -70,11 +70,11 @@ class Name:
     text: str
 
     def __call__(self, *of: object) -> str:
-        """The id with these words in its places.  Raises `KeyError` if they are too many or too few."""
+        """Return the id with these words in its places.  Raises `KeyError` if they are too many or too few."""
         return self._forms[len(of)] % of
 
     def read(self, id: str) -> dict[str, str] | None:
-        """What stands in the places of an id, "" in one that is missing; None for an id of another family."""
+        """Return the words in the places of an id, "" for a missing one; None for an id of another family."""
         # Most families begin otherwise: their patterns need not even be compiled.
         if not id.startswith(self._beginning):
             return None
@@ -85,22 +85,24 @@ class Name:
         return id.startswith(self._beginning) and self._pattern.fullmatch(id) is not None
 
     def only(self, **words: str) -> Name:
-        """The narrower family that has these words in these places."""
+        """Return the narrower family that has these words in these places."""
         return Name(_PLACE.sub(lambda place: words.get(place[1], place[0]), self.text))
 
     def of(self, words: Mapping[str, str]) -> str:
-        """The id with these words in its places, as `read` gives them: a word that is "" leaves its place out."""
+        """Return the id with these words in its places, as `read` gives them: a word that is "" leaves its place
+        out.
+        """
         return self(*(words[place] for place in _PLACE.findall(self.text) if words[place]))
 
     @cached_property
     def _forms(self) -> Mapping[int, str]:
-        """What the words are put into, by their number: with what is in brackets and without."""
+        """Templates that the words are put into, by the number of words: with and without the part in brackets."""
         texts = _MAY_BE_MISSING.sub("", self.text), _MAY_BE_MISSING.sub(r"\1", self.text)
         return {len(_PLACE.findall(text)): _PLACE.sub("%s", text) for text in texts}
 
     @cached_property
     def _beginning(self) -> str:
-        """What all ids of the family begin with."""
+        """Common beginning of all ids of the family."""
         return re.split(r"[{\[]", self.text, maxsplit=1)[0]
 
     @cached_property
@@ -166,7 +168,7 @@ LINK_RATE: Mapping[str, Name] = {"omega": angular_velocity, "eps": angular_accel
 velocity = Name("v.{point}")
 acceleration = Name("a.{point}[.{part}]")
 POLE = "p"
-"""The corner of both plans that stands for what is fixed."""
+"""The pole of both plans, the image of all fixed points."""
 POINT_RATE: Mapping[str, Name] = {"v": velocity, "a": acceleration}
 stroke_velocity = Name("v.{stroke}")
 segment = Name("seg.{what}.{start}{end}")
@@ -285,18 +287,18 @@ relative_corner = Name("{part}.{pair}")
 
 
 def joint(acting: int, acted_on: int) -> str:
-    """The digits of the force of one link on another: 12, or 1,12 with long numbers."""
+    """Return the digits of the force of one link on another: 12, or 1,12 with long numbers."""
     return f"{acting}{acted_on}" if max(acting, acted_on) < 10 else f"{acting},{acted_on}"
 
 
 def linked(joint: str) -> tuple[str, str]:
-    """The two links of a joint's digits, the acting one first: 12 is 1 and 2."""
+    """Return the two links of a joint's digits, the acting one first: 12 is 1 and 2."""
     acting, acted_on = joint.split(",") if "," in joint else tuple(joint)
     return acting, acted_on
 
 
 def links_of(reaction: str) -> tuple[int, int]:
-    """The two links of a reaction by its name, the acting one first: R12.t is of 1 on 2."""
+    """Return the two links of a reaction by its name, the acting one first: R12.t is of 1 on 2."""
     names = reaction_force.read(reaction)
     assert names is not None, f"{reaction} is no reaction"
     acting, on = linked(names["joint"])
@@ -304,11 +306,11 @@ def links_of(reaction: str) -> tuple[int, int]:
 
 
 def points(named: str) -> list[str]:
-    """The points that a place of an id names: O1A is O1 and A."""
+    """Return the points that a place of an id names: O1A is O1 and A."""
     return _POINT.findall(named)
 
 
 def of_force(name: str) -> str:
-    """The id of a force's size by the force's name: R12.t has R.12.t, a load's size is called like the load."""
+    """Return the id of a force's size by the force's name: R12.t has R.12.t, a load's size is called like the load."""
     names = reaction_force.read(name)
     return name if names is None else reaction.of(names)

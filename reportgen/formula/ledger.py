@@ -1,13 +1,13 @@
-"""Named numbers and their definitions, and the ledger evaluated again from other values.
+"""The ledger: all quantities of a report with their definitions. It can be evaluated again from other values.
 
-The families of the finished sheet (`formula.sheet`) with their decimals.  A `PrintedQuantity` is a family at one
-position.  Definitions are expressions over other families, so the ledger evaluates itself
-(`Ledger.evaluate`), tells what depends on what (`refs`), and prints its own worked lines (`Ledger.chain`).
+A ledger contains the families of the finished sheet (`formula.sheet`) with their decimals; a `PrintedQuantity` is a
+family at one position. Definitions are expressions over other families. So the ledger evaluates itself
+(`Ledger.evaluate`), knows the inputs of every quantity (`refs`), and prints its own worked lines (`Ledger.chain`).
 
-A plan's point and the length measured to it are two families; a definition further on uses the one or
-the other.  Whoever measured another length goes on from a vector of that length, and whoever computed
-another one lays that off: `carried` pairs each size with its vector, and `follow` makes the vector as long.
-What is worked out from a measured length with a scale moves nothing on paper.
+A plan's point and the length measured to it are two families, and later definitions use one or the other. A student
+who measured another length continues with a vector of that length, and a computed length is laid off on paper.
+`carried` pairs each size with its vector, and `follow` adapts the vector's length. A value computed from a measured
+length with a scale moves nothing on paper.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ MistakenValues = Iterator[tuple[str, str, Expression]]
 """The id of a quantity, the name of a mistake, and what the quantity becomes by it."""
 
 Entered = Callable[[str, dict[str, np.ndarray]], None]
-"""What is called after each quantity of an evaluation, with its id and all values so far."""
+"""Callback after each quantity of an evaluation, with its id and all values so far."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,7 +67,7 @@ class PrintedQuantity:
 
 @dataclass(frozen=True)
 class Ledger:
-    """All families of a report; where they are as written down (`formula.rounding`), with the decimals of all."""
+    """All families of a report; with the decimals of each if the values are rounded as printed (`formula.rounding`)."""
 
     families: Mapping[str, Family]
     positions: int
@@ -81,14 +81,14 @@ class Ledger:
 
     @cached_property
     def inputs(self) -> Mapping[str, tuple[str, ...]]:
-        """What the definition of each quantity names."""
+        """Ids in the definition of each quantity."""
         return {
             id: () if family.definition is None else refs(family.definition) for id, family in self.families.items()
         }
 
     @cached_property
     def constructed(self) -> frozenset[str]:
-        """What a drawing gives."""
+        """Ids of the quantities that are read from a drawing."""
         return frozenset(id for id, family in self.families.items() if family.constructed)
 
     @cached_property
@@ -111,12 +111,12 @@ class Ledger:
         return vectors
 
     def size_of(self, id: str) -> str:
-        """The id of a signed rotation's size; any other quantity is its own size."""
+        """Return the id of a signed rotation's size; any other quantity is its own size."""
         family = self.families[id]
         return family.of if family.is_signed_rotation else id
 
     def in_language(self, names: Mapping[str, str]) -> Ledger:
-        """The same ledger with its symbols in a language; `names` are the indices as that language has them."""
+        """Return the same ledger with its symbols in a language; `names` are the indices as that language has them."""
         shown = {id: vocabulary.in_language(family.symbol, names) for id, family in self.families.items()}
         return replace(self, families={id: replace(one, symbol=shown[id]) for id, one in self.families.items()})
 
@@ -127,15 +127,15 @@ class Ledger:
         return self.families[id]
 
     def known(self, ids: Iterable[str]) -> list[str]:
-        """Those of the ids that are entered, each once."""
+        """Return the ids that are in the ledger, each once."""
         return [id for id in dict.fromkeys(ids) if id in self.families]
 
     def printed_unit(self, unit: str) -> str:
-        """A unit as the language of this ledger writes it."""
+        """Return a unit as the language of this ledger writes it."""
         return self.units.get(unit, unit)
 
     def quantity(self, id: str, position: int | None = None) -> PrintedQuantity:
-        """One number as printed.  Raises `KeyError` for an unknown id."""
+        """Return one number as printed.  Raises `KeyError` for an unknown id."""
         family = self.families[id]
         how = family.how
         value = float(family.at(position).real) / how.scale
@@ -151,12 +151,14 @@ class Ledger:
         )
 
     def number(self, id: str, position: int | None = None, *, size: bool = False) -> Number:
-        """The printed number of a quantity with its unit; `size` leaves its sign away."""
+        """Return the printed number of a quantity with its unit; `size` leaves its sign away."""
         number = self.quantity(id, position).number
         return Number(abs(number.value), number.decimals, number.unit) if size else number
 
     def result(self, id: str, position: int | None = None) -> Number:
-        """The number of a quantity where it is a result: lines may go on from more decimals than its kind has."""
+        """Return the number of a quantity where it is a result: lines may go on from more decimals than its kind
+        has.
+        """
         number, usual = self.number(id, position), self.families[id].how.decimals
         carried = usual is not None and number.decimals is not None and number.decimals > usual
         return Number(number.shown, usual, number.unit) if carried else number
@@ -165,7 +167,7 @@ class Ledger:
         return self.families[id].symbol
 
     def chain(self, id: str, position: int | None = None, note: str = "") -> Chain:
-        """The worked line: symbol = formula = numbers put in = result with its unit.
+        """Return the worked line: symbol = formula = numbers put in = result with its unit.
 
         A quantity that is given or measured on a drawing has no formula: symbol = value.
         """
@@ -184,16 +186,16 @@ class Ledger:
         return Chain((*parts, result), note)
 
     def _says_its_symbol(self, family: Family) -> bool:
-        """Whether its formula only names another quantity of the same symbol."""
+        """Return True if its formula only names another quantity with the same symbol."""
         return isinstance(family.line, Ref) and self.symbol(family.line.id) == family.symbol
 
     def _bare(self, id: str, position: int | None) -> Number:
-        """A number inside a line, without its unit (but degrees keep theirs)."""
+        """Return a number inside a line, without its unit (but degrees keep theirs)."""
         number = self.number(id, position, size=self.families[id].arm)
         return Number(number.value, number.decimals, "°" if number.unit == "°" else "")
 
     def _signs_out(self, node: Expression, position: int | None) -> Expression:
-        """The definition at one position: its branch, signs of arms before their terms, nothings left out."""
+        """Return the definition at one position: its branch, signs of arms before their terms, nothings left out."""
         match node:
             case Sum(terms):
                 kept = [self._signs_out(term, position) for term in terms if not self._is_nothing(term, position)]
@@ -229,12 +231,12 @@ class Ledger:
         entered: Entered | None = None,
         only: Container[str] | None = None,
     ) -> dict[str, np.ndarray]:
-        """All values again from given data and definitions, with some of them replaced.
+        """Evaluate all definitions again from the given data, with some values replaced.
 
-        `changes` maps ids to SI values (a number or one per position), or to functions of the value
-        computed and of all before it; whatever depends on them follows.  Changes may have a further
-        axis in front, [cases, positions]: many changed worlds at once.  `entered` is called with each id and
-        the values so far; `only` leaves the other families as they are.
+        `changes` maps ids to SI values (a number or one per position), or to functions of the value computed and of
+        all before it; all dependent values follow. Changes may have a further axis in front, [cases, positions], to
+        evaluate many cases together. `entered` is called with each id and the values so far. If `only` is given,
+        the other families keep their values.
         """
         values: dict[str, np.ndarray] = {}
         # What no drawing can have (a sine above 1) is NaN, and so is what stands on it.
@@ -254,7 +256,7 @@ class Ledger:
         return values
 
     def ancestors(self, id: str) -> tuple[str, ...]:
-        """Every quantity that one stands on, directly or through others, nearest first."""
+        """Return every quantity that one depends on, directly or through others, nearest first."""
         ancestors: dict[str, None] = {}
         waiting = list(self.inputs[id])
         while waiting:
@@ -283,7 +285,7 @@ def _replace(node: Expression, change: Any) -> Expression:
 
 
 def _sign_before(term: Expression) -> Expression:
-    """A negative number as a later term of a sum: its sign becomes that of the term."""
+    """Return a negative number as a later term of a sum: its sign becomes that of the term."""
     match term:
         case Number(value) if value < 0:
             return Negative(replace(term, value=-value))
@@ -301,7 +303,8 @@ ARC_DECIMALS = 6
 
 
 def _in_radians(numbers: Expression, result: Number) -> Expression:
-    """A line's numbers with angles in radians where it counts with the angle itself, in as many decimals as it takes.
+    """Return a line's numbers with angles in radians where it counts with the angle itself, in as many decimals as
+    it takes.
 
     Functions take degrees; for an angle that comes of angles, and where only their ratios count, either unit will do.
     """
@@ -313,7 +316,7 @@ def _in_radians(numbers: Expression, result: Number) -> Expression:
 
 
 def _power_of_angle(node: Expression) -> int | None:
-    """In which power an angle that stands outside functions is a factor; None of a sum with several powers."""
+    """Return the power in which an angle outside functions is a factor; None for a sum with several powers."""
     match node:
         case Number(unit="°"):
             return 1
@@ -377,7 +380,9 @@ def follow(
 
 
 def standing_on(ledger: Ledger, id: str) -> tuple[str, ...]:
-    """Every quantity that one stands on, nearest first: its `ancestors` and what was read from their vectors."""
+    """Return all quantities that one depends on, nearest first: its `ancestors` and the sizes read from their
+    vectors.
+    """
     read: dict[str, list[str]] = {}
     order = {name: index for index, name in enumerate(ledger.families)}
     for size, vector in ledger.vectors.items():

@@ -1,4 +1,4 @@
-"""A sheet as a model: its own definitions evaluated over arrays, so that no formula is written a second time."""
+"""Evaluate the definitions of a sheet over arrays of other values, so that no formula is written a second time."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ from reportgen.formula.sheet import Sheet
 
 
 def model(sheet: Sheet, wanted: Iterable[str], **known: Value) -> dict[str, Value]:
-    """The values (SI) of some ids of a sheet with others in place of its own, over arrays of any shape.
+    """Return the values (SI) of some ids of a sheet with others in place of its own, over arrays of any shape.
 
-    Only what the wanted ones stand on is evaluated; what is not defined at some place is nan or infinite there, as on
-    the sheet.  Raises `KeyError` for an id that is not on the sheet.
+    Only the inputs of the wanted ids are evaluated; undefined values are nan or infinite, as on the sheet. Raises
+    `KeyError` for an id that is not on the sheet.
     """
     wanted, values = tuple(wanted), dict(known)
     needed = {*wanted} - {*known}

@@ -1,4 +1,4 @@
-"""A formula as plain text: v_BA = ω_2·l_AB, or as a line of Python: v_BA = omega_2 * l_AB."""
+"""Formulas as plain text, v_BA = ω_2·l_AB, or as Python code, v_BA = omega_2 * l_AB."""
 
 from __future__ import annotations
 
@@ -47,9 +47,10 @@ class Plain(TextSetter):
 
 
 def formula(node: Expression, language: Language) -> str:
-    """An expression in one line, parentheses wherever it would be misread; below a vector equation what is known.
+    """Return an expression in one line, with parentheses wherever it could be misread; a vector equation adds its
+    rows.
 
-    Raises `TypesetterError` for a reference that nobody has substituted.
+    Raises `TypesetterError` for a `Ref` that was not substituted.
     """
     plain = Plain(language)
     if not isinstance(node, VectorEquation):
@@ -60,7 +61,7 @@ def formula(node: Expression, language: Language) -> str:
 
 
 def quantity(number: Number, language: Language) -> str:
-    """A number as printed, with its unit."""
+    """Return a number as printed, with its unit."""
     return written(number, language).text(" ")
 
 
@@ -81,7 +82,7 @@ NUMPY: Mapping[str, str] = {
 
 
 def python(node: Expression, names: Mapping[str, str]) -> str:
-    """An expression in Python, with numpy as np and the `names` of quantities by ids.
+    """Return an expression in Python, with numpy as np and the `names` of quantities by ids.
 
     Raises `KeyError` for a quantity without a name and for a function that is no formula.
     """

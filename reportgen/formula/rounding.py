@@ -1,8 +1,8 @@
-"""The ledger as a person writes it: each value is worked out from the values written above it and entered rounded.
+"""The ledger as a person writes it: each value is computed from the rounded values above it, then rounded.
 
-The same families are evaluated in the same order, each by the formula of its printed line.  So a calculator that is
-fed with the printed numbers of a line comes to the printed result, digit by digit, and a plan is drawn from lengths as
-they are written.  What is chosen (senses, arms, branches) and what is nothing is taken from the unrounded ledger.
+The same families are evaluated in the same order, each by the formula of its printed line. So a calculator fed with
+the printed numbers of a line gives the printed result, digit by digit, and a plan is drawn from lengths as printed.
+Discrete choices (senses, arms, branches) and zeros are taken from the unrounded ledger.
 """
 
 from __future__ import annotations
@@ -18,17 +18,17 @@ from reportgen.formula.ledger import Ledger, follow
 from reportgen.formula.sheet import ZERO, Family, is_short, is_typed, shortened
 
 Ends = Callable[[Family, np.ndarray], bool]
-"""Whether a value, worked out from what is written above it, has few digits and is written as it is."""
+"""Predicate: True if a value, computed from the rounded values above it, has few digits and is printed exactly."""
 
 
 def printed(ledger: Ledger) -> Ledger:
-    """The ledger with every value as it is written down, and the decimals that each is written with."""
+    """Return the ledger with every value as it is written down, and the decimals that each is written with."""
     rounded, _ = written(ledger, usual_decimals(ledger), lambda family, values: is_short(values / family.how.scale))
     return rounded
 
 
 def written(ledger: Ledger, given: Mapping[str, int | None], ends: Ends) -> tuple[Ledger, Mapping[str, np.ndarray]]:
-    """The ledger with every value as it is written down with the `given` decimals, or whole where it `ends`.
+    """Return the ledger with every value as it is written down with the `given` decimals, or whole where it `ends`.
 
     And by how much (SI) each value was changed as it was rounded.
     """
@@ -56,13 +56,15 @@ def written(ledger: Ledger, given: Mapping[str, int | None], ends: Ends) -> tupl
 
 
 def by_lines(ledger: Ledger) -> Ledger:
-    """The ledger with the formula of each printed line for a definition."""
+    """Return the ledger with the formula of each printed line for a definition."""
     lines = {id: replace(family, definition=_line(ledger, family)) for id, family in ledger.families.items()}
     return replace(ledger, families=lines)
 
 
 def _line(ledger: Ledger, family: Family) -> Expression | None:
-    """The formula by which a value is written; None for what is given, and for an integral, which is read off."""
+    """Return the formula by which a value is written; None for what is given, and for an integral, which is read
+    off.
+    """
     integral = ids.rule(family.id) in ledger
     size = family.scale or _size(family.values)
     is_read = integral and _size(ledger[ids.rest(family.id)].values) > ZERO * size
@@ -70,7 +72,7 @@ def _line(ledger: Ledger, family: Family) -> Expression | None:
 
 
 def _size(values: np.ndarray) -> float:
-    """The greatest size of values (SI)."""
+    """Return the greatest size of values (SI)."""
     return float(np.max(np.abs(values), initial=0.0, where=np.isfinite(values)))
 
 
@@ -97,7 +99,7 @@ def _without_dust(values: np.ndarray) -> np.ndarray:
 
 
 def usual_decimals(ledger: Ledger) -> dict[str, int | None]:
-    """The decimals of every family, one number for all that prints under one symbol; None for what was typed."""
+    """Return the decimals of every family, one number for all that prints under one symbol; None for what was typed."""
     together: dict[object, list[Family]] = {}
     names = names_of(ledger)
     for id, family in ledger.families.items():
@@ -116,13 +118,13 @@ def _of_quantity(members: Collection[Family]) -> int:
 
 
 def _largest(family: Family) -> float:
-    """Its largest unrounded size in its printed unit; 0 where it is nothing at all positions."""
+    """Return its largest unrounded size in its printed unit; 0 where it is nothing at all positions."""
     sizes = np.abs(family.values[np.isfinite(family.values)])
     return float(np.max(sizes, initial=0.0, where=sizes >= ZERO * family.scale)) / family.how.scale
 
 
 def _is_typed(family: Family) -> bool:
-    """Whether a value is printed as it was given."""
+    """Return True if a value is printed as it was given."""
     return (
         family.is_plane
         or family.hidden
@@ -131,7 +133,9 @@ def _is_typed(family: Family) -> bool:
 
 
 def _named_again(family: Family) -> str:
-    """The id of the quantity that a line only names again or turns round (l = R, R₂₁ = −R₁₂); "" for any other."""
+    """Return the id of the quantity that a line only names again or turns round (l = R, R₂₁ = −R₁₂); "" for any
+    other.
+    """
     match family.line:
         case Ref(id) | Negative(Ref(id)) | Call("size", (Ref(id),)):
             return id
@@ -140,7 +144,9 @@ def _named_again(family: Family) -> str:
 
 
 def names_of(ledger: Ledger) -> dict[str, object]:
-    """What each family is called as a printed quantity: by its symbol, as what it names again or is the same as."""
+    """Return a name for each family as a printed quantity: its symbol and kind, or the name of the family that it
+    repeats.
+    """
     names: dict[str, object] = {id: members[0] for members in ledger.same for id in members}
     for id, family in ledger.families.items():
         again = _named_again(family)

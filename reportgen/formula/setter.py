@@ -1,4 +1,4 @@
-"""What the parts of a laid-out formula look like: a setter for each format, of which each says its own looks alone."""
+"""Base class of typesetters: a subclass for each format renders the parts of a laid-out formula."""
 
 from __future__ import annotations
 
@@ -28,31 +28,31 @@ Look = TypeVar("Look")
 
 
 class Setter(ABC, Generic[Look]):
-    """What the parts of formulas look like in one language: a typesetter's text, runs of a label, a box."""
+    """Renderer of the parts of formulas in one language, as a typesetter's text, runs of a label, or a box."""
 
     linear: ClassVar[bool] = False
-    """Whether it sets letters in a line alone: fractions with a slash, roots without a bar."""
+    """True if the format allows letters in a line only: fractions with a slash, roots without a bar."""
 
     def __init__(self, language: Language) -> None:
         self.language: Language = language
 
     def math(self, node: Expression, slashed: bool = False) -> Look:
-        """The formula of an expression.
+        """Return the formula of an expression.
 
-        Raises `TypesetterError` for a reference that nobody has substituted, or a character without a glyph.
+        Raises `TypesetterError` for a `Ref` that was not substituted, or a character without a glyph.
         """
         return self.part(laid(node, self.language, slashed, self.linear))
 
     def content(self, content: Expression | str, slashed: bool = False) -> Look:
-        """A formula in a line, or a plain text."""
+        """Return a formula in a line, or a plain text."""
         return self.text(content) if isinstance(content, str) else self.inline(self.math(content, slashed))
 
     def known(self, entry: Expression | str | None) -> Look:
-        """What is known of a vector, in the row below its term: "?" for nothing; a fraction keeps to the line."""
+        """Return an entry below a term of a vector equation: "?" if it is unknown; a fraction is set with a slash."""
         return self.content("?" if entry is None else entry, slashed=True)
 
     def inline(self, mathematics: Look) -> Look:
-        """Mathematics as it stands within words."""
+        """Return mathematics as it appears within a sentence."""
         return mathematics
 
     @abstractmethod
@@ -68,7 +68,7 @@ class TextSetter(Setter[str]):
     BELOW: ClassVar[str] = "%s%s"
     RAISED: ClassVar[str] = "%s^%s"
     POWER: ClassVar[str] = "%s^%s"
-    """Of a function."""
+    """Pattern for the power of a function."""
     QUOTIENT: ClassVar[str] = "(%s)/(%s)"
     RADICAL: ClassVar[str] = "√%s"
     FENCES: ClassVar[Mapping[str, str]] = {"": "%s", "(": "(%s)", "|": "|%s|", "[": "[%s]"}
@@ -111,7 +111,7 @@ class TextSetter(Setter[str]):
                 return self.mark(part)
 
     def lowered(self, pieces: Iterable[tuple[str, str]], shown: Callable[[str], str]) -> str:
-        """A symbol's letters with the digits of points below them, no smaller than an index."""
+        """Return a symbol's letters with the digits of points below them, no smaller than an index."""
         return "".join(
             self.BELOW % (shown(letters), self.upright(digits)) if digits else shown(letters)
             for letters, digits in pieces

@@ -1,8 +1,8 @@
-"""A formula as it is set: signs, parentheses and places for breaks are put in once, for all writers and labels.
+"""Layout of formulas: signs, parentheses and line breaks are decided once, for all writers and labels.
 
-`laid` turns an expression into a few kinds of parts.  A `Setter` says what each of them looks like and decides nothing
-else; pieces, sides and columns are what displayed equations are made of.  What is too wide for a line is a rule of this
-place, too: a fraction of a sum becomes 1/denominator times the sum, which breaks at its terms.
+`laid` turns an expression into a few kinds of parts; a `Setter` renders each of them and decides nothing else.
+Displayed equations are made of pieces, sides and columns. The rules for parts that are too wide for a line are
+here, too: a fraction of a sum becomes 1/denominator times the sum, which breaks at its terms.
 """
 
 from __future__ import annotations
@@ -75,7 +75,7 @@ class Written:
     unit: str
 
     def text(self, gap: str) -> str:
-        """Both as plain text, with `gap` between them unless the unit stands close."""
+        """Return digits and unit as plain text, with `gap` between them if the unit is `spaced`."""
         return self.digits + (gap if self.spaced else "") + self.unit
 
     @property
@@ -107,7 +107,7 @@ class Radical:
 
 @dataclass(frozen=True, slots=True)
 class Fence:
-    """What is one piece for the signs beside it; its marks are "" where it is not misread without them."""
+    """A group that neighbouring signs treat as one piece; its marks are "" where it cannot be misread without them."""
 
     left: Literal["(", "[", "|", ""]
     of: Part
@@ -148,7 +148,7 @@ class Parenthesis:
 
 Part = Symbol | Written | Sign | MathRow | Raised | Quotient | Radical | Fence | Function | Grid | Note | Parenthesis
 Fits = Callable[[Sequence[Part]], bool]
-"""Whether parts have room beside each other in a line."""
+"""Predicate: True if the parts fit beside each other in a line."""
 
 NEGATIVE, PLUS, MINUS = Sign("−", "prefix"), Sign("+", "sum"), Sign("−", "sum")
 DOT, SLASH = Sign("·", "product"), Sign("/", "slash")
@@ -158,10 +158,10 @@ FIRST, EQUALS, LAST, BOUND = Sign("=", "first"), Sign("=", "relation"), Sign("="
 
 
 def laid(node: Expression, language: Language, slashed: bool = False, linear: bool = False) -> Part:
-    """An expression as it is set in a line.
+    """Return the layout of an expression in a line.
 
-    `slashed` fractions keep the line's height.  In `linear` text roots have no bar and functions no letters of their
-    own, so that these have parentheses, too.  Raises `TypesetterError` for a reference that nobody has substituted.
+    `slashed` fractions do not exceed the line's height. In `linear` text, roots have no bar and functions no
+    upright letters, so both need parentheses. Raises `TypesetterError` for a `Ref` that was not substituted.
     """
 
     def of(node: Expression) -> Part:
@@ -245,12 +245,12 @@ def _joined(parts: Iterable[Part], signs: Iterable[Sign]) -> Iterator[Part]:
 
 
 def _noted(part: Part, node: Expression) -> Part:
-    """A part with the reason that a chain has behind its result."""
+    """Return a part with the reason that a chain has behind its result."""
     return MathRow((part, Note(node.note))) if isinstance(node, Chain) and node.note else part
 
 
 def level(node: Expression, linear: bool = False) -> int:
-    """How tightly a node binds; a parent that needs a higher level puts it in parentheses."""
+    """Return the binding strength of a node; a parent that needs a higher level puts it in parentheses."""
     match node:
         case Chain() | VectorEquation():
             return RELATION
@@ -276,7 +276,7 @@ def level(node: Expression, linear: bool = False) -> int:
 
 
 def is_tall(part: Part) -> bool:
-    """Whether a part is higher than a line."""
+    """Return True if a part is higher than a line."""
     match part:
         case Quotient() | Radical() | Grid():
             return True
@@ -297,7 +297,7 @@ def written(number: Number, language: Language) -> Written:
 
 
 def parted(symbol: Symbol) -> tuple[str, str]:
-    """A symbol's letters, and what stands above behind them: their primes and the superscript."""
+    """Return a symbol's letters, and the marks above behind them: primes and the superscript."""
     letters = symbol.base.rstrip(PRIMES)
     return letters, symbol.base[len(letters) :] + symbol.sup
 
@@ -306,7 +306,7 @@ def parted(symbol: Symbol) -> tuple[str, str]:
 
 
 def sides(node: Expression, language: Language, fits: Fits | None = None, slashed: bool = False) -> list[Part]:
-    """What "=" joins, the note with the last; what does not fit its line is opened."""
+    """Return the sides that "=" joins, with the note behind the last; sides that do not fit their line are opened."""
     sides = [laid(part, language, slashed) for part in (node.parts if isinstance(node, Chain) else (node,))]
     if fits is not None:
         head = (sides[0], EQUALS) if len(sides) > 1 else ()
@@ -315,7 +315,8 @@ def sides(node: Expression, language: Language, fits: Fits | None = None, slashe
 
 
 def opened(part: Part, fits: Callable[[Part], bool]) -> Part:
-    """A side of a row whose fractions that do not fit are products, and its sums that do not fit may break inside.
+    """Return a side of a row whose fractions that do not fit are products, and its sums that do not fit may break
+    inside.
 
     (a + b)/c becomes 1/c · (a + b), whose parentheses are marks of one size each.
     """
@@ -336,7 +337,7 @@ def opened(part: Part, fits: Callable[[Part], bool]) -> Part:
 
 
 def _marked(part: Part) -> tuple[Part, ...]:
-    """A sum between marks, so that its terms stand in the row itself."""
+    """Return a sum between marks, so that its terms belong to the row itself."""
     return (
         Parenthesis("(", is_tall(part)),
         *(part.parts if isinstance(part, MathRow) else (part,)),
@@ -354,9 +355,10 @@ def _opened_in_row(part: Part, fits: Callable[[Part], bool]) -> tuple[Part, ...]
 
 
 def displayed(node: Expression, language: Language, fits: Fits | None = None) -> list[list[Part]]:
-    """A displayed row: its sides, each in the pieces between which it may break; what does not fit a line is opened.
+    """Return a displayed row as its sides, each in the pieces between which it may break; a side that is too wide
+    is opened.
 
-    A last "= 0" stands with the side before it, but a lone symbol keeps it: there rows are aligned.
+    A last "= 0" is joined to the side before it, unless that is a lone symbol: such rows are aligned at "=".
     """
     rows = [pieces(part) for part in sides(replace(node, note="") if isinstance(node, Chain) else node, language, fits)]
     if short_end(node) and (len(rows) > 2 or (len(rows) == 2 and len(rows[0]) > 1)):
@@ -367,7 +369,9 @@ def displayed(node: Expression, language: Language, fits: Fits | None = None) ->
 
 
 def pieces(part: Part) -> list[Part]:
-    """What a displayed line may break between: terms of a sum, factors of a product; within marks terms alone."""
+    """Return the parts between which a displayed line may break: terms of a sum, factors of a product; within
+    marks only terms.
+    """
     match part:
         case MathRow((Sign() as sign, Fence("", MathRow(parts)))):
             every: tuple[Part, ...] = (sign, *parts)
@@ -387,7 +391,7 @@ def pieces(part: Part) -> list[Part]:
 
 
 def short_end(row: Expression) -> bool:
-    """Whether a row ends in "= 0", which must not stand on a line of its own."""
+    """Return True if a row ends in "= 0", which must not be alone on a line."""
     return isinstance(row, Chain) and isinstance(row.parts[-1], Number) and row.parts[-1].shown == 0
 
 
@@ -396,7 +400,7 @@ def short_end(row: Expression) -> bool:
 
 @dataclass(frozen=True, slots=True)
 class TermColumn:
-    """Of a vector equation: the signs before a term, the term itself, what is known of it in the equation's rows."""
+    """A column of a vector equation: the signs before a term, the term, and its entries in the equation's rows."""
 
     signs: tuple[Sign, ...]
     term: Part
@@ -404,7 +408,7 @@ class TermColumn:
 
 
 def terms(equation: VectorEquation) -> Iterator[tuple[tuple[Sign, ...], Term]]:
-    """Each term with the signs before it: "=" at the head of a later side, then its own."""
+    """Yield each term with the signs before it: "=" at the head of a later side, then its own."""
     for side, members in enumerate(equation.sides):
         for index, term in enumerate(members):
             if index:
@@ -414,9 +418,9 @@ def terms(equation: VectorEquation) -> Iterator[tuple[tuple[Sign, ...], Term]]:
 
 
 def columns(equation: VectorEquation) -> list[TermColumn]:
-    """The columns of a vector equation.
+    """Return the columns of a vector equation.
 
-    A last "= 0", of which nothing is known, stands with the term before it: no row is broken between them.
+    A last "= 0" without entries is joined to the term before it, so that no row breaks between them.
     """
     columns: list[TermColumn] = []
     for signs, term in terms(equation):
@@ -430,6 +434,6 @@ def columns(equation: VectorEquation) -> list[TermColumn]:
 
 
 def known_of(term: Term, equation: VectorEquation) -> tuple[Expression | str | None, ...]:
-    """What is known of a term, an entry for each of the equation's rows."""
+    """Return the entries of a term, one for each of the equation's rows."""
     rows = len(equation.rows)
     return (*term.known, *("",) * (rows - len(term.known)))[:rows]

@@ -1,13 +1,13 @@
-"""A sheet of formulas: named quantities, each entered once, with its definition, and worked out as it is entered.
+"""A sheet of formulas: named quantities with their definitions, each entered once and evaluated when it is entered.
 
-A machine opens the sheet with its given data; the ledger writes on it position by position.  `define` and
-`give` hand back the quantity as an expression, so that the next formula is written with it:
+A machine opens the sheet with its given data; the ledger adds entries position by position. `define` and `give`
+return the quantity as an expression, so that the next formula can be written with it:
 
     R = q.define("R", H / 2)
     L = q.define("L", R / λ)
     q.set_out("synthesis", R, L)
 
-The last line says which worked lines the report sets out together, and what its words call them.
+The last line groups worked lines that the report prints together, under the name that templates use.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from reportgen.formula.evaluation import evaluate
 from reportgen.formula.vocabulary import KINDS, MAX_DIGITS, Chapter, QuantityKind
 
 ZERO = 1e-9
-"""A value below this share of its own scale is nothing: it prints as 0."""
+"""A value below this share of its own scale is negligible and prints as 0."""
 
 DUST = 1e-12
 """Shares of a value below this are of floats."""
@@ -55,7 +55,7 @@ CONSTRUCTIONS = frozenset(
         "heading",
     }
 )
-"""Functions that stand for drawing and measuring: a definition with one of them is not printed as a formula."""
+"""Functions that represent drawing and measuring: a definition with one of them is not printed as a formula."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,38 +97,38 @@ class Family:
 
     @property
     def how(self) -> QuantityKind:
-        """How it is printed: its unit and its figures."""
+        """The unit and the number of figures with which it is printed."""
         return KINDS[self.kind]
 
     @property
     def is_plane(self) -> bool:
-        """Whether its values are points or vectors of the plane, which are drawn and not printed."""
+        """True if its values are points or vectors of the plane, which are drawn and not printed."""
         return bool(np.iscomplexobj(self.values))
 
     @property
     def is_direction(self) -> bool:
-        """Whether it is the angle of a vector from +x."""
+        """True if it is the angle of a vector from +x."""
         return vocabulary.row(self.id).around
 
     @property
     def is_of_vector(self) -> bool:
-        """Whether it is an angle of the vector of size `of`, which has none where that is nothing."""
+        """True if it is an angle of the vector of size `of`; a vector of length 0 has none."""
         return bool(self.of) and self.how.unit == "°"
 
     @property
     def is_signed_rotation(self) -> bool:
-        """Whether it is an angular velocity or acceleration with its sign, whose size is another quantity."""
+        """True if it is a signed angular velocity or acceleration whose size is another quantity."""
         return bool(self.of) and self.kind in ("angular velocity", "angular acceleration")
 
     @property
     def constructed(self) -> bool:
-        """Whether a drawing gives it: it is measured, not computed by a printed formula."""
+        """True if it is measured on a drawing, not computed by a printed formula."""
         return self.line is not None and any(
             isinstance(part, Call) and part.name in CONSTRUCTIONS for part in walk(self.line)
         )
 
     def at(self, position: int | None) -> Any:
-        """Its SI value at a position counted from 1; nothing is exactly 0."""
+        """Return its SI value at a position counted from 1; nothing is exactly 0."""
         value = self.values[0 if len(self.values) == 1 or position is None else position - 1]
         return value * 0 if abs(value) < ZERO * self.scale else value
 
@@ -144,19 +144,19 @@ class Sheet:
         self.lines: dict[str, tuple[str, ...]] = {}
         """The ids of what the report sets out together, by the name that its words have for it."""
         self.chapter = Chapter.geometry
-        """Where a quantity belongs that the vocabulary gives no chapter."""
+        """Chapter of quantities for which the vocabulary gives none."""
         self._values: dict[str, np.ndarray] = {}
         self._inputs: dict[str, tuple[str, ...]] = {}
 
     def copy(self, positions: int = 0) -> Sheet:
-        """What is entered so far, to be continued, over another number of positions if one is given."""
+        """Return a copy with the entries so far, for more entries; `positions` changes the number of positions."""
         copy = Sheet(positions or self.positions)
         copy.families, copy._values, copy.lines = dict(self.families), dict(self._values), dict(self.lines)
         copy.chapter, copy.typed = self.chapter, dict(self.typed)
         return copy
 
     def extend(self, sheet: Sheet) -> None:
-        """Enter what stands on another sheet; raises `ValueError` for a quantity that is on both."""
+        """Enter all quantities of another sheet; raises `ValueError` for a quantity that is on both."""
         for family in sheet.families.values():
             self.enter(family)
         for name, ids in sheet.lines.items():
@@ -171,12 +171,14 @@ class Sheet:
         self.lines[name] = (*self.lines.get(name, ()), *ids)
 
     def worked(self, *quantities: Ref) -> tuple[Ref, ...]:
-        """Those of the quantities that have a formula, rather than being given."""
+        """Return the quantities that have a formula, leaving out given data."""
         return tuple(quantity for quantity in quantities if self.families[quantity.id].definition is not None)
 
     @contextmanager
     def within(self, chapter: Chapter) -> Iterator[None]:
-        """What is entered meanwhile belongs to a chapter: to `formulas` in any case, else where no row says more."""
+        """Assign entries made in this context to a chapter: always if it is `formulas`, else if the vocabulary
+        gives none.
+        """
         before, self.chapter = self.chapter, chapter
         yield
         self.chapter = before
@@ -185,26 +187,26 @@ class Sheet:
         return id in self.families
 
     def __getitem__(self, id: str) -> Ref:
-        """A quantity that is entered, as an expression; raises `KeyError` for any other."""
+        """Return a quantity that is entered, as an expression; raises `KeyError` for any other."""
         return Ref(self.families[id].id)
 
     def find(self, id: str) -> Ref | None:
-        """A quantity as an expression, None if it is not entered."""
+        """Return a quantity as an expression, None if it is not entered."""
         return Ref(id) if id in self.families else None
 
     def inputs(self, id: str) -> tuple[str, ...]:
-        """The ids that the definition of a quantity names."""
+        """Return the ids that the definition of a quantity names."""
         if id not in self._inputs:
             definition = self.families[id].definition
             self._inputs[id] = () if definition is None else refs(definition)
         return self._inputs[id]
 
     def value(self, quantity: str | Ref) -> np.ndarray:
-        """The SI values of a quantity, one or one per position."""
+        """Return the SI values of a quantity, one or one per position."""
         return self._values[quantity if isinstance(quantity, str) else quantity.id]
 
     def si(self, quantity: str | Ref) -> float:
-        """The SI value of a quantity that has one for all positions."""
+        """Return the SI value of a quantity that has one for all positions."""
         return float(self.value(quantity)[0])
 
     def give(
@@ -229,7 +231,7 @@ class Sheet:
         return self.give(id, turned, symbol, "angle", exact=whole, scale=1.0)
 
     def construct(self, id: str, definition: Operand, of: str = "") -> Ref:
-        """Enter a point or vector of a drawing, which has no printed symbol of its own."""
+        """Enter a point or vector of a drawing, which has no printed symbol."""
         return self.define(id, definition, Symbol(id), "ratio", hidden=True, of=of)
 
     def _enter(
@@ -242,7 +244,7 @@ class Sheet:
         return self.enter(Family(id, symbol, kind or row.kind, values, definition, chapter=chapter, **traits))
 
     def enter(self, family: Family) -> Ref:
-        """Enter a quantity as it stands; raises `ValueError` for one that is defined twice or has too few values."""
+        """Enter a quantity unchanged; raises `ValueError` for one that is defined twice or has too few values."""
         id, count = family.id, len(family.values)
         if id in self.families:
             raise ValueError(f"quantity {id} is defined twice")
@@ -254,13 +256,13 @@ class Sheet:
 
 
 def is_typed(values: np.ndarray | float) -> bool:
-    """Whether values end, as typed ones do; 360°/7 does not."""
+    """Return True if the values have finitely many decimals, as typed ones do; 360°/7 does not."""
     sizes = np.abs(np.atleast_1d(values))
     return all(abs(float(f"{size:.{TYPED}g}") - size) <= DUST * sizes.max() for size in sizes)
 
 
 def is_short(values: np.ndarray | float) -> bool:
-    """Whether values have few digits, as typed ones have, and can be printed as they are (0.171 m)."""
+    """Return True if values have few digits, as typed ones do, and can be printed exactly (0.171 m)."""
     return bool(np.all(np.abs(shortened(values) - values) <= COMPUTED * np.abs(values)))
 
 

@@ -1,7 +1,8 @@
-"""A formula as it is heard: its laid parts in words of the report's language, so that it can be drawn from hearing it.
+"""Spoken text of formulas, for screen readers: the laid-out parts in words of the report's language.
 
-What stands beside each other in print follows in speech; where a fraction, a root or a parenthesis ends is said, unless
-what it holds is one symbol or number.  The words are the section `speech` of a language's words.
+Parts that are printed side by side follow each other in speech. The end of a fraction, a root or a parenthesis is
+spoken unless its content is one symbol or number, so that a listener can write the formula down. The words are the
+section `speech` of a language's words.
 """
 
 from __future__ import annotations
@@ -38,7 +39,7 @@ from reportgen.formula.setting import (
 from reportgen.formula.vocabulary import raised
 
 PLAINLY, CAPITALS, INDICES = range(3)
-"""How much is said of a symbol: its letters, which of them are capitals, and which of them stand below."""
+"""Level of detail of a spoken symbol: its letters, also which of them are capitals, also which of them are lowered."""
 KEPT_UNITS = 256
 SHORTEST_WORD = 3
 """Small letters of an index that are a word (max); fewer are said one by one (cb)."""
@@ -48,7 +49,7 @@ _RUN = re.compile(r"\d+|[^\W\d_]+|.")
 _PLAIN_INDEX = re.compile(r"[\w,′″]*")
 """An index without signs."""
 _IN_TEXT = re.compile(r"[A-Z][A-Z₀-₉]+|[Α-Ωα-ω][₀-₉]*|(?<=\w)[₀-₉]+|[^\w\s.,:;()°%-]")
-"""What is said otherwise in a text: names of several points, Greek letters, lowered digits, signs."""
+"""Pieces of a text that are spoken differently: names of several points, Greek letters, lowered digits, signs."""
 
 
 class Speech(Setter[str]):
@@ -100,7 +101,7 @@ class Speech(Setter[str]):
                 return str(words["marks"][mark])
 
     def text(self, text: str) -> str:
-        """A text with its signs in words."""
+        """Return a text with its signs in words."""
         return " ".join(_IN_TEXT.sub(self._in_text, text).split())
 
     def _in_text(self, match: re.Match[str]) -> str:
@@ -114,7 +115,7 @@ class Speech(Setter[str]):
         return f"{said} {unit}" if said and unit else said or unit
 
     def _unit(self, unit: str, digits: str) -> str:
-        """A unit in words, of its forms the one that goes with a count."""
+        """Return a unit in words, of its forms the one that goes with a count."""
         forms = self.words["units"].get(unit, unit).split(" | ")
         fitting = (form for count, form in zip(self._counts, forms, strict=False) if count.fullmatch(digits))
         return str(next(fitting, forms[-1]))
@@ -155,7 +156,9 @@ class Speech(Setter[str]):
         return said
 
     def _symbol(self, node: Symbol, detail: int) -> str:
-        """The letters, those below, primes, what else stands above; what is over all of it comes first."""
+        """Return the letters, the index, primes and marks above in words; an accent over the whole symbol comes
+        first.
+        """
         words = self.words
         letters, above = parted(node)
         said = self.letters(letters, detail)
@@ -192,7 +195,7 @@ class Speech(Setter[str]):
         return _filled(words["capital"], letter=said) if detail >= CAPITALS and letter.isupper() else said
 
     def _apart(self, symbols: Iterable[Symbol]) -> Mapping[Symbol, int]:
-        """How much is said of each symbol, so that none sounds like another one."""
+        """Return the level of detail for each symbol, so that no two of them sound alike."""
         details = dict.fromkeys(symbols, PLAINLY)
         for more in (CAPITALS, INDICES):
             alike: defaultdict[str, list[Symbol]] = defaultdict(list)
@@ -206,7 +209,7 @@ class Speech(Setter[str]):
     # --- whole formulas ---------------------------------------------------------------------------
 
     def row(self, sides: Sequence[Sequence[Part]]) -> str:
-        """A displayed row: its sides, each in pieces."""
+        """Return a displayed row: its sides, each in pieces."""
         return f" {self.words['signs']['=']} ".join(" ".join(map(self.part, side)) for side in sides)
 
     def equation(self, rows: Iterable[str], number: str) -> str:
@@ -215,7 +218,7 @@ class Speech(Setter[str]):
         return _filled(self.words["numbered"], number=number, formula=said) if number else said
 
     def vector_equation(self, equation: VectorEquation) -> str:
-        """The line first, then what is known of each term."""
+        """Return the line first, then what is known of each term."""
         said = [self.math(equation)]
         for _, term in terms(equation):
             entries = zip(equation.rows, known_of(term, equation), strict=True)
@@ -228,7 +231,7 @@ class Speech(Setter[str]):
 
 
 def sound(said: str) -> str:
-    """What is heard of words: neither capitals nor blanks nor pauses."""
+    """Return the sound of words: without capitals, blanks and pauses."""
     return re.sub(r"[\s,-]", "", said).casefold()
 
 
@@ -244,7 +247,9 @@ def _filled(pattern: str, **parts: str) -> str:
 
 
 def _is_single(part: Part, bare: bool = False) -> bool:
-    """Whether a part is one symbol, or one number without sign and unit; a `bare` symbol has nothing above."""
+    """Return True if a part is one symbol, or one number without sign and unit; a `bare` symbol has nothing above
+    it.
+    """
     match part:
         case MathRow((inner,)) | Fence("", inner):
             return _is_single(inner, bare)

@@ -1,7 +1,7 @@
-"""What an id says: for each family of ids its letter, its kind, its chapter, its plan and how values compare.
+"""Vocabulary of quantities: for each family of ids its letter, kind, chapter, plan and comparison of values.
 
-A row for each family of `ids`, which reads the id.  A quantity asks here for its symbol, a key for its chapter,
-marking for the scale of a length on paper and for the distance of two values, the words for what they call it.
+Each family of `ids` has a row. It provides the symbol of a quantity, its chapter, the scale of a length on paper
+and the distance of two values (for marking), and the name under which `words.yaml` has its phrase.
 
 A *kind* fixes the printed unit, what one such unit is in SI, and with how many figures or decimals it is printed.
 """
@@ -26,10 +26,10 @@ from reportgen.formula.ids import Name
 
 @dataclass(frozen=True, slots=True)
 class QuantityKind:
-    """How a kind of quantity is printed: SI value = printed value × `scale`.
+    """Printing rules of a kind of quantity: SI value = printed value × `scale`.
 
-    `digits` are the significant figures of the largest value of what is computed; `decimals`, if given, is what the
-    kind is usually given with instead (0.01 mm for a length on paper).
+    `digits` are the significant figures of the largest computed value. `decimals`, if given, is the usual precision
+    of the kind instead (0.01 mm for a length on paper).
     """
 
     unit: str
@@ -92,33 +92,33 @@ KINDS = _Kinds(
 )
 
 OWN_IDS = "_ids"
-"""What a module's name ends with that has the ids of a kind of work."""
+"""Suffix of the names of modules that contain the ids of a kind of work."""
 MAX_DIGITS = max(kind.digits for kind in KINDS.values())
 """Significant figures of the largest value of what is computed, at most."""
 
 
 def point(name: str) -> Symbol:
-    """The symbol of a point called e.g. "A", "S2", "O1": letter and lowered number."""
+    """Return the symbol of a point called e.g. "A", "S2", "O1": letter and lowered number."""
     letters = name.rstrip("0123456789")
     return Symbol(letters, sub=name[len(letters) :])
 
 
 def on_plan(name: str, prime: bool = False) -> Symbol:
-    """The image of a point on a velocity plan (b, s2) or, primed, on an acceleration plan (b′, s2′)."""
+    """Return the image of a point on a velocity plan (b, s2) or, primed, on an acceleration plan (b′, s2′)."""
     symbol = point(name)
     return Symbol(symbol.base.lower(), symbol.sub, "′" if prime else "")
 
 
 def vector(symbol: Symbol) -> Symbol:
-    """The same symbol as a vector."""
+    """Return the same symbol as a vector."""
     return Symbol(symbol.base, symbol.sub, symbol.sup, "vector")
 
 
 def in_language(symbol: Symbol, names: Mapping[str, str]) -> Symbol:
-    """The symbol as a language has it: with cb → bal, M_cb is M_bal; h_Pqt5 has the qt of P_qt5.
+    """Return the symbol in a language: with cb → bal, M_cb is M_bal; h_Pqt5 has the qt of P_qt5.
 
-    A name with a letter before the index is that of the whole symbol, with # for each digit: Pqt → F_и makes P_qt5
-    F_и5, and R## → F_R makes R_12 F_R12.  One behind ^ is of what stands above alone.
+    A name with a letter before the index replaces the whole symbol, with # for each digit: Pqt → F_и makes P_qt5
+    F_и5, and R## → F_R makes R_12 F_R12. A name behind ^ replaces a superscript only.
     """
     (above, behind), (word, digits, rest) = _ABOVE.findall(symbol.sup)[0], _INDEX.findall(symbol.sub)[0]
     sup = names.get(f"^{above}", names.get(above, above)) + behind
@@ -131,7 +131,7 @@ def in_language(symbol: Symbol, names: Mapping[str, str]) -> Symbol:
 
 
 def _index(index: str, names: Mapping[str, str]) -> str:
-    """What stands below a letter, in a language: words, and names of other quantities."""
+    """Return the index of a symbol in a language: words, and names of other quantities."""
 
     def said(match: re.Match[str]) -> str:
         letter, word, digits = match.groups()
@@ -164,12 +164,12 @@ _NUMBERED = re.compile(r"([A-Z])([a-z]*\d+)")
 
 
 def runs(text: str) -> list[tuple[str, str]]:
-    """Letters with the digits that stand below them: O₁A is O with 1, then A."""
+    """Return runs of letters with their lowered digits: O₁A is O with 1, then A."""
     return [(letters, digits.translate(_RAISED)) for letters, digits in _RUN.findall(text) if letters or digits]
 
 
 def numbered(index: str) -> list[tuple[str, str]]:
-    """An index in names with their numbers and what stands between: O1A is O with 1, then A; h_Pqt5 has P with qt5."""
+    """Split an index into names with numbers and the text between: O1A is O with 1, then A; h_Pqt5 has P with qt5."""
     between, *named = _NUMBERED.split(index)
     pieces = [(between, "")]
     for letter, number, after in zip(named[::3], named[1::3], named[2::3], strict=True):
@@ -178,14 +178,14 @@ def numbered(index: str) -> list[tuple[str, str]]:
 
 
 def segment(first: Symbol | str, second: Symbol | str) -> Symbol:
-    """A length between two points of a drawing: a bar over both letters, e.g. over p b or O₁A."""
+    """Return a length between two points of a drawing: a bar over both letters, e.g. over p b or O₁A."""
     start = first if isinstance(first, Symbol) else Symbol(first)
     two = second if isinstance(second, Symbol) else Symbol(second)
     return Symbol(start.base + lowered(start.sub) + start.sup + two.base, two.sub, two.sup, "segment")
 
 
 def drawn_length(first: str, second: str) -> Symbol:
-    """The symbol of a length between two points on a drawing, e.g. AS₂ under a bar."""
+    """Return the symbol of a length between two points on a drawing, e.g. AS₂ under a bar."""
     return segment(point(first), point(second))
 
 
@@ -208,10 +208,10 @@ class Chapter(StrEnum):
 class VocabularyRow:
     """A family of ids, or a single one.
 
-    Under the `letter` stands the text `below`, else the word in the last place, over that the text `above`, else the
-    `part`.  `plan` is the id of the scale that lengths on paper are measured with.  What is in braces is a word that
-    stands in that place of the id.  Values that go `around` the circle are directions.  `name` is what `words.yaml`
-    calls the family.
+    The index below the `letter` is the text `below`, else the word in the last place. Above it is the text `above`,
+    else the `part`. `plan` is the id of the scale that lengths on paper are measured with. A word in braces is
+    replaced by that place of the id. Values that go `around` the circle are directions. `name` is the family's name
+    in `words.yaml`.
     """
 
     ids: Name
@@ -225,7 +225,7 @@ class VocabularyRow:
     name: str = ""
 
     def index(self, words: Mapping[str, str]) -> str:
-        """What is printed below the letter."""
+        """Return the text printed below the letter."""
         named = [word for place, word in words.items() if place not in _NOT_BELOW]
         return self.below.format(**words) if self.below else next(reversed(named), "")
 
@@ -374,14 +374,14 @@ _NO_ROW = VocabularyRow(Name(""))
 
 @cache
 def heads() -> Mapping[str, str]:
-    """The modules of ids that kinds of work bring, dotted, by the word that those ids begin with."""
+    """Return the modules of ids that kinds of work bring, dotted, by the word that those ids begin with."""
     modules = sorted(PACKAGE.glob(f"*/*{OWN_IDS}.py"))
     return {path.stem.removesuffix(OWN_IDS): f"{PACKAGE.name}.{path.parent.name}.{path.stem}" for path in modules}
 
 
 @cache
 def rows_of(head: str) -> tuple[VocabularyRow, ...]:
-    """The rows of the ids that begin with a word, the common ones if no kind of work has it for itself."""
+    """Return the rows of the ids that begin with a word, the common ones if no kind of work has it for itself."""
     if head not in heads():
         return ROWS
     module = import_module(heads()[head])
@@ -399,12 +399,12 @@ def _found(id: str) -> tuple[VocabularyRow, dict[str, str]]:
 
 
 def row(id: str) -> VocabularyRow:
-    """The row of an id; an empty one for a quantity that a machine has for itself."""
+    """Return the row of an id; an empty one for a quantity that a machine has for itself."""
     return _found(id)[0]
 
 
 def symbol(id: str) -> Symbol:
-    """The symbol of a quantity: the letter of its row, below it what the id names.
+    """Return the symbol of a quantity: the letter of its row, below it what the id names.
 
     Raises `KeyError` for an id that no row gives a letter.
     """
@@ -419,7 +419,7 @@ _OF_POINTS = frozenset({"velocity", "acceleration", "coordinate"})
 
 
 def vector_of(id: str) -> str:
-    """The id of the vector whose length, direction, arm or moment a quantity is; "" for any other quantity.
+    """Return the id of the vector whose length, direction, arm or moment a quantity is; "" for any other quantity.
 
     seg.v.pb → v.B, seg.v.ab → v.BA, seg.a.n.BA → a.BA.n, dir.R12.n → R.12.n, h.Pqt2.B → Pqt2.
     """
@@ -437,7 +437,7 @@ def vector_of(id: str) -> str:
 
 
 def wording(id: str, shown: Symbol) -> tuple[str, dict[str, str]]:
-    """The key of an id's phrase under `quantities` in `words.yaml`, and the words that are put into it.
+    """Return the key of an id's phrase under `quantities` in `words.yaml`, and the words that are put into it.
 
     `shown` is the quantity's symbol, whose points may say more than the id's (B₃B₂ for B3B).
     """
@@ -466,10 +466,11 @@ def wording(id: str, shown: Symbol) -> tuple[str, dict[str, str]]:
 
 
 def words_of(table: Mapping[str, str], id: str, kind: str, shown: Symbol) -> Iterator[str]:
-    """What a table of `words.yaml` says of a quantity, the nearest first: of its id, its family, its kind.
+    """Yield the texts that a table of `words.yaml` has for a quantity, nearest first: for its id, its family, its
+    kind.
 
-    A key of the table names one or several of them, with commas between; with a kind behind it, as in `balance:force`,
-    it means only quantities of that kind, and all of them by `:force`.  Where two keys name the same, the first counts.
+    A key names one or several quantities, separated by commas. A kind behind a colon limits it to quantities of
+    that kind (`balance:force`); `:force` alone matches all of them. If two keys name the same, the first counts.
     """
     said: dict[str, str] = {}
     for key, text in table.items():
@@ -483,17 +484,17 @@ def words_of(table: Mapping[str, str], id: str, kind: str, shown: Symbol) -> Ite
 
 @lru_cache(maxsize=4096)
 def plan(id: str) -> str:
-    """The id of the scale that a length on paper is measured with; "" for anything else."""
+    """Return the id of the scale that a length on paper is measured with; "" for anything else."""
     family, parts = _found(id)
     return family.plan.format(**parts)
 
 
 def is_laid(id: str) -> bool:
-    """Whether it is a length or vector as it is laid off on paper."""
+    """Return True if it is a length or vector laid off on paper."""
     return any(id in family for family in (ids.laid_line, ids.laid, ids.laid_force))
 
 
 def distance(id: str, value: Value, reference: Value) -> Value:
-    """How far two values (SI) of a quantity lie apart: of directions, around the circle."""
+    """Return the distance of two values (SI) of a quantity; directions are compared around the circle."""
     apart = np.abs(value - reference)
     return np.abs(np.mod(value - reference + np.pi, 2 * np.pi) - np.pi) if row(id).around else apart

@@ -62,7 +62,9 @@ class BearingEquations:
         return solved
 
     def _bearing(self, at: NDArray[np.int64], signs: Floats, start: float) -> Floats:
-        """The forces at the positions `at` if the guides bear by `signs` [T, n]; nan where the equations deny it."""
+        """Return the forces at the positions `at` if the guides bear by `signs` [T, n]; nan where the equations deny
+        it.
+        """
         base, slope = self.base[:, at], self.slope[:, :, at]
         belongs = (self.joint == np.arange(slope.shape[1])[:, None]).astype(np.float64)
         guides = self.guides[:, None]
@@ -88,6 +90,6 @@ class BearingEquations:
 
 
 def _patterns(guides: int) -> Iterator[tuple[int, ...]]:
-    """The guides that bear on the other side than without friction, none first."""
+    """Return the guides that bear on the other side than without friction, none first."""
     every = chain.from_iterable(combinations(range(guides), count) for count in range(guides + 1))
     return islice(every, MOST_PATTERNS)

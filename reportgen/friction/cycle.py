@@ -23,7 +23,7 @@ FARTHEST = np.radians(80.0)
 
 
 def turning_back(machine: Machine, joint: Joint) -> Iterator[float]:
-    """The cycle angles (rad) at which the links of a joint turn back, or slide back, against each other."""
+    """Yield the cycle angles (rad) at which the links of a joint turn back, or slide back, against each other."""
 
     def rate(angle: Floats) -> Floats:
         motion = motion_at(machine, angle)
@@ -35,7 +35,8 @@ def turning_back(machine: Machine, joint: Joint) -> Iterator[float]:
 
 
 def mean_torque(machine: Machine) -> float:
-    """The mean of the balancing torque with friction (N·m) over the cycle; nan where the mechanism locks anywhere.
+    """Return the mean of the balancing torque with friction (N·m) over the cycle; nan where the mechanism locks
+    anywhere.
 
     Raises `ValueError` for a machine in which nothing rubs.
     """
@@ -73,7 +74,7 @@ class DeadZone:
 
 
 def dead_zones(machine: Machine, friction: Friction, stroke: Stroke) -> tuple[DeadZone, ...]:
-    """The dead zones of a slider that drives its crank with a constant force, all else without mass or load.
+    """Return the dead zones of a slider that drives its crank with a constant force, all else without mass or load.
 
     Within them friction takes all that the slider gives: the torque to be put on the crank is no longer against its
     motion.  nan where the slider moves the crank nowhere.

@@ -87,7 +87,7 @@ class FrictionCase(DesignCase):
         """Whether it holds by friction alone; None of what can only slip."""
 
     def at(self, name: str) -> float:
-        """A result (SI) by the end of its id; 0 of one that the task has not."""
+        """Return a result (SI) by the end of its id; 0 of one that the task has not."""
         id = f"friction.{self.TASK.name}.{name}"
         return float(self.ledger[id].at(1)) if id in self.ledger else 0.0
 
@@ -109,7 +109,7 @@ class FrictionCase(DesignCase):
         return Misconceptions(changed=exercise_mistakes.changed(self.TASK.name, self.sheet))
 
     def plates(self, sets: Collection[str] = (), every: bool = False) -> Mapping[str, Sequence[DrawingPlate]]:
-        """Its scheme and its force plans; there are no sets of them to choose from."""
+        """Return its scheme and its force plans; there are no sets of them to choose from."""
         return {"friction": [*self._plates()]}
 
     def _plates(self) -> Iterator[DrawingPlate]:

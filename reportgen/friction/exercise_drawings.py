@@ -28,7 +28,9 @@ ARC = 13.0
 def force(
     at: complex, angle: float, *name: Content, reaction: bool = False, pushes: bool = False, length: float = FORCE
 ) -> Canvas:
-    """A force along an angle (rad) from a place (mm), or up to it where it `pushes`; its name at the free end."""
+    """Return a force along an angle (rad) from a place (mm), or up to it where it `pushes`; its name at the free
+    end.
+    """
     along = length * polar(angle)
     start, tip = (at - along, at) if pushes else (at, at + along)
     arrow = Arrow(start, tip, style.REACTION if reaction else style.ACTIVE, style.HEAD)
@@ -37,7 +39,7 @@ def force(
 
 
 def angle_mark(at: complex, start: float, stop: float, name: Content, radius: float = ARC) -> Canvas:
-    """The arc of an angle about a place (mm), its name outside."""
+    """Return the arc of an angle about a place (mm), its name outside."""
     middle = at + radius * polar((start + stop) / 2)
     arc = Arc(at, radius, start, stop, style.DIMENSION)
     return Canvas((arc,), (label(middle, name, prefer=((start + stop) / 2,), gap=0.8),), (angle(name, stop - start),))
@@ -80,7 +82,7 @@ def incline_scheme(case: DesignCase) -> Scene:
 
 
 def incline_plans(case: DesignCase, size: FigureSize = IN_REPORT) -> tuple[Scene, ...]:
-    """The triangles of Q, P and the full reaction R of the plane: raised, then let down."""
+    """Return the triangles of Q, P and the full reaction R of the plane: raised, then let down."""
     ledger = case.printed
     α = ledger["friction.incline.alpha"].at(1)
     β = ledger["friction.incline.beta"].at(1) if "friction.incline.beta" in ledger else 0.0
@@ -103,7 +105,7 @@ Side = tuple[str, complex, Symbol, VectorStyle]
 def closed(
     case: DesignCase, task: str, sides: Sequence[Side], closing: tuple[str, Symbol], end: str, size: FigureSize
 ) -> Scene:
-    """A force plan from the pole O, one side (N) after another, closed by the last."""
+    """Return a force plan from the pole O, one side (N) after another, closed by the last."""
     μ, per = scale_of(case, task, size)
     vectors, at = [], 0j
     for name, side, symbol, pen in sides:
@@ -114,14 +116,14 @@ def closed(
 
 
 def scale_of(case: DesignCase, task: str, size: FigureSize) -> tuple[tuple[Symbol, float, str], float]:
-    """The scale of the forces of a task as a note says it, and how many mm of the figure stand for 1 N."""
+    """Return the scale of the forces of a task as a note says it, and how many mm of the figure stand for 1 N."""
     number = case.printed.number(f"friction.{task}.mu")
     symbol = case.printed.symbol(f"friction.{task}.mu")
     return (symbol, number.value, number.unit), size.per_unit(number.value)
 
 
 def drawn_plan(case: DesignCase, task: str, vectors: Iterable[PlanVector[complex]], end: str, note: Content) -> Scene:
-    """A plan with its title: of raising, or of letting down."""
+    """Return a plan with its title: of raising, or of letting down."""
     drawing = Plan(tuple(vectors), (PlanPoint(Symbol("O"), 0j),), scale=note)
     titles = case.words["friction"]["figures"][task]
     return plan(drawing, title=titles["lowering" if end else "raising"], margin=4.0)
@@ -167,7 +169,9 @@ def wedge_scheme(case: DesignCase) -> Scene:
 
 
 def wedge_plans(case: DesignCase, size: FigureSize = IN_REPORT) -> tuple[Scene, ...]:
-    """The triangles of the load (Q, R₃, R₁) and of the wedge (R₁, R₂, P) on their common side: driven, let back."""
+    """Return the triangles of the load (Q, R₃, R₁) and of the wedge (R₁, R₂, P) on their common side: driven, let
+    back.
+    """
     ledger = case.printed
     μ, per = scale_of(case, "wedge", size)
     Q, α = (ledger[f"friction.wedge.{name}"].at(1) for name in ("Q", "alpha"))
@@ -201,7 +205,7 @@ UNROLLED, STEEP = 96.0, 60.0
 
 
 def screw_scheme(case: DesignCase) -> Scene:
-    """The thread unrolled, true to scale: its lead over the circumference, the load, the reaction at φ′."""
+    """Return the thread unrolled, true to scale: its lead over the circumference, the load, the reaction at φ′."""
     ledger = case.printed
     γ, φ = (ledger[f"friction.screw.{name}"].at(1) for name in ("gamma", "phi"))
     around = min(UNROLLED, STEEP / math.tan(γ))

@@ -10,7 +10,7 @@ from reportgen.formula.sheet import Sheet
 
 
 def changed(task: str, q: Sheet) -> dict[str, list[tuple[str, Expression]]]:
-    """The mistakes of a task by the ids of its quantities, of those that the sheet has."""
+    """Return the mistakes of a task by the ids of its quantities, of those that the sheet has."""
     mistakes: dict[str, list[tuple[str, Expression]]] = {}
     for id, name, formula in TASKS[task](q):
         if id in q:
@@ -19,7 +19,7 @@ def changed(task: str, q: Sheet) -> dict[str, list[tuple[str, Expression]]]:
 
 
 def against(q: Sheet, id: str, *angles: str) -> Expression:
-    """The formula of a quantity with angles of friction turned the other way."""
+    """Return the formula of a quantity with angles of friction turned the other way."""
     definition = q.families[id].definition
     assert definition is not None
     return substitute(definition, lambda ref: -ref if ref.id in angles else ref)

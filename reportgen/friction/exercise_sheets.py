@@ -19,7 +19,7 @@ STRAIGHT = Number(180.0, unit="°")
 
 
 def force_scale(*forces: float) -> float:
-    """A round scale (N per m of paper) at which the largest of some forces (N) fits."""
+    """Return a round scale (N per m of paper) at which the largest of some forces (N) fits."""
     return nice_up(max(map(abs, forces)) / TALL) * MM
 
 
@@ -137,7 +137,7 @@ def screw_sheet(given: Screw) -> Sheet:
 
 
 def wrap(q: Sheet, task: str, d: Ref, θ: Ref, f: Ref) -> tuple[Ref, Ref]:
-    """The radius of a drum, and by how much the friction on it multiplies a tension: e^{fθ}, θ in radians."""
+    """Return the radius of a drum, and by how much the friction on it multiplies a tension: e^{fθ}, θ in radians."""
     with q.within(Chapter.geometry):
         r = q.define(f"friction.{task}.r", d / 2)
         radians = q.define(f"friction.{task}.radians", θ * PI / STRAIGHT)
@@ -174,7 +174,7 @@ def belt_sheet(given: BeltOnDrum) -> Sheet:
 
 
 def tensions(q: Sheet, task: str, M: Ref, r: Ref, k: Ref) -> tuple[Ref, Ref]:
-    """Both tensions of a band that transmits a torque."""
+    """Return both tensions of a band that transmits a torque."""
     F = q.define(f"friction.{task}.F", M / r)
     S2 = q.define(f"friction.{task}.S2", F / (k - 1))
     S1 = q.define(f"friction.{task}.S1", S2 + F)

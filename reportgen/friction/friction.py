@@ -27,14 +27,14 @@ STEEPEST = math.radians(89)
 
 
 def case(assignment: Assignment) -> FrictionCase:
-    """The case of an assignment."""
+    """Return the case of an assignment."""
     from reportgen.friction.exercise_case import CASES
 
     return CASES[assignment.parameters.task](assignment)
 
 
 def table_rows(position: Mapping[str, Any]) -> dict[str, dict[str, float]]:
-    """The row that `solve` prints of the results: the numbers of the task."""
+    """Return the row that `solve` prints of the results: the numbers of the task."""
     return {
         task: {name: value for name, value in position[task].items() if name != "self_locking"}
         for task in TASKS
@@ -46,7 +46,7 @@ def table_rows(position: Mapping[str, Any]) -> dict[str, dict[str, float]]:
 
 
 def of_incline(given: Incline) -> Iterator[Finding]:
-    """A force that presses the body on the plane, and can move it up and down."""
+    """Require a force that presses the body on the plane, and can move it up and down."""
     where, φ, α = (*TOP, "incline"), math.atan(given.f), given.alpha.si
     β = -α if given.beta is None else given.beta.si
     at = (*where, "beta" if "beta" in given.model_fields_set else "alpha")
@@ -59,14 +59,14 @@ def of_incline(given: Incline) -> Iterator[Finding]:
 
 
 def of_wedge(given: Wedge) -> Iterator[Finding]:
-    """A wedge that can be driven: cos(α + φ₁ + φ₃) > 0."""
+    """Require a wedge that can be driven: cos(α + φ₁ + φ₃) > 0."""
     jammed = given.alpha.si + math.atan(given.f1) + math.atan(given.f3)
     if jammed > STEEPEST:
         yield Finding("friction-wedge-jams", (*TOP, "wedge", "alpha"), {"sum": degrees(jammed)})
 
 
 def of_screw(given: Screw) -> Iterator[Finding]:
-    """A thread that a torque can raise: γ + φ′ below a right angle."""
+    """Require a thread that a torque can raise: γ + φ′ below a right angle."""
     γ = math.atan(given.n * given.p.si / (math.pi * given.d.si))
     jammed = γ + math.atan(given.f / math.cos(given.beta.si))
     if jammed > STEEPEST:
@@ -79,7 +79,7 @@ def of_belt(given: BeltOnDrum) -> Iterator[Finding]:
 
 
 def of_band(given: Band) -> Iterator[Finding]:
-    """A lever that tightens the band when it is pressed."""
+    """Require a lever that tightens the band when it is pressed."""
     yield from wrapped("band", given.f, given.theta)
     if given.a.si + given.b.si <= 0:
         yield Finding("friction-slackens", (*TOP, "band", "b"), {"a": given.a.text, "b": given.b.text})

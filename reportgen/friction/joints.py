@@ -46,7 +46,7 @@ class Friction:
     """How wide sliders are, by their links: friction acts on each end that bears."""
 
     def joints(self, linkage: Linkage) -> tuple[Joint, ...]:
-        """The joints that have friction, in the order of assembly."""
+        """Return the joints that have friction, in the order of assembly."""
         return tuple(
             joint
             for joint in joints(linkage)
@@ -94,7 +94,7 @@ def relative_motion(joint: Joint, motion: Motion) -> tuple[Floats, Floats]:
 
 
 def relative_sense(joint: Joint, motion: Motion) -> Floats:
-    """The sign of a joint's relative motion [N]; where that stands still, of the motion that follows.
+    """Return the sign of a joint's relative motion [N]; where that stands still, of the motion that follows.
 
     It is 0 where neither is more than rounding beside how fast the whole mechanism moves: the links of the joint do not
     move against each other.
@@ -106,7 +106,8 @@ def relative_sense(joint: Joint, motion: Motion) -> Floats:
 
 
 def reactions_that_press(friction: Friction, joint: Joint, motion: Motion, forces: Forces) -> tuple[Complexes, ...]:
-    """The reactions (N) [N] whose sizes press the links of a joint together: R of a pin; N of a guide, as a number.
+    """Return the reactions (N) [N] whose sizes press the links of a joint together: R of a pin; N of a guide, as a
+    number.
 
     A wide slider has two, N₁ and N₂ of its ends: they add up to N unless it tilts.
     """
@@ -120,7 +121,9 @@ def reactions_that_press(friction: Friction, joint: Joint, motion: Motion, force
 
 
 def pressing(friction: Friction, joint: Joint, motion: Motion, forces: Forces) -> Floats:
-    """The force (N) [N] that presses the links of a joint together: R, |N|, or |N₁| + |N₂| of the ends of a slider."""
+    """Return the force (N) [N] that presses the links of a joint together: R, |N|, or |N₁| + |N₂| of the ends of a
+    slider.
+    """
     return np.asarray(sum(np.abs(each) for each in reactions_that_press(friction, joint, motion, forces)))
 
 
@@ -139,7 +142,7 @@ def _rubbing(friction: Friction, joint: Joint, sense: Floats, motion: Motion, pr
 
 
 def _on_both(joint: Joint, force: Complexes, at: Complexes, couple: Floats) -> tuple[Load, ...]:
-    """A load on the second link of a joint, and the opposite on the first unless that is the frame."""
+    """Return a load on the second link of a joint, and the opposite on the first unless that is the frame."""
     first, second = joint.links
     on = [Load(ids.reaction_force(ids.joint(first, second)), second, force, at, couple)]
     if first != GROUND:
@@ -160,7 +163,7 @@ def solve_with_friction(
     names = [reaction_name(*joint.links) for joint in senses]
 
     def rubbing(pressed: Sequence[Floats]) -> tuple[Load, ...]:
-        """The friction of all joints, each `pressed` together (N) [N]."""
+        """Return the friction of all joints, each `pressed` together (N) [N]."""
         each = zip(senses.items(), pressed, strict=True)
         return tuple(load for (joint, sense), p in each for load in _rubbing(friction, joint, sense, motion, p))
 
@@ -198,7 +201,9 @@ def _exactly(
     equilibrium: Equilibrium,
     rubbing: Callable[[Sequence[Floats]], tuple[Load, ...]],
 ) -> Floats:
-    """The forces (N) that press the joints together [joints, N] by the exact equations, nan where there are none."""
+    """Return the forces (N) that press the joints together [joints, N] by the exact equations, nan where there are
+    none.
+    """
 
     def reactions(forces: Forces) -> list[Complexes]:
         return [each for joint in senses for each in reactions_that_press(friction, joint, motion, forces)]
@@ -216,7 +221,7 @@ def _exactly(
 
 
 def _without(forces: Forces, at: Flags) -> Forces:
-    """The forces with nan at some positions [N]."""
+    """Return the forces with nan at some positions [N]."""
     unknown = np.where(at, np.nan, 0.0)
     return Forces(
         {
@@ -245,5 +250,5 @@ def _solved(analysis: Analysis) -> FrictionForces:
 
 
 def _forces_in(forces: Forces, names: Sequence[str]) -> Complexes:
-    """The reactions of some joints [joints, N]."""
+    """Return the reactions of some joints [joints, N]."""
     return np.array([forces.reactions[name].force for name in names]).reshape(len(names), -1)

@@ -61,7 +61,9 @@ class RubbingJoint:
 
 
 def rubbing_joints(q: Sheet | Mapping[str, object], linkage: Linkage, friction: Friction) -> tuple[RubbingJoint, ...]:
-    """The joints that rub, in the order of assembly, each once by the digits that the ledger has for its reaction."""
+    """Return the joints that rub, in the order of assembly, each once by the digits that the ledger has for its
+    reaction.
+    """
     solved = []
     for joint in friction.joints(linkage):
         first, second = joint.links
@@ -93,7 +95,7 @@ def enter_forces(q: Sheet, analysis: Analysis, worked: Sequence[int]) -> None:
     size = float(np.nanmax(np.abs(solved.rounds[0].torque)))
 
     def reactions(number: int, name: str) -> dict[RubbingJoint, Ref]:
-        """The reactions of a round, which follow those without friction."""
+        """Return the reactions of a round, which follow those without friction."""
         forces = solved.rounds[number]
         largest = max(float(np.nanmax(np.abs(reaction.force))) for reaction in forces.reactions.values())
         return {
@@ -132,14 +134,14 @@ def enter_forces(q: Sheet, analysis: Analysis, worked: Sequence[int]) -> None:
 
 
 def _balanced(q: Sheet, linkage: Linkage) -> tuple[str, str, Ref]:
-    """The letter and the kind of what balances the driver, and the driver's rate."""
+    """Return the letter and the kind of what balances the driver, and the driver's rate."""
     if isinstance(linkage.driver, Crank):
         return "M", "torque", q["omega.1"]
     return "P", "force", q[ids.velocity(linkage.driver.pin)]
 
 
 def _rounds(solved: FrictionForces, worked: Sequence[int]) -> int:
-    """The first round whose torque prints as the last does at the positions asked for."""
+    """Return the first round whose torque prints as the last does at the positions asked for."""
     torques = np.array([forces.torque for forces in solved.rounds])
     shown = torques[:, [k - 1 for k in worked]] if worked else torques
     shown = shown[:, np.isfinite(shown).all(axis=0)]
@@ -153,7 +155,7 @@ def _rounds(solved: FrictionForces, worked: Sequence[int]) -> int:
 
 
 def _rate(q: Sheet, machine: Machine, each: RubbingJoint) -> Ref | None:
-    """The size of the relative motion in a joint: ω of a pin's links against each other, v of a slide.
+    """Return the size of the relative motion in a joint: ω of a pin's links against each other, v of a slide.
 
     None where the links never move against each other.
     """
@@ -175,14 +177,14 @@ def _rate(q: Sheet, machine: Machine, each: RubbingJoint) -> Ref | None:
 
 
 def _omega(q: Sheet, machine: Machine, link: int) -> Expression | None:
-    """The signed angular velocity of a link, anticlockwise positive; None of one that does not turn."""
+    """Return the signed angular velocity of a link, anticlockwise positive; None of one that does not turn."""
     if link == DRIVER and isinstance(machine.linkage.driver, Crank):
         return signed(machine.turn, q["omega.1"])
     return q.find(ids.signed("omega", link)) if link != GROUND else None
 
 
 def _sliding(q: Sheet, linkage: Linkage, joint: Joint) -> str:
-    """The id of the velocity with which a slider slides over its guide."""
+    """Return the id of the velocity with which a slider slides over its guide."""
     plan = scheme(linkage)
     guide, slider = joint.links
     if slider == DRIVER:

@@ -21,7 +21,7 @@ def _friction(sources: Sources) -> Iterator[Drawn]:
 
 
 def _friction_plans(sources: Sources) -> Iterator[Drawn]:
-    """The force plans with friction of the worked positions."""
+    """Yield the force plans with friction of the worked positions."""
     report, small = sources.report, sources.small
     for k in report.worked_forces if views.rubbing(report) else ():
         polygons = [(sources.called(group), group.polygon) for group in reversed(report.groups)]

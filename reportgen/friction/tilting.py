@@ -58,7 +58,7 @@ def face_forces(report: Report, joint: Joint, k: int) -> tuple[FaceForce, ...]:
 
 
 def tilting(report: Report, k: int) -> list[str]:
-    """The wide sliders that rub and tilt at a position, with friction: both of their ends bear and rub."""
+    """Return the wide sliders that rub and tilt at a position, with friction: both of their ends bear and rub."""
     friction = friction_of(report.machine)
     assert friction is not None, "the chapter is there where joints rub"
     return [str(joint.links[1]) for joint in friction.joints(report.machine.linkage) if face_forces(report, joint, k)]
@@ -114,7 +114,9 @@ def _leaning(force: Leaning, size: float, φ: Symbol) -> Canvas:
 
 
 def at_both_ends(named: Iterable[tuple[FaceForce, Symbol]], guide: complex, φ: Symbol, title: str) -> Scene:
-    """The two forces on a slider that tilts, at the ends of its face, which is drawn as long as they have room."""
+    """Return the two forces on a slider that tilts, at the ends of its face, which is drawn as long as they have
+    room.
+    """
     shown = list(named)
     places = np.array([force.at for force, _ in shown])
     middle, half = places.mean(), abs(places[1] - places[0]) / 2

@@ -100,7 +100,8 @@ def enter(opening: Opening) -> TopicData:
 
 
 def failures(machine: Machine, worked: Sequence[int]) -> Iterator[Finding]:
-    """A joint whose friction grows with what it causes, where the mechanism locks: at a position to be worked out.
+    """Report a joint whose friction grows with what it causes, where the mechanism locks: at a position to be worked
+    out.
 
     Anywhere in the cycle if another topic takes the torque with friction all over it.
     """

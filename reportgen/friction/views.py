@@ -61,7 +61,7 @@ class Rubbing:
 
 
 def rubbing(report: Report) -> tuple[Rubbing, ...]:
-    """The joints that rub, in the order of assembly."""
+    """Return the joints that rub, in the order of assembly."""
     friction = friction_of(report.machine)
     if friction is None or not report.has_forces:
         return ()
@@ -75,7 +75,7 @@ def rubbing(report: Report) -> tuple[Rubbing, ...]:
 
 
 def resting(report: Report) -> str:
-    """The links of the joints in which nothing rubs, since they never move against each other: "2–3, 1–4"."""
+    """Return the links of the joints in which nothing rubs, since they never move against each other: "2–3, 1–4"."""
     friction = friction_of(report.machine)
     if friction is None or not report.has_forces:
         return ""
@@ -99,7 +99,7 @@ def data(report: Report) -> Inlines:
 
 
 def loss_lines(report: Report) -> list[str]:
-    """The couples and forces of friction."""
+    """Return the couples and forces of friction."""
     return [each.of.lost for each in rubbing(report)]
 
 
@@ -109,18 +109,18 @@ def part_lines(report: Report) -> list[str]:
 
 
 def mean_lines(report: Report) -> list[str]:
-    """The mean torque with friction and the efficiency over the cycle."""
+    """Return the mean torque with friction and the efficiency over the cycle."""
     return report.known((friction_ids.mean, friction_ids.cycle_efficiency))
 
 
 def circle_lines(report: Report) -> list[str]:
-    """The ids of the friction circles that are worked out, not given."""
+    """Return the ids of the friction circles that are worked out, not given."""
     points = dict.fromkeys(each.point for each in rubbing(report) if each.kind == "pin")
     return [id for id in map(friction_ids.circle, points) if report.ledger[id].definition is not None]
 
 
 def angle_lines(report: Report) -> list[str]:
-    """The angles of friction of the sliders."""
+    """Return the angles of friction of the sliders."""
     links = dict.fromkeys(each.link for each in rubbing(report) if each.kind == "slider")
     return [friction_ids.angle(link) for link in links]
 
@@ -157,17 +157,17 @@ def cycle(report: Report) -> str:
 
 
 def results(report: Report) -> list[str]:
-    """The torque with friction and the efficiency."""
+    """Return the torque with friction and the efficiency."""
     return report.known((friction_ids.torque, friction_ids.efficiency))
 
 
 def reactions(report: Report) -> tuple[str, ...]:
-    """The reactions with friction, by their ids."""
+    """Return the reactions with friction, by their ids."""
     return tuple(friction_ids.reaction(each.digits) for each in rubbing(report))
 
 
 def rounds(report: Report, key: str, caption: str, head: Sequence[str], k: int) -> tuple[Table, ...]:
-    """The reactions of each round and the torque that those before it give; the first are without friction."""
+    """Return the reactions of each round and the torque that those before it give; the first are without friction."""
     ledger, joints = report.ledger, rubbing(report)
     numbers = [n for n in range(1, len(ledger.families)) if friction_ids.torque_of_round(n) in ledger]
     names = ["", *map(str, range(1, len(numbers) + 1))]
@@ -187,7 +187,9 @@ def rounds(report: Report, key: str, caption: str, head: Sequence[str], k: int) 
 
 
 def dead_rows(report: Report) -> Iterator[Sequence[object]]:
-    """Each slider's dead centres, by the angle of the crank from position 1, and how far on either side it locks."""
+    """Yield each slider's dead centres, by the angle of the crank from position 1, and how far on either side it
+    locks.
+    """
     machine = report.machine
     for course in machine.sliders:
         for number, angle in enumerate(course.dead_centres[:2], 1):
@@ -220,7 +222,7 @@ def _found(report: Report) -> FrictionForces:
 
 
 def joint_forces(report: Report, k: int) -> Iterator[JointForce]:
-    """The force in each joint, friction included."""
+    """Yield the force in each joint, friction included."""
     solved, motion, index = _found(report), report.analysis.motion, k - 1
     loads = {(load.name, load.link): load for load in solved.loads}
     for each in rubbing(report):
@@ -240,12 +242,12 @@ def joint_forces(report: Report, k: int) -> Iterator[JointForce]:
 
 
 def scheme(report: Report, k: int) -> FigureScenes:
-    """The mechanism with its friction circles and the lines of the reactions, which are tangent to them."""
+    """Return the mechanism with its friction circles and the lines of the reactions, which are tangent to them."""
     return as_large_as_asked(report, partial(scheme_scene, report, k))
 
 
 def scheme_scene(report: Report, k: int, factor: float = 1.0) -> Scene:
-    """The same by a factor of enlargement."""
+    """Return the same by a factor of enlargement."""
     machine, motion, scale = report.machine.linkage, report.analysis.motion, drawing_scale(report) * factor
     shown = [carried for carried in joint_forces(report, k) if carried.force]
     bones, look = skeleton(machine, motion, k - 1, scale), looks(report, scale, factor)
@@ -271,7 +273,7 @@ def scheme_scene(report: Report, k: int, factor: float = 1.0) -> Scene:
 
 
 def _line(carried: JointForce, shown: Sequence[JointForce], scale: float) -> Iterator[Item]:
-    """The line of a force: to the other joint of its link if it is tangent to that one's circle too."""
+    """Yield the line of a force: to the other joint of its link if it is tangent to that one's circle too."""
     along, here = carried.force / abs(carried.force), (carried.at + carried.offset) * scale
     for further in shown:
         there = (further.at + further.offset) * scale
@@ -284,7 +286,7 @@ def _line(carried: JointForce, shown: Sequence[JointForce], scale: float) -> Ite
 
 
 def _circle(report: Report, each: Rubbing) -> float:
-    """The radius of a friction circle (m) as it is printed."""
+    """Return the radius of a friction circle (m) as it is printed."""
     return float(report.ledger[friction_ids.circle(each.point)].values[0])
 
 
@@ -293,7 +295,7 @@ def _named(report: Report, each: Rubbing) -> Symbol:
 
 
 def joints(report: Report, k: int) -> FigureScenes:
-    """Each friction circle enlarged with the line of its reaction; each guide with its angle of friction."""
+    """Return each friction circle enlarged with the line of its reaction; each guide with its angle of friction."""
     scale = drawing_scale(report)
     return beside_one_another(
         *(_detail(report, k, carried, scale) for carried in joint_forces(report, k) if carried.force)
@@ -301,7 +303,7 @@ def joints(report: Report, k: int) -> FigureScenes:
 
 
 def _detail(report: Report, k: int, carried: JointForce, scale: float) -> Scene:
-    """A friction circle enlarged, or the angle of friction of a guide with the parts of its reaction."""
+    """Return a friction circle enlarged, or the angle of friction of a guide with the parts of its reaction."""
     if carried.each.kind == "slider":
         return _guide_detail(report, carried)
     radius = _circle(report, carried.each) * scale
@@ -348,7 +350,7 @@ def _guide_detail(report: Report, carried: JointForce) -> Scene:
 
 
 def _at_ends(report: Report, carried: JointForce) -> list[tuple[FaceForce, Symbol]]:
-    """The forces on the ends of a slider that tilts, with their names; none of any other joint."""
+    """Return the forces on the ends of a slider that tilts, with their names; none of any other joint."""
     joint, digits = carried.each.of.joint, carried.each.digits
     return [
         (force, report.named(Symbol("R", f"{digits},{force.number}", "fr", "vector")))
@@ -360,19 +362,19 @@ def _at_ends(report: Report, carried: JointForce) -> list[tuple[FaceForce, Symbo
 
 
 def force_plan_of_group(report: Report, k: int, group: GroupView) -> FigureScenes:
-    """The force plan of a group with friction over the one without."""
+    """Return the force plan of a group with friction over the one without."""
     assert group.polygon is not None
     return on_paper(plan(force_plan_with_friction(report, group.polygon, k)))
 
 
 def force_plan_of_driver(report: Report, k: int) -> FigureScenes:
-    """The force plan of the driver with friction over the one without."""
+    """Return the force plan of the driver with friction over the one without."""
     assert report.driver_polygon is not None
     return on_paper(plan(force_plan_with_friction(report, report.driver_polygon, k)))
 
 
 def force_plan_with_friction(report: Report, polygon: Polygon, k: int) -> Plan:
-    """The plan without friction, of whole reactions alone, and where the plan with friction leaves it.
+    """Return the plan without friction, of whole reactions alone, and where the plan with friction leaves it.
 
     Loads are laid off alike; reactions carried over from further groups and those that close the plan are those with
     friction, which in guides is a part of them.
@@ -414,7 +416,7 @@ def force_plan_with_friction(report: Report, polygon: Polygon, k: int) -> Plan:
 
 
 def _closing(polygon: Polygon) -> list[Edge]:
-    """The whole reactions that close a plan, head to tail from the end of its loads."""
+    """Return the whole reactions that close a plan, head to tail from the end of its loads."""
     edges = [edge for edge in (*polygon.edges, *polygon.reads) if edge.unknown and not edge.part]
     loads = [edge for edge in polygon.edges if not edge.unknown and not edge.part]
     # Without loads the reaction in the outer joint, which leads to the closing corner, begins where the plan does.
@@ -428,7 +430,7 @@ def _closing(polygon: Polygon) -> list[Edge]:
 
 
 def _with_friction(report: Report, name: str, k: int) -> complex:
-    """A reaction by its name (N), with the force of friction in its guide."""
+    """Return a reaction by its name (N), with the force of friction in its guide."""
     solved = _found(report)
     rubbing = sum(complex(load.force[k - 1]) for load in solved.loads if load.name == name)
     return complex(solved.forces.reactions[name].force[k - 1]) + rubbing

@@ -1,9 +1,8 @@
-"""A planar mechanism as data: ground, a driver, and Assur dyads in the order of their assembly.
+"""Data classes for a planar mechanism: ground, a driver, and Assur dyads in the order of their assembly.
 
-Link 0 is the ground and link 1 the driver.  Every moving link has a frame: its origin at the link's
-first named point, its real axis towards the second.  A point on a link is a complex number in that
-frame.  Everything here is plain frozen data, with its joints and degree of freedom; `motion` and `forces`
-compute.
+Link 0 is the ground and link 1 the driver. Every moving link has a frame: its origin is the link's first named
+point, its real axis points towards the second. A point on a link is a complex number in that frame. All classes are
+frozen; the module also counts the joints and the degree of freedom. `motion` and `forces` compute.
 """
 
 from __future__ import annotations
@@ -124,7 +123,7 @@ class Linkage:
 
 
 def under(name: str, link: int, taken: Collection[str]) -> str:
-    """The name of the point of a link that lies under a pin now: B on link 3 → B3, B′3 where B3 is taken."""
+    """Return the name of the point of a link that lies under a pin now: B on link 3 → B3, B′3 where B3 is taken."""
     plain = f"{name}{link}"
     return f"{name}′{link}" if plain in taken else plain
 
@@ -170,7 +169,7 @@ def mobility(linkage: Linkage) -> Mobility:
 
 
 def owners(linkage: Linkage) -> Mapping[str, int]:
-    """The link that each named point belongs to; a joint belongs to the link that was placed first.
+    """Return the link that each named point belongs to; a joint belongs to the link that was placed first.
 
     A slide's `middle` (RPR, RPP) is a point of the group's second link.  Raises `ValueError` when a
     name is given to two points.
@@ -193,7 +192,7 @@ def owners(linkage: Linkage) -> Mapping[str, int]:
 
 
 def joints(linkage: Linkage) -> tuple[Joint, ...]:
-    """All joints in the order of assembly: the driver's, then start, inner and end of every dyad.
+    """Return all joints in the order of assembly: the driver's, then start, inner and end of every dyad.
 
     Raises `ValueError` for a dyad that hangs on the `middle` of an RPR: that point of the guide link
     changes from moment to moment, so no pin can be there (the slider's own pin can be named instead).

@@ -1,4 +1,4 @@
-"""The one place that joins machine, mechanism and cycle: Machine → Analysis (arrays over positions)."""
+"""Compute an `Analysis` of a `Machine`: motion, loads, gas and forces as arrays over the positions of its cycle."""
 
 from __future__ import annotations
 
@@ -87,7 +87,7 @@ class Summary:
 
 
 def gas_in(piston: Piston, motion: Motion, cycle_angle: np.ndarray) -> GasState:
-    """The gas at cycle angles [N] (rad): s/H from the pin's place, pressure (Pa) from the indicator diagram."""
+    """Return the gas at cycle angles [N] (rad): s/H from the pin's place, pressure (Pa) from the indicator diagram."""
     angle = piston.phase + cycle_angle
     return GasState(
         piston,
@@ -123,7 +123,7 @@ def analyse(machine: Machine, cycle_angle: np.ndarray | None = None) -> Analysis
 
 
 def motion_at(machine: Machine, cycle_angle: np.ndarray) -> Motion:
-    """The motion at cycle angles [N]."""
+    """Return the motion at cycle angles [N]."""
     rate, acceleration = machine.turn * machine.speed, machine.turn * machine.acceleration
     return solve_motion(machine.linkage, machine.angles(cycle_angle), rate, acceleration)
 
@@ -145,7 +145,7 @@ ROUNDING = 1e-13
 
 
 def possible(motion: Motion, loads: Iterable[Load]) -> float:
-    """The torque (N·m) of loads if all acted on the fastest point and link, along their motion."""
+    """Return the torque (N·m) of loads if all acted on the fastest point and link, along their motion."""
     loads = tuple(loads)
     fastest = max(float(np.abs(point.v).max()) for point in motion.points.values())
     turning = max(float(np.abs(link.omega).max()) for link in motion.links.values())
@@ -155,7 +155,7 @@ def possible(motion: Motion, loads: Iterable[Load]) -> float:
 
 
 def _work(machine: Machine) -> float:
-    """The work of the loads over the cycle (J): of gas exact from its table, else ∫ F·v dt and ∫ M ω dt."""
+    """Return the work of the loads over the cycle (J): of gas exact from its table, else ∫ F·v dt and ∫ M ω dt."""
     whole = machine.turns * FULL_TURN
     pistons = {piston.name: piston for piston in machine.pistons}
     total = 0.0
@@ -183,7 +183,7 @@ def _indicated(machine: Machine, piston: Piston) -> float:
 
 
 def _energy_gained(machine: Machine) -> float:
-    """What the links gain in energy of motion and height over the way of a sliding driver (J); 0 over a turn."""
+    """Return the kinetic and potential energy (J) that the links gain while a sliding driver travels; 0 over a turn."""
     if not machine.span:
         return 0.0
     linkage, motion = machine.linkage, motion_at(machine, np.array([0.0, FULL_TURN]))
@@ -214,7 +214,9 @@ def summarise(machine: Machine) -> Summary:
 
 
 def _extreme(machine: Machine, angles: np.ndarray, torque: np.ndarray, sense: int) -> tuple[float, float]:
-    """The greatest (`sense` +1) or least (−1) torque and its cycle angle: the best of a grid, looked at closer."""
+    """Return the greatest (`sense` +1) or least (−1) torque and its cycle angle: the best of a grid, looked at
+    closer.
+    """
     for _ in range(2):
         best, step = int(np.nanargmax(sense * torque)), float(angles[1] - angles[0])
         angles = np.linspace(angles[best] - step, angles[best] + step, 81)
@@ -285,7 +287,7 @@ class Machine:
     outline: tuple[str, ...]
     closed_formulas: ClosedFormulas = ClosedFormulas()
     applied: tuple[Applied, ...] = ()
-    """All forces that are neither weight nor inertia, the gas on `pistons` among them."""
+    """Forces other than weight and inertia, including the gas force on `pistons`."""
     torques: tuple[Torque, ...] = ()
     """Torques other than inertia couples."""
     idle: tuple[str, ...] = ()
@@ -305,17 +307,19 @@ class Machine:
     places: tuple[float, ...] = ()
     """Cycle angles of the positions of one turn; empty: evenly spaced from 0."""
     labels: tuple[str, ...] = ()
-    """What the positions of the cycle are called; empty: their numbers."""
+    """Labels of the positions of the cycle; empty if they are numbered."""
     span: float = 0.0
-    """The way (m) of a sliding driver over the cycle, which then stands for one turn; 0 for a crank."""
+    """Travel (m) of a sliding driver over the cycle, which then counts as one turn; 0 for a crank."""
     acceleration: float = 0.0
     """ε₁ (rad/s²) of a crank, or the acceleration (m/s²) of a slide, positive in the sense of its speed."""
     instants: bool = False
-    """Whether its positions, the `places`, are single instants, so that nothing is said of the way between them."""
+    """True if its positions, the `places`, are single instants; the report then says nothing about the way between
+    them.
+    """
     essential: tuple[str, ...] = ()
     """Sections that the task of the kind asks for, so that a short report has them, too."""
     facts: Mapping[str, Any] = field(default_factory=dict)
-    """What the kind's own words may name beside quantities."""
+    """Values besides quantities that the templates of its kind may name."""
 
     def topic(self, name: str, of: type[Subject]) -> Subject | None:
         """Return the subject of a topic, None if the machine does not have the topic."""
@@ -350,12 +354,12 @@ class Machine:
 
     @property
     def cyclic(self) -> bool:
-        """Whether the driver runs through the whole cycle at a constant speed, so that there are means and work."""
+        """True if the driver runs through the whole cycle at a constant speed, so that means and work are defined."""
         return not (self.instants or self.acceleration)
 
     @property
     def even(self) -> np.ndarray:
-        """Whether each position [count·turns] is one of those evenly spaced over the cycle: lettered ones are not."""
+        """Flags of the positions [count·turns] that are evenly spaced over the cycle; False for lettered positions."""
         return np.array([not self.labels[k].isalpha() if self.labels else True for k in range(self.positions)])
 
     @property
@@ -381,7 +385,7 @@ class Machine:
         return self.sheet.si(id) if id in self.sheet else 0.0
 
     def position(self, number: int) -> Position:
-        """A position by its number from 1."""
+        """Return a position by its number from 1."""
         return Position(number, self.labels[number - 1] if self.labels else "")
 
     def numbered(self, numbers: Iterable[int]) -> tuple[Position, ...]:

@@ -1,4 +1,4 @@
-"""Springs as bodies: where they hang, whatever force they exert."""
+"""Geometry of springs: the points of the links that their ends are attached to, independent of their force."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class Anchor:
         return motion.points[self.name].p if self.name else self.place
 
     def on(self, q: Sheet, number: int) -> Ref:
-        """The end as it is drawn (m)."""
+        """Return the end as it is drawn (m)."""
         if self.name:
             return q[ids.place(self.name)]
         id = ids.spring_anchor(number)
@@ -40,6 +40,6 @@ class Coil:
     wound: bool = False
 
     def at(self, motion: Motion) -> tuple[Complexes, Complexes]:
-        """Both ends (m) [N]."""
+        """Return both ends (m) [N]."""
         first, last = (np.broadcast_to(end.at(motion), motion.driver.shape) for end in self.ends)
         return first, last

@@ -1,4 +1,4 @@
-"""A torque over the cycle as polynomials between cycle angles, cheap to take at any angle."""
+"""A torque over the cycle as polynomials between cycle angles, which is fast to evaluate at any angle."""
 
 from __future__ import annotations
 

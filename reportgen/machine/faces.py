@@ -1,8 +1,9 @@
-"""A slider as wide as it is: where in its guide the reaction acts, and whether it tilts.
+"""Sliders of finite width: the place in the guide where the reaction acts, and whether the slider tilts.
 
-The guide holds it along a face from x₁ to x₂, counted from its pin in the direction of the guide.  The reaction N
-across the guide acts at the place x where its moment about the pin is that of the joint.  Within the face one side of
-the guide carries it; beyond, the slider tilts until both ends bear, on opposite sides:
+A slider touches its guide along a face from x₁ to x₂, measured from its pin in the direction of the guide. The
+reaction N across the guide acts at the place x where its moment about the pin equals that of the joint. If x lies
+within the face, one side of the guide carries the slider. Otherwise the slider tilts until both ends bear, on
+opposite sides:
 
     N₁ = N (x₂ − x)/(x₂ − x₁),   N₂ = N (x − x₁)/(x₂ − x₁).
 """
@@ -30,6 +31,6 @@ class Faces:
         return (normal * self.last - moment) / width, (moment - normal * self.first) / width
 
     def tilts(self, normal: Floats, moment: Floats) -> np.ndarray:
-        """Whether the reaction acts beyond the face [N]: the two ends bear on opposite sides."""
+        """Return flags [N]: True if the reaction acts beyond the face, so that the two ends bear on opposite sides."""
         first, last = self.ends(normal, moment)
         return np.asarray(first * last < 0)

@@ -1,10 +1,10 @@
 """Weights and inertia forces, the reactions in every joint, and the driver's balancing torque.
 
-Every joint holds two unknowns: the two components of a force in a revolute joint, the force across
-the guide and a couple in a prismatic one.  Two links and three joints make six equations with six
-unknowns, whatever the kind of the group; all positions are solved in one batch.  Groups are taken in
-the reverse of their assembly, so that each hands its reactions on to links not yet balanced.  The work of
-the same loads gives the torque a second time, without any reaction.
+Every joint has two unknowns: the two components of a force in a revolute joint, the force across the guide and a
+couple in a prismatic one. Two links and three joints give six equations with six unknowns for a group of any kind.
+All positions are solved in one batch. Groups are solved in reverse order of assembly, so that the reactions of each
+become loads on the links that it hangs on. The work of the same loads gives the torque a second time, without any
+reaction.
 """
 
 from __future__ import annotations
@@ -73,7 +73,7 @@ def inertia_loads(linkage: Linkage, motion: Motion) -> tuple[Load, ...]:
 
 
 def as_single_force(load: Load) -> Complexes:
-    """Where a force F at S with couple M acts as the force alone: the point S − i F M / F².
+    """Return the point where a force F at S with couple M acts as the force alone: S − i F M / F².
 
     It lies at the distance |M|/|F| = J|ε|/(m|a_S|) from S, square to the force, on the side that gives
     M.  It is S itself where M = 0, and nan where F = 0 with M ≠ 0: a pure couple.
@@ -87,7 +87,8 @@ def as_single_force(load: Load) -> Complexes:
 def percussion_points(
     a: Complexes, s: Complexes, a_a: Complexes, a_s: Complexes, l_sk: float
 ) -> tuple[Complexes, Complexes]:
-    """The centre of percussion K of a link, and the point Q of its single inertia force, as they are found by drawing.
+    """Return the centre of percussion K of a link, and the point Q of its single inertia force, as they are found by
+    drawing.
 
     Split a_S = a_A + a_SA: the part −m a_A acts along the line through S parallel to a_A, the part of
     the turning about A along the line through K parallel to a_SA, K on AS beyond S at `l_sk`.  The
@@ -102,10 +103,10 @@ def percussion_points(
 
 
 def virtual_work_torque(linkage: Linkage, motion: Motion, loads: Sequence[Load]) -> Floats:
-    """The driver's balancing torque M = −(ΣF·v + ΣMω)/ω₁ (N·m); with a sliding driver the force (N).
+    """Return the driver's balancing torque M = −(ΣF·v + ΣMω)/ω₁ (N·m); with a sliding driver the force (N).
 
-    Loads on links of `linkage` include inertia forces, so that this is D'Alembert's principle.
-    Raises `ValueError` when the driver stands still.
+    The `loads` on links of `linkage` must include the inertia forces (D'Alembert's principle). Raises `ValueError`
+    if the driver does not move.
     """
     if np.any(motion.rate == 0):
         raise ValueError("virtual work needs a moving driver")
@@ -156,7 +157,7 @@ class _Wrench(NamedTuple):
 
 
 def reaction_name(source: int, target: int) -> str:
-    """The key of the force of link `source` on link `target`: "R12"; "R1,12" with long numbers."""
+    """Return the key of the force of link `source` on link `target`: "R12"; "R1,12" with long numbers."""
     return ids.reaction_force(ids.joint(source, target))
 
 
@@ -181,7 +182,7 @@ class Equilibrium:
 
     @classmethod
     def of(cls, linkage: Linkage, motion: Motion) -> Equilibrium:
-        """The equations of every Assur group, and those of the driver."""
+        """Return the equations of every Assur group, and those of the driver."""
         listed = joints(linkage)
         groups = (
             _Group.of(dyad, tuple(joint for joint in listed if joint.group == dyad.links), motion)
@@ -190,7 +191,7 @@ class Equilibrium:
         return cls(motion, tuple(linkage.links), listed[0], tuple(groups))
 
     def under(self, loads: Iterable[Load]) -> Forces:
-        """The reactions and the torque that balance `loads`.
+        """Return the reactions and the torque that balance `loads`.
 
         Raises `KeyError` for a load on a link that does not move.
         """
@@ -230,7 +231,7 @@ class _Group:
 
     @classmethod
     def of(cls, dyad: Dyad, own: tuple[Joint, ...], motion: Motion) -> _Group:
-        """The equations of a dyad with its joints."""
+        """Return the equations of a dyad with its joints."""
         pole = motion.points[dyad.middle].p
         valid = motion.reachable
 
@@ -252,7 +253,7 @@ class _Group:
         return cls(dyad.links, own, pole, length, columns, np.ascontiguousarray(np.moveaxis(matrix, 2, 0)))
 
     def balance(self, carried: Mapping[int, Sequence[_Wrench]], valid: Flags) -> list[_Wrench]:
-        """The wrenches of the joints on their second links, under what the links carry."""
+        """Return the wrenches of the joints on their second links, under what the links carry."""
         known = np.zeros((6, self.pole.size))
         for row, link in zip((0, 3), self.links, strict=True):
             for wrench in carried[link]:
@@ -270,7 +271,7 @@ class _Group:
 
 
 def _unknowns(joint: Joint, motion: Motion, length: float) -> tuple[_Wrench, _Wrench]:
-    """The two unit wrenches that a joint can hold, on its second link."""
+    """Return the two unit wrenches that a joint can hold, on its second link."""
     at = motion.points[joint.point].p
     still = np.zeros_like(at)
     if joint.kind == "R":
@@ -300,7 +301,7 @@ def _enter(reactions: dict[str, Reaction], joint: Joint, wrench: _Wrench, motion
 
 
 def _drive(joint: Joint, motion: Motion, carried: Sequence[_Wrench]) -> tuple[_Wrench, Floats]:
-    """The ground's wrench on the driver and what balances it: M = −ΣM about the centre, or F = −ΣF·d."""
+    """Return the ground's wrench on the driver and what balances it: M = −ΣM about the centre, or F = −ΣF·d."""
     at = motion.points[joint.point].p
     still = np.where(motion.reachable, 0.0, np.nan)
     force = sum((wrench.force for wrench in carried), still + 0j)

@@ -1,9 +1,8 @@
-"""The gas pressure of a four-stroke engine over its cycle, from a table.
+"""The gas pressure of a four-stroke engine over its cycle, interpolated in a table.
 
-A cycle angle (rad) is the crank's turn from the
-piston's own top dead centre at the start of intake, in the direction of rotation; a fraction is s/H, the
-piston's way from its top dead centre over the stroke.  Pressures (Pa) are gauge and push the piston towards
-the crank when positive.
+A cycle angle (rad) is the crank's turn from the piston's own top dead centre at the start of intake, in the
+direction of rotation; a fraction is s/H, the piston's way from its top dead centre over the stroke. Pressures (Pa)
+are gauge pressures and push the piston towards the crank when positive.
 """
 
 from __future__ import annotations
@@ -24,11 +23,11 @@ from reportgen.machine.quadrature import gauss
 Stroke = Literal["intake", "compression", "expansion", "exhaust"]
 STROKES: tuple[Stroke, ...] = get_args(Stroke)
 OUTWARD = (1, -1, 1, -1)
-"""Whether the piston leaves (+1) or nears (−1) its top dead centre in each stroke."""
+"""Direction of the piston in each stroke: +1 away from its top dead centre, −1 towards it."""
 
 CYCLE = 4 * math.pi
 DEAD_CENTRES = (0.0, math.pi, 2 * math.pi, 3 * math.pi)
-"""Where the strokes begin in a machine whose guide passes through the crank's centre."""
+"""Cycle angles at which the strokes begin if the guide passes through the crank's centre."""
 
 AT_DEAD_CENTRE = 1e-9
 """An angle this near below a dead centre (rad) is rounding of the dead centre itself."""
@@ -44,7 +43,8 @@ SETTLED = 1e-9
 
 
 def stroke_at(cycle_angle: ArrayLike, dead_centres: ArrayLike = DEAD_CENTRES) -> NDArray[np.int64]:
-    """Which stroke [N] (0…3 of `STROKES`) cycle angles (rad) lie in; a dead centre begins its stroke.
+    """Return the stroke [N] (0…3 of `STROKES`) at cycle angles (rad); a dead centre belongs to the stroke that it
+    begins.
 
     `dead_centres` are the cycle angles at which the four strokes begin, the first of them 0.
     """
@@ -52,7 +52,7 @@ def stroke_at(cycle_angle: ArrayLike, dead_centres: ArrayLike = DEAD_CENTRES) ->
 
 
 def _within(cycle_angle: ArrayLike) -> Floats:
-    """The angle in [0, 4π), where rounding just below 4π counts as 0."""
+    """Return the angle in [0, 4π), where rounding just below 4π counts as 0."""
     turned = np.mod(np.asarray(cycle_angle, dtype=np.float64) + AT_DEAD_CENTRE, CYCLE) - AT_DEAD_CENTRE
     return np.maximum(turned, 0.0)
 
@@ -72,10 +72,11 @@ class Tabled:
 
 @dataclass(frozen=True, slots=True)
 class Bracket:
-    """Where positions lie in a table: at `at` between two nodes next to each other, with their pressures (Pa); all [N].
+    """Adjacent nodes of a table on both sides of the places `at`, with their pressures (Pa); all arrays have shape
+    [N].
 
     `kind` is the kind of quantity of the nodes: the "ratio" s/H, the "angle" of the cycle, or a "length", the way.
-    Of the table of a load the pressures are its sizes (N or N·m).
+    In a table of loads the pressures are sizes of the load (N or N·m).
     """
 
     kind: str
@@ -87,7 +88,7 @@ class Bracket:
 
     @classmethod
     def among(cls, kind: str, at: Floats, nodes: Sequence[float], pressures: Floats) -> Bracket:
-        """The bracket of each place `at` [N] among nodes [K] with their pressures at each position [N, K]."""
+        """Return the bracket of each place `at` [N] among nodes [K] with their pressures at each position [N, K]."""
         index = np.clip(np.searchsorted(nodes, at, side="right") - 1, 0, len(nodes) - 2)
         each, places = np.arange(len(at)), np.asarray(nodes)
         return cls(
@@ -101,14 +102,14 @@ class Bracket:
 
     @property
     def between(self) -> np.ndarray:
-        """Whether something is to be interpolated [N]: not at a node, nor between two equal values."""
+        """Flags [N]: True if the value is interpolated, that is not at a node and not between two equal values."""
         ends = np.array([self.before, self.after])
         room = NODE * np.max(np.abs(ends), axis=0)
         at_node = (np.abs(self.at - ends) <= room).any(axis=0)
         return np.asarray((self.pressure_before != self.pressure_after) & ~at_node)
 
     def in_first(self, turn: float) -> Bracket:
-        """The same places less the whole turns that lie before them."""
+        """Return the same places less the whole turns that lie before them."""
         before = turn * np.floor(self.before / turn)
         return replace(self, at=self.at - before, before=self.before - before, after=self.after - before)
 
@@ -141,22 +142,22 @@ class StrokeIndicator:
         return self.intake, self.compression, self.expansion, self.exhaust
 
     def tabled(self, turns: int = 2) -> Tabled:
-        """The table as it is given of so many turns, two strokes each."""
+        """Return the table as it is given of so many turns, two strokes each."""
         return Tabled(Fraction(Symbol("s"), Symbol("H")), "ratio", self.fractions, self.rows[: 2 * turns])
 
     def bracket(self, cycle_angle: Floats, fraction: Floats, dead_centres: ArrayLike = DEAD_CENTRES) -> Bracket:
-        """Between which nodes of its stroke's row the piston stands at cycle angles [N] and fractions [N]."""
+        """Return the nodes of the stroke's row on both sides of the piston at cycle angles [N] and fractions [N]."""
         rows = np.asarray(self.rows)[stroke_at(cycle_angle, dead_centres)]
         return Bracket.among("ratio", fraction, self.fractions, rows)
 
     def branches(
         self, fraction_of: Callable[[Floats], Floats], dead_centres: ArrayLike = DEAD_CENTRES
     ) -> tuple[Branch, ...]:
-        """Each stroke's line over s/H."""
+        """Return each stroke's line over s/H."""
         return tuple((self.fractions, row) for row in self.rows)
 
     def pressure(self, cycle_angle: ArrayLike, fraction: ArrayLike, dead_centres: ArrayLike = DEAD_CENTRES) -> Floats:
-        """Pressure (Pa) [N] at cycle angles [N] where the piston stands at fractions [N] of its stroke."""
+        """Return the pressure (Pa) [N] at cycle angles [N], with the piston at fractions [N] of its stroke."""
         stroke = stroke_at(cycle_angle, dead_centres)
         by_row = np.stack([np.interp(np.asarray(fraction), self.fractions, row) for row in self.rows])
         return np.asarray(np.choose(stroke, by_row), dtype=np.float64)
@@ -164,7 +165,7 @@ class StrokeIndicator:
     def breaks(
         self, fraction_of: Callable[[Floats], Floats], dead_centres: ArrayLike = DEAD_CENTRES
     ) -> tuple[float, ...]:
-        """All cycle angles in [0, 4π] (rad) where the pressure bends or jumps, rising.
+        """Return all cycle angles in [0, 4π] (rad) where the pressure bends or jumps, rising.
 
         `fraction_of` gives s/H at cycle angles [N]; it is monotonic between dead centres, so each
         stroke crosses every node once.
@@ -210,7 +211,7 @@ class AngleIndicator:
         return (self.pressures,)
 
     def tabled(self, turns: int = 2) -> Tabled:
-        """The table as it is given of so many turns."""
+        """Return the table as it is given of so many turns."""
         count = sum(angle <= turns * 2 * math.pi * (1 + 1e-15) for angle in self.angles)
         return Tabled(Symbol("φ"), "angle", self.angles[:count], (self.pressures[:count],))
 
@@ -222,7 +223,9 @@ class AngleIndicator:
     def branches(
         self, fraction_of: Callable[[Floats], Floats], dead_centres: ArrayLike = DEAD_CENTRES
     ) -> tuple[Branch, ...]:
-        """Each stroke's line over s/H, carried over by the piston's motion: `fraction_of` gives s/H at cycle angles."""
+        """Return each stroke's line over s/H, carried over by the piston's motion: `fraction_of` gives s/H at cycle
+        angles.
+        """
         corners = []
         for start, end in pairwise((*np.asarray(dead_centres), CYCLE)):
             nodes = [angle for angle in self.angles if start < angle < end]
@@ -234,13 +237,13 @@ class AngleIndicator:
     def pressure(
         self, cycle_angle: ArrayLike, fraction: ArrayLike = 0.0, dead_centres: ArrayLike = DEAD_CENTRES
     ) -> Floats:
-        """Pressure (Pa) [N] at cycle angles [N]; where the piston stands does not matter here."""
+        """Return the pressure (Pa) [N] at cycle angles [N]; `fraction` is ignored here."""
         return np.interp(_within(cycle_angle), self.angles, self.pressures)
 
     def breaks(
         self, fraction_of: Callable[[Floats], Floats] | None = None, dead_centres: ArrayLike = DEAD_CENTRES
     ) -> tuple[float, ...]:
-        """All cycle angles in [0, 4π] (rad) where the pressure bends, rising."""
+        """Return all cycle angles in [0, 4π] (rad) where the pressure bends, rising."""
         return self.angles
 
     def work(self, volume_rate: Callable[[Floats], Floats]) -> float:
@@ -271,7 +274,7 @@ def indicated_work(
 
 
 def crossings(rise: Callable[[Floats], Floats], low: Floats, high: Floats) -> Floats:
-    """Where a function that is negative at `low` and positive at `high` is zero, for every pair [N].
+    """Return the zero of a function that is negative at `low` and positive at `high`, for every pair [N].
 
     Ridders' method: with f_m at the middle, x = m − (m − low) f_m/√(f_m² − f_low f_high) lies between
     both ends, and its error falls with the square of the step before.

@@ -1,9 +1,9 @@
-"""Laws of loads: how the size of a force or torque varies over the cycle, and all that is said of it.
+"""Laws of loads: how the size of a force or torque varies over the cycle, and what the report needs to describe it.
 
-Angles are the driver's turn in the direction of rotation; a course counts them from its `top`, the dead centre
-where crank and rod are stretched in one line.  A table of one turn is laid out twice, as a cycle of two: so gas in
-four strokes and a working force of two share one reader (`machine.gas`), whose values are then newtons instead
-of pascals.
+Angles are the driver's turn in the direction of rotation. A course counts them from its `top`, the dead centre
+where crank and rod are stretched in one line. A table of one turn is repeated to fill a cycle of two turns. So one
+reader (`machine.gas`) serves four-stroke gas and a working force over two strokes; its values are newtons instead
+of pascals for the latter.
 """
 
 from __future__ import annotations
@@ -99,18 +99,19 @@ class Stroke:
 
 
 class Law(ABC):
-    """The size (N or N·m) of a load over the machine's cycle angles (0 at position 1), and what is said of it.
+    """Size (N or N·m) of a load over the machine's cycle angles (0 at position 1), with the data to describe it.
 
-    Who tells of a load asks its law here, never which class it has.
+    Code that describes a load asks its law through this interface and does not test the law's class.
     """
 
     kind: Literal["constant", "opposing", "tabled", "cutting", "spring"]
-    """How the load behaves: the same always, always against the motion, as in its table, while a tool
-    cuts, as a spring is stretched."""
+    """Behaviour of the load: constant, always opposing the motion, given by a table, cutting (acts while a tool
+    cuts), or proportional to the stretch of a spring.
+    """
 
     @abstractmethod
     def value(self, angle: Floats, motion: Motion) -> Floats:
-        """The size [N] at cycle angles [N] with the motion there."""
+        """Return the size [N] at cycle angles [N] with the motion there."""
 
     @abstractmethod
     def breaks(self, motion_at: MotionAt) -> Iterable[float]:
@@ -119,16 +120,16 @@ class Law(ABC):
     @property
     @abstractmethod
     def sizes(self) -> tuple[float, ...]:
-        """All sizes (N or N·m) that it is given by."""
+        """The sizes (N or N·m) by which it is given."""
 
     @property
     def acts(self) -> bool:
-        """Whether it is anything at all at some place of the cycle."""
+        """True if it is not zero everywhere in the cycle."""
         return any(self.sizes)
 
     @property
     def constant(self) -> bool:
-        """Whether it has one size over the whole cycle."""
+        """True if it has one size over the whole cycle."""
         return False
 
     @property
@@ -142,7 +143,7 @@ class Law(ABC):
 
     @property
     def symbol(self) -> Symbol | None:
-        """What stands in its table, where that is not the load itself."""
+        """Symbol of the quantity in its table, if that is not the load itself; else None."""
         return None
 
     @property
@@ -156,15 +157,17 @@ class Law(ABC):
         return None
 
     def formula(self, q: Sheet, link: int) -> Expression | None:
-        """The size written out of what stands on a sheet of the load on `link`; None where it is read or given."""
+        """Return the formula of the size in quantities of the sheet, for the load on `link`; None if it is read or
+        given.
+        """
         return None
 
 
 @dataclass(frozen=True)
 class TableLaw(Law):
-    """A table read by a slider's own cycle angle and s/H.
+    """A table interpolated by a slider's own cycle angle and s/H.
 
-    `turns` is how many turns of it were given: a table of one turn stands twice in `table`.
+    `turns` is the number of turns given: a table of one turn is repeated in `table`.
     """
 
     course: Stroke
@@ -176,7 +179,7 @@ class TableLaw(Law):
         return self.reading(angle, motion)
 
     def reading(self, angle: Floats, motion: Motion) -> Floats:
-        """What stands in the table [N]."""
+        """Return the values of the table [N]."""
         course = self.course
         return self.table.pressure(course.phase + angle, course.fraction(motion), course.dead_centres)
 
@@ -251,7 +254,7 @@ class AngleLaw(ListedLaw):
         return np.asarray(np.interp(self._within(angle), self.nodes, self.values))
 
     def _within(self, angle: Floats) -> Floats:
-        """The cycle angles [N] from 0 to the end of the cycle, which a place just before it begins again."""
+        """Return the cycle angles [N] from 0 to the end of the cycle, which a place just before it begins again."""
         return np.maximum(np.mod(angle + BEFORE_A_TURN, self.nodes[-1]) - BEFORE_A_TURN, 0.0)
 
     def bracket(self, angle: Floats, motion: Motion) -> Bracket:
@@ -299,7 +302,7 @@ class CuttingLaw(Law):
     kind = "cutting"
 
     def value(self, angle: Floats, motion: Motion) -> Floats:
-        """The force (N) [N]; at a dead centre that of the stroke which begins there."""
+        """Return the force (N) [N]; at a dead centre that of the stroke which begins there."""
         turned = np.mod(self.course.phase + angle + BEFORE_A_TURN, FULL_TURN) - BEFORE_A_TURN
         working = turned < self.course.bottom_angle - BEFORE_A_TURN
         share = self.course.fraction(motion)
@@ -399,7 +402,7 @@ def by_angle(angles: tuple[float, ...], values: tuple[float, ...]) -> IndicatorT
 
 
 def opposing(size: float, rate: Callable[[Floats], Floats]) -> Opposing:
-    """What resists a `rate` (m/s or rad/s) over the cycle angle (0…2π) with a constant size (N or N·m)."""
+    """Return a load of constant size (N or N·m) that opposes a `rate` (m/s or rad/s) over the cycle angle (0…2π)."""
     edges = np.linspace(0.0, FULL_TURN, STEPS + 1) - FULL_TURN / STEPS / np.pi
     signs = np.sign(rate(edges))
     changes = np.flatnonzero(signs[1:] != signs[:-1])
@@ -417,7 +420,7 @@ def opposing(size: float, rate: Callable[[Floats], Floats]) -> Opposing:
 
 
 def halved(low: Floats, high: Floats, before: Callable[[Floats], Flags], times: int) -> tuple[Floats, Floats]:
-    """The intervals [N] from `low` to `high` halved so often, each towards where `before` ends to be true.
+    """Return the intervals [N] from `low` to `high` halved so often, each towards where `before` ends to be true.
 
     `before` is asked of many places [N, K] at once, since the motion at one takes as long as at fifty.
     """

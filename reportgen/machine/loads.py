@@ -1,4 +1,4 @@
-"""The sliders whose way loads go by, and the forces and torques that load a machine."""
+"""The forces and torques that load a machine, and the motion of the sliders whose travel they depend on."""
 
 from __future__ import annotations
 
@@ -22,13 +22,13 @@ from reportgen.machine.senses import moving, pace
 
 
 def crank_motion(linkage: Linkage, positions: Positions, start: float, speed: float = 1.0) -> MotionAt:
-    """The motion at cycle angles [N] of a linkage whose crank stands at the angle `start` in position 1."""
+    """Return the motion at cycle angles [N] of a linkage whose crank is at the angle `start` in position 1."""
     turn = positions.sign
     return lambda angle: solve_motion(linkage, start + turn * angle, turn * speed)
 
 
 def rails(linkage: Linkage) -> dict[int, tuple[Dyad, Guide]]:
-    """The sliders on guides of the frame, by link: their group and guide."""
+    """Return the sliders on guides of the frame, by link: their group and guide."""
     rails = {}
     for dyad in linkage.dyads:
         for link, end in zip(dyad.links, (dyad.start, dyad.end), strict=True):
@@ -38,7 +38,7 @@ def rails(linkage: Linkage) -> dict[int, tuple[Dyad, Guide]]:
 
 
 def carriers(linkage: Linkage) -> dict[int, int]:
-    """The links that slide along a guide, with the link that has the guide."""
+    """Return the links that slide along a guide, with the link that has the guide."""
     return {
         link: end.link
         for dyad in linkage.dyads
@@ -48,7 +48,7 @@ def carriers(linkage: Linkage) -> dict[int, int]:
 
 
 def turning_points(linkage: Linkage, link: int, motion_at: MotionAt) -> tuple[float, ...]:
-    """The cycle angles (rad) of one turn, rising, at which a slider on the frame turns back."""
+    """Return the cycle angles (rad) of one turn, rising, at which a slider on the frame turns back."""
     dyad, guide = rails(linkage)[link]
     along = cmath.exp(1j * guide.angle)
 
@@ -60,7 +60,7 @@ def turning_points(linkage: Linkage, link: int, motion_at: MotionAt) -> tuple[fl
 
 
 def course(linkage: Linkage, link: int, motion_at: MotionAt, turns: int = 1, top: int = 1) -> Stroke:
-    """The way of a slider on the frame; its top is the end farther along the guide.
+    """Return the way of a slider on the frame; its top is the end farther along the guide.
 
     Intake starts at the passage number `top` of the top.  Raises `ValueError` for a slider that does not go once to
     and fro in a turn of the driver; where a file may give one, its checks find it (`catalogue.assembly.to_and_fro`).
@@ -106,7 +106,7 @@ class Piston(Stroke):
 
     @classmethod
     def on(cls, course: Stroke, bore: float, indicator: IndicatorTable) -> Piston:
-        """The piston, its bore in m, that is the slider of a course."""
+        """Return the piston, its bore in m, that is the slider of a course."""
         return cls(**vars(course), bore=bore, indicator=indicator)
 
     @property
@@ -130,7 +130,7 @@ Direction = Callable[[Motion], Complexes]
 
 
 def fixed(direction: complex) -> Direction:
-    """The same direction, of length 1, at every position."""
+    """Return the same direction, of length 1, at every position."""
     return lambda motion: np.full(motion.driver.shape, direction, dtype=np.complex128)
 
 
@@ -145,7 +145,7 @@ class Applied:
     law: Law
 
     def load(self, angle: Floats, motion: Motion) -> Load:
-        """The force at cycle angles [N] with the motion there."""
+        """Return the force at cycle angles [N] with the motion there."""
         force = self.law.value(angle, motion) * self.direction(motion)
         return Load(self.name, self.link, force, motion.points[self.point].p, np.zeros_like(angle))
 
@@ -159,13 +159,13 @@ class Torque:
     law: Law
 
     def load(self, angle: Floats, motion: Motion) -> Load:
-        """The couple at cycle angles [N] with the motion there."""
+        """Return the couple at cycle angles [N] with the motion there."""
         nothing = np.zeros(angle.shape, dtype=np.complex128)
         return Load(self.name, self.link, nothing, motion.origins[self.link].p, self.law.value(angle, motion))
 
 
 def gas_forces(pistons: Iterable[Piston]) -> tuple[Applied, ...]:
-    """The gas on each piston."""
+    """Return the gas on each piston."""
     return tuple(Applied(piston.name, piston.link, piston.pin, fixed(piston.inward), piston.law) for piston in pistons)
 
 
@@ -190,5 +190,5 @@ class LoadsByKind:
 
     @property
     def act(self) -> bool:
-        """Whether there is any load that acts."""
+        """True if some load acts."""
         return bool(self.applied or self.torques)

@@ -1,8 +1,8 @@
-"""Kinematics of the five Assur groups of class II, and the vectors of the plane they are written in.
+"""Kinematics of the five Assur groups of class II, and the plane vectors that they are computed with.
 
-Each kind has one function: it finds the position in closed form, then the two unknown rates along two
-known directions with `solve2`, first for velocities, then for accelerations.  Nothing loops over
-positions; what cannot be assembled is nan.
+One function for each kind finds the position in closed form. It then solves for the two unknown rates along two
+known directions with `solve2`, first velocities, then accelerations. All positions are computed as arrays, without
+loops; positions that cannot be assembled are nan.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ COINCIDENT = 1e-9
 """Points nearer than this, relative to their distance from the origin, give no direction."""
 
 RODS: Mapping[DyadKind, int] = {"RRR": 2, "RRP": 1, "RPR": 0, "PRP": 0, "RPP": 0}
-"""How many of a kind's `lengths` are lengths of rods."""
+"""Number of a kind's `lengths` that are lengths of rods."""
 
 
 # --- vectors of the plane, as complex numbers of any shape ---------------------------------------
@@ -50,7 +50,7 @@ def cross(a: Complexes | complex, b: Complexes | complex) -> Floats:
 
 
 def dot(a: Complexes | complex, b: Complexes | complex) -> Floats:
-    """The scalar product a · b = aₓbₓ + a_y b_y [N]."""
+    """Return the scalar product a · b = aₓbₓ + a_y b_y [N]."""
     a, b = np.asarray(a), np.asarray(b)
     return np.asarray(a.real * b.real + a.imag * b.imag, dtype=np.float64)
 
@@ -104,7 +104,7 @@ class Rail:
     carrier: LinkMotion
 
     def carried(self, p: Complexes) -> PointMotion:
-        """The point of the guide's own link that lies at `p` (m) [N]: v = v_G + iω r, a = a_G + (iε − ω²) r."""
+        """Return the point of the guide's own link that lies at `p` (m) [N]: v = v_G + iω r, a = a_G + (iε − ω²) r."""
         return carried(self.at, self.carrier, p)
 
 
@@ -122,13 +122,13 @@ End = PointMotion | Rail
 
 
 def carried(base: PointMotion, link: LinkMotion, p: Complexes) -> PointMotion:
-    """The point at `p` (m) [N] of a rigid link that moves with `base`: v = v_O + iω r, a = a_O + (iε − ω²) r."""
+    """Return the point at `p` (m) [N] of a rigid link that moves with `base`: v = v_O + iω r, a = a_O + (iε − ω²) r."""
     r = p - base.p
     return PointMotion(p, base.v + 1j * link.omega * r, base.a + (1j * link.epsilon - link.omega**2) * r)
 
 
 def assemble(dyad: Dyad, start: End, end: End, sign: Floats) -> Assembled:
-    """The group on its two ends; `sign` [N] is its orientation.
+    """Return the group on its two ends; `sign` [N] is its orientation.
 
     Raises `TypeError` when an end is a guide where the kind has a revolute joint, or the reverse, and
     `ValueError` for a rod without length.
@@ -150,7 +150,7 @@ def assemble(dyad: Dyad, start: End, end: End, sign: Floats) -> Assembled:
 
 
 def _root(scale: Floats | float) -> SquareRoot:
-    """The square root that is nan where the square is negative by more than rounding of `scale`²."""
+    """Return the square root that is nan where the square is negative by more than rounding of `scale`²."""
 
     def root(square: Floats) -> Floats:
         touching = (square < 0) & (square >= -TOUCHING * np.square(scale))
@@ -273,7 +273,7 @@ class Motion:
     reachable: Flags
 
     def of(self, link: int, at: Complexes | complex) -> PointMotion:
-        """The material point of `link` that lies at `at` (m) [N] now: v = v_O + iω r, a = a_O + (iε − ω²) r."""
+        """Return the material point of `link` that lies at `at` (m) [N] now: v = v_O + iω r, a = a_O + (iε − ω²) r."""
         p = np.broadcast_to(np.asarray(at, dtype=np.complex128), self.driver.shape)
         if link == GROUND:
             return PointMotion(p, np.zeros_like(p), np.zeros_like(p))
@@ -281,7 +281,8 @@ class Motion:
 
 
 def solve_motion(linkage: Linkage, driver: ArrayLike, rate: ArrayLike, acceleration: ArrayLike = 0.0) -> Motion:
-    """The motion at driver coordinates `driver` [N], passed through in this order, with q̇ = `rate`, q̈ = `acceleration`.
+    """Return the motion at driver coordinates `driver` [N], passed through in this order, with q̇ = `rate`, q̈ =
+    `acceleration`.
 
     Both are one number or one a position [N].  Between positions far apart the solver takes substeps, so that link
     angles are continuous.
@@ -297,7 +298,9 @@ def solve_motion(linkage: Linkage, driver: ArrayLike, rate: ArrayLike, accelerat
 
 
 def _along(path: Floats, kept: Places, given: ArrayLike) -> Floats:
-    """What is given for all positions, or one by one, at every place of the way; a substep has that before it."""
+    """Return values given once or per position at every place of the way; a substep takes the value of the place
+    before it.
+    """
     values = np.asarray(given, dtype=np.float64)
     if values.ndim == 0 or isinstance(kept, slice):
         return np.zeros_like(path) + values
@@ -305,7 +308,7 @@ def _along(path: Floats, kept: Places, given: ArrayLike) -> Floats:
 
 
 def _path(driver: Floats, turning: bool) -> tuple[Floats, Places]:
-    """The driver's way with substeps between far positions, and the places of the positions on it."""
+    """Return the driver's way with substeps between far positions, and the places of the positions on it."""
     steps = np.abs(np.diff(driver))
     if not steps.size or not np.isfinite(steps).all():
         return driver, slice(None)
@@ -320,7 +323,7 @@ def _path(driver: Floats, turning: bool) -> tuple[Floats, Places]:
 
 
 class _State:
-    """What is placed so far while the groups are assembled one after another."""
+    """The links and points placed so far while the groups are assembled one after another."""
 
     def __init__(self, linkage: Linkage, path: Floats, rate: Floats, acceleration: Floats) -> None:
         self.linkage, self.path, self.rate, self.acceleration = linkage, path, rate, acceleration
@@ -378,7 +381,7 @@ class _State:
             self._place(number, LinkMotion(_continuous(link.angle), link.omega, link.epsilon), origin)
 
     def motion(self, driver: Floats, kept: Places) -> Motion:
-        """The result at the positions asked for [N]; the substeps are dropped."""
+        """Return the result at the positions asked for [N]; the substeps are dropped."""
         return Motion(
             driver=driver,
             rate=self.rate[kept],
@@ -397,7 +400,7 @@ def _take(motion: Arrays, kept: Places) -> Arrays:
 
 
 def _continuous(angle: Floats) -> Floats:
-    """The angle without jumps of 2π; gaps of nan are stepped over."""
+    """Return the angle without jumps of 2π; gaps of nan are stepped over."""
     finite = np.isfinite(angle)
     if finite.all():
         return np.unwrap(angle)

@@ -1,4 +1,6 @@
-"""Integrals of smooth functions by Gauss–Legendre quadrature, part by part, and means that settle by halving parts."""
+"""Integrals of piecewise smooth functions by Gauss–Legendre quadrature, and means with adaptive halving of the
+parts.
+"""
 
 from __future__ import annotations
 
@@ -17,7 +19,8 @@ MOST_HALVINGS = 50
 
 
 def gauss(low: Floats, high: Floats, order: int = ORDER) -> tuple[Floats, Floats]:
-    """The places x [N, order] and weights w of Gauss and Legendre in parts [N]: ∫ f dx = Σ w f(x) in each of them.
+    """Return the places x [N, order] and weights w of Gauss and Legendre in parts [N]: ∫ f dx = Σ w f(x) in each of
+    them.
 
     Exact for polynomials of a degree below 2·order.
     """
@@ -44,12 +47,12 @@ def accumulated(function: Callable[[Floats], Floats], at: Floats, order: int = O
 def mean_over(
     function: Callable[[Floats], Floats], breaks: Iterable[float], start: float, stop: float, rounding: float = 0.0
 ) -> float:
-    """∫ f dx / (stop − start) by composite Gauss–Legendre quadrature, split at `breaks`, in the unit of f.
+    """Return ∫ f dx / (stop − start) by composite Gauss–Legendre quadrature, split at `breaks`, in the unit of f.
 
-    Every part between breaks must be smooth.  Parts are halved, those alone where it matters, as beside a dead point,
-    until halving no longer changes them: by 1e-12 of the mean of |f| in all, or by 1e-9 where rounding allows no more.
-    What changes f by less than `rounding`, in its own unit, is rounding; a function that is no larger has the mean 0.
-    Raises `ValueError` on an empty interval or when it does not settle.
+    Every part between breaks must be smooth. Only parts with too large an error are halved, for example beside a
+    dead point, until halving no longer changes the result: by 1e-12 of the mean of |f| in all, or by 1e-9 where
+    rounding allows no better. A change of f by less than `rounding`, in its own unit, counts as rounding; a
+    function that is no larger has the mean 0. Raises `ValueError` on an empty interval or if it does not converge.
     """
     if not stop > start:
         raise ValueError("the interval is empty")

@@ -1,4 +1,4 @@
-"""A machine reduced to its crank: moment of inertia, its derivative, and the torque of weights and loads.
+"""Reduction of a machine to its crank: moment of inertia, its derivative, and the torque of weights and loads.
 
 The crank with J_r(φ) under M_r(φ) has the kinetic energy and the power of the whole machine:
 J_r = Σ m v_S² + J ω²,  J_r′ = dJ_r/dφ = 2 Σ (m v_S·a_S + J ω ε),  M_r = Σ (F·v + M ω),  all at ω₁ = 1, ε₁ = 0.
@@ -40,7 +40,7 @@ def reduced_torque(machine: Machine, motion: Motion, loads: Sequence[Load]) -> F
 
 
 def at_unit_speed(machine: Machine, angle: Floats) -> Motion:
-    """The motion at cycle angles [N] (rad) with ω₁ = 1 in the sense of rotation and ε₁ = 0."""
+    """Return the motion at cycle angles [N] (rad) with ω₁ = 1 in the sense of rotation and ε₁ = 0."""
     return solve_motion(machine.linkage, machine.angles(angle), float(machine.turn))
 
 

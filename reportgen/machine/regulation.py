@@ -1,4 +1,4 @@
-"""The cycle of a machine whose speed a further moment of inertia on the crank keeps within bounds."""
+"""The cycle of a machine whose speed a flywheel on the crank keeps within bounds."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""In which sense something moves: the sign of a speed, or none where the speed is only rounding.
+"""Sense of motions: the sign of a speed, or 0 where the speed is only rounding.
 
-A relative speed is the difference of two speeds.  Where they are equal, rounding is left of them, and its sign says
-nothing; so each is compared with how fast the whole mechanism moves, not with itself.
+A relative speed is the difference of two speeds. Where they are equal, only rounding is left, and its sign is
+meaningless. So each speed is compared with the speed of the whole mechanism, not with itself.
 """
 
 from __future__ import annotations

@@ -119,7 +119,9 @@ def torques(report: Report) -> FigureScenes:
 
 
 def characteristic(report: Report) -> FigureScenes:
-    """The torque of the drive over the speed, and the closed loop that the reduced torque of the loads makes there."""
+    """Return the torque of the drive over the speed, and the closed loop that the reduced torque of the loads makes
+    there.
+    """
     return FigureScenes((characteristic_chart(report).scene,))
 
 

@@ -62,7 +62,9 @@ MODES = np.linalg.inv(np.polynomial.legendre.legvander(2 * C - 1, STAGES - 1))
 
 
 def tail(values: Floats) -> float:
-    """The two highest of Legendre's polynomials in values at the places of a part [s]: what the others leave out."""
+    """Return the two highest of Legendre's polynomials in values at the places of a part [s]: what the others leave
+    out.
+    """
     return float(np.abs(MODES[-2:] @ values).max())
 
 
@@ -90,7 +92,7 @@ class ReducedWay:
         return len(self.edges) - 1
 
     def parts(self, first: int, last: int) -> ReducedWay:
-        """The parts from number `first` up to `last`, which is left out."""
+        """Return the parts from number `first` up to `last`, which is left out."""
         within = {name: getattr(self, name)[first:last] for name in ("angle", "measure", "inertia", "slope", "torque")}
         inertia, slope, torque = (values[first : last + 1] for values in self.at_edges)
         return ReducedWay(self.edges[first : last + 1], **within, at_edges=(inertia, slope, torque))
@@ -128,7 +130,7 @@ class ReducedMachine:
         return not any(load.law.kind in ("opposing", "cutting") for load in self.machine.loads)
 
     def along(self, edges: Floats) -> ReducedWay:
-        """The way with these edges (rad), which rise."""
+        """Return the way with these edges (rad), which rise."""
         return self._way(
             edges, edges[:-1, None] + np.diff(edges)[:, None] * C, np.diff(edges)[:, None] * np.ones(STAGES)
         )
@@ -149,7 +151,7 @@ class ReducedMachine:
         return np.unique(np.concatenate((breaks(self.machine), own)))
 
     def parted(self, start: float, own: Sequence[float] = ()) -> Floats:
-        """The edges (rad) of a cycle from `start`: even ones, where loads jump, and `own` ones."""
+        """Return the edges (rad) of a cycle from `start`: even ones, where loads jump, and `own` ones."""
         grid = start + np.linspace(0.0, self.whole, self.machine.turns * PARTS + 1)
         inner = start + np.mod(np.concatenate((self.corners, np.asarray(own, dtype=float))) - start, self.whole)
         edges = np.sort(np.concatenate((grid, inner)))
@@ -175,7 +177,7 @@ class EnergyAlong:
 
 
 def linear(path: ReducedWay, drive: Drive, energy: Floats) -> tuple[Floats, Floats, Floats, Floats]:
-    """The equation made linear about T [n, s]: T = p T₀ + r inside each part, α T₀ + β at its end."""
+    """Return the equation made linear about T [n, s]: T = p T₀ + r inside each part, α T₀ + β at its end."""
     speed = np.sqrt(2 * energy / path.inertia)
     gain = path.measure * drive.slope(speed) / (path.inertia * speed)
     rest = path.measure * (path.torque + drive.torque(speed)) - gain * energy
@@ -194,7 +196,7 @@ def energy_at_edges(first: float, alpha: Floats, beta: Floats) -> Floats:
 
 
 def _first_empty(edges: Floats, inside: Floats) -> int:
-    """The first part in which the energy comes to an end; the number of parts if none."""
+    """Return the first part in which the energy comes to an end; the number of parts if none."""
     empty = (inside <= 0).any(axis=1) | (edges[1:] <= 0)
     return int(empty.argmax()) if empty.any() else len(empty)
 

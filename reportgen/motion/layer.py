@@ -18,7 +18,7 @@ MOST = 1500
 
 
 def timed_runs(report: Report) -> tuple[TimedRun, ...]:
-    """The motions that a page plays in time: that with the flywheel where start and stop have it."""
+    """Return the motions that a page plays in time: that with the flywheel where start and stop have it."""
     motion = motion_in(report.analysis)
     runs = {"steady": motion.states[motion.shown].run}
     if motion.started is not None:
@@ -36,7 +36,7 @@ def _timed(key: str, run: MotionRun) -> TimedRun:
 
 
 def working_point(report: Report) -> Iterator[Chart]:
-    """The characteristic, on which the working point of the drive moves; none of a constant torque."""
+    """Yield the characteristic, on which the working point of the drive moves; none of a constant torque."""
     motion = motion_in(report.analysis)
     if motion.drive.governs:
         symbol = report.ledger.symbol("run.Md")

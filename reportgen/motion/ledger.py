@@ -110,7 +110,7 @@ class _Steady:
         return run_ids.in_state(quantity, self.state)
 
     def symbol(self, letter: str, *index: str, sup: str = "") -> Symbol:
-        """A letter with its indices, behind them that of the flywheel."""
+        """Return a letter with its indices, behind them that of the flywheel."""
         return Symbol(letter, ",".join((*index, *(("d",) if self.state else ()))), sup)
 
     def enter(self, slope: Expression) -> None:
@@ -172,7 +172,7 @@ class _Steady:
         q.define(self.id("delta"), (most - least) / mean, self.symbol("δ", "t"), "ratio")
 
     def _drive(self) -> Expression:
-        """The torque of the drive on the crank: constant, or read at the speed of each position."""
+        """Return the torque of the drive on the crank: constant, or read at the speed of each position."""
         q, drive = self.q, self.motion.drive
         if not isinstance(drive, ConstantDrive):
             read = self.steady.run.drive

@@ -29,7 +29,7 @@ def has_motors(report: Report) -> bool:
 
 
 def chosen_motor(report: Report) -> Inlines:
-    """The least motor that passes all checks, by name and power; nothing if none does."""
+    """Return the least motor that passes all checks, by name and power; nothing if none does."""
     fitting = next((checked_motor for checked_motor in _checks(report) if checked_motor.fits), None)
     if fitting is None:
         return ()
@@ -37,7 +37,7 @@ def chosen_motor(report: Report) -> Inlines:
 
 
 def motor_list(report: Report) -> Inlines:
-    """The motors to choose from, with all that is given of them."""
+    """Return the motors to choose from, with all that is given of them."""
     motion, words = motion_in(report.analysis), report.words["motors"]
     parts: list[Inline] = []
     for motor in motion.asked.motors:
@@ -59,7 +59,7 @@ def demand_lines(report: Report) -> list[str]:
 
 
 def motors_table(report: Report, key: str, caption: str, head: Sequence[str]) -> Table:
-    """Each motor with its torques at the crank, and whether they suffice."""
+    """Return each motor with its torques at the crank, and whether they suffice."""
     return list_table(report.prose, key, caption, head, _rows(report), WIDTHS)
 
 
@@ -81,7 +81,7 @@ def _rows(report: Report) -> Iterator[Sequence[object]]:
 
 
 def _typed(power: float, unit: str = "") -> Number:
-    """A power (W) in kW, as it was given."""
+    """Return a power (W) in kW, as it was given."""
     return Number(float(f"{power / 1e3:.9g}"), None, unit)
 
 

@@ -68,7 +68,7 @@ class MotorChecks:
 
 
 def judged(motors: Sequence[Motor], demand: DriveDemand, ratio: float) -> list[MotorChecks]:
-    """The motors by rising power, behind a gear by which the crank turns `ratio` times as fast."""
+    """Return the motors by rising power, behind a gear by which the crank turns `ratio` times as fast."""
     rising = sorted(motors, key=lambda motor: motor.power)
     return [
         MotorChecks(motor, motor.rated / ratio, motor.start / ratio, motor.breakdown / ratio, demand)

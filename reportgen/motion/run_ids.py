@@ -15,7 +15,7 @@ quantity = Name("run.{quantity}[.{state}]")  # of the machine by itself, or with
 
 
 def in_state(name: str, state: str) -> str:
-    """The id of a quantity of the machine by itself, or with its flywheel."""
+    """Return the id of a quantity of the machine by itself, or with its flywheel."""
     return quantity(name, *([state] if state else []))
 
 

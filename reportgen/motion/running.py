@@ -95,7 +95,7 @@ class MotionRun:
     at: NDArray[np.int64]
 
     def place(self, angle: float) -> int:
-        """The index of the edge at an angle (rad)."""
+        """Return the index of the edge at an angle (rad)."""
         edges = self.angle[self.at]
         return int(self.at[int(np.abs(edges - angle).argmin())])
 
@@ -118,12 +118,12 @@ class MotionRun:
         )
 
     def shifted(self, angle: float) -> MotionRun:
-        """The same further on by an angle (rad)."""
+        """Return the same further on by an angle (rad)."""
         return replace(self, angle=self.angle + angle)
 
 
 def run_along(path: ReducedWay, drive: Drive, energy: EnergyAlong) -> MotionRun:
-    """The run along a way with the energy found."""
+    """Return the run along a way with the energy found."""
     n = path.size
 
     def woven(edges: Floats, inside: Floats) -> Floats:
@@ -153,7 +153,7 @@ def run_along(path: ReducedWay, drive: Drive, energy: EnergyAlong) -> MotionRun:
 
 
 def run_in_time(stepper: TimeStepper, angle: float, speed: float, edge: float) -> tuple[MotionRun, bool]:
-    """The run from an angle (rad) to an edge, integrated in time, and whether the crank rests before it.
+    """Return the run from an angle (rad) to an edge, integrated in time, and whether the crank rests before it.
 
     Raises `NoMotionError` where the machine creeps towards a place without ever coming there.
     """
@@ -184,7 +184,8 @@ def run_in_time(stepper: TimeStepper, angle: float, speed: float, edge: float) -
 def passage(
     body: ReducedMachine, edges: Floats, drive: Drive, speed: float, known: ReducedWay | None = None
 ) -> tuple[MotionRun, bool]:
-    """The run forward between edges (rad), along their way if it is `known`, and whether it comes to the last of them.
+    """Return the run forward between edges (rad), along their way if it is `known`, and whether it comes to the last
+    of them.
 
     The speed at the first may be 0; then the torque there is positive.  The equation of energy serves as long as T is
     as good as a polynomial of the angle, time for the rest.  Raises `NoMotionError`.
@@ -254,7 +255,9 @@ SHARES = np.linspace(0.0, 1.0, 201)
 
 
 def _extreme(run: MotionRun, sense: int) -> ExtremeSpeed:
-    """The greatest (+1) or least (−1) speed: of the samples, and of the polynomials of the parts beside the best."""
+    """Return the greatest (+1) or least (−1) speed: of the samples, and of the polynomials of the parts beside the
+    best.
+    """
     best = int((sense * run.speed).argmax())
     candidates = [ExtremeSpeed(float(run.speed[best]), float(run.angle[best]))]
     part = best // (STAGES + 1)
@@ -278,7 +281,7 @@ def _described(path: ReducedWay, drive: Drive, energy: EnergyAlong, settles: flo
 
 
 def mean_torque(body: ReducedMachine, path: ReducedWay) -> tuple[float, float]:
-    """The mean of M_r over a cycle and that of its size (N·m)."""
+    """Return the mean of M_r over a cycle and that of its size (N·m)."""
     return (
         float((path.measure * path.torque * B).sum()) / body.whole,
         float((path.measure * np.abs(path.torque) * B).sum()) / body.whole,
@@ -310,7 +313,8 @@ def levels(drive: Drive, mean: float, speed: float) -> list[float]:
 
 
 def steady(body: ReducedMachine, drive: Drive, speed: float, own: Sequence[float] = ()) -> SteadyMotion:
-    """The steady motion of a machine under a drive; the edges of its parts have the `own` angles (rad) among them.
+    """Return the steady motion of a machine under a drive; the edges of its parts have the `own` angles (rad) among
+    them.
 
     Where no torque depends on the speed there is one only if the mean torque is 0, and its level is set by
     (ω_max + ω_min)/2 = `speed`.  Raises `NoMotionError`.
@@ -332,7 +336,7 @@ def steady(body: ReducedMachine, drive: Drive, speed: float, own: Sequence[float
 
 
 def _light(path: ReducedWay) -> NoMotionError | None:
-    """The error of a machine that has hardly any inertia somewhere, where T tells no speed."""
+    """Return the error of a machine that has hardly any inertia somewhere, where T tells no speed."""
     inside = path.inertia.ravel()
     if inside.min() > HARDLY * inside.max():
         return None
@@ -370,7 +374,7 @@ def _cycle(path: ReducedWay, drive: Drive, speed: float) -> tuple[EnergyAlong, f
 
 
 def _refined(body: ReducedMachine, path: ReducedWay, drive: Drive, energy: EnergyAlong, settles: float) -> SteadyMotion:
-    """The steady motion, with parts halved as often as T changes too much in them."""
+    """Return the steady motion, with parts halved as often as T changes too much in them."""
     for _ in range(MOST_REFINED):
         rough = np.flatnonzero(~smooth(path, drive, energy))
         if not rough.size:
@@ -400,7 +404,7 @@ def _simulated(body: ReducedMachine, path: ReducedWay, drive: Drive, speed: floa
 
 
 def stalled(body: ReducedMachine, run: MotionRun, code: str = "stalls") -> NoMotionError:
-    """The error of a machine that comes to rest at the end of a run."""
+    """Return the error of a machine that comes to rest at the end of a run."""
     missing = -float(run.torque[-1] + run.drive[-1])
     return NoMotionError(code, angle=float(np.mod(run.angle[-1], body.whole)), missing=missing)
 
@@ -408,7 +412,7 @@ def stalled(body: ReducedMachine, run: MotionRun, code: str = "stalls") -> NoMot
 def _level(
     body: ReducedMachine, path: ReducedWay, drive: Drive, speed: float, mean: float, size: float
 ) -> SteadyMotion:
-    """The steady motion without a torque that depends on the speed, its mean set to `speed`."""
+    """Return the steady motion without a torque that depends on the speed, its mean set to `speed`."""
     torque = float(drive.torque(np.zeros(1))[0])
     if abs(mean + torque) > BALANCED * max(size, abs(torque)):
         raise NoMotionError("runs-away" if mean + torque > 0 else "runs-down", missing=-(mean + torque))

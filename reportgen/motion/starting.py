@@ -142,7 +142,7 @@ def _swing(body: ReducedMachine, drive: Drive, at: float) -> MotionRun | None:
 
 
 def stop(body: ReducedMachine, brake: Drive, speed: float, angle: float = 0.0, own: Sequence[float] = ()) -> MotionRun:
-    """The run-down from a speed (rad/s) at a cycle angle (rad), the motor off, under a brake, to rest.
+    """Return the run-down from a speed (rad/s) at a cycle angle (rad), the motor off, under a brake, to rest.
 
     Raises `NoMotionError` where the loads keep the machine going.
     """

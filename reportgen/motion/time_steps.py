@@ -109,7 +109,7 @@ class TimeStepper:
         return float(min(lengths))
 
     def _towards(self, angle: float, speed: float, length: float, edge: float) -> TimeStep | None:
-        """A step of this length (s), or of less to the edge or to rest, whichever comes first."""
+        """Return a step of this length (s), or of less to the edge or to rest, whichever comes first."""
         step = self._step(angle, speed, length)
         if step is None:
             return None
@@ -125,7 +125,7 @@ class TimeStepper:
     def _step(
         self, angle: float, speed: float, length: float, edge: float | None = None, *, to_rest: bool = False
     ) -> TimeStep | None:
-        """A step by Newton's method for ω, the angles following it; None where it does not settle."""
+        """Return a step by Newton's method for ω, the angles following it; None where it does not settle."""
         ω, h = np.full(STAGES, speed), length
         path = h * speed * C
         before = np.inf
@@ -167,7 +167,7 @@ class TimeStepper:
 
 
 def times(steps: Sequence[TimeStep]) -> Floats:
-    """The times (s) at the beginning of the first step and at the places and the end of each [(s + 1) n + 1]."""
+    """Return the times (s) at the beginning of the first step and at the places and the end of each [(s + 1) n + 1]."""
     ends = np.cumsum([step.duration for step in steps])
     within = [np.append(end - step.duration * (1 - C), end) for step, end in zip(steps, ends, strict=True)]
     return np.concatenate(([0.0], *within))

@@ -227,7 +227,7 @@ FORMS = ("M0", "kloss", "table", "constant")
 
 
 def check(draft: Draft) -> Iterator[Finding]:
-    """A drive has one characteristic, the linear one both of its values; a table rises from 0."""
+    """Yield faults unless a drive has one characteristic, the linear one both of its values; a table rises from 0."""
     drive, where = draft.at("parameters", "motion", "drive"), ("parameters", "motion", "drive")
     if not isinstance(drive, dict):
         return

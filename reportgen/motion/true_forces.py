@@ -45,7 +45,7 @@ def _rows(report: Report, true: Analysis, k: Position) -> Iterator[Sequence[obje
 
 
 def _courses(report: Report, true: Analysis) -> Iterator[tuple[str, np.ndarray]]:
-    """The ids of all that depends on the acceleration, with the true values (SI) [N]."""
+    """Yield the ids of all that depends on the acceleration, with the true values (SI) [N]."""
     for name, point in true.motion.points.items():
         yield ids.acceleration(name), np.abs(point.a)
     for number, link in true.motion.links.items():
@@ -62,7 +62,8 @@ def _courses(report: Report, true: Analysis) -> Iterator[tuple[str, np.ndarray]]
 
 
 def _row(report: Report, id: str, true: np.ndarray, k: Position) -> tuple[object, ...]:
-    """A quantity with its value at constant speed and the true one of [N], in the decimals that the report has for it.
+    """Return a quantity with its value at constant speed and the true one of [N], in the decimals that the report
+    has for it.
 
     What is nothing at constant speed has the figures of its kind.
     """

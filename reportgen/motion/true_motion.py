@@ -64,7 +64,7 @@ class TrueMotion:
         return DriveDemand.of(self.states[self.shown], machine.turns * FULL_TURN)
 
     def motors(self, machine: Machine) -> list[MotorChecks]:
-        """The motors to choose from by rising power, with their checks."""
+        """Return the motors to choose from by rising power, with their checks."""
         return judged(self.asked.motors, self.demand(machine), self.asked.ratio) if self.asked.motors else []
 
     @property
@@ -74,7 +74,7 @@ class TrueMotion:
 
 
 def true_motion(machine: Machine, asked: MotionAsked, regulated: RegulatedCycle | None) -> TrueMotion:
-    """The true motion that is asked of a machine, with the flywheel that regulates it.
+    """Return the true motion that is asked of a machine, with the flywheel that regulates it.
 
     Raises `NoMotionError`.
     """
@@ -123,7 +123,7 @@ def _motion(analysis: Analysis) -> TrueMotion:
 
 
 def least_inertia(body: ReducedMachine, path: ReducedWay) -> tuple[float, float]:
-    """The cycle angle (rad) where the reduced moment of inertia is least, and that (kg·m²).
+    """Return the cycle angle (rad) where the reduced moment of inertia is least, and that (kg·m²).
 
     It is sought between the samples of the way, too: where all masses stand still it touches 0 at one angle alone.
     """
@@ -144,12 +144,14 @@ def least_inertia(body: ReducedMachine, path: ReducedWay) -> tuple[float, float]
 
 
 def at_positions(machine: Machine, motion: SteadyMotion) -> np.ndarray:
-    """The indices among the samples [N] of a steady motion at which the machine is at its positions."""
+    """Return the indices among the samples [N] of a steady motion at which the machine is at its positions."""
     return np.array([motion.run.place(float(angle)) for angle in machine.cycle_angles])
 
 
 def at_true_speeds(analysis: Analysis, steady: SteadyMotion) -> Analysis:
-    """The same positions with the angular velocity and acceleration that the crank has there in steady motion."""
+    """Return the same positions with the angular velocity and acceleration that the crank has there in steady
+    motion.
+    """
     machine, at = analysis.machine, at_positions(analysis.machine, steady)
     rate, acceleration = machine.turn * steady.run.speed[at], machine.turn * steady.run.acceleration[at]
     motion = solve_motion(machine.linkage, machine.angles(analysis.cycle_angle), rate, acceleration)

@@ -49,7 +49,7 @@ def governed(report: Report) -> bool:
 
 
 def inertia_slopes(report: Report) -> list[str]:
-    """The components of accelerations along the velocities, the shares of links in J′, and J′."""
+    """Return the components of accelerations along the velocities, the shares of links in J′, and J′."""
     points = (run_ids.along_velocity(body.centre) for body in report.machine.linkage.inertias)
     shares = (run_ids.slope(link) for link in report.machine.linkage.links)
     return report.known([*points, *shares, run_ids.slope()])
@@ -174,7 +174,7 @@ def extreme_places(report: Report, state: str = "") -> Mapping[str, Inlines]:
 
 
 def motion_equations(report: Report) -> Equation:
-    """The equation of motion, the equation of energy and what it gives, in symbols."""
+    """Return the equation of motion, the equation of energy and what it gives, in symbols."""
     ledger = report.ledger
     parts = [ledger.symbol(id) for id in ("J.r", "run.J") if id in ledger]
     J = plus(*parts)
@@ -191,7 +191,7 @@ def motion_equations(report: Report) -> Equation:
 
 
 def drive_equations(report: Report) -> Equation:
-    """The characteristic of the drive in symbols, as it acts on the crank."""
+    """Return the characteristic of the drive in symbols, as it acts on the crank."""
     ledger = report.ledger
     M, ω = ledger.symbol("run.Md"), Symbol("ω")
     i = ledger.symbol("run.i") if "run.i" in ledger else None
@@ -205,7 +205,7 @@ def drive_equations(report: Report) -> Equation:
 
 
 def drive_formula(report: Report) -> Inlines:
-    """The same within a sentence; nothing of a drive without a formula."""
+    """Return the same within a sentence; nothing of a drive without a formula."""
     if drive_form(report) not in ("linear", "load", "kloss"):
         return ()
     chains = (InlineMath(chain, slashed=True) for chain in drive_equations(report).rows if isinstance(chain, Chain))
@@ -213,7 +213,7 @@ def drive_formula(report: Report) -> Inlines:
 
 
 def drive_points(report: Report) -> Inlines:
-    """The torques of a characteristic that is a table, at its speeds; nothing of another one."""
+    """Return the torques of a characteristic that is a table, at its speeds; nothing of another one."""
     motion = motion_in(report.analysis)
     drive = motion.drive
     motor = drive.motor if isinstance(drive, Geared) else drive
@@ -274,7 +274,7 @@ def residuals(report: Report) -> dict[str, float]:
 
 
 def _of_shown(name: str) -> Callable[[Report], str]:
-    """The id of a quantity of the motion that starts, stops and has its forces shown."""
+    """Return the id of a quantity of the motion that starts, stops and has its forces shown."""
 
     def of(report: Report) -> str:
         motion = motion_in(report.analysis)
@@ -326,7 +326,7 @@ Head = Sequence[str]
 
 
 def steady_table(report: Report, key: str, caption: str, head: Head) -> tuple[Table | Paragraph, ...]:
-    """The steady motion at the positions."""
+    """Return the steady motion at the positions."""
     shared = ["J.r", "run.dJ", "M.r"]
     own = [run_ids.in_state(name, "") for name in ("Md", "T", "omega", "eps", "t")]
     shown = [id for id in report.known([*shared, *own]) if len(report.ledger[id].values) > 1]
@@ -334,18 +334,18 @@ def steady_table(report: Report, key: str, caption: str, head: Head) -> tuple[Ta
 
 
 def wheel_table(report: Report, key: str, caption: str, head: Head) -> tuple[Table | Paragraph, ...]:
-    """The same with the flywheel."""
+    """Return the same with the flywheel."""
     own = report.known(run_ids.in_state(name, "wheel") for name in ("Md", "T", "omega", "eps", "t"))
     return tables(report, key, caption, own, report.all_positions)
 
 
 def steps_table(report: Report, key: str, caption: str, head: Head) -> tuple[Table | Paragraph, ...]:
-    """The speed by steps beside the true one."""
+    """Return the speed by steps beside the true one."""
     return tables(report, key, caption, ["run.omega", "run.step"], report.all_positions)
 
 
 def start_table(report: Report, key: str, caption: str, head: Head) -> Table:
-    """The start at the positions of its first cycle and at the ends of the others."""
+    """Return the start at the positions of its first cycle and at the ends of the others."""
     started = motion_of(report).started
     assert started is not None, "a start has a table where it is asked for"
     run, begin = started.run, float(started.run.angle[0])
@@ -365,7 +365,7 @@ def _last_at(run: MotionRun, angle: float, end: int) -> int:
 
 
 def stop_table(report: Report, key: str, caption: str, head: Head) -> Table:
-    """The run-down at the positions that it passes, and its end."""
+    """Return the run-down at the positions that it passes, and its end."""
     run = motion_of(report).stopped
     assert run is not None, "a stop has a table where it is asked for"
     whole = report.machine.turns * 2 * math.pi

@@ -36,7 +36,7 @@ class SpringLaw(Law):
     kind = "spring"
 
     def along(self, motion: Motion) -> Complexes:
-        """The vector (m) from the first end to the second [N]."""
+        """Return the vector (m) from the first end to the second [N]."""
         return np.asarray(self.ends[1].at(motion) - self.ends[0].at(motion), dtype=np.complex128)
 
     def energy(self, motion: Motion) -> Floats:
@@ -44,7 +44,7 @@ class SpringLaw(Law):
         return np.asarray(self.c * (np.abs(self.along(motion)) - self.free) ** 2 / 2)
 
     def towards(self, end: int) -> Direction:
-        """The direction in which the spring pulls at one of its ends, 0 or 1: towards the other."""
+        """Return the direction in which the spring pulls at one of its ends, 0 or 1: towards the other."""
         sense = -1.0 if end else 1.0
 
         def direction(motion: Motion) -> Complexes:

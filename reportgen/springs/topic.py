@@ -126,7 +126,9 @@ MEET = 1e-3
 
 
 def faults(parameters: TopicParameters, machine: Machine) -> Iterator[Finding]:
-    """Each spring has its ends on links and at points that are there, and sizes of its sort; none winds up."""
+    """Yield faults unless each spring has its ends on links and at points that are there, and sizes of its sort;
+    none winds up.
+    """
     springs: tuple[Spring, ...] = parameters.section("springs", tuple) or ()
     misplaced = list(misplaced_ends(springs, machine.linkage))
     yield from misplaced or wound_up(springs, machine)
@@ -140,7 +142,7 @@ def misplaced_ends(springs: Sequence[Spring], linkage: Linkage) -> Iterator[Find
 
 
 def failures(machine: Machine, worked: Sequence[int]) -> Iterator[Finding]:
-    """A spring whose ends meet on the way: its force would have no direction there, and jump to the other side.
+    """Report a spring whose ends meet on the way: its force would have no direction there, and jump to the other side.
 
     One without a free length pulls with c times the vector between its ends, which is nothing there.
     """
@@ -161,7 +163,9 @@ def failures(machine: Machine, worked: Sequence[int]) -> Iterator[Finding]:
 
 
 def _nearest(machine: Machine, law: SpringLaw, angle: float, step: float) -> tuple[float, float]:
-    """The cycle angle (rad) within a step of one given at which the ends of a spring are nearest, and how near (m)."""
+    """Return the cycle angle (rad) within a step of one given at which the ends of a spring are nearest, and how
+    near (m).
+    """
     for _ in range(CLOSER):
         places = np.linspace(angle - step, angle + step, 21)
         if machine.span:
@@ -203,7 +207,7 @@ def _faults(spring: Spring, linkage: Linkage, points: Mapping[int, set[str]], at
 
 
 def _swinging(linkage: Linkage) -> dict[str, tuple[int, str]]:
-    """The fixed pins about which links of groups turn: the link, and the point that tells its angle."""
+    """Return the fixed pins about which links of groups turn: the link, and the point that tells its angle."""
     return {
         end: (link, str(dyad.start) if dyad.kind == "RPR" and end == dyad.end else dyad.middle)
         for dyad in linkage.dyads
@@ -213,7 +217,7 @@ def _swinging(linkage: Linkage) -> dict[str, tuple[int, str]]:
 
 
 def _other_point(linkage: Linkage, spring: Spring) -> str | None:
-    """The point of a link that turns about the spring's pin by which its angle is told."""
+    """Return the point of a link that turns about the spring's pin by which its angle is told."""
     link, point = _swinging(linkage).get(spring.about or "", (0, ""))
     return point if link == spring.link else None
 
@@ -222,7 +226,7 @@ def _other_point(linkage: Linkage, spring: Spring) -> str | None:
 
 
 def swing(link: int, motion_at: MotionAt) -> tuple[float, float]:
-    """The middle and the range (rad) of the angles that a link takes on while the driver goes all its way."""
+    """Return the middle and the range (rad) of the angles that a link takes on while the driver goes all its way."""
     angle = motion_at(np.linspace(0.0, FULL_TURN, STEPS + 1)).links[link].angle
     low, high = (float(extreme(angle)) for extreme in (np.nanmin, np.nanmax))
     return (low + high) / 2, high - low

@@ -27,12 +27,14 @@ def rows_of(report: Report) -> tuple[SpringRow, ...]:
 
 
 def spring_lines(report: Report) -> list[str]:
-    """The lengths of springs, or the angles that they are turned by, with their loads."""
+    """Return the lengths of springs, or the angles that they are turned by, with their loads."""
     return report.known(id for row in rows_of(report) for id in (*row.lines, *row.loads))
 
 
 def spring_works(report: Report) -> Inlines:
-    """The works of the springs (J) over the way of a sliding driver, in the order of their numbers; of a crank none."""
+    """Return the works of the springs (J) over the way of a sliding driver, in the order of their numbers; of a
+    crank none.
+    """
     machine = report.machine
     if not machine.span:
         return ()
@@ -57,12 +59,12 @@ def torsion_springs(report: Report) -> list[str]:
 
 
 def spring_loads(report: Report) -> list[str]:
-    """The loads of springs."""
+    """Return the loads of springs."""
     return report.known(id for row in rows_of(report) for id in row.loads)
 
 
 def loads_over_cycle(report: Report) -> FigureScenes:
-    """The forces of springs over the cycle, those of torsion springs in a diagram of their own."""
+    """Return the forces of springs over the cycle, those of torsion springs in a diagram of their own."""
     by_kind: dict[str, list[ShownCurve]] = {}
     analysed = {load.name: load.law for load in report.loads}
     cycle = report.dense_cycle

@@ -149,7 +149,7 @@ def _last_section(package: Package) -> Iterator[tuple[str, Attributes]]:
 
 
 def _margins(attributes: Attributes, package: Package) -> dict[str, float]:
-    """The margins by the names that pages have for them (mm); they leave room on the page of a report."""
+    """Return the margins by the names that pages have for them (mm); they leave room on the page of a report."""
     margins = {}
     for name, own in MARGINS.items():
         if name in attributes:
@@ -169,7 +169,7 @@ def _margins(attributes: Attributes, package: Package) -> dict[str, float]:
 
 
 def _part(package: Package, name: str, called: str) -> str:
-    """A part with nothing in it but Word's own elements and attributes, none of which names another part."""
+    """Return a part with nothing in it but Word's own elements and attributes, none of which names another part."""
     builder = ElementTree.TreeBuilder()
     codes: list[str] = []
     skipped = depth = count = 0
@@ -253,7 +253,7 @@ def _stands_right(child: ElementTree.Element, parent: ElementTree.Element) -> bo
 
 
 def _wrong_value(element: ElementTree.Element) -> str | None:
-    """A number of an element that is out of Word's range; None where there is none."""
+    """Return a number of an element that is out of Word's range; None where there is none."""
     local = element.tag.removeprefix(_W)
     for key, value in element.attrib.items():
         attribute = key.removeprefix(_W)
@@ -273,7 +273,7 @@ def _wrong_value(element: ElementTree.Element) -> str | None:
 
 
 def _judge_styles(styles: Sequence[ElementTree.Element], package: Package, name: str) -> None:
-    """Each has a kind, an id and a name of its own, and none is based on itself."""
+    """Yield faults unless each has a kind, an id and a name of its own, and none is based on itself."""
     bases: dict[str, str] = {}
     names = set[str]()
     for style in styles:

@@ -38,13 +38,17 @@ def displayed(value: float, number_format: str) -> str:
 
 
 def _first_section(number_format: str) -> str:
-    """The part of a format for numbers that are not negative, up to the first semicolon outside quotation marks."""
+    """Return the part of a format for numbers that are not negative, up to the first semicolon outside quotation
+    marks.
+    """
     match = re.match(r'(?:"[^"]*"|\\.|[^;"])*', number_format)
     return match[0] if match else ""
 
 
 def _tokens(section: str) -> Iterator[tuple[str | None, bool]]:
-    """The signs of a format, and whether each is a place for a digit; None for what makes it one of quantities."""
+    """Yield the signs of a format, and whether each is a place for a digit; None for what makes it one of
+    quantities.
+    """
     for match in _TOKEN.finditer(section):
         quoted, escaped, blank, place, literal, quantity = match.groups()
         if place:

@@ -153,7 +153,7 @@ class Package:
                         raise self.refused("sheet-links")
 
     def relations(self, name: str) -> dict[str, Relation]:
-        """The relations of a .rels part by their ids; none if there is no such part."""
+        """Return the relations of a .rels part by their ids; none if there is no such part."""
         if name not in self._parts:
             return {}
         return {
@@ -179,7 +179,7 @@ class Package:
         return elements
 
     def content(self, name: str) -> bytes:
-        """The bytes of a part; raises `RefusedError` for damage or more bytes than the directory announced."""
+        """Return the bytes of a part; raises `RefusedError` for damage or more bytes than the directory announced."""
         return b"".join(self._chunks(name))
 
     def without_empty_cells(self, name: str) -> None:
@@ -258,7 +258,7 @@ _PLACE = frozenset({"r", "spans"})
 
 
 def measure(package: Package, name: str) -> tuple[int, int]:
-    """The numbers of cells (elements right inside rows) and of formulas in a part.
+    """Return the numbers of cells (elements right inside rows) and of formulas in a part.
 
     Raises `RefusedError` if it is damaged or has more in it than can be held.
     """
@@ -387,12 +387,13 @@ def too_long(mark: Mark) -> RefusedError:
 
 
 def number_text(value: float) -> str:
-    """A number as short as it can be read back from: 195520103001, 0.35, 1e-20."""
+    """Return a number as short as it can be read back from: 195520103001, 0.35, 1e-20."""
     return str(int(value)) if value.is_integer() and abs(value) < 1e16 else repr(value)
 
 
 def guarded(text: str) -> str:
-    """The text with an apostrophe before all that a spreadsheet would take for the formula of a cell; numbers stay.
+    """Return the text with an apostrophe before all that a spreadsheet would take for the formula of a cell; numbers
+    stay.
 
     Such a formula may also begin inside: programs of other countries part cells at semicolons, tabs or bars, and
     know nothing of the quotation marks that keep a cell together.
@@ -402,7 +403,7 @@ def guarded(text: str) -> str:
 
 
 def unguarded(text: str) -> str:
-    """The text that `guarded` was given."""
+    """Return the text that `guarded` was given."""
     rest = text[1:]
     inside = rest if text.startswith("'") and _LIVE.match(rest) and not _NUMBER.fullmatch(rest) else text
     return _INSIDE.sub(_without_apostrophe, inside)

@@ -58,7 +58,7 @@ Marks = Callable[[int, int], CellMark]
 
 
 def read_xlsx(data: bytes, file: str) -> tuple[Page, ...]:
-    """The sheets of a workbook in their order; raises `RefusedError`."""
+    """Return the sheets of a workbook in their order; raises `RefusedError`."""
     copy, counts, formulas = _judged(Package(data, file))
     with warnings.catch_warnings(), redirect_stdout(io.StringIO()):
         # openpyxl warns of, and even prints, what it leaves out: looks and rules, but no value of a cell.
@@ -77,7 +77,8 @@ def read_xlsx(data: bytes, file: str) -> tuple[Page, ...]:
 
 
 def _judged(package: Package) -> tuple[bytes, list[int], bool]:
-    """A copy with the parts that openpyxl is to read; the number of cells of each sheet; whether any is a formula.
+    """Return a copy with the parts that openpyxl is to read; the number of cells of each sheet; whether any is a
+    formula.
 
     Raises `RefusedError` where a sheet cannot be found or a part has too much in it.
     """
@@ -111,7 +112,7 @@ def _judged(package: Package) -> tuple[bytes, list[int], bool]:
 
 
 def _copy(package: Package, names: Iterable[str], strings: str) -> bytes:
-    """A package of these parts; `strings` is the one of the shared strings."""
+    """Return a package of these parts; `strings` is the one of the shared strings."""
     stream = io.BytesIO()
     with zipfile.ZipFile(stream, "w") as made:
         for name in names:
@@ -125,7 +126,7 @@ def _copy(package: Package, names: Iterable[str], strings: str) -> bytes:
 
 
 def _load(copy: bytes, *, stored: bool) -> Workbook:
-    """The workbook with the stored results of its formulas, or with their texts."""
+    """Return the workbook with the stored results of its formulas, or with their texts."""
     from openpyxl import load_workbook
 
     return load_workbook(io.BytesIO(copy), read_only=True, data_only=stored, keep_links=False)
@@ -191,7 +192,7 @@ def _rows(read: Iterator[tuple[CellRow, CellRow]], count: int, mark: Marks) -> t
 
 
 def _whole(read: Iterator[tuple[CellRow, CellRow]], mark: Marks) -> Iterator[tuple[CellRow, CellRow]]:
-    """The rows up to one that openpyxl cannot read, which is refused as the row after the last whole one."""
+    """Yield the rows up to one that openpyxl cannot read, which is refused as the row after the last whole one."""
     last = 0
     try:
         for pair in read:
@@ -212,7 +213,7 @@ def _cell(typed: Any, stored: Any, mark: CellMark) -> SheetCell:
 
 
 def _format(cell: Any) -> str:
-    """The number format of a cell; that of any number where the workbook names one that it does not have."""
+    """Return the number format of a cell; that of any number where the workbook names one that it does not have."""
     try:
         return str(cell.number_format or GENERAL)
     except (IndexError, KeyError):
@@ -243,7 +244,9 @@ def _value(value: object, type: str, mark: CellMark) -> tuple[str | float | None
 
 
 def _date(value: object) -> str:
-    """A day as 2011-03-24, a moment as 2011-03-24T08:30:00, a time of day as 08:30:00, hours passed as 36:00:00."""
+    """Return a day as 2011-03-24, a moment as 2011-03-24T08:30:00, a time of day as 08:30:00, hours passed as
+    36:00:00.
+    """
     match value:
         case datetime.datetime() if value.time() == datetime.time():
             return value.date().isoformat()
@@ -268,7 +271,7 @@ _LINE_END = re.compile(r"\r\n|\r|\n")
 
 
 def read(path: Path, language: Language | None = None, data: bytes | None = None) -> tuple[Page, ...]:
-    """The pages of a CSV or XLSX file; raises `AssignmentError` with the fault that stops it, in `language`.
+    """Return the pages of a CSV or XLSX file; raises `AssignmentError` with the fault that stops it, in `language`.
 
     `data` is its content where it does not lie on disk; `path` then only names it.
     """
@@ -298,7 +301,7 @@ def _read(path: Path, data: bytes | None) -> tuple[Page, ...]:
 
 
 def _read_csv(data: bytes, file: str, name: str) -> Page:
-    """The page of a CSV file, refused at the place of what cannot be read."""
+    """Return the page of a CSV file, refused at the place of what cannot be read."""
     text = decoded(data, file)
     if isinstance(text, Fault):
         raise RefusedError(text.code, text.mark)
@@ -313,7 +316,7 @@ def _read_csv(data: bytes, file: str, name: str) -> Page:
 
 
 def _csv_rows(text: str, file: str) -> Iterator[tuple[SheetCell, ...]]:
-    """The cells of each line; a quoted cell may hold separators and line ends."""
+    """Yield the cells of each line; a quoted cell may hold separators and line ends."""
     stated = _STATED.match(text)
     separator = stated[1] if stated else _separator(text)
     plain = rf"([^{re.escape(separator)}\r\n]*+)"
@@ -350,7 +353,7 @@ def _csv_rows(text: str, file: str) -> Iterator[tuple[SheetCell, ...]]:
 
 
 def _separator(text: str) -> str:
-    """The separator that stands most often in the first line with something in it, outside quotation marks."""
+    """Return the separator that stands most often in the first line with something in it, outside quotation marks."""
     header = next((line for line in _LINE_END.split(text) if line.strip()), "")
     outside = re.sub(r'"[^"]*"?', "", header)
     return max(SEPARATORS, key=outside.count)

@@ -106,7 +106,7 @@ def _csv_text(value: str | float | None) -> str:
 
 
 def write_xlsx(book: Book) -> bytes:
-    """A workbook as XLSX."""
+    """Return a workbook as XLSX."""
     from openpyxl import Workbook
 
     made = Workbook()
@@ -206,7 +206,7 @@ def _dress(cell: Any, entry: Entry) -> None:
 
 
 def _sheet_name(name: str, taken: set[str]) -> str:
-    """The name as programs allow it: 31 characters, none of []:*?/\\, no apostrophe at an end, each once."""
+    """Return the name as programs allow it: 31 characters, none of []:*?/\\, no apostrophe at an end, each once."""
     plain = _NAME.sub("_", _clean(name)).strip("' ")[:LONGEST_NAME] or "1"
     chosen, number = plain, 2
     while chosen.casefold() in taken:
@@ -222,7 +222,7 @@ def _clean(text: str) -> str:
 
 
 def _timeless(data: bytes) -> bytes:
-    """The package again, with one fixed moment in place of when it was written."""
+    """Return the package again, with one fixed moment in place of when it was written."""
     stream = io.BytesIO()
     with zipfile.ZipFile(io.BytesIO(data)) as old, zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as new:
         for name in old.namelist():
