@@ -1,16 +1,17 @@
-"""The machines the house knows: one module each, imported when its kind is asked for.
+"""Registry of the machines: one module each, imported when its kind is requested.
 
-A machine is found because its module is here and its words are in `templates/<language>/catalogue/`; the kind
-`slider-crank` is the module `slider_crank` and the file `slider-crank.md`.  A module gives `TURNS` of the driver in
-a cycle, the models `Parameters` and, if it has one, `Indicator`, and `CHECKS`; `position_labels` if a turn has more
-positions than the evenly spaced ones; `WARNINGS`, checks of what is allowed but hardly meant; `machine`, which makes a
-`Machine` of an assignment.
+A machine is found by its module in this package and its words in `templates/<language>/catalogue/`: the kind
+`slider-crank` is the module `slider_crank` and the file `slider-crank.md`. A module defines `TURNS` of the driver
+in a cycle, the model `Parameters`, optionally the model `Indicator`, and `CHECKS`. It defines `position_labels` if
+a turn has positions besides the evenly spaced ones, `WARNINGS` (checks for what is allowed but probably not
+intended), and `machine`, which makes a `Machine` of an assignment.
 
-A kind that is no machine has its module in a room of its own, found by its words likewise; it gives `case` in place of
-`machine`, which makes a case of its own.  `PART` is the name that the ids of a kind begin with which can be a part of a
-coursework; its words have under `index` what symbols get that an earlier part has too.  `table_rows` gives what `solve`
-prints of a position where that is not its entries as they are; `results` in its words has the titles.  Ids of its own
-are in a module called by that name, `cam_ids` (`reportgen.formula.vocabulary.heads`).
+A kind that is not a machine has its module in another package and is also found by its words; it defines `case` in
+place of `machine`, which makes a case of its type. `PART` is the prefix of the ids of a kind that can be a part of
+a coursework; `index` in its words is added to symbols that an earlier part has, too. `table_rows` returns the
+entries that `solve` prints for a position, if they are not its plain entries; `results` in its words has the
+titles. Ids that only one kind has are in a module with its name, such as `cam_ids`
+(`reportgen.formula.vocabulary.heads`).
 """
 
 from __future__ import annotations
@@ -49,12 +50,12 @@ from reportgen.machine.laws import FULL_TURN, STEPS
 
 
 def module(kind: str) -> ModuleType:
-    """Return the module of a kind; raises `KeyError` for a kind nobody knows."""
+    """Return the module of a kind; raises `KeyError` for an unknown kind."""
     return import_module(kinds()[kind])
 
 
 def kind(name: str) -> Kind:
-    """What the reader of assignment files must know of a kind; raises `KeyError`."""
+    """Return the data of a kind that the reader of assignment files needs; raises `KeyError`."""
     machine = module(name)
     shared = getattr(machine.Parameters, "checks", tuple)
     takes_topics = issubclass(machine.Parameters, TopicParameters)
@@ -115,7 +116,7 @@ def _misplaced(assignment: Assignment, machine: Machine) -> Iterator[Finding]:
 
 
 def _out_of_reach(machine: Machine) -> Iterator[Finding]:
-    """Whether a machine comes too near to a dead point on its way, or is too large to draw."""
+    """Yield findings if a machine comes too near to a dead point on its way, or is too large to draw."""
     angles, whole = machine.angles(machine.cycle_angles), np.linspace(0.0, FULL_TURN, STEPS + 1)
     if machine.instants:
         beyond = tuple(assembly.at_instants(machine.linkage, angles, not machine.span))
@@ -176,12 +177,12 @@ def _untold(assignment: Assignment, language: Language) -> Iterator[Finding]:
 
 
 def check(path: Path | str, language: Language | None = None) -> list[Problem]:
-    """All faults of an assignment file in its order, none if it can be loaded."""
+    """Return all errors of an assignment file in its order; an empty list if it can be loaded."""
     return [problem for problem in examine(path, language) if problem.level == "error"]
 
 
 def examine(path: Path | str, language: Language | None = None) -> list[Problem]:
-    """All faults of an assignment file; of one without, its warnings, and which positions labels stand for."""
+    """Return all faults of an assignment file; if it has none, its warnings and the positions that labels refer to."""
     return problems_of(read_source(Path(path)), Path(path), language)
 
 
@@ -204,7 +205,7 @@ def problems_of(source: Source, path: Path, language: Language | None = None) ->
 
 
 def _doubts(assignment: Assignment) -> Iterator[Finding]:
-    """What is allowed in the file of a machine but hardly meant."""
+    """Yield warnings about values in a machine's file that are allowed but probably not intended."""
     if (machine_of := getattr(module(assignment.kind), "machine", None)) is not None:
         machine = machine_of(assignment)
         for section in sections_of(machine.topics):
@@ -232,7 +233,7 @@ def example(path: Path, language: Language | None = None) -> str:
 
 
 def _understood_positions(assignment: Assignment) -> Iterator[Finding]:
-    """Which positions are worked out, where their labels are not their numbers."""
+    """Yield a note with the positions that are worked out, if their labels differ from their numbers."""
     if not kind(assignment.kind).has_positions or named_worked(assignment.report, assignment.positions) is None:
         return
     labels = assignment.labels
@@ -243,7 +244,9 @@ def _understood_positions(assignment: Assignment) -> Iterator[Finding]:
 
 
 def schema(language: Language | None = None) -> dict[str, Any]:
-    """JSON Schema (draft-07, which every editor knows) of a file of any kind, its keys told in a language."""
+    """Return the JSON Schema (draft-07, which every editor knows) of a file of any kind, its keys described in a
+    language.
+    """
     spoken_in = language or spoken()
     return schema_of(map(kind, kinds()), lambda name: field_words(name, spoken_in))
 
@@ -264,7 +267,7 @@ def sample(name: str, language: Language) -> str:
 
 
 def _more(known: Kind, path: Sequence[str], value: str, language: Language) -> str:
-    """What a remark says beside the words of a key: among what it chooses, and by which key the same may be said."""
+    """Return text that a remark adds to the words of a key: its choices, and other keys with the same meaning."""
     schema, words = file_schema(known), choice_words(language)
     choices = list(dict.fromkeys(choice for one in places(schema, schema, tuple(path)) for choice in choices_of(one)))
     said = [f"{choice} ({words[choice]})" if words.get(choice, choice) != choice else choice for choice in choices]

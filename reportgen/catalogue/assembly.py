@@ -1,7 +1,7 @@
-"""Whether a linkage goes all its way: groups that do not assemble, dead points, rockers that are cranks.
+"""Check that a linkage can move all its way: groups that do not assemble, dead points, rockers that are cranks.
 
-A group's clearance is sin² of the angle that its forces are transmitted at, as a function of its ends alone.
-It goes on below 0 where the group does not reach, so that its least values are found between the samples too.
+A group's clearance is sin² of its transmission angle, as a function of its ends alone. It becomes negative where
+the group does not reach, so that minima between the samples are found, too.
 """
 
 from __future__ import annotations
@@ -25,11 +25,11 @@ SMALL_TRANSMISSION = 0.3
 ROUND_OF_CLEARANCE = 1e-12
 """A clearance this little below 0 is rounding."""
 ZOOMS, NODES = 4, 41
-"""How often a neighbourhood is looked at closer, and at how many places: 20⁴ times finer than the samples."""
+"""Number of refinements of a neighbourhood, and of places in each: 20⁴ times finer than the samples."""
 
 
 SHEET = (1.08, 0.70)
-"""What a mechanism in all its positions may take of a sheet A0 (m), lying or standing; labels and caption need more."""
+"""Largest extent of a mechanism over all positions on a sheet A0 (m), landscape or portrait; the rest is for labels."""
 LEAST_ANGLE = 0.1
 """Angle of transmission (degrees) of a group from which on its forces come out to nine figures and more."""
 
@@ -40,7 +40,7 @@ Clear = Callable[[Floats], Floats]
 
 @dataclass(frozen=True, slots=True)
 class Member:
-    """How a group is spoken of: its links by their letters ("BC, CD"), and the key at fault in the file."""
+    """Name of a group in messages: its links by their letters ("BC, CD"), and the key at fault in the file."""
 
     rods: str
     where: Where
@@ -143,7 +143,7 @@ def at_instants(linkage: Linkage, places: Floats, turning: bool) -> Iterator[Fin
 
 
 def turns(linkage: Linkage) -> bool:
-    """Whether the crank carries all groups through a whole turn."""
+    """Return True if the crank carries all groups through a whole turn."""
     return bool(solve_motion(linkage, np.linspace(0.0, FULL_TURN, STEPS + 1), 1.0).reachable.all())
 
 
@@ -184,13 +184,13 @@ def to_and_fro(linkage: Linkage, slider: int, motion_at: MotionAt, where: Where)
 
 
 def turns_fully(linkage: Linkage, link: int) -> bool:
-    """Whether a link makes whole turns with the crank, rather than swinging."""
+    """Return True if a link makes whole turns with the crank, rather than swinging."""
     angle = solve_motion(linkage, np.linspace(0.0, FULL_TURN, STEPS + 1), 1.0).links[link].angle
     return bool(abs(angle[-1] - angle[0]) > np.pi)
 
 
 def clearance(dyad: Dyad, motion: Motion, size: float) -> Floats:
-    """How clear a group is of a dead point [N], from its ends: negative where it does not assemble.
+    """Return the clearance of a group from a dead point [N], from its ends: negative where it does not assemble.
 
     sin² of the angle between the rods (RRR), of a rod and the guide's normal (RRP), between pin's way and slot
     (RPR with an offset, else the square of the pin's distance from the pivot over the linkage's `size` in m), of
@@ -224,7 +224,7 @@ def _rail(guide: Guide, motion: Motion) -> tuple[Complexes | complex, Complexes]
 
 
 def _size(motion: Motion) -> float:
-    """Return the greatest extent of all that the linkage's points come to (m)."""
+    """Return the greatest extent of all places of the linkage's points (m)."""
     places = np.concatenate([point.p for point in motion.points.values()])
     places = places[np.isfinite(places)]
     return max(float(np.ptp(places.real)), float(np.ptp(places.imag)))
@@ -262,7 +262,7 @@ def _edge(clear: Clear, inside: float, outside: float) -> float:
 
 
 def _least(clear: Clear, driven: Way, places: Floats, clearances: Floats) -> tuple[float, float]:
-    """Where the group's clearance is least and how much it is there; looked at closer where it is small."""
+    """Return the place and size of the group's least clearance; small clearances are refined."""
     best = float(places[np.argmin(clearances)]), float(clearances.min())
     before, after = np.roll(clearances[:-1], 1), np.roll(clearances[:-1], -1)
     if not driven.turning:

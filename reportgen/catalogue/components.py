@@ -35,7 +35,7 @@ def turned(vector: VectorComponents) -> VectorComponents:
 
 
 def degrees(angle: float) -> Number:
-    """Return a typed angle (rad) as it stands in a formula."""
+    """Return a typed angle (rad) as a number in degrees for a formula."""
     return Number(as_typed(math.degrees(angle)), unit="°")
 
 
@@ -62,5 +62,5 @@ def across(vector: VectorComponents, angle: Expression) -> Expression:
 
 
 def typed(place: complex) -> VectorComponents:
-    """Return a typed place (m) as it stands in formulas."""
+    """Return a typed place (m) as components for formulas."""
     return Number(as_typed(place.real)), Number(as_typed(place.imag))

@@ -1,6 +1,7 @@
-"""Loads on any link of any machine as a file declares them: forces at named points, torques on links.
+"""Loads declared in a file, on any link of any machine: forces at named points, torques on links.
 
-They stand beside what a kind has for itself, and are named P (forces) and M (torques) with their link's number.
+They are added to the loads that the kind itself has, and are named P (forces) and M (torques) with their link's
+number.
 """
 
 from __future__ import annotations
@@ -122,7 +123,7 @@ class OverWay(_Listed):
 
 PlainLoad = Constant | OverAngle | OverWay
 CrankLoading = Annotated[Constant | OverAngle, Field(discriminator="by")]
-"""What loads a machine with a crank besides what its kind has for itself."""
+"""Loads of a machine with a crank besides those of its kind."""
 
 
 # --- checks ---------------------------------------------------------------------------------------
@@ -222,10 +223,10 @@ def loads(
     *,
     through: bool = True,
 ) -> tuple[Applied | Torque, ...]:
-    """Return the loads in the order of the file, beside `others`; a faulty one, which the file's checks tell, is
-    left out.
+    """Return the loads in the order of the file; `others` are the kind's own. Faulty loads, which checks report,
+    are left out.
 
-    The driver goes `through` the whole cycle, or stands at single instants.
+    If `through` is True, the driver passes through the whole cycle; else it is at single instants.
     """
     points, before, made = pins(linkage), tuple(others), list[Applied | Torque]()
     for load in declared:
@@ -238,7 +239,7 @@ def loads(
 def rows(
     declared: Sequence[Constant | OverAngle], made: Sequence[Applied | Torque], idle: Collection[str]
 ) -> tuple[LoadRow, ...]:
-    """Return the loads that act, as words tell of them; of faulty ones nothing is told."""
+    """Return the acting loads as rows for templates; an empty tuple if some load is faulty."""
     if len(declared) != len(made):
         return ()
     pairs = zip(declared, made, strict=True)
@@ -254,7 +255,9 @@ def applied(load: PlainLoad, law: Law, others: Iterable[Applied | Torque]) -> Ap
 
 
 def law_of(load: PlainLoad, motion_at: MotionAt, *, through: bool = True, span: float = 0.0) -> Law:
-    """How a force along its direction varies, or a torque where the load has no point; `span` (m) of a slide's way."""
+    """Return the law of a force along its direction, or of a torque if the load has no point; `span` (m) is a
+    slide's way.
+    """
     if not isinstance(load, Constant):
         unit = load.torque_unit if load.at is None else load.unit
         assert unit is not None, "a table without its unit is refused by the kind's checks"
@@ -275,7 +278,7 @@ def law_of(load: PlainLoad, motion_at: MotionAt, *, through: bool = True, span: 
 
 
 def against(size: float, rate: Callable[[Motion], Floats], motion_at: MotionAt, *, through: bool) -> Law:
-    """What resists a `rate` of the motion with a constant size."""
+    """Return a law that opposes a `rate` of the motion with a constant size."""
     if not through:
         return Resistance(size, rate, ())
     resistance = opposing(size, lambda angle: rate(motion_at(angle)))
@@ -307,7 +310,7 @@ class LoadRow:
 
     @property
     def phrase(self) -> str:
-        """Which words tell of it: by what it is and what it follows, or whether it is against the motion."""
+        """Key of the phrase that describes it: by its type, what it depends on, and whether it opposes the motion."""
         acting = "torque" if self.torque else "force"
         match self.by:
             case "constant":
@@ -325,7 +328,7 @@ class LoadRow:
 
 
 def row_of(load: PlainLoad, name: str) -> LoadRow:
-    """Return a load as words tell of it."""
+    """Return a load as a row for templates."""
     acting, direction = partial(LoadRow, name, load.link, load.by, load.at is None), as_typed(load.direction)
     row = partial(acting, load.at or "", direction)
     if not isinstance(load, Constant):

@@ -1,4 +1,4 @@
-"""The machine of an assignment whose crank is driven, and the outline of its report."""
+"""Build the machine of an assignment whose crank is driven, and the outline of its report."""
 
 from __future__ import annotations
 
@@ -24,8 +24,8 @@ CLOSING = ("conclusion", "references", "checks")
 class KindSections:
     """The sections of a report that differ from kind to kind, by the names of their words.
 
-    `sizes` and `load` tell where lengths and loads come from; `summary` follows the accelerations, `course` the
-    kinematic diagrams; `driver` is the balance of the driver.
+    `sizes` and `load` explain the lengths and loads; `summary` follows the accelerations, `course` the kinematic
+    diagrams; `driver` is the balance of the driver.
     """
 
     sizes: str = "dimensions"
@@ -46,8 +46,8 @@ def outline(
 ) -> tuple[str, ...]:
     """Return the report's sections in order; without mass and load it ends with the kinematics.
 
-    The kinematic diagrams are left out without `curves`.  `further` loads stand beside those of the kind.  The chapters
-    of `topics` stand where their sections say.
+    The kinematic diagrams are left out without `curves`. `further` is True if there are loads besides those of the
+    kind. The chapters of `topics` are placed as their sections say.
     """
     diagrams = ("diagrams", *words.course) if curves else ()
     kinematics = (*OPENING, words.sizes, "positions", "velocity", "acceleration", *words.summary, *diagrams)
@@ -63,7 +63,7 @@ def outline(
 
 
 def with_crank(q: GivenSheet, linkage: Linkage) -> Linkage:
-    """Return the linkage with the body of its crank, if the file gives one that its kind does not place by itself."""
+    """Return the linkage with the body of its crank, if the file gives one and the kind does not place it."""
     driver, given = linkage.driver, q.given
     centre = f"S{DRIVER}"
     placed = any(point.name == centre for point in linkage.points)
@@ -101,7 +101,7 @@ def driven(
     equations: Mapping[str, tuple[Chain, ...]] | None = None,
     **own: Any,
 ) -> Machine:
-    """Return the machine of an assignment whose crank stands at the angle `start` (rad) in position 1.
+    """Return the machine of an assignment whose crank is at the angle `start` (rad) in position 1.
 
     `sections` go to `outline`; `formulas`, `compared` and `equations` are its `ClosedFormulas`; all further fields of
     its `Machine` are given by name.  Loads that are zero throughout are left out.

@@ -59,7 +59,7 @@ class Parameters(Driven, masses=(2, 3), required=(2, 3), moments=(2,)):
 
     @property
     def has_lengths(self) -> bool:
-        """Whether crank and rod are given in either way."""
+        """True if crank and rod are given in either way."""
         return None not in (self.R, self.L) or None not in (self.H, self.K)
 
 
@@ -74,7 +74,9 @@ def _special(geometry: OffsetSlider, start: float) -> tuple[float, ...]:
 
 
 def position_labels(parameters: Parameters, positions: Positions) -> tuple[str, ...]:
-    """What the positions of the cycle are called; of an engine with faulty lengths, the most that any has."""
+    """Return the labels of the positions of the cycle; for an engine with faulty lengths, the most that any engine
+    has.
+    """
     if not parameters.has_lengths or _cannot_turn(parameters) is not None:
         return (*map(str, range(TURNS * positions.count)), *ascii_lowercase[: TURNS * MOST_LETTERED])
     geometry = _geometry(parameters, positions)
@@ -101,7 +103,7 @@ def _check_lengths(draft: Draft) -> Iterator[Finding]:
 
 
 def _cannot_turn(given: Parameters) -> Finding | None:
-    """What keeps the crank from turning: L ≤ R + e, or no 0 < e < H/(2 tan θ/2) beside H and K."""
+    """Return a finding if the crank cannot turn: L ≤ R + e, or not 0 < e < H/(2 tan θ/2) if H and K are given."""
     if given.R is not None and given.L is not None:
         if given.L.si <= given.R.si + given.e.si:
             least = f"> R + e = {(given.R.si + given.e.si) * 1e3:g} mm"

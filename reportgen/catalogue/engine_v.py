@@ -52,7 +52,7 @@ class Parameters(Driven, masses=(2, 3, 4, 5), moments=(2, 4), shares=(2, 4), loa
 
     @property
     def joint(self) -> str:
-        """Where rod 4 hangs: D on the main rod, or the crank pin B."""
+        """Joint that carries rod 4: D on the main rod, or the crank pin B."""
         return "D" if self.BD.si else "B"
 
     @property
@@ -68,7 +68,7 @@ def _places(given: Parameters, positions: Positions) -> tuple[tuple[float, ...],
 
 
 def position_labels(parameters: Parameters, positions: Positions) -> tuple[str, ...]:
-    """What the positions of the cycle are called."""
+    """Return the labels of the positions of the cycle."""
     return _places(parameters, positions)[1]
 
 
@@ -120,7 +120,7 @@ def _idle_engine(assignment: Assignment) -> Iterator[Finding]:
 
 
 WARNINGS = (_idle_engine,)
-"""What is allowed but hardly meant, looked for in an assignment in order."""
+"""Checks for values that are allowed but probably not intended, applied to an assignment in order."""
 
 
 # --- the machine ----------------------------------------------------------------------------------

@@ -61,12 +61,12 @@ STRAIGHT = Number(180.0, None, "°")
 
 
 def _rocks(q: Sheet) -> bool:
-    """Whether CD only swings: the crank, not the frame, is the shortest."""
+    """Return True if CD only swings: the crank, not the frame, is the shortest link."""
     return q.si("l.AB") < q.si("l.AD")
 
 
 def _turns(q: Sheet) -> bool:
-    """Whether the crank turns fully, by Grashof's theorem: the shortest and the longest make less than the others."""
+    """Return True if the crank turns fully, by Grashof's theorem: shortest + longest < sum of the two others."""
     AB, BC, CD, AD = (q.si(ids.length(id)) for id in ("AB", "BC", "DC", "AD"))
     first, second, third, last = sorted((AB, BC, CD, AD))
     return first + last < second + third and first in (AB, AD)

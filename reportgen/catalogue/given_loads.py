@@ -1,4 +1,4 @@
-"""Loads as an assignment gives them: an indicator diagram, a working force on a slider, a torque on a link."""
+"""Loads given in an assignment: an indicator diagram, a working force on a slider, a torque on a link."""
 
 from __future__ import annotations
 
@@ -31,13 +31,13 @@ from reportgen.machine.loads import Torque, crank_motion
 
 
 class _Diagram(Part):
-    """What every form says."""
+    """Keys common to all forms of an indicator diagram."""
 
     reference: Literal["gauge", "absolute"] = "gauge"
     ambient: Pressure = Given(101325.0, 10.1325, "N/cm2", "10.1325 N/cm2")
 
     def gauge(self, row: tuple[float, ...], unit: Given) -> tuple[float, ...]:
-        """Values of the table as gauge pressures (Pa), `unit` being what 1 stands for."""
+        """Return values of the table as gauge pressures (Pa); `unit` is the value of 1."""
         below = self.ambient.si if self.reference == "absolute" else 0.0
         return tuple(value * unit.si - below for value in row)
 
@@ -148,7 +148,7 @@ class ForceOverAngle(Part):
 
 
 class PressingForce(Part):
-    """What resists a slider on its way down, over s/H from its upper end; nothing on the way up."""
+    """Force that resists a slider on its way down, over s/H from its upper end; zero on the way up."""
 
     unit: ForceUnit
     s: Fractions
@@ -193,7 +193,7 @@ class LinkTorque(Part):
 def torque_on(
     given: LinkTorque | None, link: int, linkage: Linkage, positions: Positions, start: float
 ) -> tuple[Torque, ...]:
-    """Return the torque on a link of a crank's linkage whose crank stands at the angle `start` (rad) in position 1."""
+    """Return the torque on a link of a linkage whose crank is at the angle `start` (rad) in position 1."""
     if given is None:
         return ()
     size, motion_at = given.M.si, crank_motion(linkage, positions, start)

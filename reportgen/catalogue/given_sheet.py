@@ -1,4 +1,4 @@
-"""The sheet that a machine opens: its given data as typed, what the file gives for its links, terms of a crank.
+"""The first sheet of a machine: its given data as typed, the data of its links, and terms of its crank.
 
 ω₁ is the size of the crank's angular velocity, ε₁ that of its acceleration, which is 0 unless it is given.
 """
@@ -23,7 +23,7 @@ from reportgen.machine.laws import FULL_TURN
 CRANK_DRAWN = 0.04
 """Drawn length of the crank (m on paper) when none is asked for."""
 MIDDLE = 0.5
-"""Where the mass centre of a uniform bar lies."""
+"""Place of the mass centre of a uniform bar, as a share of its length."""
 
 
 MOST_FIGURES = 6
@@ -92,7 +92,7 @@ class GivenSheet(Sheet):
     # --- links
 
     def of_link(self, letter: str, link: int) -> Given | None:
-        """What the file gives for a link: its `G`, `m`, `J` or `s`."""
+        """Return the value that the file gives for a link, its `G`, `m`, `J` or `s`; else None."""
         given: Given | None = getattr(self.given, f"{letter}{link}", None)
         return given
 
@@ -156,7 +156,7 @@ class GivenSheet(Sheet):
         self.construct(ids.place(name), x + turned(y))
 
     def coordinates(self, name: str) -> tuple[Expression, Expression]:
-        """Return the coordinates of a fixed point as far as they stand here and are not 0."""
+        """Return the coordinates of a fixed point; `NOTHING` for one that is not on the sheet or is 0."""
         x, y = (self.find(ids.coordinate(name, axis)) or self.find(ids.frame_coordinate(axis, name)) for axis in "xy")
         return x if x and self.si(x) else NOTHING, y if y and self.si(y) else NOTHING
 
@@ -174,7 +174,7 @@ class GivenSheet(Sheet):
         self.mass(slider)
 
     def centre_points(self, pins: Mapping[int, str]) -> tuple[LinkPoint, ...]:
-        """Return the mass centres S2, … that stand here, by their links and the pins they are measured from."""
+        """Return the mass centres S2, … that are on the sheet, by their links and the pins they are measured from."""
         arms = {link: self.find(ids.length(pin, f"S{link}")) for link, pin in pins.items()}
         return tuple(LinkPoint(f"S{link}", link, complex(self.si(arm))) for link, arm in arms.items() if arm)
 
@@ -203,7 +203,7 @@ def cycle_angles(positions: Positions, turns: int = 1, places: Sequence[float] =
 
 
 def natural_sizes(r: float, ω: float) -> dict[str, float]:
-    """What counts as one of each kind beside a crank of the length r (m) at ω (rad/s)."""
+    """Return a reference size (SI) for each kind of quantity, for a crank of the length r (m) at ω (rad/s)."""
     return {
         "length": r,
         "velocity": ω * r,

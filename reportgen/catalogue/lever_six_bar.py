@@ -48,7 +48,7 @@ class SliderForce(Part):
 
 
 class Swing(Part):
-    """What the rocker is to do: its angle of swing, the ratio K of the times of its two ways.
+    """Requested motion of the rocker: its angle of swing and the ratio K of the times of its two ways.
 
     The crank's centre B lies `beyond` the chord of both ends of the pin's way, seen from D, or `before` it.
     """
@@ -153,7 +153,9 @@ def _linkage(given: Parameters, q: GivenSheet) -> Linkage:
 
 
 def _has_swing(q: GivenSheet) -> bool:
-    """Whether the links that were found swing the rocker as asked: both ends on one side of BD, seen from B under θ."""
+    """Return True if the links found swing the rocker as requested: both ends on one side of BD, seen from B under
+    θ.
+    """
     ψ1, ψ2, BD, CD = (q.si(id) for id in ("psi.1", "psi.2", "l.BD", "l.DC"))
     if not (0 < ψ2 < ψ1 < np.pi and q.si("l.BA") > 0):
         return False
@@ -162,7 +164,7 @@ def _has_swing(q: GivenSheet) -> bool:
 
 
 def _lengths(given: Parameters) -> Iterator[Finding]:
-    """Yield faults unless the swing that is asked for can be had, and E lies on the coupler."""
+    """Yield faults unless the requested swing is possible and E lies on the coupler."""
     if given.swing is None and (given.AB is None or given.AC is None):
         return
     q = _sheet(given)

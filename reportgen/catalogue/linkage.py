@@ -1,7 +1,7 @@
-"""A linkage of the user's own: whatever a driver and groups of class II can make.
+"""A user-defined linkage: any mechanism of a driver and groups of class II.
 
-The file declares frame points, the driver, the groups in the order of their assembly, points, masses and
-loads; `linkage_file` says what each key means.
+The file declares frame points, the driver, the groups in the order of their assembly, points, masses and loads;
+`linkage_file` documents each key.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ TURNS = 1
 LARGEST_CRANK = 0.05
 """A crank is drawn no longer than this (m on paper)."""
 BOX = (0.210, 0.260)
-"""What a mechanism may take of a large page (m)."""
+"""Largest width and height of a mechanism on a large page (m)."""
 STEPS = 72
 
 
@@ -57,7 +57,7 @@ CHECKS = (one_of("parameters.driver", "n", "omega1", form=("type", "crank")), _c
 
 
 def position_labels(parameters: Parameters, positions: Positions) -> tuple[str, ...]:
-    """What the positions of the cycle are called: their numbers, if all are even ones."""
+    """Return the labels of the positions of the cycle: their numbers, if all are evenly spaced."""
     _, labels = _places(parameters, positions)
     return labels or tuple(map(str, range(1, positions.count * parameters.turns + 1)))
 

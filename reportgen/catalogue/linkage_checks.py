@@ -1,4 +1,4 @@
-"""What no single value of a `linkage` file shows: names, numbers, what is placed when, whether it assembles."""
+"""Checks of a `linkage` file that need several values: names, numbers, order of placing, and assembly."""
 
 from __future__ import annotations
 
@@ -45,9 +45,9 @@ def check(draft: Draft) -> Iterator[Finding]:
 
 
 def _of_a_crank(draft: Draft, given: file.Parameters) -> Iterator[Finding]:
-    """What only a crank has: a sliding driver starts where its way starts, and goes once along it.
+    """Yield faults for keys that only a crank has: a sliding driver starts where its way starts and passes it once.
 
-    At single instants no further positions stand between them.
+    Single instants allow no further positions between them.
     """
     if draft.at("positions", "at") is not None and given.also_at:
         yield Finding("both-given", ("parameters", "also_at"), {"first": "at", "second": "also_at"}, at="key")
@@ -64,7 +64,7 @@ def _of_a_crank(draft: Draft, given: file.Parameters) -> Iterator[Finding]:
 
 @dataclass
 class _Placed:
-    """What is placed while the groups are read in their order."""
+    """The points and links placed so far while the groups are read in their order."""
 
     points: set[str] = field(default_factory=set)
     links: set[int] = field(default_factory=lambda: {GROUND, DRIVER})

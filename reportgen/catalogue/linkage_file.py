@@ -1,4 +1,4 @@
-"""What a `linkage` file declares: frame points, driver, groups in the order of assembly, points, masses, loads."""
+"""Model of a `linkage` file: frame points, driver, groups in the order of assembly, points, masses, loads."""
 
 from __future__ import annotations
 
@@ -304,7 +304,7 @@ Loading = Annotated[Constant | OverAngle | OverWay | OverStroke | Gas, Field(dis
 
 
 class Declared(Part):
-    """What the author holds for true of the structure: checked against what follows from the links."""
+    """Statements of the author about the structure, which are checked against the links."""
 
     W: Annotated[int, Whole(0, 9)] | None = None
     class_: Annotated[int, Whole(1, 9)] | None = Field(default=None, alias="class")

@@ -1,4 +1,4 @@
-"""What the words of a declared linkage name: rows of plain values, quantities as they were typed."""
+"""Values that the templates of a declared linkage may name: rows of plain values, quantities as typed."""
 
 from __future__ import annotations
 
@@ -25,13 +25,13 @@ class GroupRow:
     joints: tuple[str, ...]
     lengths: tuple[tuple[str, Number], ...] = ()
     choice: str = ""
-    """Which of two ways it is assembled: left, right, far, near, towards, away, or ""."""
+    """The chosen one of two ways of assembly: left, right, far, near, towards, away, or ""."""
     offset: Number | None = None
     across: Number | None = None
 
     @property
     def drawing(self) -> str:
-        """Which words say how it is drawn."""
+        """Key of the words that describe its drawing."""
         return "RPR-offset" if self.offset else self.kind
 
 
@@ -61,8 +61,8 @@ class PointRow:
 @view()
 @dataclass(frozen=True, slots=True)
 class MotionRow:
-    """How a link moves: "rotation" about a fixed point, "translation" along a fixed guide,
-    "shift" without rotation, or "plane" motion.
+    """Motion of a link: "rotation" about a fixed point, "translation" along a fixed guide, "shift" without
+    rotation, or "plane" motion.
     """
 
     link: int
@@ -71,9 +71,10 @@ class MotionRow:
 
 
 def facts(given: file.Parameters, loads: tuple[str, ...], acting: Container[str]) -> dict[str, Any]:
-    """What the words of the kind name; `loads` are the ids of the loads in the order of the file.
+    """Return the values that the kind's templates may name; `loads` are the ids of the loads in the order of the
+    file.
 
-    Only those that are `acting` are told of.
+    Only the loads in `acting` are included.
     """
     rows = tuple(map(_group, given.groups))
     axes = _axes(given)
@@ -129,7 +130,9 @@ def _quantities(given: file.Parameters, rows: tuple[GroupRow, ...]) -> Iterator[
 
 
 def _axes(given: file.Parameters) -> dict[int, tuple[str, str]]:
-    """Where each link's own axes start, and the joint they point to or what they are parallel to: "guide", "slot"."""
+    """Return the origin of each link's axes, and the joint they point to or what they are parallel to: "guide",
+    "slot".
+    """
     driver = given.driver
     axes = {1: (driver.centre, driver.pin) if isinstance(driver, file.CrankDriver) else (driver.pin, "guide")}
     for group in given.groups:

@@ -1,9 +1,10 @@
-"""Closed vector loops of Assur groups: places, velocities and accelerations of a linkage by formulas, group by group.
+"""Closed vector loops of Assur groups: positions, velocities and accelerations of a linkage by formulas, group by
+group.
 
-x and y of the drawing, angles and rotations anticlockwise from +x.  The loop of a group says in two ways where one of
-its points is; its derivatives are two linear equations u q̇₁ + w q̇₂ = b, u q̈₁ + w q̈₂ = b′ for the two unknown rates,
-which Cramer's rule solves.  Of the unit vectors e along a link or a guide and n = ie each formula keeps what is left
-of the determinants.
+x and y are the axes of the drawing; angles and rotations are anticlockwise from +x. The loop of a group expresses
+one of its points in two ways. Its derivatives are two linear equations u q̇₁ + w q̇₂ = b, u q̈₁ + w q̈₂ = b′ for
+the two unknown rates, which Cramer's rule solves. The unit vectors are e along a link or a guide and n = ie; each
+formula contains only the nonzero terms of the determinants.
 
 ==== ====================================================================== =====================
 kind loop                                                                   unknown rates

@@ -1,6 +1,6 @@
 """Parameters that machines with a crank share: speed, gravity, masses, loads, and their checks.
 
-A kind declares what of it there is: `class Parameters(Driven, masses=(2, 3), moments=(2,), shares=(2,))` reads the
+A kind declares which of them it has: `class Parameters(Driven, masses=(2, 3), moments=(2,), shares=(2,))` reads the
 weight `G2` or the mass `m2`, the moment of inertia `J2` and the place `s2` of the mass centre, with their checks.
 """
 
@@ -39,11 +39,11 @@ class FixedPoint(Part):
 
 
 OF_LINK: Mapping[str, Any] = {"G": Weight, "m": Mass, "J": MomentOfInertia, "s": Share}
-"""What a file may give of a link, by the letter before its number."""
+"""Types of the values that a file may give for a link, by the letter before its number."""
 
 
 class UnderGravity(TopicParameters):
-    """Where a machine stands: gravity, none in a horizontal plane."""
+    """Parameters of a machine under gravity; there is none in a horizontal plane."""
 
     g: Gravity = Given(9.81, 9.81, "m/s2", "9.81 m/s2")
     plane: Literal["horizontal"] | None = None
@@ -70,7 +70,7 @@ class Driven(UnderGravity):
     required: ClassVar[tuple[int, ...]] = ()
     acceleration_key: ClassVar[tuple[str, ...]] = ("parameters", "epsilon1")
     crank_on_axis: ClassVar[bool] = False
-    """Whether the crank's mass centre lies on its axis where `s1` is not given."""
+    """True if the crank's mass centre lies on its axis when `s1` is not given."""
 
     def __init_subclass__(
         cls,
@@ -136,7 +136,7 @@ def weightless(weights: Iterable[Where]) -> Check:
 
 
 def _stands(content: Any, place: Where) -> bool:
-    """Whether anything stands at a place of a file, which may lead into lists."""
+    """Return True if a file has a value at a place, which may lead into lists."""
     for key in place:
         fits = isinstance(content, list) if isinstance(key, int) else isinstance(content, dict)
         if not fits or (isinstance(key, int) and key >= len(content)):

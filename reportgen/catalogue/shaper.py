@@ -1,4 +1,4 @@
-"""The shaper: a crank swings a slotted lever, a link carries the swing on to the ram with the tool.
+"""The shaper: a crank swings a slotted lever, and a link transmits the swing to the ram with the tool.
 
 Ground 0, crank 1 (AB), block 2 (at B), rocker 3 (CD, mass centre S3), link 4 (DE, S4), ram 5 (at E).
 """

@@ -153,7 +153,9 @@ def second_cylinder(q: Sheet, turn: int, joint: str) -> None:
 
 
 def _joint_of_second_rod(q: Sheet, turn: int, joint: str) -> None:
-    """Where the second rod hangs: ξ and η of the crank pin B, with its rates, or of D, whose rates are there."""
+    """Enter ξ and η of the joint of the second rod: crank pin B with its rates, or D, whose rates are already
+    entered.
+    """
     R, ω1, φ = q["R"], q["omega.1"], q["phi.3"]
     line = partial(q.define, scale=1.0)
     ξ: Expression = R * sin(φ)
@@ -195,7 +197,7 @@ class OffsetSlider:
         return math.pi + math.asin(self.e / (self.l - self.r))
 
     def slider(self, reach: float) -> complex:
-        """Where C stands at the distance `reach` (m) from A."""
+        """Return the place of C at the distance `reach` (m) from A."""
         return self._placed(complex(math.sqrt(reach**2 - self.e**2), self.e))
 
     def crank_angle(self, phi: float) -> float:

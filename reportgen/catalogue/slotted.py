@@ -1,10 +1,10 @@
-"""A crank whose pin drives a lever through a block in the lever's slot; the ram that the lever may carry on to.
+"""A crank whose pin drives a lever through a block in the lever's slot, and the ram that the lever may drive.
 
-A crank centre, B pin, C pivot.  Own axes: y runs from C to A, x is y turned by 90° against the rotation, so that
-ω₁ > 0 turns x towards y.  φ₁ is the crank's angle from x, r = l_AB, d = l_AC, S = CB; a is square to the slot, r along
-it.  D is the end of the lever, E the ram, b the height of the ram's line over C.  The ram works against the own x, and
-S cos φ₃ = l₁ cos φ₁, S sin φ₃ = a + l₁ sin φ₁, l₃ sin φ₃ + l₄ sin φ₄ = b.  What the page calls x points to the right,
-as in all its tables: x_E = ±(l₃ cos φ₃ + l₄ cos φ₄), with a minus where the crank turns clockwise.
+A crank centre, B pin, C pivot. Own axes: y runs from C to A, x is y turned by 90° against the rotation, so that ω₁
+> 0 turns x towards y. φ₁ is the crank's angle from x, r = l_AB, d = l_AC, S = CB; a is square to the slot, r along
+it. D is the end of the lever, E the ram, b the height of the ram's line over C. The ram works against the own x,
+and S cos φ₃ = l₁ cos φ₁, S sin φ₃ = a + l₁ sin φ₁, l₃ sin φ₃ + l₄ sin φ₄ = b. On the page, x points to the right as
+in all its tables: x_E = ±(l₃ cos φ₃ + l₄ cos φ₄), with a minus if the crank turns clockwise.
 """
 
 from __future__ import annotations
@@ -61,7 +61,7 @@ class SlottedCrank:
 
     @property
     def swings(self) -> bool:
-        """Whether the lever swings to and fro, r < d; with r > d it turns right round."""
+        """True if the lever swings to and fro, r < d; with r > d it makes whole turns."""
         return self.r < self.d
 
     @property
@@ -117,7 +117,9 @@ class Ram:
         return -self.crank.half_swing
 
     def end(self, side: int) -> complex:
-        """Where E stands (m) at the beginning (+1) or the end (−1) of the working stroke, from A on the drawing."""
+        """Return the place of E (m) at the beginning (+1) or the end (−1) of the working stroke, from A on the
+        drawing.
+        """
         theta = self.crank.half_swing
         rise = (self.height - self.lever * math.cos(theta)) / self.link
         along = side * self.lever * math.sin(theta) - self.link * math.sqrt(1 - rise**2)
@@ -241,10 +243,11 @@ def cutting(q: Sheet, force: Ref, free: Ref | None) -> Ref:
 
 
 def ram_torque(q: Sheet, turn: int) -> None:
-    """The balancing torque `f.M` as a function of φ₁: its power and that of all forces and inertia forces is zero.
+    """Enter the balancing torque `f.M` as a function of φ₁: its power and that of all forces and inertia forces is
+    zero.
 
-    Uses what `ram_formulas` enters, `P.cut`, masses and moments of inertia as far as they stand here; y points up, so
-    that a weight has the power −G v_y and an inertia force −m(a·v), a couple −J ε ω.
+    Uses the entries of `ram_formulas`, `P.cut`, masses and moments of inertia as far as they are on the sheet; y
+    points up, so that a weight has the power −G v_y and an inertia force −m(a·v), a couple −J ε ω.
     """
     line = natural_lines(q, "l.AB")
     ω1, φ1, φ3, φ4 = (q[id] for id in ("omega.1", "phi.A", "phi.3", "phi.4"))

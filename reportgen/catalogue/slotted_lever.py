@@ -56,7 +56,7 @@ def _check_block(given: Parameters) -> Iterator[Finding]:
 
 
 def _place(angle: float) -> dict[str, str]:
-    """Where the block is at fault: its group and the crank's angle in degrees."""
+    """Return values for a message about the block: its group and the crank's angle in degrees."""
     return {"block": "2", "link": "3", "group": "(2, 3)", "pivot": "C", "angle": f"{angle:.6g}"}
 
 

@@ -1,7 +1,7 @@
-"""How the parameters of a machine take up the sections of topics, and what a topic does with its section.
+"""Integration of topics into the parameters of a machine, and the hooks of a topic for its section.
 
-`with_topics` adds the sections to the parameters of a kind; a file is read with those that it names, the schema and
-the form show all.  A topic has its `TopicSection` as `HOOKS` in its module `topic`.
+`with_topics` adds the sections to the parameters of a kind. A file is read with the sections that it names; the
+schema and the form show all. A topic has its `TopicSection` as `HOOKS` in its module `topic`.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ Section = TypeVar("Section")
 Datum = Callable[[str, Given, Symbol | str, str], Ref]
 """Enters a quantity as typed on a sheet: its id, the given value, its symbol, its kind."""
 ChapterPlace = Literal["loads", "groups", "driver"]
-"""Where a chapter stands: behind the loads, behind the groups, behind the balance of the driver."""
+"""Place of a chapter: behind the loads, behind the groups, or behind the balance of the driver."""
 
 
 class TopicParameters(Part):
@@ -63,7 +63,7 @@ class TopicParameters(Part):
 
     @property
     def slides(self) -> bool:
-        """Whether the driver slides rather than turns."""
+        """True if the driver slides rather than turns."""
         return False
 
 
@@ -78,17 +78,17 @@ class Opening:
     """The loads of the kind and those that the file declares."""
     motion_at: MotionAt
     provided: Mapping[str, object] = field(default_factory=dict)
-    """What topics before have made for others, by the names of the shared results."""
+    """Values provided by earlier topics, by the names of the shared results."""
 
 
 @dataclass(frozen=True)
 class TopicData:
-    """What a topic makes of its section: the subject that the machine then has, and loads that act on it."""
+    """Result of reading a topic's section: the subject that the machine then has, and loads that act on it."""
 
     subject: object = None
     loads: tuple[Applied | Torque, ...] = ()
     provided: Mapping[str, object] = field(default_factory=dict)
-    """What topics behind may use, by the names of the shared results."""
+    """Values for later topics, by the names of the shared results."""
 
 
 def _no_data(opening: Opening) -> TopicData:
@@ -133,13 +133,13 @@ class TopicSection:
     of_a_turn: frozenset[str] = frozenset()
     """The parts of the chapter that a report of single instants goes without."""
     acts: bool = False
-    """Whether it loads the machine."""
+    """True if it loads the machine."""
     uses: tuple[SharedResult[object], ...] = ()
     """The results of other topics that it uses where a machine has them."""
     checks: Callable[[type[TopicParameters]], tuple[Check, ...]] = _no_checks
     """Checks of the file alone."""
     enter_speed: Callable[[TopicParameters, Datum], None] = _no_speed
-    """Enters data that stand beside the driver's speed."""
+    """Enters data that belong to the driver's speed."""
     enter: Callable[[Opening], TopicData] = _no_data
     faults: Callable[[TopicParameters, Machine], Iterator[Finding]] = _no_faults
     """Finds what the machine does not have that the section names."""

@@ -1,4 +1,4 @@
-"""Quantities as their file has them."""
+"""Quantities as typed in their file."""
 
 from __future__ import annotations
 

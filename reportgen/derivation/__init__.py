@@ -1,4 +1,4 @@
-"""Analysis → Ledger: enters everything in the order in which a report derives it."""
+"""Build the ledger of an analysis: all entries in the order in which a report derives them."""
 
 from __future__ import annotations
 
@@ -66,10 +66,11 @@ def write_ledger(
 def enter_plans(
     analysis: Analysis, worked: Sequence[int] = (), formulas: Callable[[Sheet], None] = no_formulas, scaled: bool = True
 ) -> tuple[Sheet, tuple[Polygon, ...]]:
-    """The sheet of an analysis at whatever positions it has: given data, plans, `formulas`, forces; its force plans.
+    """Return the sheet of an analysis at all its positions, with given data, plans, `formulas` and forces; and its
+    force plans.
 
-    The plans of the `worked` positions, counted from 1, fill their paper; plans that are not
-    `scaled`, which are drawn elsewhere at a scale of their own, have any.
+    The plans of the `worked` positions, counted from 1, fill their paper. Plans that are not `scaled` are drawn
+    elsewhere at another scale, so theirs is arbitrary.
     """
     machine = analysis.machine
     q = Sheet(len(analysis.cycle_angle))
@@ -106,11 +107,12 @@ def _masses(q: Sheet, analysis: Analysis) -> None:
 def _between_nodes(
     q: Sheet, among: Bracket, of: str | int, course: Stroke | None, shown: Symbol, kind: str
 ) -> Expression:
-    """What is read between the two points x′, p′ and x″, p″ of a table next to each position.
+    """Return a value interpolated between the adjacent points x′, p′ and x″, p″ of a table at each position.
 
         p = p′ + (p″ − p′)/(x″ − x′)·(x − x′)
 
-    x is s/H of the `course`, the angle φ of the cycle, or the way s of a sliding driver; `of` names the load in ids.
+    x is s/H of the `course`, the angle φ of the cycle, or the way s of a sliding driver; `of` names the load in
+    ids.
     """
     letter, sort = {"ratio": ("x", "ratio"), "angle": ("φ", "angle"), "length": ("s", "length")}[among.kind]
 

@@ -274,7 +274,7 @@ def _close(
 
 
 def _slide(g: Group, digits: str, pin: str, loads: tuple[LoadOn, ...], link: int = 0) -> None:
-    """Where a slide's reaction acts: moments of all else on the link about the pin."""
+    """Enter the place where a slide's reaction acts, from the moments of all other loads of the link about the pin."""
     _moment(g, digits, pin, loads)
     _offset(g, digits)
     for enter in g.statics.guides:

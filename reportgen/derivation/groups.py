@@ -190,9 +190,10 @@ def _known_acceleration(k: Kinematics, side: Side) -> Expression:
 
 
 def _unknown_acceleration(k: Kinematics, side: Side, start: Expression, same_letter: bool) -> None:
-    """The tangential or sliding part, from the end of what is known to the point's image; ε of a turning link.
+    """Enter the tangential or sliding part, from the end of the known parts to the point's image; and ε of a
+    turning link.
 
-    Where the known parts of both sides have the `same_letter`, n or k, their ends are told apart by their vectors.
+    If the known parts of both sides have the `same_letter`, n or k, their ends are distinguished by their vectors.
     """
     if not side.sought:
         return
@@ -347,7 +348,7 @@ def _points(k: Kinematics, link: int) -> tuple[LinkPoint, ...]:
 
 
 def _off_line(point: LinkPoint) -> bool:
-    """Whether a point forms a triangle with its link's joints."""
+    """Return True if a point forms a triangle with its link's joints."""
     return abs(point.local.imag) > OFF_LINE * abs(point.local)
 
 
@@ -429,7 +430,7 @@ def _by_rotation(k: Kinematics, what: What, point: LinkPoint, placed: PlacedLink
 
 
 def _by_translation(k: Kinematics, what: What, point: LinkPoint, placed: PlacedLink) -> None:
-    """All points of a link that does not turn have one velocity and one acceleration."""
+    """Enter a point of a link that does not turn: all its points have one velocity and one acceleration."""
     q, name = k.q, point.name
     plan = k.vertex(what, image(name), k.image(what, placed.origin))
     k.segment(ids.segment(what, "p", image(name)), Symbol(POLES[what]), on_plan(name, what == "a"), abs(plan), what)

@@ -1,4 +1,4 @@
-"""Loads as the ledger knows them: weights, inertia, applied forces and couples, reactions of later groups.
+"""Loads in the ledger: weights, inertia, applied forces and couples, reactions of later groups.
 
 For a load X: `F.X` is its vector, the size has the id X itself (`P3`, `G2`, `Pqt2`; `R.42` for a reaction
 R42), `couple.X` its couple if it has one, `h.X.D` its signed arm about a point D in metres on paper.
@@ -30,7 +30,7 @@ Applied = Mapping[str, tuple[int, str, Complexes | complex]]
 
 
 class Origin(IntEnum):
-    """Where a load comes from, in the order in which a link's loads are laid in its plan."""
+    """Origin of a load, in the order in which a link's loads are drawn in its plan."""
 
     reaction = 0
     inertia = 1
@@ -68,7 +68,9 @@ class Statics:
     loads: tuple[LoadOn, ...] = ()
     scales: Scaling = own_scales
     guides: tuple[EnterGuide, ...] = ()
-    """What topics enter of a slider in its guide, by the digits of its reaction and its link."""
+    """Functions by which topics enter quantities of a slider in its guide, called with the digits of its reaction
+    and its link.
+    """
 
     @property
     def force(self) -> float:
@@ -106,7 +108,7 @@ class Statics:
         return self.q.find(ids.couple(load.name))
 
     def beside(self, load: LoadOn, divisor: Expression) -> Expression:
-        """How far (m) a load is moved to its side for its couple, h = M/F, signed as the couple."""
+        """Return the distance (m) by which a load is moved sideways for its couple, h = M/F, signed as the couple."""
         laid, couple = self.q.find(ids.beside(load.name)), self.couple(load)
         return laid or (Number(0.0) if couple is None else quotient(couple, divisor))
 
@@ -338,7 +340,7 @@ class ForceChain:
 
 
 Closing = Callable[[Mapping[str, Expression], Expression], Expression]
-"""Where the unknown edges meet, from the vertices of the known ones and the scale that they are drawn at."""
+"""Function that returns the meeting point of the unknown edges, from the vertices of the known ones and their scale."""
 
 
 def force_plan(statics: Statics, name: str, title: str, path: ForceChain, closing: Closing | None = None) -> None:

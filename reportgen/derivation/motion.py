@@ -1,4 +1,4 @@
-"""A linkage while its kinematics is entered: the sheet, every link placed so far, and the driver placed first.
+"""Kinematics of a linkage during entry: the sheet and every link placed so far, beginning with the driver.
 
 The driver is a crank with ω₁, ε₁ or a slide with v, a; it fixes the scales of the plans.
 """
@@ -47,14 +47,14 @@ ROTATION = {"v": ("omega", 1), "a": ("eps", 2)}
 
 @dataclass(frozen=True, slots=True)
 class Sizes:
-    """What counts as one of each kind: a billionth of it is nothing."""
+    """Reference size of each kind of quantity: values below a billionth of it are zero."""
 
     velocity: float
     acceleration: float
     rotation: float
 
     def of(self, what: What) -> float:
-        """What counts as one (SI) of velocities or accelerations."""
+        """Return the reference size (SI) of velocities or accelerations."""
         return self.velocity if what == "v" else self.acceleration
 
 
@@ -141,7 +141,7 @@ class Kinematics:
         return base + inward / q["mu.a"]
 
     def absolute(self, what: What, name: str) -> None:
-        """The segment from the pole to a point's image, and the velocity or acceleration it stands for."""
+        """Enter the segment from the pole to a point's image, and the velocity or acceleration that it represents."""
         q, point = self.q, image(name)
         on_paper = ids.segment(what, "p", point)
         if on_paper not in q:
@@ -448,7 +448,9 @@ def _enter_centre(k: Kinematics, turn: Side) -> None:
 
 
 def _reach(k: Kinematics, centre: np.ndarray) -> np.ndarray:
-    """How far a centre may lie (m on paper) at each position: 0 where no sheet holds it and the mechanism."""
+    """Return the largest distance (m on paper) of a centre at each position: 0 if no sheet can show it with the
+    mechanism.
+    """
     q = k.q
     points = [family.values for id, family in q.families.items() if id in ids.place]
     sizes = extents([*points, centre], q.positions) / q.si("mu.l")
@@ -457,8 +459,8 @@ def _reach(k: Kinematics, centre: np.ndarray) -> np.ndarray:
 
 
 def _normal(k: Kinematics, name: str) -> Expression:
-    """Return a direction square to a point's velocity: by what leads it, so also where it stands still, else by the
-    plan.
+    """Return a direction perpendicular to a point's velocity: from the guiding link, so also for v = 0, else from
+    the plan.
     """
     scheme, driver = k.scheme, k.scheme.linkage.driver
     owner = scheme.owner.get(name)

@@ -1,4 +1,4 @@
-"""The masses and the loads of a machine reduced to its driver, as entries of the ledger."""
+"""Ledger entries that reduce the masses and loads of a machine to its driver."""
 
 from __future__ import annotations
 
@@ -40,9 +40,7 @@ def enter_reduced(q: Sheet, analysis: Analysis, torque: np.ndarray, largest: flo
 
 
 def moving_bodies(q: Sheet, linkage: Linkage) -> Iterator[tuple[Inertia, str, str]]:
-    """Yield the bodies with the ids of the speeds of their mass centre and of their turning, "" without such an
-    inertia.
-    """
+    """Yield the bodies with the ids of the speeds of their mass centre and rotation; "" for a speed without inertia."""
     for body in linkage.inertias:
         centre, rotation = ids.velocity(body.centre), ids.angular_velocity(body.link)
         moving = centre if body.mass > 0 and centre in q else ""

@@ -1,4 +1,4 @@
-"""What no line of the page comes out at, entered so that it still follows the quantities that it depends on."""
+"""Ledger entries for values that no printed line computes, kept dependent on their inputs."""
 
 from __future__ import annotations
 
@@ -18,7 +18,9 @@ def with_rest(
     scale: float = 0.0,
     optional: bool = False,
 ) -> Ref:
-    """Enter what is integrated: it follows what stands in a rule for the positions, by which it is nearly found."""
+    """Enter an integrated value as a rule plus a constant rest, so that it follows the inputs of the rule, which
+    is nearly exact.
+    """
     by_rule_alone = q.construct(ids.rule(id), by_rule)
     rest = q.give(ids.rest(id), np.asarray(values) - q.value(by_rule_alone), Symbol(id), "ratio", hidden=True)
     return q.define(id, call("re", by_rule_alone + rest), symbol, kind, scale=scale, optional=optional)

@@ -1,4 +1,4 @@
-"""Round scales of plans: worked ones fill their space, the largest of all positions still has a sheet of paper.
+"""Choose round scales of plans: worked plans fill their space, and the largest of all positions still fits a sheet.
 
 Sizes are widths and heights of plans in the unit of what they show, boxes are metres of paper.
 """
@@ -12,9 +12,9 @@ import numpy as np
 from reportgen.base.units import nice_down, nice_up
 
 TEXT_BOX = (0.145, 0.190)
-"""What a plan may fill on a page of text (m), its labels apart."""
+"""Width and height of a plan on a page of text (m), without its labels."""
 SHEET_BOXES = (0.360, 0.210), (0.235, 0.335)
-"""What a plan may fill on an A3 sheet (m), lying or standing."""
+"""Width and height of a plan on an A3 sheet (m), landscape or portrait."""
 LEAST_MOTION, LEAST_FORCES = 0.060, 0.100
 """A worked plan of velocities or accelerations, and one of forces, is drawn at least so wide or high (m)."""
 DIAGRAM = 0.110, 0.090
@@ -83,5 +83,5 @@ def own_scales(sizes: np.ndarray, least: float, read_at: Iterable[np.ndarray] = 
 
 
 def no_scales(sizes: np.ndarray, least: float, read_at: Iterable[np.ndarray] = ()) -> np.ndarray:
-    """Return one scale for all positions, whatever they need: for plans that nobody draws at it."""
+    """Return one arbitrary scale for all positions, for plans that are not drawn at it."""
     return np.full(sizes.shape[1], PER_MM)

@@ -1,4 +1,4 @@
-"""What each side of a group's vector equation says, from the dyad kind alone.
+"""The two sides of a group's vector equation, derived from the dyad kind alone.
 
 Every group of class II is solved by writing the motion of one point M in two ways:
 
@@ -47,14 +47,14 @@ class Side:
     shown: str
     link: int = 0
     measured: bool = False
-    """Whether the distance of a turning point from its base changes and is measured on the drawing."""
+    """True if the distance of a turning point from its base changes and is measured on the drawing."""
     along: str = ""
     turning: int = 0
     """The link whose turning gives a sliding point its Coriolis acceleration, 0 if nothing turns."""
     carrier: int | None = None
     """The link that has the guide when the base is that link's point under `point`, None when the base is a pin."""
     alike: bool = False
-    """Whether the other side of the group slides along a guide too, so that a guide must be named by its link."""
+    """True if the other side of the group also slides along a guide, so that a guide must be named by its link."""
 
     @property
     def turns(self) -> bool:
@@ -62,7 +62,7 @@ class Side:
 
     @property
     def way(self) -> str:
-        """How the point moves relative to its base: it "turns", or slides along a "guide" or a "slot"."""
+        """Motion of the point relative to its base: it "turns", or slides along a "guide" or a "slot"."""
         return "turns" if self.turns else "guide" if self.guided else "slot"
 
     @property
@@ -73,12 +73,12 @@ class Side:
 
     @property
     def state(self) -> str:
-        """Whether the base is at rest: "still" or "moving"."""
+        """State of the base: "still" or "moving"."""
         return "still" if self.still else "moving"
 
     @property
     def guided(self) -> bool:
-        """Whether the base is the guide's own point, not a pin."""
+        """True if the base is the guide's own point, not a pin."""
         return self.carrier is not None
 
     @property
@@ -93,7 +93,7 @@ class Side:
 
     @property
     def rod(self) -> str:
-        """What a turning point turns with."""
+        """Name of the rod with which a turning point turns."""
         return f"{self.base}{self.point}"
 
     @property
@@ -103,7 +103,7 @@ class Side:
 
     @property
     def sought(self) -> str:
-        """The letter of the one that is sought, t or r; "" where the point's own acceleration stands for it."""
+        """Letter of the unknown part, t or r; "" if the point's own acceleration takes its place."""
         return "t" if self.turns else "r" if self.turning or not self.still else ""
 
     # --- ids
@@ -137,7 +137,7 @@ class Scheme:
 
 
 def scheme(linkage: Linkage) -> Scheme:
-    """Which links turn, and with which others; raises `ValueError` for two points of one name."""
+    """Return the links that turn, and the links that they turn with; raises `ValueError` for two points of one name."""
     spins = {GROUND: 0, DRIVER: DRIVER if isinstance(linkage.driver, Crank) else 0}
     for dyad in linkage.dyads:
         i, j = dyad.links

@@ -1,4 +1,4 @@
-"""What a topic enters into the ledger of a machine."""
+"""Interface by which a topic adds entries to the ledger of a machine."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ class LedgerHooks:
     enter_cycle: Callable[[Sheet, Analysis], None] = _enter_nothing
     """Enters what belongs to the cycle as a whole."""
     enter_last: Callable[[Sheet, Analysis], None] = _enter_nothing
-    """Enters what stands on all other results."""
+    """Enters quantities that depend on all other results."""
     reduced: Callable[[Sheet, float], Ref | None] = _not_reduced
     """Enters the part of the reduced torque (N·m) that the topic adds, compared with the largest torque."""
     mistakes: Callable[[Ledger, Machine], Changed] = _no_mistakes
