@@ -13,4 +13,4 @@ Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
 """Vectors in the plane, as complex numbers."""
 Flags = NDArray[np.bool_]
-"""Where a condition is met."""
+"""Flags that are True where a condition is met."""

@@ -1,6 +1,7 @@
-"""What files from China have of their own: bytes of GBK without a mark, letters as wide as Han, blanks in names.
+"""Text conventions of files from China: GBK without a byte-order mark, full-width letters, blanks inside names.
 
-Excel and WPS save a CSV there in GBK, and tables part the two letters of a name by a blank to make columns even.
+Excel and WPS save CSV files in GBK there, and tables separate the two letters of a name by a blank to align
+columns.
 """
 
 from __future__ import annotations
@@ -10,9 +11,9 @@ import re
 CODEC = "gb18030"
 """It has all letters of GBK, and of GB 2312 before it."""
 COMMON = 0.8
-"""Of a text that is GBK so many of its Han letters are among the common ones; chance puts a third there."""
+"""Smallest share of common letters among the Han letters of a GBK text; random bytes reach about a third."""
 EXPECTED = frozenset("学号姓名班级代符数值单位的机理")
-"""One of these stands in any roster, sheet and assignment file: in number, name, class, symbol, value, unit."""
+"""Letters of which every roster, sheet and assignment file has one: number, name, class, symbol, value, unit."""
 _HAN = "\u3400-\u4dbf\u4e00-\u9fff"
 _LETTERS = re.compile(f"[{_HAN}]")
 _BETWEEN = re.compile(f"(?<=[{_HAN}])[ \u3000]+(?=[{_HAN}])")
@@ -20,10 +21,10 @@ _WIDE = {wide: wide - 0xFEE0 for wide in range(0xFF01, 0xFF5F)} | {0x3000: 0x20}
 
 
 def is_gbk(data: bytes) -> bool:
-    """Whether bytes that are no UTF-8 are Chinese in GBK.
+    """Return True if bytes that are not UTF-8 are Chinese in GBK.
 
-    Letters of other old encodings make Han of a kind that no text is full of: those of small letters with accents, or
-    of Cyrillic, come from above the common ones, which GB 2312 put first; those of Korean make no heading.
+    Texts in other old encodings decode to unlikely Han letters. Small letters with accents and Cyrillic give
+    letters above the common ones, which GB 2312 put first; Korean letters give no expected heading.
     """
     try:
         text = data.decode(CODEC)
@@ -35,12 +36,12 @@ def is_gbk(data: bytes) -> bool:
 
 
 def _is_common(letter: bytes) -> bool:
-    """Whether a letter in GBK stands on the first level of GB 2312, that of the 3755 common ones."""
+    """Return True if a letter in GBK is on the first level of GB 2312, which contains the 3755 common ones."""
     return 0xB0 <= letter[0] <= 0xD7 and len(letter) == 2 and letter[1] >= 0xA1
 
 
 def joined(text: str) -> str:
-    """Return a text without the blanks between letters of Chinese, which stand there for the looks alone."""
+    """Return a text without the blanks between Chinese letters, which are only for alignment."""
     return _BETWEEN.sub("", text)
 
 

@@ -1,4 +1,4 @@
-"""Text files in Russian that an older program saved without a mark, in the code page of Windows."""
+"""Detect Russian text files in the Windows code page cp1251, saved by older programs without a byte-order mark."""
 
 from __future__ import annotations
 
@@ -10,15 +10,15 @@ _WORD = re.compile(f"{_LETTER}+")
 _CASED = re.compile("[\u0410-\u042fЁ]?[\u0430-\u044fё]+|[\u0410-\u042fЁ]+")
 _MIXED = re.compile(f"[A-Za-z]{_LETTER}|{_LETTER}[A-Za-z]")
 _SIGNS = frozenset("«»№–—…“”„’‘°\u00a0")
-"""What else a Russian text has beyond ASCII."""
+"""Other signs beyond ASCII that a Russian text may contain."""
 _LONG = 0.9
-"""So great a share of the letters stands in words of two letters or more."""
+"""Smallest share of the letters that are in words of two letters or more."""
 
 
 def is_cp1251(data: bytes) -> bool:
-    """Whether bytes that are not UTF-8 are Russian in the code page of Windows.
+    """Return True if bytes that are not UTF-8 are Russian in the Windows code page cp1251.
 
-    Bytes of other code pages make words of mixed case, as KOI8-R does, signs that no text has, or single Cyrillic
+    Bytes of other code pages decode to words of mixed case (KOI8-R), signs that no text has, or single Cyrillic
     letters between Latin ones.
     """
     try:

@@ -1,8 +1,7 @@
-"""Faults as values: where they are, what they are, and what would help.
+"""Faults as values: their place, their code, and a hint for fixing them.
 
-A reader of input collects `Problem`s instead of stopping at the first one; `ReportgenError` carries
-all of them to whoever called.  Words stay out of this module: `message` is already in the language
-asked for.
+A reader of input collects `Problem`s instead of stopping at the first one; `ReportgenError` carries all of them to
+the caller. This module contains no words: `message` is already in the requested language.
 """
 
 from __future__ import annotations
@@ -28,7 +27,7 @@ class Mark:
 
     @property
     def place(self) -> tuple[str, int, int, int]:
-        """Where it stands in the order of places: file, sheet (0 in a text), line, column."""
+        """Sort key of the place: file, sheet (0 in a text), line, column."""
         return (self.file, 0, self.line, self.column)
 
 
@@ -48,7 +47,7 @@ class CellMark(Mark):
 
 
 def column_letters(column: int) -> str:
-    """What spreadsheets call a column counted from 1: A … Z, AA, AB, …."""
+    """Return the spreadsheet letters of a column counted from 1: A … Z, AA, AB, …."""
     letters = ""
     while column > 0:
         column, digit = divmod(column - 1, 26)
@@ -77,14 +76,14 @@ class Fault:
 
     @property
     def remedies(self) -> tuple[str, ...]:
-        """What may stand there instead, as it would be typed."""
+        """Replacements for the faulty text, as they would be typed."""
         if self.code == "missing-unit":
             return (f"{self.arguments['text'].strip()} {self.arguments['unit']}",)
         return tuple(dict.fromkeys(self.arguments[name] for name in ("fixed", "other") if name in self.arguments))
 
     @property
     def wordless(self) -> str:
-        """What is told where the words themselves cannot be read."""
+        """Text for the case that the words themselves cannot be read."""
         return f"{self.code} {self.arguments.get('reason', '')}".rstrip()
 
 
@@ -166,7 +165,7 @@ class SheetError(ReportgenError):
 
 
 class NotOfferedError(ReportgenError):
-    """What is asked for cannot be made of an assignment of this kind."""
+    """The requested product cannot be made from an assignment of this kind."""
 
     exit_code = 1
 
@@ -190,4 +189,4 @@ class OutputError(ReportgenError):
 
 
 class OutputWarning(UserWarning):
-    """A file is made, but not all as it was asked for; its words are those of whoever is told."""
+    """A file was made, but not exactly as requested; the message is in the user's language."""

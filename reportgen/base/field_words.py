@@ -1,9 +1,9 @@
-"""What the keys of assignment files are called: name, remark and group of each, in every language.
+"""Labels of the keys of assignment files: name, remark and group of each, in every language.
 
-The keys of a kind's own parameters stand with its words, in the section `fields`; those of all kinds, and the words of
-choices and groups, in `fields.yaml` of the language.  A topic names the keys of its section, and the values among which
-they choose, in the sections `fields` and `choices` of its words.  Keys are told by their paths without the numbers of
-lists and without names that the user gives: `groups.guide.at`.
+The labels of a kind's own parameters are with its words, in the section `fields`. Those of all kinds, and the words
+of choices and groups, are in `fields.yaml` of the language. A topic labels the keys of its section and their
+choices in the sections `fields` and `choices` of its words. Keys are identified by their paths without list indices
+and without names chosen by the user: `groups.guide.at`.
 """
 
 from __future__ import annotations
@@ -66,7 +66,7 @@ def shared_keys(language: Language) -> frozenset[str]:
 
 
 def choice_words(language: Language) -> Mapping[str, str]:
-    """What the values are called among which a key may choose."""
+    """Return the labels of the values that a key may choose among."""
     common = told_in(language, FILE)
     table: Mapping[str, str] = _common(common, common.stat().st_mtime_ns)["choices"]
     of_topics = {key: said for file in _of_topics(language) for key, said in _own(file, CHOICES).items()}
@@ -81,7 +81,7 @@ def group_titles(language: Language) -> list[str]:
 
 
 def also(language: Language) -> str:
-    """What stands between two ways to say the same."""
+    """Return the word between two ways to give the same value (“or”)."""
     common = told_in(language, FILE)
     return str(_common(common, common.stat().st_mtime_ns)["or"])
 
@@ -104,7 +104,7 @@ def _found(own: Path, common: Path, of_topics: tuple[Path, ...], *_: int) -> Map
 
 
 def _own(file: Path, name: str = SECTION) -> Mapping[str, Any]:
-    """Return a section of the words of a kind or a topic: the table of its own keys by their groups."""
+    """Return a section of the words of a kind or a topic: the table of its keys by groups."""
     section = sections(file).get(name)
     if section is None:
         return {}
@@ -138,14 +138,14 @@ def _common(path: Path, _: int) -> Mapping[str, Any]:
 # --- a file to begin with ---------------------------------------------------------------------------
 
 COLUMN = 32
-"""Where remarks begin, as far as there is room."""
+"""Column at which remarks begin, if there is room."""
 _ENTRY = re.compile(r"(?P<indent> *)(?:# )?(?P<key>[^\W\d][\w-]*):(?P<value>.*)")
 
 
 def remarked(text: str, words: Mapping[str, FieldWords], more: Callable[[str, str], str]) -> str:
-    """Return a file to begin with, with the words of each key behind it, and `more` to be said of its path and value.
+    """Return a starter file with a remark on each key; `more` returns further text for a key's path and value.
 
-    A key that is followed by keys of its own, and one that has a remark already, stays as it is.
+    A key that contains other keys, or that already has a remark, is left unchanged.
     """
     lines = text.splitlines()
     entries = [_ENTRY.fullmatch(line) for line in lines]

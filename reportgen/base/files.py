@@ -1,4 +1,6 @@
-"""Files put in place whole or not at all: a reader sees the old one or the new one, never a half."""
+"""Write files atomically: a reader sees the old content or the new, never a part. Also locks, run folders and the
+cache.
+"""
 
 from __future__ import annotations
 
@@ -21,9 +23,9 @@ from reportgen.base.errors import Fault, Mark, OutputError
 from reportgen.base.formats import endings, file_names
 
 _STREAMS = ("/dev", "/proc")
-"""A link in these folders stands for what is open, even where it leads to a regular file."""
+"""Folders whose links refer to open streams, even if they lead to a regular file."""
 _UNFINISHED = re.compile(rf"\..+\.(?:{'|'.join(endings())})\.[a-z0-9_]{{8}}")
-"""What `_beside` makes."""
+"""Pattern of the names of temporary files that `_beside` makes."""
 
 
 def put_files(folder: Path, files: Mapping[str, bytes], gone: Collection[Path] = ()) -> list[Path]:
@@ -63,9 +65,10 @@ def renew_file(target: Path, content: bytes) -> None:
 
 
 def put_set(files: Mapping[Path, bytes], gone: Collection[Path] = ()) -> None:
-    """Put files in place, and take the ones `gone` away, together or not at all: after a failure all is as it was.
+    """Write files and remove the files `gone`, together or not at all: after a failure everything is as before.
 
-    All are written before the first is put in place; what stood there has a second name until the last one is.
+    All files are written before the first is moved into place. Until the last one is, each old file keeps a second
+    name.
     """
     with ExitStack() as temporary, ExitStack() as undo:
         written = {}
@@ -92,7 +95,7 @@ def put_set(files: Mapping[Path, bytes], gone: Collection[Path] = ()) -> None:
 
 
 def is_stream(target: Path) -> bool:
-    """Whether a name stands for a pipe or a device, or for what is open already (/dev/stdout): nothing to replace."""
+    """Return True if a name is a pipe, a device or an open stream (/dev/stdout), which cannot be replaced."""
     try:
         mode = target.stat().st_mode
     except OSError:
@@ -167,7 +170,7 @@ def reported(about: Path | None = None) -> Iterator[None]:
 
 
 class NotRegularError(OSError):
-    """A pipe, a device or a socket in place of a file: nobody knows whether it ever ends."""
+    """A pipe, a device or a socket in place of a file: reading it might never end."""
 
 
 def cause(error: OSError) -> str:
@@ -176,7 +179,7 @@ def cause(error: OSError) -> str:
 
 
 def contents(path: Path, most: int = -1) -> bytes:
-    """Return the bytes of a file, `most` of them if that is no less than 0.  Raises `OSError`, and waits for nobody."""
+    """Return the bytes of a file, at most `most` if that is not negative. Raises `OSError`; never waits for a pipe."""
     mode = path.stat().st_mode
     if not (stat.S_ISREG(mode) or stat.S_ISDIR(mode)):
         raise NotRegularError(errno.EINVAL, "no regular file", str(path))
@@ -185,7 +188,7 @@ def contents(path: Path, most: int = -1) -> bytes:
 
 
 def leads_out(path: Path, *folders: Path) -> bool:
-    """Whether a path, its links followed, is anywhere else than in one of some folders or below it."""
+    """Return True if a path, with its links followed, is outside of all the given folders."""
     try:
         return not any(path.resolve().is_relative_to(folder.resolve()) for folder in folders)
     except (OSError, RuntimeError, ValueError):  # a loop of links, or no path at all
@@ -210,7 +213,9 @@ def overwritten(outputs: Iterable[Path], inputs: Iterable[Path]) -> Iterator[Fau
 
 
 def _identities(path: Path) -> list[str | tuple[int, int]]:
-    """What all names of one file have in common: the file itself, or the way to it in no case."""
+    """Return keys that all names of one file share: its real path without case, and its device and inode if it
+    exists.
+    """
     real = unicodedata.normalize("NFC", os.path.realpath(path)).casefold()
     with suppress(OSError):
         about = path.stat()
@@ -226,7 +231,7 @@ PREFIX = ".reportgen-"
 MOST_SWEPT = 1000
 """So many folders in a row are swept by others before they are locked, at most; one is rare."""
 _NO_LOCKS = frozenset({errno.EBADF, errno.EINVAL, errno.ENOLCK, errno.EOPNOTSUPP, errno.ENOSYS})
-"""What network folders that know no locks answer."""
+"""Error codes of network folders that do not support locks."""
 
 
 @contextmanager
@@ -271,7 +276,7 @@ def _own(out: Path, lock: ExitStack) -> Path:
 
 
 def sweep(out: Path) -> None:
-    """Remove the folders of runs that are no more; where there are no locks, nobody knows, and they stay."""
+    """Remove the folders of runs that have ended; without locks this is unknown, and they stay."""
     for folder in out.glob(f"{PREFIX}*"):
         with suppress(OSError), held(folder) as alone:
             if alone:
@@ -313,7 +318,7 @@ LARGEST, OLDEST = 20_000_000, 60 * 24 * 3600.0
 
 
 def kept(name: str) -> bytes | None:
-    """What this version of the program kept under a name; None if there is nothing to be had, or it is damaged."""
+    """Return the data that this version of the program cached under a name; None if there is none or it is damaged."""
     with suppress(OSError):
         if (kept_in := folder()) is not None:
             seal, _, data = (kept_in / name).read_bytes().partition(b"\n")
@@ -325,7 +330,7 @@ def kept(name: str) -> bytes | None:
 
 
 def keep(name: str, data: bytes) -> Path | None:
-    """Keep something under a name, whole or not at all; the file it stands in, None where it could not be kept."""
+    """Cache data under a name, atomically. Return the path of the file, or None if it could not be written."""
     kept_in = folder()
     if kept_in is None:
         return None
@@ -389,7 +394,7 @@ def folder() -> Path | None:
 
 
 def _is_private(place: Path) -> bool:
-    """Whether nobody else can have written there: what is kept is run."""
+    """Return True if only this user can have written there, since cached data may be executed."""
     if not hasattr(os, "getuid"):
         return True
     about = place.stat()

@@ -1,7 +1,7 @@
-"""The table of formats: one row for each kind of file that a command writes on request.
+"""Registry of output formats: one row for each kind of file that a command writes on request.
 
-The functions of `reportgen.api`, the commands with their help and messages, and the search for files of an earlier run
-read this table.  To add a format, write a function and add a row that names it.
+The functions of `reportgen.api`, the commands with their help and messages, and the search for files of an earlier
+run read this table. To add a format, write a function and add a row that names it.
 """
 
 from __future__ import annotations
@@ -33,9 +33,9 @@ class Format:
     stem: str = ""
     ending: str = ""
     per_part: bool = False
-    """Whether a file holds one table, so that each part of a coursework has a further file, results-cam.csv."""
+    """True if a file contains one table, so that each part of a coursework has a further file, results-cam.csv."""
     moves: bool = False
-    """Whether it shows a motion, not one drawing."""
+    """True if it shows a motion, not a single drawing."""
 
     @property
     def suffix(self) -> str:
@@ -55,17 +55,17 @@ class Format:
 
 @dataclass(frozen=True, slots=True)
 class BatchProduct:
-    """What `batch --make` calls by `name`: the function that makes its files, and how a batch treats them."""
+    """A product that `batch --make` knows by `name`: the function that makes its files, and how a batch treats them."""
 
     name: str
     maker: str
     """`module:function` from path, engine and language to files by name."""
     files: str = ""
-    """Which of `file_names` its files are, if not those of its own name."""
+    """Key of its files in `file_names`, if that is not its own name."""
     asks: bool = False
-    """Whether it depends on what the answer sheet asks for: its maker takes `ask`."""
+    """True if it depends on the questions of the answer sheet: its maker takes `ask`."""
     typeset: bool = False
-    """Whether it has a PDF, which keeps the standards: its maker takes `standards`."""
+    """True if it includes a PDF that follows the standards: its maker takes `standards`."""
     bound: str = ""
     """The name of the one PDF of a whole class."""
     usual: bool = False

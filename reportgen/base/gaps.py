@@ -1,4 +1,4 @@
-"""The gaps of words, in braces: texts and numbers fill them, and nothing that is more than a value."""
+"""Fill `{placeholders}` in message strings with plain values only, texts and numbers."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from typing import Any
 from reportgen.base.errors import Mark
 
 FILLS = (str, Real)
-"""What a gap is filled with."""
+"""Types of the values that a placeholder accepts."""
 NO_LETTER = "\0"
-"""Fills a gap whose place is looked for: it stands in no word."""
+"""Letter that marks a placeholder whose place is searched for; it occurs in no word."""
 _ENTRY = re.compile(r"\{[^{}]*[.\[!]")
 """A gap that asks for more than a value."""
 
@@ -24,7 +24,7 @@ def gaps(template: str) -> set[str]:
 
 
 def plain_gaps(text: str) -> bool:
-    """Whether the gaps in braces name values: an item of one, a width, or what Python would write, would be more."""
+    """Return True if all placeholders name plain values: no items, widths, conversions or private names."""
     try:
         named = [(name, how, turned) for _, name, how, turned in Formatter().parse(text) if name is not None]
     except ValueError:
@@ -45,7 +45,7 @@ def filled(text: str, values: Sequence[Any], named: Mapping[str, Any]) -> str:
 
 
 def place_of(text: str, words: Any) -> Mark | None:
-    """Where a text stands among words that know their places; None where it does not."""
+    """Return the place of a text among words that know their places; None if it is not among them."""
     if isinstance(words, str):
         return getattr(words, "mark", None) if words == text else None
     inner = words.values() if isinstance(words, Mapping) else words if isinstance(words, list) else ()

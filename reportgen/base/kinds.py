@@ -1,4 +1,4 @@
-"""Which kinds of assignments there are, what each is called, and a file to begin with."""
+"""The kinds of assignments, their modules and their descriptions."""
 
 from __future__ import annotations
 
@@ -16,9 +16,10 @@ SAMPLE = "new"
 
 @cache
 def kinds() -> Mapping[str, str]:
-    """Return the module of every kind, dotted, by the name that stands in a file, in alphabetical order.
+    """Return the dotted module name of every kind, by the kind's name in a file, in alphabetical order.
 
-    A kind is a module in a room of the package that is called as its words are; in the catalogue before any other room.
+    A kind is a module in a package folder that has the same name as its file of words. The catalogue comes before
+    other folders.
     """
     package = Path(__file__).parents[1]
     modules = sorted(package.glob("*/*.py"), key=lambda path: path.parent.name == "catalogue")

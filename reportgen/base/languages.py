@@ -1,6 +1,6 @@
-"""What a language is beside its words: its numbers, its page, its fonts, as `language.yaml` of its folder says.
+"""Settings of a language besides its words: numbers, page and fonts, from `language.yaml` in its folder.
 
-A folder of templates with such a file is a language; no other place of the program names one.
+Every folder of templates with such a file is a language; nothing else in the program lists them.
 """
 
 from __future__ import annotations
@@ -22,9 +22,9 @@ _LETTERS = re.compile("[^\\W\\d_¹²³⁰-⁹]+")
 
 @dataclass(frozen=True, slots=True)
 class TypstSetting:
-    """How Typst sets the language: its code, perhaps a region, hyphens, and fonts that stand in for missing letters.
+    """Settings of Typst for the language: its code, perhaps a region, hyphens, and fonts for missing letters.
 
-    `strong` are those that do so in headings and wherever letters are bold, if they are others.
+    `strong` are the fonts for missing letters in headings and bold text, if they differ.
     """
 
     lang: str = ""
@@ -53,7 +53,7 @@ class DrawingSetting:
 
 @dataclass(frozen=True, slots=True)
 class PageMargins:
-    """What stays white around the text of a page (mm)."""
+    """Margins around the text of a page (mm)."""
 
     left: float = 30.0
     right: float = 20.0
@@ -62,15 +62,15 @@ class PageMargins:
 
     @property
     def narrow(self) -> bool:
-        """Whether an A4 page leaves less room than figures and tables are made for."""
+        """True if an A4 page leaves less room than figures and tables are made for."""
         return self.left + self.right > 50 or self.top + self.bottom > 42 or min(self.left, self.right) < 5
 
 
 @dataclass(frozen=True, slots=True)
 class MobilityNotation:
-    """How the degree of freedom is written: 3n − (2t + c) + r − s, or `apart`, 3n − 2t − c, with r and s unless zero.
+    """Notation of the degree of freedom: 3n − (2t + c) + r − s, or `apart`, 3n − 2t − c, with r and s unless zero.
 
-    The letters stand for the freedom, moving links, lower and higher pairs, passive constraints, redundant freedoms.
+    The letters are for the freedom, moving links, lower and higher pairs, passive constraints, redundant freedoms.
     """
 
     letters: tuple[str, ...] = ("W", "n", "t", "c", "r", "s")
@@ -79,9 +79,9 @@ class MobilityNotation:
 
 @dataclass(frozen=True, slots=True)
 class ReadingWords:
-    """Words by which a reader of students' reports recognises what a text says.
+    """Words by which a reader of students' reports recognises the meaning of a text.
 
-    In a word, `*` is any end of it; `#` is the place of the number, which otherwise stands behind.
+    In a word, `*` matches any ending; `#` is the place of the number, which otherwise follows the word.
     """
 
     position: tuple[str, ...] = ()
@@ -120,12 +120,13 @@ class ReadingWords:
 
 @dataclass(frozen=True, slots=True)
 class LanguageSetting:
-    """All that `language.yaml` says; what it leaves out is as here.
+    """Content of `language.yaml`, with the defaults of the keys that it leaves out.
 
-    `latex` are the encodings of letters that pdflatex needs, none where Typst alone sets the language; `block` is the
-    title block of its drawing sheets; `units` are letters of units, or whole units, as the language writes them, and
-    `typed` what people type for units besides; `reading` has the words of students' reports; `spaced` says whether it
-    sets blanks between words; `draft` are the kinds of work whose words no native speaker has read, or all of them.
+    `latex` are the font encodings that pdflatex needs, empty if only Typst can set the language. `block` is the
+    title block of its drawing sheets. `units` are letters of units, or whole units, as the language writes them,
+    and `typed` are other spellings that people type. `reading` has the words of students' reports. `spaced` is True
+    if words are separated by blanks. `draft` are the kinds of work whose words no native speaker has read, or True
+    for all of them.
     """
 
     name: str
@@ -146,17 +147,17 @@ class LanguageSetting:
 
     @property
     def separator(self) -> str:
-        """What stands between the arguments of a function and the items of a list of numbers."""
+        """Separator of the arguments of a function and of the items of a list of numbers."""
         return ";" if self.decimal == "," else ","
 
     @property
     def colon(self) -> str:
-        """What stands between a label and what it labels."""
+        """Separator between a label and the labelled text."""
         return ": " if self.spaced else "："
 
     @property
     def stop(self) -> str:
-        """What stands behind the number of a caption, before its words."""
+        """Mark behind the number of a caption, before its words."""
         return "." if self.spaced else ""
 
     def aside(self, text: str) -> str:
@@ -164,13 +165,13 @@ class LanguageSetting:
         return f" ({text})" if self.spaced else f"（{text}）"
 
     def is_draft(self, kind: str = "") -> bool:
-        """Whether no native speaker has read the words, those of a kind of work if one is named."""
+        """Return True if no native speaker has read the words, or those of a kind of work if one is named."""
         return kind in self.draft if isinstance(self.draft, tuple) else self.draft
 
 
 @cache
 def setting_of(language: Language) -> LanguageSetting:
-    """What the language's own file says.  Raises `TemplateError` with file and line."""
+    """Return the settings from the language's file. Raises `TemplateError` with file and line."""
     return read_setting(templates() / language / LANGUAGE_FILE)
 
 
@@ -205,14 +206,14 @@ def common_unit(text: str) -> str:
 
 @cache
 def _typed_names() -> Mapping[str, str]:
-    """Units by what stands for them in any language."""
+    """Return the units by their spellings in any language."""
     settings = [setting_of(language) for language in languages()]
     names = {shown: unit for setting in settings for unit, shown in setting.units.items()}
     return names | {typed: unit for setting in settings for typed, unit in setting.typed.items()}
 
 
 def typed_units() -> tuple[str, ...]:
-    """What languages write for units: letters that are not Latin, whole units, and products without a sign, Нм."""
+    """Return all national spellings of units: non-Latin letters, whole units, and products without a sign, Нм."""
     single = [name for name in _typed_names() if name.isalpha() and not name.isascii()]
     whole = [name for name in _typed_names() if not name.isalpha()]
     products = [force + length for force in single for length in single if _is_moment(force, length)]

@@ -1,7 +1,7 @@
-"""A call in a process of its own that can be ended: bounded in time, in memory and in what comes back.
+"""Run a function in a subprocess with limits on time, memory and the size of its result.
 
-For work that runs what others wrote.  The process is a fresh interpreter, started wherever this one runs: in a
-job, in a worker of a cluster, beside threads.
+Use it for work that executes code or templates of others. The process is a fresh interpreter and can be started
+from anywhere: a job, a worker of a cluster, beside threads.
 """
 
 from __future__ import annotations
@@ -38,14 +38,14 @@ _BEGIN = "import sys; sys.path[:] = sys.argv[1:]; from reportgen.base.limits imp
 
 @dataclass(frozen=True, slots=True)
 class Limits:
-    """What one call may take: seconds, and megabytes beyond those of the process that it begins in."""
+    """Limits of one call: seconds, and megabytes beyond those that its process starts with."""
 
     seconds: float
     megabytes: int
 
 
 TEMPLATES = Limits(seconds=10, megabytes=500)
-"""What making a document with a school's templates may take."""
+"""Limits for making a document with a school's templates."""
 
 
 M_TRIM_THRESHOLD, KEPT_FREE = -1, 128 * 1024
@@ -67,15 +67,15 @@ class LimitError(Exception):
 
 
 _bounded = False
-"""Whether this process is one that serves a call."""
+"""True in a process that serves a limited call."""
 
 
 def call_within(limits: Limits, function: Callable[[Argument], Result], argument: Argument) -> Result:
-    """What `function`, named in a module, makes of an argument that can be pickled.
+    """Return the result of `function`, a function of a module, for an argument that can be pickled.
 
-    Seconds are those of the processor.  All that the call starts is of its group and ends with it; a call within a
-    call is made in the same process, whose limits hold for both.  Raises what the call raises, and `LimitError`; warns
-    as the call does of what it made.
+    Seconds are processor time. All processes that the call starts belong to its process group and end with it. A
+    call within a call runs in the same process, under the limits of the outer one. Raises the exceptions of the
+    call and `LimitError`; repeats the call's output warnings.
     """
     if _bounded:
         return function(argument)
@@ -110,7 +110,7 @@ def call_within(limits: Limits, function: Callable[[Argument], Result], argument
 
 @contextmanager
 def _group(command: Sequence[str]) -> Iterator[subprocess.Popen[bytes]]:
-    """A process that begins a group of its own, which is ended whole with the block, whatever it has started."""
+    """Start a process with a process group, and end the whole group at the end of the block."""
     process = subprocess.Popen(
         command,
         stdin=subprocess.PIPE,
@@ -179,7 +179,7 @@ def serve() -> None:
 
 
 def _end_alone() -> None:
-    """End this process and its group where the one that called has ended: nobody waits for an answer."""
+    """End this process and its group when the calling process has ended, since nobody waits for an answer then."""
     with suppress(OSError):
         while os.read(0, 1):
             pass

@@ -1,8 +1,8 @@
-"""What files were made of: so those made of the same stay, stale ones go, and what was changed since is not lost.
+"""Track which inputs each output file was built from: skip up-to-date files, delete stale ones, keep edited ones.
 
-A file is stale when it was made of other input than is at hand now.  It goes only while its bytes are as they were
-written; one that somebody went on with stays, and is named.  The rule is that of a batch, whose manifest vouches for
-the files of a class, and of the folder of one assignment, which has a hidden record of its own.
+A file is stale if it was made from other inputs than the present ones. It is deleted only if its bytes are
+unchanged; a file that a user edited stays and is reported. The same rule applies to a batch, whose manifest records
+the files of a class, and to the folder of one assignment, which has a hidden record.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from typing import Any
 from reportgen.base.files import contents, put_files, standing
 
 MADE_OF = ("assignment", "engine", "language", "templates", "version")
-"""All input that decides the bytes of a product; further names say what else does, such as what a sheet asks for."""
+"""Inputs that decide the bytes of every product; a product may add others, such as the questions of a sheet."""
 MadeOf = Mapping[str, str | None]
 
 RECORD = ".reportgen.json"
@@ -42,12 +42,12 @@ class Made:
                 yield folder / name
 
     def without(self, names: Collection[str], folder: Path) -> Made:
-        """Those of the files that are still there, without some names."""
+        """Return the record of the files that still exist, without some names."""
         there = {name for name in self.files if name not in names and os.path.lexists(folder / name)}
         return Made(self.made_of, {name: self.files[name] for name in self.files if name in there})
 
     def outlived(self, made: Collection[str], folder: Path) -> Iterator[Path]:
-        """Yield the files that are unaltered and are `made` no more; a name with a folder is none of them."""
+        """Yield unchanged files that are no longer in `made`; names with a folder are skipped."""
         for name, known in self.files.items():
             if name not in made and PurePath(name).name == name and hash_of(folder / name) == known:
                 yield folder / name
@@ -55,9 +55,9 @@ class Made:
 
 @dataclass(frozen=True, slots=True)
 class Put:
-    """What came of putting files into a folder: their `paths`, the stale files that are `gone`, those that are `left`.
+    """Result of putting files into a folder: the `paths` written, the stale files `gone`, and the files `left`.
 
-    What is left was changed since it was made, or nothing vouches for it.
+    Files that are left were changed after they were made, or are not in any record.
     """
 
     paths: tuple[Path, ...]
@@ -79,7 +79,7 @@ def made_of(
 
 
 def hash_of(path: Path) -> str:
-    """SHA-256 of a file as it stands; "" where there is none to be read."""
+    """Return the SHA-256 of a file; "" if it cannot be read."""
     try:
         return sha256(contents(path)).hexdigest()
     except (OSError, ValueError):
@@ -131,7 +131,7 @@ def _read(folder: Path) -> dict[str, list[Made]]:
 
 
 def _made(plain: Any) -> Made:
-    """What a record says of files made of one input; raises `ValueError` for what this program never wrote."""
+    """Return the record of files made from one input; raises `ValueError` for data that this program never wrote."""
     of, files = dict(plain["made_of"]), dict(plain["files"])
     names = all(isinstance(name, str) and PurePath(name).name == name for name in files)
     if not (names and all(isinstance(known, str) for known in files.values())):

@@ -1,7 +1,8 @@
-"""Moments as people and platforms write them: 2026-11-20 23:59, 20/11/2026, Friday, 20 November 2026, 11:59 PM.
+"""Parse dates and times as people and platforms write them: 2026-11-20 23:59, 20/11/2026, Friday, 20 November 2026,
+11:59 PM.
 
-Months and halves of the day are those of all languages (`dates` of `messages.yaml`); of a date in figures the day
-stands first, unless it begins with the year.
+Names of months and halves of the day are accepted in all languages (`dates` of `messages.yaml`). In a numeric date
+the day comes first, unless it begins with the year.
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ _ISO = re.compile(r"(?<!\d)(\d{4})(?:-(\d{1,2})-(\d{1,2})(?!\d)| ?年 ?(\d{1,2})
 _FIGURES = re.compile(r"(?<!\d)(\d{1,2})[/.-](\d{1,2})[/.-](\d{4}|\d{2})(?!\d)")
 _DAY, _YEAR = re.compile(r"(?<!\d)(\d{1,2})(?!\d)"), re.compile(r"(?<!\d)(\d{4})(?!\d)")
 CENTURY = 2000
-"""Of a year of two figures."""
+"""Century added to a year of two digits."""
 
 
 def moment(text: str, *, end: bool = False) -> datetime.datetime | None:
@@ -70,7 +71,7 @@ def _day(said: str) -> datetime.date | None:
 
 
 def _among(words: Mapping[str, int], said: str) -> str:
-    """Return the longest of some words that stands in a text by itself, "" for none."""
+    """Return the longest of some words that occurs in a text as a whole word, "" for none."""
     standing = (word for word in words if re.search(rf"(?<!\w){re.escape(word)}(?!\w)", said))
     return max(standing, key=len, default="")
 
@@ -88,6 +89,6 @@ def _months() -> Mapping[str, int]:
 
 @cache
 def _halves() -> Mapping[str, Mapping[str, int]]:
-    """What the halves of the day are called, by `morning` and `afternoon`."""
+    """Return the names of the halves of the day, by `morning` and `afternoon`."""
     tables = [messages(language)["dates"] for language in languages()]
     return {half: {word: 0 for table in tables for word in table[half]} for half in ("morning", "afternoon")}

@@ -1,4 +1,4 @@
-"""The pages of the documentation, as they come with the program: Markdown, some of them in several languages."""
+"""The pages of the documentation, which are installed with the program: Markdown, some of them in several languages."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from reportgen.base.units import Language
 from reportgen.base.words import spoken
 
 FIRST = "README"
-"""The page to begin with; in a checkout it stands above the folder of the others."""
+"""First page; in a checkout it is in the folder above the others."""
 SUFFIX = ".md"
 LOOK = (
     "body{max-width:50em;margin:2em auto;padding:0 1em;font:1rem/1.5 sans-serif}"

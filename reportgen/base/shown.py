@@ -1,7 +1,7 @@
-"""The one table of what words may name: of each type of the program, by its class, the members that are shown.
+"""Registry of the attributes that templates may read, by class.
 
-Templates and the gaps of words see a value of such a type by these members alone; a type that is not in the table has
-none.  A mapping shows its entries.
+Templates and placeholders can read only these members of a value; a type that is not registered has none. A mapping
+shows its entries.
 """
 
 from __future__ import annotations
@@ -12,12 +12,12 @@ from typing import Any, TypeVar
 Shown = TypeVar("Shown", bound=type)
 
 MEMBERS: dict[type, frozenset[str]] = {}
-"""The members of each type; `__str__` among them says that a value of it stands in a text by its name."""
+"""Readable members of each type; `__str__` among them allows a value to be printed in a text by its name."""
 
 FIELDS = "__dataclass_fields__"
-"""Where a dataclass has its fields, by their names."""
+"""Attribute in which a dataclass has its fields, by their names."""
 _ALL: dict[type, frozenset[str]] = {}
-"""Those of a type and of its bases, of the types that were asked for."""
+"""Cache of the members of types together with those of their bases."""
 
 
 def shown(*names: str) -> Callable[[Shown], Shown]:
@@ -57,7 +57,7 @@ def member(of: object, name: str) -> Any:
 
 
 def text(of: object) -> str:
-    """How a value stands in a text.  Raises `TypeError` for one that has no text."""
+    """Return a value as text. Raises `TypeError` for one that has no text."""
     if isinstance(of, bool) or not (isinstance(of, (str, int)) or "__str__" in members(type(of))):
         raise TypeError(f"a {type(of).__name__} has no place in a text")
     return str(of)

@@ -1,7 +1,7 @@
-"""Slips of typing that make a line mean something else: named as what they are, at their own place.
+"""Detect common YAML typing mistakes and report them at the right line.
 
-`a:0.255 m` and `a = 0.255 m` are texts to YAML, not keys with values; “95 mm” in typographic quotes is no number; and a
-blank that was copied from a page (U+00A0) is none that parts anything.
+`a:0.255 m` and `a = 0.255 m` are texts to YAML, not keys with values; “95 mm” in typographic quotes is not a
+number; and a blank copied from a web page (U+00A0) does not separate anything.
 """
 
 from __future__ import annotations
@@ -15,14 +15,14 @@ from reportgen.base.errors import Fault, Mark
 _NAME = r"[^\W\d]\w*(?:\.\w+)*"
 _UNPARTED = re.compile(rf"(?P<lead>[ ]*(?:- )?)(?P<key>{_NAME})(?::(?![\s/])|[ ]*=[ ]*)(?P<value>\S.*?)\s*")
 _NEXT = re.compile(rf"\s+{_NAME}\s*[:=].*")
-"""Where a text runs on over the lines of further keys."""
+"""Pattern of a text that continues over the lines of further keys."""
 _ODD_BLANK = re.compile("[\u00a0\u1680\u2000-\u200b\u202f\u205f\u3000\ufeff]")
 _QUOTES = {"“": "”", "”": "”", "„": "“”", "«": "»", "‘": "’", "’": "’", "‚": "‘’"}
 """Typographic quotation marks and what closes them."""
 
 
 def in_quotes(text: str) -> str | None:
-    """What stands in typographic quotation marks, None for a text that does not."""
+    """Return the text inside typographic quotation marks, None for a text without them."""
     inner = text.strip()
     return inner[1:-1] if len(inner) > 1 and inner[-1] in _QUOTES.get(inner[0], "") else None
 
@@ -34,7 +34,7 @@ def meant(key: str) -> str:
 
 
 def slip(text: str, mark: Mark) -> Fault | None:
-    """What is wrong with a text that was to be a key, a value or a section, if it is a slip of typing."""
+    """Return the typing mistake in a text that was meant to be a key, a value or a section; None if there is none."""
     if odd := _ODD_BLANK.search(text):
         return _odd_blank(odd, mark)
     if in_quotes(text) is not None:
@@ -56,7 +56,7 @@ def slips_above(lines: list[str], line: int, file: str) -> list[Fault]:
 
 
 def misplaced(lines: list[str], mark: Mark) -> Mark:
-    """Of a line and the one above, in two columns of one section, the one that is indented unlike all the file."""
+    """Return the mark of a line or of the line above it, whichever has the indentation that is unusual in this file."""
     indents = {number: len(line) - len(line.lstrip(" ")) for number, line in enumerate(lines, 1) if _bare(line).strip()}
     usual = Counter(filter(None, indents.values())).most_common(1)
     above = max((number for number in indents if number < mark.line), default=0)

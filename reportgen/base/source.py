@@ -1,9 +1,8 @@
-"""The text of a YAML file as nodes that know where they stand.
+"""Parse a YAML file into nodes that know their places.
 
-Nothing is constructed: a scalar stays the text that was typed, so `2011-03-24`, `1/3.6` and `no` reach
-their readers unharmed.  What the language offers beyond mappings, lists and scalars (tags, anchors,
-aliases) is a fault here.  No text, however hostile, takes more than its size in memory or a second or two: tokens,
-keys and faults are counted as they come.
+No values are constructed: a scalar stays the text that was typed, so `2011-03-24`, `1/3.6` and `no` reach their
+readers unchanged. Anything beyond mappings, lists and scalars (tags, anchors, aliases) is a fault here. Memory and
+time are bounded even for hostile text: tokens, keys and faults are counted while reading.
 """
 
 from __future__ import annotations
@@ -26,7 +25,7 @@ from reportgen.base.files import cause, contents
 from reportgen.base.slips import misplaced, slips_above
 
 ENCODINGS = {codecs.BOM_UTF8: "utf-8", codecs.BOM_UTF16_LE: "utf-16-le", codecs.BOM_UTF16_BE: "utf-16-be"}
-"""What the first bytes of a text say of the others."""
+"""Byte-order marks and the encodings that they indicate."""
 LARGEST = 400_000
 """Bytes of a file."""
 MOST_TOKENS = 30_000
@@ -36,7 +35,7 @@ MOST_KEYS = 200
 MOST_FAULTS = 100
 """After so many faults of its syntax a file is read no further."""
 _MAY_BE_MORE = re.compile(r"(?m)(?:^|[\s\[{,])[&*!]\S")
-"""What anchors, aliases and tags look like, and some other texts."""
+"""Pattern that matches anchors, aliases and tags, and a few other texts."""
 STRANGE = re.compile(r"[\x00-\x1f\x7f-\x9f\u2028\u2029\ud800-\uf8ff\ufdd0-\ufdef\ufffe\uffff\U000f0000-\U0010ffff]")
 """A sign that has no place in a line of text: control and private characters, ends of lines, what is no character."""
 _NULL = {"", "~", "null", "Null", "NULL"}
@@ -52,15 +51,17 @@ _SYNTAX = (
 
 
 Span = tuple[int, int]
-"""Where a node begins and ends in the text of its source: characters before it, and before what follows."""
+"""Begin and end of a node in the text of its source: number of characters before it, and before the text that
+follows.
+"""
 NOWHERE: Span = (-1, -1)
 
 
 @dataclass(frozen=True, slots=True)
 class Scalar:
-    """A piece of text; `null` when nothing was written, `quoted` when it stands in quotation marks.
+    """A piece of text; `null` if nothing was written, `quoted` if it is in quotation marks.
 
-    As of every node, `span` says between which characters of the source it was written.
+    Like that of every node, `span` gives the characters of the source between which it was written.
     """
 
     text: str
@@ -71,7 +72,7 @@ class Scalar:
 
 
 class Quoted(str):
-    """A text that stands in quotation marks: what looks like a number is none."""
+    """A text in quotation marks: it is not a number, even if it looks like one."""
 
     __slots__ = ()
 
@@ -114,7 +115,7 @@ def in_a_line(text: str) -> str:
 
 
 def scalars(node: Node | None) -> Iterator[Scalar]:
-    """All texts of a table."""
+    """Yield all scalars of a table."""
     match node:
         case Scalar():
             yield node
@@ -148,7 +149,7 @@ def text_in(path: Path) -> str | Fault:
 
 
 def encoding_of(data: bytes) -> tuple[bytes, str]:
-    """Return the mark at the beginning of a text and the encoding that it tells; without one UTF-8, GBK or cp1251."""
+    """Return the byte-order mark of a text and the encoding that it indicates; without one UTF-8, GBK or cp1251."""
     marked = ((mark, codec) for mark, codec in ENCODINGS.items() if data.startswith(mark))
     if known := next(marked, None):
         return known
@@ -179,7 +180,7 @@ def decoded(data: bytes, file: str) -> str | Fault:
 
 
 def read_text(text: str, file: str = "") -> Source:
-    """As `read_source`, for text already at hand."""
+    """Parse a text that is already in memory; like `read_source`."""
     tabs = tuple(islice(_tabs(text, file), MOST_FAULTS))
     if tabs:
         return Source(file, text, faults=tabs)
@@ -234,7 +235,7 @@ def read_own(text: str, file: str = "") -> Source:
 
 
 def _is_more(text: str) -> bool:
-    """Whether a text has an anchor, an alias or a tag."""
+    """Return True if a text has an anchor, an alias or a tag."""
     events = yaml.parse(text, Loader=yaml.CSafeLoader)
     return any(isinstance(event, yaml.NodeEvent) and (event.anchor or getattr(event, "tag", None)) for event in events)
 
@@ -355,7 +356,9 @@ def _rejoined(node: yaml.MappingNode) -> list[tuple[yaml.Node, yaml.Node]]:
 
 
 def _is_parted(before: yaml.Node, key: yaml.Node, value: yaml.Node) -> bool:
-    """Whether a value and the key without a value after it are what stands before and behind a comma in a number."""
+    """Return True if a value and the key without a value after it are the parts before and behind a comma in a
+    number.
+    """
     ends = before.end_mark.index, key.start_mark.index, key.end_mark.index, value.end_mark.index
     numbers = all(isinstance(one, yaml.ScalarNode) and not one.style for one in (before, key))
     return (
@@ -368,7 +371,7 @@ def _is_parted(before: yaml.Node, key: yaml.Node, value: yaml.Node) -> bool:
 
 
 def _tabs(text: str, file: str) -> Iterator[Fault]:
-    """Tabs that stand where YAML wants blanks: in front of a line or right after a key."""
+    """Yield tabs in places where YAML requires blanks: at the beginning of a line or right after a key."""
     for number, line in enumerate(_lines(text), start=1):
         if match := re.match(r" *(?:[\w.-]+:)?(\t)", line):
             yield Fault("tab", Mark(file, number, match.start(1) + 1))

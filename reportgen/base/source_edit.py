@@ -1,7 +1,7 @@
-"""A YAML text with one thing in it changed: a value, a key, an item; every other character stays as it was.
+"""Change one thing in a YAML text: a value, a key, an item. Every other character stays unchanged.
 
-What comes out is read again before it is given back, and must say what was meant.  A key that stands in its table as a
-remark (`# G3: 200 N`) becomes one again; else a new key joins its table in that table's style.
+The result is parsed again before it is returned, and must have the intended content. A key that is in its table as
+a comment (`# G3: 200 N`) is uncommented; otherwise a new key is added in the style of its table.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from reportgen.base.source_text import at, entry_text, flow, item_lines, path_te
 _REMARK = re.compile(r"#[ \t]?(?P<entry>(?P<key>[^\s:#][^:#]*):(?:[ \t].*)?)$")
 
 SHOWN = 60
-"""So much of what was typed is told."""
+"""Largest number of typed characters that a message repeats."""
 BRACKETS = 2000
 """A text with fewer brackets is not set in itself deeper than any reader bears."""
 
@@ -57,9 +57,10 @@ def with_value(text: str, where: Where, value: Node) -> str:
 
 
 def without(text: str, where: Where) -> str:
-    """Return the text without a key or an item.  A key with its value in one line becomes a remark, which keeps both.
+    """Return the text without a key or an item. A key with its value in one line becomes a comment, which keeps
+    both.
 
-    Raises `EditError` where nothing stands there.
+    Raises `EditError` if there is nothing at that place.
     """
     top = _top(text)
     above, node = at(top, where[:-1]), at(top, where)
@@ -121,7 +122,7 @@ def exchanged(text: str, where: Where, first: int) -> str:
 
 
 def as_list(text: str) -> SequenceNode:
-    """What is typed for a list, `1, 2` or `[0, 5 mm], [1, 2]`, as a node; raises `EditError`."""
+    """Parse text typed for a list, `1, 2` or `[0, 5 mm], [1, 2]`, into a node; raises `EditError`."""
     source = read_text(f"[{text}]")
     if isinstance(source.top, SequenceNode) and not source.faults:
         return source.top
@@ -168,7 +169,7 @@ def _is_flow(text: str, node: Node) -> bool:
 
 
 def _start(above: Node, step: str | int, node: Node) -> int:
-    """Where an entry begins with its key; an item, itself."""
+    """Return the index at which an entry begins: that of its key, or of the item."""
     entry = above.find(step) if isinstance(above, MappingNode) else None
     return entry[0].span[0] if entry else node.span[0]
 
@@ -178,7 +179,7 @@ def _line_start(text: str, index: int) -> int:
 
 
 def _line_end(text: str, index: int) -> int:
-    """Where the line after that of a character begins."""
+    """Return the index at which the next line begins."""
     end = text.find("\n", index)
     return len(text) if end < 0 else end + 1
 
@@ -189,9 +190,10 @@ def _content_end(text: str, index: int) -> int:
 
 
 def _behind(text: str, index: int, depth: int) -> int:
-    """Where the line after an entry that ends at an index begins, behind remarks that are set deeper than the entry.
+    """Return the begin of the line after an entry that ends at an index, skipping comments indented deeper than the
+    entry.
 
-    They belong to the table in it, as `# G3: 200 N` below the last of the `parameters`.
+    Such comments belong to the table in the entry, as `# G3: 200 N` below the last of the `parameters`.
     """
     end = line = _line_end(text, _content_end(text, index))
     while line < len(text):
@@ -264,7 +266,7 @@ def _remarks(text: str, top: MappingNode, table: MappingNode) -> Iterator[tuple[
 
 
 def _from_remark(text: str, top: MappingNode, table: MappingNode, rest: Where, value: Node) -> str | None:
-    """Return the text with a value at a key that stands in its table as a remark; None if there is no such remark."""
+    """Return the text with a value at a key that its table has as a comment; None if there is no such comment."""
     if _is_flow(text, table):
         return None
     for start, match in _remarks(text, top, table):
@@ -284,14 +286,14 @@ def _from_remark(text: str, top: MappingNode, table: MappingNode, rest: Where, v
 
 
 def _only_more(old: Any, new: Any) -> bool:
-    """Whether a content has all that another one has, and perhaps more keys."""
+    """Return True if a content has everything that another one has, and perhaps more keys."""
     if isinstance(old, dict) and isinstance(new, dict):
         return all(key in new and _only_more(value, new[key]) for key, value in old.items())
     return bool(old == new)
 
 
 def _without_in_flow(text: str, above: MappingNode | SequenceNode, step: str | int) -> str:
-    """Return the text without an entry in brackets, and without the comma that parted it."""
+    """Return the text without an entry in brackets and without the comma beside it."""
     if isinstance(above, MappingNode):
         spans = [(key.span[0], max(value.span[1], key.span[1])) for key, value in above.entries]
         index = [key.text for key, _ in above.entries].index(str(step))
@@ -315,7 +317,7 @@ def _get(content: Any, where: Where) -> Any:
 
 
 def _less(content: Any, where: Where) -> Any:
-    """Return a content without what stands at a place; a table that is left empty is nothing."""
+    """Return a content without the value at a place; a table that becomes empty becomes None."""
     above = _get(content, where[:-1])
     del above[where[-1]]
     if not above and isinstance(above, dict) and where[:-1]:

@@ -1,4 +1,4 @@
-"""Assignment files with values put into them, as text again."""
+"""Insert values into assignment files and write them as text again."""
 
 from __future__ import annotations
 

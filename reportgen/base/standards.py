@@ -1,4 +1,4 @@
-"""The standards that a PDF keeps, by the names that the typesetter and `--standard` know them by."""
+"""The standards that a PDF can follow, by the names that the typesetter and `--standard` use."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ Standards = tuple[str, ...]
 """Standards that one file keeps together; none is kept of ()."""
 
 STANDARDS: Standards = ("ua-1", "a-2a")
-"""What every PDF keeps unless it is told: it can be heard (ISO 14289-1), and it can be archived (ISO 19005-2)."""
+"""Default standards of every PDF: accessible (ISO 14289-1) and archivable (ISO 19005-2)."""
 NONE = "none"
-"""What is said in place of standards where none is wanted."""
+"""Name that stands for no standards in options."""
 KNOWN: Standards = (
     *("ua-1", "a-1a", "a-1b", "a-2a", "a-2b", "a-2u", "a-3a", "a-3b", "a-3u", "a-4", "a-4e", "a-4f"),
     *("1.4", "1.5", "1.6", "1.7", "2.0"),
@@ -24,5 +24,5 @@ def titled(standards: Standards) -> str:
 
 
 def other_than_usual(standards: Standards) -> str:
-    """What is kept in mind of standards that a file was made by: nothing where they are the usual ones."""
+    """Return the record of the standards that a file was made with: "" for the default ones."""
     return "" if standards == STANDARDS else ",".join(standards) or NONE

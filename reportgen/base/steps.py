@@ -1,4 +1,4 @@
-"""The steps of a piece of work, told to whoever has started the process and asks for them."""
+"""Progress events that a worker process sends to its parent."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where words, frames and examples are: the program's own folders, those of schools, and the order of reading."""
+"""Folders of words, frames and examples: the program's, those of schools, and the order in which they are read."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from reportgen.base.files import leads_out
 from reportgen.base.topics import topics
 
 Language = str
-"""The name of a folder that is a language; whoever reads one from outside checks it against `languages`."""
+"""Name of a folder that is a language; code that reads one from outside checks it against `languages`."""
 DEFAULT_LANGUAGE: Language = "vi"
 REFERENCE: Language = "en"
 """The language of words that another one does not have."""
@@ -53,25 +53,27 @@ def _packed(name: str, beside: str) -> Path:
 
 
 def _of_school(folder: Path) -> list[Path]:
-    """What may be read of a school's folder: a file of words for each language, its Word file, its title blocks."""
+    """Return the files of a school's folder that may be read: words for each language, the Word file, title blocks."""
     words = (f"{language}.md" for language in languages())
     patterns = (*words, "report.docx", "blocks", "blocks/*.yaml") if os.path.isdir(folder) else ()
     return [path for pattern in patterns for path in folder.glob(pattern)]
 
 
 def school_files(folder: Path) -> list[Path]:
-    """What is read of a school's folder: its words in each language, its title blocks and its Word file."""
+    """Return the files of a school's folder that are read: its words in each language, its title blocks and its
+    Word file.
+    """
     return sorted(path for path in _of_school(folder) if path.name != "blocks")
 
 
 def school_strays(folder: Path, *within: Path) -> list[Path]:
-    """What of a school's folder leads out of it, or out of the folders that it has to stay in, by a link or a way."""
+    """Return the paths of a school's folder that lead out of it, or out of the folders `within`, by a link or `..`."""
     paths = [folder, *_of_school(folder)]
     return [path for path in paths if leads_out(path, folder) or (within and leads_out(path, *within))]
 
 
 def is_school(folder: Path) -> bool:
-    """Whether a folder holds a school's own words or its Word file."""
+    """Return True if a folder contains a school's own words or its Word file."""
     return any(path.suffix in (".md", ".docx") for path in school_files(folder))
 
 

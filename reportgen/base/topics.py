@@ -1,9 +1,9 @@
 """Registry of topics: subjects of a machine that it may or may not have, such as friction or a flywheel.
 
-A topic is a folder of the package with a module `topic`; the folder is called like the key of its section in the file.
-A layer that lets topics add something declares a frozen dataclass of typed functions and one `HookModule` for it.  A
-topic that adds something there has a module of that name with an object `HOOKS` of the dataclass.  So a layer names no
-topic, no topic names another, and a machine imports only the topics that its file asks for.
+A topic is a folder of the package with a module `topic`; the folder has the name of its section's key in the file.
+A layer that topics can extend declares a frozen dataclass of typed functions and one `HookModule` for it. A topic
+that extends the layer has a module of that name with an object `HOOKS` of the dataclass. So a layer names no topic,
+no topic names another, and a machine imports only the topics that its file asks for.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ class HookModule(Generic[Hooks]):
         return hooks
 
     def among(self, names: Iterable[str]) -> Iterator[Hooks]:
-        """Yield the hooks of those of some topics that have such a module, in the order of the names."""
+        """Yield the hooks of some topics, in the order of the names, skipping topics without such a module."""
         for name in names:
             if (hooks := self.of(name)) is not None:
                 yield hooks

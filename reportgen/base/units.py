@@ -1,8 +1,8 @@
-"""Quantities at the edge: text with a unit becomes a number in SI, and keeps what was typed.
+"""Parse quantities: text with a unit becomes a number in SI that keeps the typed text.
 
-pint knows the units; since it takes 0.3 s to import, the few spellings nearly every file uses are also
-kept in `PLAIN`, which a test holds equal to pint.  Angles are a dimension of their own here, so that a
-bare `60` is no angle and `Hz` is no rotational speed.
+pint knows the units. Since importing it takes 0.3 s, the few spellings that nearly every file uses are also in
+`PLAIN`, which a test compares with pint. Angles have a dimension of their own here, so that a bare `60` is not an
+angle and `Hz` is not a rotational speed.
 """
 
 from __future__ import annotations
@@ -98,7 +98,9 @@ _QUANTITY = re.compile(rf"({NUMBER})\s*({UNIT})?")
 _RATIO = re.compile(rf"({NUMBER})\s*(?:/\s*({NUMBER}))?")
 _MARKED = re.compile(r"([+-]?)([0-9]+(?:[.,][0-9]+)+)(?![.,0-9])(.*)", re.DOTALL)
 _THOUSANDS = re.compile(r"[1-9][0-9]{0,2}[.,][0-9]{2}0")
-"""What a Vietnamese reader may mean as thousands, 1.400; nobody writes 1.4 so but to three decimals."""
+"""Pattern of numbers that a Vietnamese reader may mean as thousands, 1.400; 1.4 is written so only to three
+decimals.
+"""
 _NOT_FINITE = re.compile(r"[+-]?\.?(?:inf|infinity|nan)\b.*", re.IGNORECASE | re.DOTALL)
 _JOINED = re.compile(r"(?<![A-Za-z])(k?N|kg)(?=[mc]?m)")
 _LONGEST = 60
@@ -204,7 +206,7 @@ def _ways(body: str) -> list[str]:
 
 
 def measures(unit: str, like: str) -> bool:
-    """Whether one unit has the dimension of another."""
+    """Return True if one unit has the dimension of another."""
     try:
         return read_unit(unit, like) > 0
     except QuantityFault:
@@ -223,7 +225,7 @@ def read_unit(text: str, unit: str) -> float:
 
 
 def scale(unit: str) -> tuple[float, Dimension]:
-    """SI factor and dimension of a unit's text; raises `ValueError` for one that nobody knows."""
+    """Return the SI factor and the dimension of a unit's text; raises `ValueError` for an unknown unit."""
     unit = SPELLED.get(unit.casefold()) or common_unit(unit)
     unit = SPELLED.get(unit.casefold(), unit)
     return PLAIN[unit] if unit in PLAIN else scale_by_pint(unit)
@@ -316,7 +318,7 @@ class PowerOfTen:
 
 
 def by_power_of_ten(value: float, decimals: int | None) -> PowerOfTen | None:
-    """How a number with so many decimals is written if that is with a power of ten; None for all ordinary ones."""
+    """Return a number with so many decimals as factor and power of ten; None if it is written without a power."""
     fixed = decimals is not None and 0 <= decimals <= MOST_DECIMALS
     if abs(value) < 1e9 and (fixed or (decimals is None and (abs(value) >= 1e-6 or value == 0))):
         return None
@@ -336,9 +338,7 @@ def power_of_ten(exponent: int) -> str:
 
 
 def grouped(value: float) -> str:
-    """Return a bound as a message tells it: 0.000001, 10 000 000, with the decimal point of the file; beyond that
-    10⁹.
-    """
+    """Return a bound for a message: 0.000001, 10 000 000, with the decimal point of the file; beyond that 10⁹."""
     if parts := by_power_of_ten(value, None):
         return f"{parts.factor:g}·{power_of_ten(parts.exponent)}".removeprefix("1·").replace("-1·", MINUS)
     whole, point, decimals = f"{Decimal(repr(float(value))).normalize():f}".partition(".")
@@ -347,9 +347,9 @@ def grouped(value: float) -> str:
 
 
 def significant_decimals(value: float, digits: int) -> int:
-    """Decimals that show `value` with `digits` significant figures; 0 for a value of zero.
+    """Return the decimals that show `value` with `digits` significant figures; 0 for a value of zero.
 
-    A value that is a power of ten but for its last binary digits is that power.
+    A value that is a power of ten up to its last binary digits counts as that power.
     """
     if value == 0 or not math.isfinite(value):
         return 0

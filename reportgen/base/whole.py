@@ -1,7 +1,7 @@
-"""Which kinds of work and topics a language has whole words for: a language may be partial, a document never.
+"""Check which assignment kinds and topics a language translates completely; a document is never partly translated.
 
-Words are whole that have every section and every key of the language of reference; `reportgen words` says what else of
-them differs.
+Words are complete if they have every section and every key of the reference language; `reportgen words` reports
+other differences.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ UNTOLD = frozenset({"units", "symbols", "months"})
 
 @cache
 def is_whole(language: Language, kind: str) -> bool:
-    """Whether nothing that a report of this kind says is missing in the language, apart from the words of topics."""
+    """Return True if the language has all words of reports of this kind, apart from the words of topics."""
     return _has_all(language) and not any(_missing(kind_file(language, kind), kind_file(REFERENCE, kind)))
 
 
@@ -40,7 +40,7 @@ def offered(language: Language) -> list[str]:
 
 @cache
 def _has_all(language: Language) -> bool:
-    """Whether a language has all that the reports of all kinds say, whatever their topics."""
+    """Return True if a language has all words that reports of any kind use, apart from the words of topics."""
     if language in (DEFAULT_LANGUAGE, REFERENCE):
         # The program's own tests hold these whole, and a file is checked sooner.
         return True

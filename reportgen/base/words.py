@@ -1,8 +1,8 @@
-"""Every word that is not in a template: texts of faults and of the command line, short words of the reports.
+"""Texts that are not in a template: texts of faults and of the command line, short words of the reports.
 
-They are YAML in `templates/`: `<language>/messages.yaml` has what the program itself says, `<language>/words.yaml`
-what its documents say; those of a school and of one kind of machine, sections `words` of their files, go before the
-common ones.  A topic adds its own in the sections `words` and `messages` of its file.
+They are YAML in `templates/`: `<language>/messages.yaml` for the program's messages, `<language>/words.yaml` for
+its documents. The sections `words` in the files of a school and of a kind of machine override the common ones. A
+topic adds words in the sections `words` and `messages` of its file.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ from reportgen.base.template_folders import (
 from reportgen.base.units import Language
 
 LONGEST_SHOWN = 40
-"""How much of the file a message repeats, in characters."""
+"""Largest number of characters of the file that a message repeats."""
 
 FILE = "words.yaml"
 SECTION = "words"
@@ -58,7 +58,7 @@ MESSAGES_FILE, MESSAGES_SECTION = "messages.yaml", "messages"
 LONGEST = 2000
 """Characters of a school's word; the program's own have up to 340."""
 FILES = 32
-"""How many tables of words are kept."""
+"""Largest number of cached tables of words."""
 
 
 TEMPLATES = "REPORTGEN_TEMPLATES"
@@ -92,10 +92,11 @@ def named_school() -> Path | None:
 
 
 def load_words(places: Sequence[Path]) -> Mapping[str, Any]:
-    """All words found in `places` (see `search_path`): tables of tables, lists and words.
+    """Return all words found in `places` (see `search_path`): tables of tables, lists and words.
 
-    A place nearer on the search path need only hold the words it changes.  Raises `TemplateError` with
-    file and line for what cannot be read or is not of the form of what it changes, and where no place has any.
+    A place nearer on the search path needs only the words that it changes. Raises `TemplateError` with file and
+    line for a file that cannot be read or has another form than the words it changes, and if no place has any
+    words.
     """
     merged: Mapping[str, Any] | None = None
     for place in reversed(places):
@@ -141,7 +142,7 @@ def _read(path: Path) -> Mapping[str, Any]:
 
 @lru_cache(maxsize=FILES)
 def _as_of(path: Path, changed: int, size: int) -> Mapping[str, Any]:
-    """Return a file's words, read once for as long as it stays the same; nobody changes them."""
+    """Return a file's words, cached as long as the file is unchanged; callers must not change them."""
     return _table(read_words(path))
 
 
@@ -165,7 +166,7 @@ def _as_written(section: Passage, place: Path, of_others: bool) -> Mapping[str, 
 
 
 class _Word(str):
-    """A word that knows where it stands: a gap in it that nothing fills is a fault there."""
+    """A word that knows its place: a placeholder in it that cannot be filled is a fault there."""
 
     mark = Mark("")
 
@@ -184,7 +185,7 @@ class _Word(str):
 
 
 def unfilled(text: str, known: Iterable[str], language: Language) -> str:
-    """What is said of a gap that nothing fills."""
+    """Return the message about a placeholder that cannot be filled."""
     return word("template_gap", language, text=_shown(text), known=", ".join(known) or "–")
 
 
@@ -232,7 +233,9 @@ def _over(below: Mapping[str, Any], above: Mapping[str, Any], place: Path, where
 
 
 def _alike(present: Any, standing_in: Any) -> bool:
-    """Whether a word can stand for another one: both are tables, or texts, or lists of as many that can."""
+    """Return True if a word can replace another one: both are tables, or texts, or lists of equal length whose
+    items can.
+    """
     if isinstance(present, list) and isinstance(standing_in, list):
         return len(present) == len(standing_in) and all(map(_alike, present, standing_in))
     return all(isinstance(present, kind) == isinstance(standing_in, kind) for kind in (Mapping, str))
@@ -260,9 +263,9 @@ def speak(language: Language) -> None:
 
 
 def spoken() -> Language:
-    """Return the language of what no file and no option says one for: what was set, else that of the locale.
+    """Return the language for cases without a file or an option: the one that was set, else that of the locale.
 
-    A locale that is none (C) leaves it at that of who names none; one that there is not is told in that of reference.
+    The locale C gives the default language; a locale in an unknown language gives the reference language.
     """
     named = next(filter(None, map(os.environ.get, (SPOKEN, "LC_ALL", "LC_MESSAGES", "LANG"))), None)
     named = named or (os.name == "nt" and locale.getlocale()[0]) or "C"
@@ -317,7 +320,7 @@ def word(key: str, language: Language | None, /, **arguments: object) -> str:
 
 
 def counted(key: str, language: Language | None, count: int, /, **arguments: object) -> str:
-    """Return a text of the command line that counts something; for one it has words of its own, under `key`_one."""
+    """Return a text of the command line with a count; a count of one has its text under `key`_one."""
     return word(f"{key}_one" if count == 1 else key, language, count=count, **arguments)
 
 
@@ -352,7 +355,7 @@ def as_error(faults: Iterable[Fault], language: Language | None) -> AssignmentEr
 
 
 def close_or_known(key: str, known: Sequence[str]) -> dict[str, str]:
-    """What to say of an unknown key: the known one it was probably meant to be, or all that are known."""
+    """Return arguments for a message about an unknown key: the known key that was probably meant, or all known keys."""
     # What differs in case alone is nearer than anything else.
     same = [name for name in known if name.casefold() == key.casefold()]
     close = same or difflib.get_close_matches(key, known, n=1, cutoff=0.6)
@@ -369,7 +372,7 @@ def unknown(key: str, text: str, known: Sequence[str], language: Language | None
 
 
 def _shown(text: str) -> str:
-    """Return a piece of the file as it can stand in a message: one line, no control characters, not endless."""
+    """Return a piece of the file for a message: one line, no control characters, limited length."""
     clean = "".join("\N{REPLACEMENT CHARACTER}" if unicodedata.category(c) in {"Cc", "Cs"} else c for c in text)
     return clean if len(clean) <= LONGEST_SHOWN else f"{clean[:LONGEST_SHOWN]}…"
 
@@ -380,7 +383,7 @@ def _shown(text: str) -> str:
 
 HEADING = "%%"
 KEPT_FILES = 128
-"""How many files are kept."""
+"""Largest number of cached files."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -393,10 +396,10 @@ class Passage:
 
 
 def sections(file: Path) -> Mapping[str, Passage]:
-    """Return the sections of a file by their names, in its order; none if there is no such file.
+    """Return the sections of a file by their names, in its order; an empty mapping if there is no such file.
 
-    What stands before the first is a note about the file, and blank lines between two belong to neither.  Raises
-    `TemplateError` with file and line for a name that is empty or met again and for what cannot be read.
+    Text before the first section is a note about the file, and blank lines between two sections belong to neither.
+    Raises `TemplateError` with file and line for an empty or repeated name and for a file that cannot be read.
     """
     try:
         about = file.stat()
@@ -431,7 +434,7 @@ def homes(name: str, place: Path) -> Iterator[tuple[Path, str]]:
 
 
 def of_school(places: Sequence[Path]) -> list[Path]:
-    """Those of some places that a school wrote; the others lie in the folder of the language, the last."""
+    """Return the places that a school wrote; the others are in the folder of the language, the last one."""
     return [place for place in places if not place.is_relative_to(places[-1])]
 
 
