@@ -1,4 +1,4 @@
-"""The assignment file: text with marks → sections → `Assignment` in SI, or all its faults in words."""
+"""Read assignment files: text with places → sections → an `Assignment` in SI, or all faults in words."""
 
 from reportgen.assignment.common import Assignment
 

@@ -1,6 +1,6 @@
-"""Checks for any kind to put in its list: of several values at once, told as data where they say one thing.
+"""Checks that any kind can use, of several values together; rules that a schema can express are also kept as data.
 
-They read the plain content, not the models, wherever they can: so they also speak when some other value of the file
+They read the plain content, not the models, wherever they can, so that they also work if another value of the file
 is wrong.
 """
 
@@ -20,7 +20,7 @@ from reportgen.base.units import QuantityFault, read_number, read_quantity
 
 
 def of_parameters(look: Callable[[Any], Iterator[Finding]]) -> Check:
-    """A check of the parameters alone, made where each of them is in order by itself."""
+    """Return a check of the parameters alone, which runs if each of them is valid by itself."""
 
     def check(draft: Draft) -> Iterator[Finding]:
         if "parameters" in draft.sections:
@@ -30,7 +30,7 @@ def of_parameters(look: Callable[[Any], Iterator[Finding]]) -> Check:
 
 
 def of_turning(look: Callable[[Any], Iterator[Finding]]) -> Check:
-    """As `of_parameters`, of what only a whole turn asks for: at single instants a machine need but stand."""
+    """Return a check like `of_parameters` that is skipped for single instants, which do not need a whole turn."""
     every = of_parameters(look)
 
     def check(draft: Draft) -> Iterator[Finding]:
@@ -41,7 +41,9 @@ def of_turning(look: Callable[[Any], Iterator[Finding]]) -> Check:
 
 
 def instants(draft: Draft) -> Iterator[Finding]:
-    """Instants stand alone, each once: evenly spaced positions have a number and a start."""
+    """Yield faults if an instant is repeated, or if instants are combined with the number or start of evenly
+    spaced positions.
+    """
     positions = draft.at("positions")
     if not isinstance(positions, dict) or positions.get("at") is None:
         return
@@ -56,10 +58,10 @@ def instants(draft: Draft) -> Iterator[Finding]:
 
 @dataclass(frozen=True, slots=True)
 class OneOf:
-    """The check that of several keys that say the same thing one stands in the section (at most one unless `required`).
+    """Check that the section has one of several keys with the same meaning (at most one unless `required`).
 
-    A section of a section is named by its path, as "parameters.driver"; with `form` it counts where the section has
-    this value behind this key.
+    A nested section is named by its path, as "parameters.driver". With `form`, the check applies only if the
+    section has this value at this key.
     """
 
     section: str

@@ -1,4 +1,4 @@
-"""The part of an assignment file that every kind of machine shares, as models."""
+"""Models of the part of an assignment file that every kind of machine shares."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ Count = Annotated[int, Whole(FEWEST_POSITIONS, MOST_POSITIONS)]
 MOST_INSTANTS = 24
 TENS, ONES = ("", "X", "XX"), ("", "I", "II", "III", "IV", "V", "VI", "VII", "VIII", "IX")
 ROMAN = tuple(ten + one for ten in TENS for one in ONES)[: MOST_INSTANTS + 1]
-"""Roman numbers up to that of the last instant; the first of them stands for nothing."""
+"""Roman numbers up to that of the last instant; index 0 is unused."""
 Extent = Literal["full", "short"]
 
 
@@ -56,7 +56,7 @@ class Part(BaseModel):
 
 
 class Student(Part):
-    """Who hands the report in; what is missing is a blank line to fill in."""
+    """The student who hands the report in; a missing value becomes a blank line to fill in."""
 
     name: OneLine | None = None
     id: OneLine | None = None
@@ -68,10 +68,10 @@ class Student(Part):
 class ReportSection(Part):
     """The report's language, cover and the positions written out in full, by number or label (None: all).
 
-    `extent` says how much the report of a machine contains; an exercise has one extent, whatever is given.
-    `school` names a folder of templates whose words stand before the common ones, `templates` one that lies beside the
-    file; `sheets` the size of the drawing sheets that are handed in with the report, `listing` adds a program of the
-    closed formulas.  The text is set in letters of a `font` in a `size`.
+    `extent` is the amount that the report of a machine contains; an exercise has one extent and ignores it.
+    `school` names a folder of templates whose words override the common ones, `templates` one beside the file.
+    `sheets` is the size of the drawing sheets that are handed in with the report; `listing` adds a program of the
+    closed formulas. The text is set in letters of a `font` in a `size`.
     """
 
     language: Annotated[Language, LanguageName()] = DEFAULT_LANGUAGE
@@ -94,10 +94,10 @@ class ReportSection(Part):
 
 
 class Positions(Part):
-    """How many positions a turn has, which way the driver goes and where it starts.
+    """Number of positions of a turn, sense of the driver, and start.
 
-    `start` is the driver's angle from +x; None is the natural start of the kind.  Instants `at` places of the driver
-    (angles of a crank from +x, ways of a slider) stand in place of evenly spaced positions.
+    `start` is the driver's angle from +x; None is the natural start of the kind. If instants `at` places of the
+    driver (angles of a crank from +x, ways of a slider) are given, they replace the evenly spaced positions.
     """
 
     count: Count = 8
@@ -107,7 +107,7 @@ class Positions(Part):
 
     @property
     def number(self) -> int:
-        """How many there are in a turn, or how many instants."""
+        """Number of positions in a turn, or of instants."""
         return len(self.at) if self.at else self.count
 
     @property
@@ -116,7 +116,9 @@ class Positions(Part):
         return self.at[0] if self.at else self.start
 
     def instants(self, turns: int = 1) -> tuple[float, ...]:
-        """How far (rad) a crank has turned from the first instant to each, within a cycle of so many turns."""
+        """Return the angles (rad) that a crank has turned from the first instant to each, within a cycle of so
+        many turns.
+        """
         whole = turns * 2 * math.pi
         at = self.at or ()
         return tuple(self.sign * (one.si - at[0].si) % whole if one is not at[0] else 0.0 for one in at)
@@ -138,7 +140,9 @@ class Drawing(Part):
 
 
 class SheetSection(Part):
-    """What drawing sheets say that the report does not: their designation, else the code of the course in it."""
+    """Texts of the drawing sheets that the report does not contain: their designation, or the code of the course
+    in it.
+    """
 
     designation: OneLine | None = None
     course: OneLine | None = None
@@ -146,13 +150,13 @@ class SheetSection(Part):
 
 @dataclass(frozen=True, slots=True)
 class Draft:
-    """An assignment while it is checked: plain content, and the sections that are in order by themselves."""
+    """An assignment during checking: plain content, and the sections that are valid by themselves."""
 
     raw: Mapping[str, Any]
     sections: Mapping[str, Any]
 
     def at(self, *where: str) -> Any:
-        """What stands in the file at a place; None if nothing does."""
+        """Return the content of the file at a place; None if there is none."""
         content: Any = self.raw
         for key in where:
             content = content.get(key) if isinstance(content, dict) else None
@@ -163,20 +167,19 @@ Check = Callable[[Draft], Iterator[Finding]]
 Extended = tuple[type[Part], tuple[Check, ...]]
 """Parameters with the sections of topics, and the checks of these topics."""
 Labels = Callable[[Any, Positions], Sequence[str]]
-"""What the positions of the cycle are called, from the parameters and the evenly spaced positions of a turn."""
+"""Function that returns the labels of the positions of the cycle, from the parameters and the positions of a turn."""
 
 
 @dataclass(frozen=True, slots=True)
 class Kind:
-    """What the reader must know of a kind of machine.
+    """Data of a kind of machine that the reader needs.
 
-    `base` are the parameters of the kind itself, to which `topics` add sections of their own: `extended` gives the
-    parameters with the sections of some topics, and the checks of these.
-    `turns` of the driver make a cycle; `indicator` is the type of the section of that name, None for a
-    machine that has none; `checks` look at what no single value shows.  `labels` are given by a kind that adds
-    positions to the evenly spaced ones.  A kind that is but one instant of a motion has no positions, and nothing
-    is drawn to a chosen length.  The ids of a kind that can be a part of a coursework begin with the name `part`; ""
-    for one that cannot.
+    `base` are the parameters of the kind itself, to which `topics` add sections: `extended` gives the parameters
+    with the sections of some topics, and their checks. `turns` of the driver make a cycle; `indicator` is the type
+    of the section of that name, None for a machine without one; `checks` examine several values together. `labels`
+    are given by a kind that adds positions to the evenly spaced ones. A kind that is a single instant of a motion
+    has no positions, and nothing is drawn to a chosen length. `part` is the prefix of the ids of a kind that can be
+    a part of a coursework; "" for other kinds.
     """
 
     name: str
@@ -207,7 +210,7 @@ class Kind:
 
     @property
     def counts_positions(self) -> bool:
-        """Whether a turn may have another number of positions, told in a section or among the parameters."""
+        """True if a turn may have another number of positions, given in a section or among the parameters."""
         return self.has_positions or POSITIONS in self.base.model_fields
 
 
@@ -233,7 +236,7 @@ class Assignment:
     names: Labels | None = None
     parts: tuple[AssignedPart, ...] = ()
     is_part: bool = False
-    """Whether it is itself a part of a coursework, which says once what holds for all of it."""
+    """True if it is itself a part of a coursework, whose common sections are in the coursework's file."""
 
     @property
     def language(self) -> Language:
@@ -251,7 +254,7 @@ class Assignment:
 
     @property
     def labels(self) -> Sequence[str]:
-        """What the positions of a whole cycle are called: N, or 2N for four strokes, and those that the kind adds."""
+        """Labels of the positions of a whole cycle: N, or 2N for four strokes, and those that the kind adds."""
         return labels_of(self.names, self.parameters, self.positions, self.turns)
 
     @property
@@ -317,10 +320,10 @@ class TakenDatum:
 
 @dataclass(frozen=True, slots=True)
 class AssignedPart:
-    """A part of a coursework: an assignment of its own.
+    """A part of a coursework, with an assignment.
 
-    Its ids begin with `head`, as those of its kind do; in the coursework they begin with `name`, which no other part
-    has.  Without a `title` it is called as its kind is.
+    Its ids begin with `head`, like those of its kind; in the coursework they begin with `name`, which is unique
+    among the parts. Without a `title` it has that of its kind.
     """
 
     name: str
@@ -396,9 +399,9 @@ def named_worked(report: ReportSection, positions: Positions) -> tuple[int | str
 
 
 def labels_of(names: Labels | None, parameters: Any, positions: Positions, turns: int) -> Sequence[str]:
-    """What the positions of a cycle of `turns` turns are called: their numbers, if the kind has no names for them.
+    """Return the labels of the positions of a cycle of `turns` turns: their numbers, if the kind has no labels.
 
-    Instants have Roman numbers, whatever the kind.
+    Instants have Roman numbers in any kind.
     """
     if positions.at:
         return ROMAN[1 : len(positions.at) + 1]

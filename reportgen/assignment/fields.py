@@ -1,7 +1,7 @@
-"""What may stand behind a key: one small reader per kind of value, with its part of the JSON Schema.
+"""Types of the values in assignment files: one small reader per kind of value, with its part of the JSON Schema.
 
-A reader is pydantic metadata: `Length = Annotated[Given, Quantity("mm", above=0, below=100)]`.  It gets
-the text of the file and gives a value or raises a `PydanticCustomError` that carries a message's code.
+A reader is pydantic metadata: `Length = Annotated[Given, Quantity("mm", above=0, below=100)]`. It takes the text of
+the file and returns a value or raises a `PydanticCustomError` with a message's code.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from reportgen.base.template_folders import languages, school_folder, school_str
 from reportgen.base.units import NUMBER, Given, QuantityFault, grouped, read_quantity, read_ratio, read_unit
 
 UNIT_KEY, RANGE_KEY, UNIT_NAME_KEY = "x-unit", "x-range", "x-unit-name"
-"""What a schema says beside the standard: the unit of a quantity, its bounds in it, a unit that names one like it."""
+"""Extensions of the schema standard: the unit of a quantity, its bounds in it, a unit that names one like it."""
 LONGEST_TEXT = 300
 MOST_WORKED = 720
 _UNIT_PATTERN = r"[A-Za-zµ°ºđ][^,]*"
@@ -41,7 +41,7 @@ def fault(code: str, **arguments: str) -> PydanticCustomError:
 
 @dataclass(frozen=True, slots=True)
 class Reader:
-    """Base of the readers: `read` makes a value of what stands in the file, `schema` describes the latter."""
+    """Base of the readers: `read` makes a value of the text in the file, `schema` describes that text."""
 
     def read(self, value: object) -> Any:
         raise fault("wrong-type", expected="text")
@@ -60,9 +60,9 @@ class Reader:
 
 @dataclass(frozen=True, slots=True)
 class Interval:
-    """Where a number may lie; `above` and `below` are open ends, `least` and `most` closed ones.
+    """Range of a number; `above` and `below` are open ends, `least` and `most` closed ones.
 
-    What is smaller than `tiny` but not 0 is a slip of the pen, too: no machine has a mass of 1e-300 kg.
+    A number smaller than `tiny` but not 0 is a typing mistake, too: no machine has a mass of 1e-300 kg.
     """
 
     above: float = -math.inf
@@ -77,7 +77,7 @@ class Interval:
 
     @property
     def words(self) -> dict[str, str]:
-        """What a message says of it: the names of its words, and the numbers in them."""
+        """Arguments of a message about it: the name of its phrase, and the numbers in it."""
         low, high = max(self.above, self.least), min(self.below, self.most)
         about_zero = low < 0
         ends = ("above" if self.above > -math.inf else "from") + ("_below" if self.below < math.inf else "_to")
@@ -246,7 +246,7 @@ class Flag(Reader):
 
 @dataclass(frozen=True, slots=True)
 class TypedText(Reader):
-    """One line of text, kept as typed but for typographic quotation marks around all of it."""
+    """One line of text, kept as typed, without typographic quotation marks around the whole of it."""
 
     def read(self, value: object) -> str:
         text = _text(value, "text")
@@ -320,7 +320,7 @@ class WorkedPositions(Reader):
 
 
 def _is_label(value: object) -> bool:
-    """Whether a text is the label of a position; digits without quotation marks are a number."""
+    """Return True if a text is the label of a position; digits without quotation marks are a number."""
     named = isinstance(value, str) and _LABEL.fullmatch(value) is not None
     return named and (isinstance(value, Quoted) or str(value).isalpha())
 
@@ -388,7 +388,7 @@ RodRatio = Annotated[Given, Ratio(Interval(least=0.001, below=1), inverse="inver
 Share = Annotated[Given, Ratio(Interval(least=0, most=1, tiny=1e-6))]
 PressureUnit = Annotated[Given, UnitOf("N/cm2")]
 Nodes = Field(min_length=2, max_length=2000)
-"""How many nodes a table may have."""
+"""Range of the number of nodes of a table."""
 Fractions = Annotated[tuple[Annotated[float, Decimal(Interval(least=0, most=1))], ...], Nodes]
 CycleAngles = Annotated[tuple[CycleAngle, ...], Nodes]
 NodeValues = Annotated[tuple[Annotated[float, Decimal(Interval(least=-1e9, most=1e9, tiny=1e-6))], ...], Nodes]

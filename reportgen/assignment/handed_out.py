@@ -1,4 +1,4 @@
-"""The assignment that a student gets beside the task, to check a sheet by: its data, and nothing else of its files."""
+"""The assignment that a student gets beside the task, to check a sheet with: its data, without other files."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from reportgen.base.source_text import at, put, text_of, without
 
 REPORT = ("report",)
 LOOK = ("school", "templates", "font", "size")
-"""What a report looks like: another computer need not have these."""
+"""Keys of a report's appearance, whose files another computer need not have."""
 
 
 def handed_out(path: Path) -> str:

@@ -1,8 +1,8 @@
-"""The further parts of a coursework: assignments of their own, by their files or in place, with data of the machine.
+"""The further parts of a coursework: assignments in files or in place, with data of the machine.
 
-A part is one table whether it stands in a file of its own or in the coursework's; each of its nodes keeps the place
-where it was written, so that a fault is told there.  What it takes `from` the machine is put among its parameters
-before it is read.
+A part is one table, whether it is in a separate file or in the coursework's. Each of its nodes keeps the place
+where it was written, so that a fault is reported there. Values that it takes `from` the machine are put among its
+parameters before it is read.
 """
 
 from __future__ import annotations
@@ -25,9 +25,9 @@ from reportgen.base.units import NUMBER, QuantityFault, read_ratio
 ABOUT = ("file", "title", "from")
 """The keys of a named part that are not those of an assignment."""
 UNUSED = ("report",)
-"""The section of a part that the coursework's own stands for."""
+"""Section of a part that the coursework's section replaces."""
 ON_SHAFT = "n", "n", "1"
-"""What is taken by a part that turns with the driver: its speed is the driver's, once."""
+"""Values taken by a part that turns with the driver: its speed is the driver's, times one."""
 DIRECTION, ANTICLOCKWISE = "direction", "anticlockwise"
 SENSES = (ANTICLOCKWISE, "clockwise")
 _TYPED = re.compile(rf"\s*({NUMBER})(.*)")
@@ -70,10 +70,10 @@ def read(
 
 
 def in_coursework(source: Source, path: Path, whole: Path, find: Callable[[str], Kind]) -> Source:
-    """Return the nodes of a part's file with what it takes from the machine of the coursework `whole`, and what
-    keeps it.
+    """Return the nodes of a part's file with the values taken from the machine of the coursework `whole`, and
+    faults.
 
-    They are as they stand where the coursework does not name the file.
+    If the coursework does not name the file, the nodes are unchanged.
     """
     top = read_source(whole).top
     if not isinstance(top, MappingNode) or source.top is None:
@@ -113,7 +113,7 @@ def numbered(head: str, number: int) -> str:
 
 
 def files(source: Source, path: Path) -> list[Path]:
-    """Return the files that the parts of a coursework's file stand in, those that may be read."""
+    """Return the files of the parts that a coursework's file names, leaving out those outside its folder."""
     return [file for _, file in _named(source.top, path) if not leads_out(file, path.parent)]
 
 
@@ -150,7 +150,7 @@ def in_place(top: MappingNode, path: Path) -> tuple[MappingNode, dict[int, Sourc
 
 
 def named(top: MappingNode, find: Callable[[str], Kind]) -> dict[int, str]:
-    """Return the names of parts that stand in place, by number: each that of its kind, numbered on."""
+    """Return the names of parts in place by number: each is that of its kind, numbered from the second on."""
     listed, met = at(top, (PARTS,)), Counter[str]()
     names: dict[int, str] = {}
     for index, item in enumerate(listed.items if isinstance(listed, SequenceNode) else ()):
@@ -168,7 +168,7 @@ def frozen(stem: str, name: str) -> str:
 
 
 def is_frozen(path: Path, heads: Collection[str]) -> bool:
-    """Whether a file is by its name that of a student's part, if the names of parts begin with these heads."""
+    """Return True if a file has the name of a student's part, for these prefixes of the names of parts."""
     _, dot, name = path.stem.rpartition(".")
     return bool(dot) and name.rstrip("0123456789") in heads
 

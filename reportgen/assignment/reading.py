@@ -1,4 +1,4 @@
-"""A file becomes an `Assignment`, or all its faults at once: nodes → sections → checks → words."""
+"""Read an assignment file into an `Assignment`, or report all its faults: nodes → sections → checks → words."""
 
 from __future__ import annotations
 
@@ -131,12 +131,12 @@ def placed(source: Source, findings: Iterable[Finding]) -> list[Fault]:
 
 
 def misread(top: MappingNode, kind: Kind) -> list[Fault]:
-    """Return the faults that single values and keys show by themselves, without the checks of several values."""
+    """Return the faults of single values and keys, without the checks of several values."""
     return [_placed(finding, top) for finding in _sections(plain(top), kind)[0]]
 
 
 WORDED = frozenset({"kind", "variant", "report", "sheet", "title", "file", "salt"})
-"""Keys under which no quantity stands, though a text there may look like one."""
+"""Keys whose values are never quantities, even if the text looks like one."""
 
 
 def doubtful(source: Source) -> Iterator[Fault]:
@@ -192,7 +192,7 @@ def _no_kind(name: object, kinds: Collection[str]) -> Finding:
 
 
 def _sections(raw: dict[str, Any], kind: Kind | None) -> tuple[list[Finding], Draft]:
-    """Reads each section by itself, so that the checks can look at those in order whatever the others are."""
+    """Read each section by itself, so that the checks can examine valid ones even if others are faulty."""
     known, whole = sections(None if kind is None else _asking(kind, raw)), partial(sections, kind)
     findings: list[Finding] = []
     valid: dict[str, Any] = {}
@@ -286,7 +286,7 @@ def _unknown(where: Where, known: Sequence[str]) -> Finding:
 
 
 def _without_renamed(findings: Sequence[Finding]) -> list[Finding]:
-    """Return the findings without those of keys that are missing only because they stand there misspelt."""
+    """Return the findings without those of keys that are missing only because they are misspelt."""
     misspelt = {
         (finding.where[:-1], finding.arguments["close"])
         for finding in findings
@@ -301,7 +301,7 @@ def _without_renamed(findings: Sequence[Finding]) -> list[Finding]:
 
 
 def _real(location: Where, content: Any) -> Iterator[str | int]:
-    """Yield the steps that stand in the file: pydantic also names the member of a union that it chose."""
+    """Yield the steps that exist in the file: pydantic also names the member of a union that it chose."""
     for number, step in enumerate(location):
         last = number == len(location) - 1
         if isinstance(content, dict):
@@ -317,7 +317,7 @@ def _real(location: Where, content: Any) -> Iterator[str | int]:
 
 
 def _placed(finding: Finding, top: MappingNode) -> Fault:
-    """Return the finding with its mark; what is missing stands at the key it is missing under."""
+    """Return the finding with its mark; a missing value is reported at the key it is missing under."""
     node: Node = top
     key_mark = top.mark
     for step in finding.where:

@@ -1,6 +1,6 @@
-"""What a file may say, as data: a JSON Schema with units, bounds, defaults, choices, and rules of several keys.
+"""JSON Schema of assignment files, with units, bounds, defaults, choices, and rules of several keys.
 
-Beside the standard's words stand a few of our own, which other readers pass over: `x-unit` and `x-range` of a quantity,
+It has a few extensions of the standard, which other readers ignore: `x-unit` and `x-range` of a quantity,
 `x-unit-name` of a unit that may be another one like it, `x-same-length` and `x-increasing` of tables.
 """
 
@@ -33,9 +33,9 @@ class _Generator(GenerateJsonSchema):
     """The schema of pydantic, with definitions named for readers and defaults as a file would have them."""
 
     def normalize_name(self, name: str) -> str:
-        """Return the name of a definition: `Pin`; of several with that name, by its module, `FourBarParameters`.
+        """Return the name of a definition: `Pin`; if several have that name, with the module, `FourBarParameters`.
 
-        Pydantic asks for the name of a class alone, then with its module, then with an id of its own.
+        Pydantic asks for the name of a class alone, then with its module, then with an id.
         """
         *modules, model = name.split(".")
         named = modules[-2:] if modules[-1:] and modules[-1] in _GENERAL else modules[-1:]
@@ -140,7 +140,7 @@ def _tell_words(part: Schema, root: Schema, words: Mapping[str, FieldWords], pat
 
 
 def _unnamed(schema: Schema) -> Iterator[Schema]:
-    """What stands behind an item of a list, and behind any key of a table of names."""
+    """Yield the schemas of an item of a list, and of any key of a table of names."""
     for inner in (
         schema.get("items"),
         schema.get("additionalProperties"),
@@ -154,17 +154,19 @@ def _unnamed(schema: Schema) -> Iterator[Schema]:
 
 
 def tables_at(part: Schema, root: Schema, where: Where) -> list[Schema]:
-    """Return the tables that may stand at a place."""
+    """Return the tables that are allowed at a place."""
     return [schema for schema in places(part, root, where) if "properties" in schema]
 
 
 def known_keys(kind: Kind, where: Where) -> list[str]:
-    """Return the keys that a table at `where` in a file of a kind may have; none if no table stands there."""
+    """Return the keys that a table at `where` in a file of a kind may have; an empty list if there is no table."""
     return keys_at(file_schema(kind), where)
 
 
 def allowed_forms(kind: Kind, where: Where) -> frozenset[str]:
-    """What a file of a kind may hold at `where`: "table", "list", "scalar"; empty for an unknown place."""
+    """Return the forms of content that a file of a kind may have at `where`: "table", "list", "scalar"; empty if
+    unknown.
+    """
     schema = file_schema(kind)
     forms = [schema.get("type", "string") for schema in places(schema, schema, where)]
     types = [name for type_ in forms for name in (type_ if isinstance(type_, list) else [type_])]
@@ -201,7 +203,7 @@ def places(part: Schema, root: Schema, where: Where) -> list[Schema]:
 
 
 def _inside(schema: Schema, step: str | int) -> Iterator[Schema]:
-    """What a JSON Schema says of a key, of an item of a list, or of any key of a table of names."""
+    """Yield the schemas of a key, of an item of a list, or of any key of a table of names."""
     if isinstance(step, int):
         if isinstance(schema.get("items"), dict):
             yield schema["items"]

@@ -1,1 +1,1 @@
-"""Topic: sliders with a face of some width, which may tilt in their guides."""
+"""Topic: sliders with a face of finite width, which may tilt in their guides."""

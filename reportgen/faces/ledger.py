@@ -1,4 +1,4 @@
-"""Where the guide of a wide slider holds it, as entries of the ledger."""
+"""Ledger entries for the place of the reaction in the guide of a wide slider."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The faces of sliders, for topics that take forces at their ends."""
+"""The faces of sliders, for topics that apply forces at their ends."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Whether wide sliders tilt, and the reactions at both ends, in the results of a machine."""
+"""The tilting of wide sliders and the reactions at both ends, in the results of a machine."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Sliders as wide as a file says: the face along which a guide holds them."""
+"""The section of a file with the widths of sliders: the faces along which they touch their guides."""
 
 from __future__ import annotations
 

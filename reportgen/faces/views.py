@@ -1,4 +1,4 @@
-"""Sliders as wide as they are: the views that templates name, their states, table and reactions in figures."""
+"""Wide sliders in a report: the views that templates name, their states, table and reactions in figures."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The cycle of a machine reduced to its crank, and the flywheel, as entries of the ledger."""
+"""Ledger entries for the cycle of a machine reduced to its crank, and for the flywheel."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from reportgen.machine.analysis import Analysis
 from reportgen.machine.regulation import RegulatedCycle
 
 CONSTANT = 1e-9
-"""Of its size: a speed that varies by less is constant."""
+"""A speed that varies by less than this share of its size is constant."""
 
 
 def enter(q: Sheet, analysis: Analysis) -> None:
@@ -71,10 +71,11 @@ def _energy_mass(q: Sheet, regulated: RegulatedCycle) -> None:
 
 
 def _constant_group(q: Sheet, linkage: Linkage, regulated: RegulatedCycle, speed: float) -> None:
-    """Mertsalov's method: the energy of the group with constant inertia, that of the others taken at the mean speed.
+    """Enter Mertsalov's method: the energy of the group with constant inertia, with that of the others at the mean
+    speed.
 
-    Group I is the flywheel and the links of constant reduced inertia J_0, the crank among them; J_r − J_0 is that of
-    group II.  T_I = A − (J_r − J_0) ω₁²/2 but for a constant, J_I = ΔT_I/(δ ω₁²), J_d = J_I − J_0.
+    Group I is the flywheel and the links of constant reduced inertia J_0, including the crank; J_r − J_0 is that of
+    group II. T_I = A − (J_r − J_0) ω₁²/2 up to a constant, J_I = ΔT_I/(δ ω₁²), J_d = J_I − J_0.
     """
     J_0, fixed = _constant(q, linkage)
     energy = regulated.work - speed**2 / 2 * (regulated.inertia - fixed)

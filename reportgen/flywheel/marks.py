@@ -1,4 +1,4 @@
-"""How far a flywheel by the trapezoid rule over the positions lies from that by the whole curve."""
+"""Error of a flywheel by the trapezoid rule over the positions, compared with the whole curve."""
 
 from __future__ import annotations
 

@@ -1,10 +1,9 @@
 """The flywheel that keeps a machine's speed within bounds, by energy and reduced inertia.
 
-With the reduced torque M_r(φ) of the loads and a constant torque M_c = −mean M_r on the other side, the
-excess work is A(φ) = ∫(M_r + M_c) dφ, and with the reduced moment of inertia J_r(φ) of the links and J_d of
-the flywheel  ½(J_d + J_r) ω² = E₀ + A.  The bounds ω_m(1 ± δ/2) are just met where the lines of slope
-½ω² touch the curve A over J_r (Wittenbauer):  a = max(A − ½ω_max² J_r),  b = min(A − ½ω_min² J_r),
-J_d = (a − b)/(δ ω_m²).
+M_r(φ) is the reduced torque of the loads, and a constant torque M_c = −mean M_r acts against it. The excess work is
+A(φ) = ∫(M_r + M_c) dφ. With the reduced moment of inertia J_r(φ) of the links and J_d of the flywheel, ½(J_d + J_r)
+ω² = E₀ + A. The bounds ω_m(1 ± δ/2) are just met where the lines of slope ½ω² touch the curve A over J_r
+(Wittenbauer):  a = max(A − ½ω_max² J_r),  b = min(A − ½ω_min² J_r), J_d = (a − b)/(δ ω_m²).
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The flywheel as a file asks for it: how uneven the speed may be."""
+"""The flywheel section of a file: the permitted unevenness of the speed."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ Unevenness = Annotated[Given, Ratio(Interval(least=1e-4, most=0.5))]
 
 
 class Flywheel(Part):
-    """How uneven the speed may be: δ = (ω_max − ω_min)/ω_m."""
+    """Permitted unevenness of the speed: δ = (ω_max − ω_min)/ω_m."""
 
     delta: Unevenness
 

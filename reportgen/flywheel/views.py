@@ -1,4 +1,4 @@
-"""The flywheel in a report: what the words of its chapter name, its table and its figures."""
+"""The flywheel in a report: the values that templates of its chapter name, its table and its figures."""
 
 from __future__ import annotations
 
@@ -88,7 +88,7 @@ def wittenbauer(report: Report) -> FigureScenes:
 
 
 def flywheel_speed(report: Report) -> FigureScenes:
-    """How far the speed is from its mean, in percent, with the flywheel."""
+    """Return the deviation of the speed from its mean, in percent, with the flywheel."""
     wheel = _wheel(report)
     mean = (wheel.fastest + wheel.slowest) / 2
     return FigureScenes(
@@ -97,7 +97,7 @@ def flywheel_speed(report: Report) -> FigureScenes:
 
 
 def energy_bounds(report: Report) -> list[str]:
-    """Where the tangents of Wittenbauer's diagram meet its axis."""
+    """Return the ids of the points where the tangents of Wittenbauer's diagram meet its axis."""
     return ["A.upper", "A.lower"]
 
 
@@ -112,12 +112,12 @@ def constant_links(report: Report) -> list[str]:
 
 
 def constant_group(report: Report) -> list[str]:
-    """What Mertsalov's method comes to; nothing where it is not used."""
+    """Return the ids of the results of Mertsalov's method; an empty list if it is not used."""
     return report.known(["T.range", "J.I", "J.rest"])
 
 
 def stores(report: Report) -> str:
-    """What stores the excess work: the "links" with the flywheel, or the flywheel "alone"."""
+    """Return the bodies that store the excess work: the "links" with the flywheel, or the flywheel "alone"."""
     return "links" if report.has_reduced_inertia else "alone"
 
 

@@ -1,4 +1,4 @@
-"""Springs as laws of loads: a spring between two points, and one that turns a link back about a pin."""
+"""Load laws of springs: a spring between two points, and a torsion spring about a pin."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Common mistakes in the forces of springs, as other definitions of quantities."""
+"""Common mistakes in the forces of springs, as alternative definitions of quantities."""
 
 from __future__ import annotations
 

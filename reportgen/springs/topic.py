@@ -1,4 +1,6 @@
-"""Springs as a file gives them: between a link and the frame, between two links, about a pin of the frame."""
+"""The springs section of a file: springs between a link and the frame, between two links, or about a pin of the
+frame.
+"""
 
 from __future__ import annotations
 
@@ -33,7 +35,7 @@ STIFFNESS = quantity("N/mm", least=0, most=1e9, tiny=1e-9)
 TORSION = quantity("N m/rad", least=0, most=1e9, tiny=1e-9)
 LENGTH = quantity("mm", least=0, below=1e5, tiny=1e-4)
 ROUNDING = 1e-9
-"""Of a turn."""
+"""Rounding tolerance as a share of a turn."""
 ANGLE = quantity("deg", least=-360, most=360, tiny=1e-6)
 
 
@@ -82,14 +84,14 @@ class Spring(Part):
 
     @property
     def twists(self) -> bool:
-        """Whether it is a torsion spring."""
+        """True if it is a torsion spring."""
         return self.about is not None
 
 
 @view("phrase")
 @dataclass(frozen=True, slots=True)
 class SpringRow:
-    """A spring as words tell of it: its number, its ends, its stiffness and free size, the ids of its loads."""
+    """A spring as templates see it: its number, its ends, its stiffness and free size, the ids of its loads."""
 
     number: int
     link: int
@@ -105,12 +107,12 @@ class SpringRow:
 
     @property
     def twists(self) -> bool:
-        """Whether it is a torsion spring, which has an angle in place of a length."""
+        """True if it is a torsion spring, which has an angle in place of a length."""
         return len(self.lines) == 1
 
     @property
     def phrase(self) -> str:
-        """Which words tell of it."""
+        """Key of the phrase that describes it."""
         return "torsion" if self.twists else "links" if self.other else "point" if self.to else "place"
 
 
@@ -207,7 +209,7 @@ def _faults(spring: Spring, linkage: Linkage, points: Mapping[int, set[str]], at
 
 
 def _swinging(linkage: Linkage) -> dict[str, tuple[int, str]]:
-    """Return the fixed pins about which links of groups turn: the link, and the point that tells its angle."""
+    """Return the fixed pins about which links of groups turn, with the link and the point that gives its angle."""
     return {
         end: (link, str(dyad.start) if dyad.kind == "RPR" and end == dyad.end else dyad.middle)
         for dyad in linkage.dyads
@@ -217,7 +219,9 @@ def _swinging(linkage: Linkage) -> dict[str, tuple[int, str]]:
 
 
 def _other_point(linkage: Linkage, spring: Spring) -> str | None:
-    """Return the point of a link that turns about the spring's pin by which its angle is told."""
+    """Return the point that gives the angle of the link about the spring's pin; None if the link does not turn
+    there.
+    """
     link, point = _swinging(linkage).get(spring.about or "", (0, ""))
     return point if link == spring.link else None
 
@@ -244,7 +248,7 @@ def wound_up(springs: Sequence[Spring], machine: Machine) -> Iterator[Finding]:
 def enter(opening: Opening) -> TopicData:
     """Enter the data of the springs; faulty ones, which the file's checks report, are left out.
 
-    The subject of the topic are their rows for words; their loads stand beside those of the kind.
+    The subject of the topic are their rows for templates; their loads are added to those of the kind.
     """
     springs: tuple[Spring, ...] = opening.given.section("springs", tuple) or ()
     linkage, datum = opening.linkage, opening.datum

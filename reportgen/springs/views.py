@@ -1,4 +1,4 @@
-"""Springs in a report: what the words of their chapter name, their table and their figure."""
+"""Springs in a report: the values that templates of their chapter name, their table and their figure."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ FIGURES = 5
 
 
 def rows_of(report: Report) -> tuple[SpringRow, ...]:
-    """Return the springs of a machine as words tell of them."""
+    """Return the springs of a machine as rows for templates."""
     return report.machine.topic("springs", tuple) or ()
 
 
@@ -64,7 +64,7 @@ def spring_loads(report: Report) -> list[str]:
 
 
 def loads_over_cycle(report: Report) -> FigureScenes:
-    """Return the forces of springs over the cycle, those of torsion springs in a diagram of their own."""
+    """Return the forces of springs over the cycle; torsion springs get a separate diagram."""
     by_kind: dict[str, list[ShownCurve]] = {}
     analysed = {load.name: load.law for load in report.loads}
     cycle = report.dense_cycle

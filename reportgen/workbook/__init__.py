@@ -1,6 +1,6 @@
-"""Tables in and out: CSV and XLSX become located cells, and are written so that no text becomes a formula.
+"""Read and write tables: CSV and XLSX become located cells, and are written so that no text becomes a formula.
 
-`read` takes either; `write_csv` and `write_xlsx` give bytes that depend on their content alone.
+`read` takes either; `write_csv` and `write_xlsx` return bytes that depend on their content alone.
 """
 
 from reportgen.workbook.package import Page, SheetCell

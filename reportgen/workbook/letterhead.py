@@ -1,7 +1,7 @@
-"""A school's own Word file: its styles, header and footer and the margins of its pages, read as data.
+"""A school's Word file: its styles, header and footer and page margins, read as data.
 
-The package is judged as a workbook's is.  Refused are also embedded objects, everything that leads out of the file, and
-fields that could.  Of its text nothing is taken, of header and footer the text with its fields; pictures are left out.
+The package is checked like a workbook's. Embedded objects, links that lead out of the file, and fields that could
+do so are refused, too. The body text is ignored; header and footer keep their text with its fields but no pictures.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from reportgen.base.words import as_problem
 from reportgen.workbook.package import Attributes, Package, RefusedError
 
 LETTERHEAD = "report.docx"
-"""What it is called in a folder of templates."""
+"""Name of the Word file in a folder of templates."""
 LARGEST = 5_000_000
 """Bytes of the file."""
 DEEPEST = 60
@@ -27,13 +27,13 @@ DEEPEST = 60
 MOST = 20_000
 """Elements of a part."""
 FIELDS = frozenset({"PAGE", "NUMPAGES", "SECTION", "SECTIONPAGES", "STYLEREF", "TITLE", "AUTHOR", "SUBJECT"})
-"""What a header may have Word fill in; other fields can reach for files or change from day to day."""
+"""Fields allowed in a header; other fields can reach for files or change from day to day."""
 WORD = "http://schemas.openxmlformats.org/wordprocessingml/2006/main"
 _XML = "http://www.w3.org/XML/1998/namespace"
 _W = f"{{{WORD}}}"
 _BLOCKS = frozenset({"p", "tbl", "sdt", "bookmarkStart", "bookmarkEnd"})
 _CONTENTS = {"styles": frozenset({"docDefaults", "latentStyles", "style"}), "hdr": _BLOCKS, "ftr": _BLOCKS}
-"""What a part is called inside, with what stands in it directly."""
+"""Root elements of the parts, with the elements allowed directly inside."""
 _WITHIN = {
     child: frozenset(parents.split())
     for children, parents in (
@@ -61,9 +61,9 @@ _WITHIN = {
     )
     for child in children.split()
 }
-"""What stands in what; other elements may stand anywhere."""
+"""Allowed parents of elements; elements that are not listed are allowed anywhere."""
 _FIRST = {"pPr": "p", "rPr": "r", "tcPr": "tc"}
-"""What stands in these before all else, and once."""
+"""Elements that must be the first child of their parent and occur once."""
 _KINDS = frozenset({"paragraph", "character", "table", "numbering"})
 _LENGTHS = frozenset(
     {"left", "right", "start", "end", "firstLine", "hanging", "before", "after", "line", "pos", "w", "h"}
@@ -77,7 +77,7 @@ _NUMBER = re.compile(r"[+-]?[0-9]+")
 _LENGTH = re.compile(r"[+-]?[0-9]+(\.[0-9]+)?(mm|cm|in|pt|pc|pi|%)?")
 _COLOUR = re.compile(r"auto|[0-9A-Fa-f]{6}")
 _IN_UNITS = frozenset({"auto", "dxa", "nil", "pct"})
-"""What a width is counted in."""
+"""Units of a width."""
 _PICTURES = frozenset({"drawing", "pict"})
 _OBJECTS = frozenset({"object", "control", "altChunk", "subDoc"})
 _CODES = {name: f"letterhead-{name}" for name in ("bomb", "macros", "links", "entities")}
@@ -101,7 +101,7 @@ class Letterhead:
 
 
 def read_letterhead(path: Path, language: Language) -> Letterhead:
-    """What a report takes over from a file; raises `TemplateError` for one that is refused."""
+    """Return the letterhead that a report takes over from a file; raises `TemplateError` if the file is refused."""
     try:
         return _read(path)
     except RefusedError as refused:
@@ -140,7 +140,7 @@ def _read(path: Path) -> Letterhead:
 
 
 def _last_section(package: Package) -> Iterator[tuple[str, Attributes]]:
-    """What the properties of the last section say of margins, header and footer."""
+    """Yield the elements of the last section's properties for margins, header and footer."""
     elements = package.elements("word/document.xml")
     starts = [index for index, (tag, _) in enumerate(elements) if tag == "sectPr"]
     for tag, attributes in elements[starts[-1] :] if starts else ():
@@ -228,7 +228,7 @@ def _part(package: Package, name: str, called: str) -> str:
 
 
 def _judge(root: ElementTree.Element, called: str, package: Package, name: str) -> None:
-    """Refuse a part that Word would call damaged: what stands where, ids and names that are there twice, ranges."""
+    """Refuse a part that Word would call damaged: misplaced elements, duplicate ids and names, values out of range."""
     if any(one.tag.removeprefix(_W) not in _CONTENTS[called] for one in root) or (called != "styles" and not len(root)):
         raise package.refused("letterhead-part", text=name)
     if any(not len(cell) or cell[-1].tag != f"{_W}p" for cell in root.iter(f"{_W}tc")):
@@ -246,7 +246,7 @@ def _judge(root: ElementTree.Element, called: str, package: Package, name: str) 
 
 
 def _stands_right(child: ElementTree.Element, parent: ElementTree.Element) -> bool:
-    """Whether an element may stand where it does."""
+    """Return True if an element is allowed at its place."""
     local, above = child.tag.removeprefix(_W), parent.tag.removeprefix(_W)
     first = _FIRST.get(local) != above or (parent[0] is child and len(parent.findall(child.tag)) == 1)
     return first and above in _WITHIN.get(local, (above,))
@@ -273,7 +273,7 @@ def _wrong_value(element: ElementTree.Element) -> str | None:
 
 
 def _judge_styles(styles: Sequence[ElementTree.Element], package: Package, name: str) -> None:
-    """Yield faults unless each has a kind, an id and a name of its own, and none is based on itself."""
+    """Refuse styles without a kind, an id or a unique name, and styles that are based on themselves."""
     bases: dict[str, str] = {}
     names = set[str]()
     for style in styles:

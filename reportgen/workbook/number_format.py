@@ -1,4 +1,4 @@
-"""How a spreadsheet shows a number that is a code: 125040 in the number format `00000000` is 00125040."""
+"""Display text of numbers that are codes in a spreadsheet: 125040 in the number format `00000000` is 00125040."""
 
 from __future__ import annotations
 

@@ -1,8 +1,8 @@
-"""The zip package of an XLSX or a Word file, judged before anything else sees any of it.
+"""The zip package of an XLSX or a Word file, checked before other code reads any of it.
 
-Refused are packages that are encrypted, that hold macros or links to other files, that unpack to more than
-they should, and parts of XML with a document type, which alone can declare entities.  `measure` refuses parts
-of which openpyxl would have to hold too much in memory.
+Packages are refused if they are encrypted, contain macros or links to other files, or unpack to more than the
+limit; parts of XML are refused if they have a document type, which alone can declare entities. `measure` refuses
+parts for which openpyxl would need too much memory.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ MOST_PARTS = 2_000
 MOST_UNPACKED = 60_000_000
 """Bytes of all parts together."""
 MOST_RATIO = 250
-"""How many times its packed size a part of more than `SMALL` bytes may have; sheets of numbers reach 40."""
+"""Largest ratio of unpacked to packed size of a part of more than `SMALL` bytes; sheets of numbers reach 40."""
 SMALL = 1_000_000
 MOST_ELEMENTS = 100_000
 """Elements of a part that lists other parts."""
@@ -37,13 +37,14 @@ MOST_TRANSLATED = 20_000_000
 """Characters of all formulas that take the text of a shared one, as if each were as long as the longest shared."""
 
 UNREADABLE_ZIP = (zipfile.BadZipFile, zlib.error, EOFError, RuntimeError, ValueError, OverflowError)
-"""What `zipfile` raises of an archive that it cannot read: damaged, cut off, with numbers out of range, encrypted or
-packed in a way unknown to it (`RuntimeError` and a kind of it)."""
+"""Exceptions of `zipfile` for an archive that it cannot read: damaged, cut off, with numbers out of range,
+encrypted or packed in an unknown way (`RuntimeError` and a subclass).
+"""
 
 _EMPTY_CELL = re.compile(rb"<((?:\w+:)?c)(?=\s)[^<>]*?(?:/>|>\s*</\1\s*>)")
 """A cell with a look and nothing in it."""
 _UNPLACED_CELL = re.compile(rb"<(?:\w+:)?c(?=[\s/>])(?![^<>]*\sr\s*=)")
-"""One that does not name its place: it stands behind the one before it."""
+"""A cell that does not give its place: it follows the one before it."""
 _OLD = b"\xd0\xcf\x11\xe0"
 _ENCRYPTED = "EncryptedPackage".encode("utf-16-le")
 _MACROS = re.compile(r"vbaproject|/macrosheets/|/activex/|\.bas$", re.IGNORECASE)
@@ -54,7 +55,7 @@ _TRAITS = re.compile(r"\.(xml|rels|vml)$", re.IGNORECASE)
 
 @dataclass(frozen=True, slots=True)
 class Bounds:
-    """What a package may hold: bytes of all its parts together, and the kinds of relations that may lead outside."""
+    """Limits of a package: bytes of all its parts together, and the kinds of relations that may lead outside."""
 
     unpacked: int = MOST_UNPACKED
     links: frozenset[str] = frozenset({"hyperlink"})
@@ -66,7 +67,7 @@ Start = Callable[[str, Attributes], None]
 
 @dataclass(frozen=True, slots=True)
 class Relation:
-    """What one part says of another: the last word of its type, where it is, whether outside the package."""
+    """Relation of a part to another: the last word of its type, its target, and whether that is outside the package."""
 
     kind: str
     target: str
@@ -99,7 +100,7 @@ class Package:
 
     @property
     def names(self) -> list[str]:
-        """Of all parts."""
+        """Names of all parts."""
         return list(self._parts)
 
     def size(self, name: str) -> int:
@@ -113,7 +114,7 @@ class Package:
         return self.refused("sheet-bomb", largest=str(self.bounds.unpacked // 1_000_000))
 
     def _judge(self, size: int) -> None:
-        """What the directory of the zip shows."""
+        """Refuse packages for reasons that the directory of the zip shows."""
         infos = self._zip.infolist()
         unpacked = sum(info.file_size for info in infos)
         # Parts that share their bytes unpack to more than any one of them shows.
@@ -142,7 +143,7 @@ class Package:
             raise self.refused("sheet-links")
 
     def _judge_contents(self) -> None:
-        """What the list of types and the relations show; as a rule a hyperlink is the one link that leads outside."""
+        """Refuse packages by their list of types and their relations; usually only hyperlinks may lead outside."""
         for _, attributes in self.elements(CONTENT_TYPES):
             if _FORBIDDEN_TYPES.search(attributes.get("ContentType", "")):
                 raise self.refused("sheet-macros")
@@ -167,7 +168,7 @@ class Package:
         }
 
     def elements(self, name: str) -> list[tuple[str, Attributes]]:
-        """All elements of a part, in order, with their attributes, names without namespaces."""
+        """Return all elements of a part, in order, with their attributes, names without namespaces."""
         elements: list[tuple[str, Attributes]] = []
 
         def start(tag: str, attributes: Attributes) -> None:
@@ -318,7 +319,7 @@ LONGEST_CELL = 32_767
 _LIVE = re.compile(r"'*\s*[=+\-@\t\r\n＝＋－＠]")
 _NUMBER = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
 _SEPARATORS = ",;|\t\r\n"
-"""All that any program parts cells or rows at."""
+"""All characters that some program uses to separate cells or rows."""
 _INSIDE = re.compile(r"""(?<![,;|'"\s])[,;|'"\s]++(?=[=+\-@＝＋－＠])""")
 """Separators, quotation marks and blanks before a sign; each run of them is looked at once."""
 _NUMBER_CELL = re.compile(rf"{_NUMBER.pattern}(?:[{_SEPARATORS}]|$)")
@@ -374,7 +375,7 @@ class RefusedError(Exception):
 
 
 def exceeds(row: int, column: int, cells: int = 0) -> bool:
-    """Whether a table with that row, column or number of cells is larger than any that is read."""
+    """Return True if a table with that row, column or number of cells is larger than the limits."""
     return row > MOST_ROWS or column > MOST_COLUMNS or cells > MOST_CELLS
 
 
@@ -410,7 +411,7 @@ def unguarded(text: str) -> str:
 
 
 def _with_apostrophe(run: re.Match[str]) -> str:
-    """What stands before a sign that could begin a formula, with an apostrophe after its last separator."""
+    """Return the text before a sign that could begin a formula, with an apostrophe after its last separator."""
     before, after = _at_last_separator(run[0])
     number = not after and _NUMBER_CELL.match(run.string, run.end())
     return run[0] if not before or number else f"{before}'{after}"

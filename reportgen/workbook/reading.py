@@ -1,6 +1,6 @@
-"""A table file by its path: a CSV or XLSX file becomes pages of located cells, any other file is refused.
+"""Read a table file: a CSV or XLSX file becomes pages of located cells, any other file is refused.
 
-XLSX is read by openpyxl from a copy that holds the judged parts it needs and no others.
+openpyxl reads XLSX from a copy that contains only the checked parts that it needs.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ if TYPE_CHECKING:
 
 MOST_SHEETS = 100
 GENERAL = "General"
-"""The number format of cells that have none of their own."""
+"""Number format of cells without an explicit one."""
 _ESCAPE = re.compile(r"_x([0-9A-Fa-f]{4})_")
 
 CellRow = tuple[Any, ...]
@@ -151,7 +151,7 @@ def _pages(values: Workbook, formulas: Workbook | None, counts: Sequence[int], f
 
 
 def _rows(read: Iterator[tuple[CellRow, CellRow]], count: int, mark: Marks) -> tuple[tuple[SheetCell, ...], ...]:
-    """All rows of a sheet from the first on, as long as their last cell that holds something.
+    """Return all rows of a sheet from the first on, each up to its last cell with content.
 
     `read` gives each row twice, with formulas as typed and with stored values; `count` cells must be among them.
     """
@@ -353,7 +353,7 @@ def _csv_rows(text: str, file: str) -> Iterator[tuple[SheetCell, ...]]:
 
 
 def _separator(text: str) -> str:
-    """Return the separator that stands most often in the first line with something in it, outside quotation marks."""
+    """Return the most frequent separator in the first line that is not blank, outside quotation marks."""
     header = next((line for line in _LINE_END.split(text) if line.strip()), "")
     outside = re.sub(r'"[^"]*"?', "", header)
     return max(SEPARATORS, key=outside.count)

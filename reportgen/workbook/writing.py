@@ -1,6 +1,6 @@
-"""A plain description of tables → CSV or XLSX bytes: the same description, the same bytes.
+"""Write tables as CSV or XLSX bytes; the same description gives the same bytes.
 
-Text stays text: what a spreadsheet would take for a formula is written as a string in XLSX and behind an
+Text stays text: text that a spreadsheet would read as a formula is written as a string in XLSX and behind an
 apostrophe in CSV.
 """
 
