@@ -1,1 +1,3 @@
-"""Balancing: rotors by correction masses in one plane or two, engines by orders and stars of cranks."""
+"""Topic: balancing of machines by counterweights, of rotors by correction masses, of engines by orders and stars
+of cranks.
+"""

@@ -1,10 +1,10 @@
-"""What a machine's inertia does to its frame, and the counterweights that lessen it.
+"""The shaking force of a machine's inertia on its frame, and the counterweights that reduce it.
 
-The links at work shake the frame with the force F = −Σ m a_S and, about the crank's centre O, with the moment
-M = −Σ (r_S × m a_S + J ε).  Seen from a crank that turns evenly, F e^{−iφ}/ω² is a closed curve (kg·m), and a
-counterweight U = m_c r_c on the crank only shifts its origin: its centrifugal force is U ω² e^{iφ}.  So the least mean
-square is met by minus the mean of the curve, the least maximum by minus the centre of the smallest circle round it,
-whose touching points prove that nothing is better.
+The moving links shake the frame with the force F = −Σ m a_S and, about the crank's centre O, with the moment M = −Σ
+(r_S × m a_S + J ε). Seen from a crank that turns evenly, F e^{−iφ}/ω² is a closed curve (kg·m), and a counterweight
+U = m_c r_c on the crank only shifts its origin: its centrifugal force is U ω² e^{iφ}. So minus the mean of the
+curve gives the least mean square, and minus the centre of the smallest circle round it gives the least maximum. The
+circle's touching points prove that nothing is better.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ FADED = 1e-13
 ROUNDING = 1e-15
 """A harmonic below this share of the greatest is rounding."""
 ON_THE_CIRCLE = 1e-12
-"""How far outside a circle, as a share of its radius, a point may lie that counts as on it."""
+"""Largest distance of a point outside a circle, as a share of its radius, that counts as on the circle."""
 NEIGHBOURS = 1.5
 """Places of the curve within so many steps belong to one point of touch."""
 REFINEMENTS = 40
@@ -97,7 +97,7 @@ def _crank(linkage: Linkage) -> Crank:
 class CrankCurve:
     """The curve F e^{−iφ}/ω² (kg·m) over a turn as the sum of its harmonics, Σ c_k e^{ikθ}.
 
-    θ is the crank's way in its direction of rotation from position 1; `harmonics` c_k [N] stand in the order of the
+    θ is the crank's way in its direction of rotation from position 1; `harmonics` c_k [N] are in the order of the
     discrete Fourier transform.
     """
 
@@ -141,9 +141,10 @@ class CrankCurve:
         return float(np.sqrt(others + abs(self.mean + counterweight) ** 2))
 
     def farthest(self, centre: complex) -> tuple[float, Floats]:
-        """Return the greatest distance (kg·m) of the curve from a point, and all its places (rad) of greatest distance.
+        """Return the greatest distance (kg·m) of the curve from a point, and all its places (rad) of greatest
+        distance.
 
-        Those within a thousandth of the greatest distance are told, each refined.
+        Places within a thousandth of the greatest distance are included, each refined.
         """
         away = np.abs(self.samples - centre)
         peaks = (away >= np.roll(away, 1)) & (away >= np.roll(away, -1)) & (away >= away.max() * (1 - 1e-3))
@@ -205,9 +206,10 @@ class SmallestCircle:
 
 
 def round_points(points: Complexes) -> tuple[complex, float, tuple[int, ...]]:
-    """Centre and radius of the smallest circle round points [N], and the two or three points that it is given by.
+    """Return centre and radius of the smallest circle round points [N], and the two or three points that determine
+    it.
 
-    The farthest point outside enters the circle again and again; each time the circle grows, so it comes to an end.
+    The farthest point outside is added to the circle repeatedly. The circle grows each time, so the loop ends.
     """
     support: tuple[int, ...] = (0,)
     centre, radius = complex(points[0]), 0.0
@@ -320,9 +322,9 @@ FINE = 720
 
 @dataclass(frozen=True)
 class BalancedTurn:
-    """The curve that the crank sees, U (kg·m) by each rule asked for, and the counterweights that are carried out.
+    """The curve that the crank sees, U (kg·m) by each requested rule, and the counterweights that are applied.
 
-    These are that of the first rule, or those of the whole balance of a four-bar; none where they come to nothing.
+    These are the counterweight of the first rule, or those of the whole balance of a four-bar; () if they are zero.
     """
 
     machine: Machine

@@ -1,4 +1,4 @@
-"""The ids of balancing, which begin with `balance`, and what they say."""
+"""Ids of the balancing of machines, which begin with `balance`, with their vocabulary."""
 
 from __future__ import annotations
 

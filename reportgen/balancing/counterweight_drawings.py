@@ -1,4 +1,4 @@
-"""The scheme of a machine with its counterweights: a disc each, on an arm from the centre that its link turns about."""
+"""Drawing of a machine with its counterweights: each is a disc on an arm from the centre that its link turns about."""
 
 from __future__ import annotations
 

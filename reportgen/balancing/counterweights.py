@@ -1,8 +1,8 @@
-"""Counterweights on the links of a machine: what they are, and what a slider-crank's and a four-bar's come to.
+"""Counterweights on the links of a machine, and their computation for slider-cranks and four-bar linkages.
 
-The rod of a slider-crank is taken as two point masses, of which one turns with the crank's pin and the other goes to
-and fro.  A four-bar's mass centre rests when the loop has taken its coupler out of it and nothing is left at crank and
-rocker.
+The rod of a slider-crank is replaced by two point masses, one turning with the crank's pin and one reciprocating. A
+four-bar's mass centre is at rest if the loop equation is used to eliminate its coupler and the remaining products
+at crank and rocker are zero.
 """
 
 from __future__ import annotations
@@ -17,15 +17,15 @@ BESIDE = 1e-12
 """A mass centre nearer to its rod than this share of its length lies on it."""
 
 CounterweightRule = Literal["rms", "max", "rotating", "share"]
-"""How a counterweight on the crank is chosen."""
+"""Rule by which a counterweight on the crank is chosen."""
 
 
 @dataclass(frozen=True, slots=True)
 class Balancing:
-    """What a report says of balancing: nothing more than the shaking force, a counterweight on the crank by the first
-    of the `rules`, compared with the others, or counterweights on the `links` that balance all force.
+    """Balancing in a report: only the shaking force, or a counterweight on the crank by the first of the `rules`,
+    compared with the others, or counterweights on the `links` that balance all force.
 
-    `share` is that of the reciprocating masses which the rule of that name balances, `radius` r_c (m).
+    `share` is the share of the reciprocating masses that the rule of that name balances, `radius` r_c (m).
     """
 
     rules: tuple[CounterweightRule, ...] = ()
@@ -49,7 +49,7 @@ class Counterweight:
 
     @property
     def place(self) -> complex:
-        """Where its mass centre lies in the link's frame (m)."""
+        """Place of its mass centre in the link's frame (m)."""
         return self.radius * self.product / abs(self.product) if self.product else 0j
 
 
@@ -117,7 +117,7 @@ def crank_rods(linkage: Linkage) -> tuple[CrankRod, ...]:
 
 
 def place_on_link(linkage: Linkage, link: int, name: str) -> complex:
-    """Where a named point lies in the frame of its link (m)."""
+    """Return the place of a named point in the frame of its link (m)."""
     driver = linkage.driver
     points = {point.name: point.local for point in linkage.points if point.link == link}
     if link == DRIVER and isinstance(driver, Crank):
@@ -135,7 +135,9 @@ def place_on_link(linkage: Linkage, link: int, name: str) -> complex:
 
 
 def turning_part(linkage: Linkage) -> complex:
-    """What turns with the crank, Σ m_A r and the crank's own m₁ r_S1 (kg·m), in the crank's frame."""
+    """Return the product of the masses that turn with the crank, Σ m_A r and its own m₁ r_S1 (kg·m), in the
+    crank's frame.
+    """
     own = sum(
         body.mass * place_on_link(linkage, DRIVER, body.centre) for body in linkage.inertias if body.link == DRIVER
     )
@@ -143,7 +145,7 @@ def turning_part(linkage: Linkage) -> complex:
 
 
 def reciprocating_part(linkage: Linkage) -> complex:
-    """What goes to and fro, taken at the pins: Σ (m_B + m) r (kg·m), in the crank's frame."""
+    """Return the product of the reciprocating masses at the pins: Σ (m_B + m) r (kg·m), in the crank's frame."""
     return complex(sum(rod.reciprocating * rod.pin for rod in crank_rods(linkage)))
 
 

@@ -1,4 +1,4 @@
-"""The kind `engine-balance`: which engines cannot be."""
+"""The kind `engine-balance` and the checks of its data."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 Parameters = engine_file.Parameters
 TURNS = 1
 PART = "orders"
-"""What its ids begin with, in a coursework too."""
+"""Prefix of its ids, in a coursework too."""
 HAS_POSITIONS = False
 TOP = ("parameters",)
 SHORTEST = 1.2

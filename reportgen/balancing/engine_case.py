@@ -61,7 +61,7 @@ class EnginePage(PlacesPage[SolvedEngine]):
         }
 
     def is_closed(self, star: str) -> bool:
-        """Whether the star of the first order is there and has no resultant."""
+        """Return True if the star of the first order exists and has no resultant."""
         id = orders_ids.resultant(star, 1)
         return id in self.case.printed and self.case.printed[id].at(1) == 0
 
@@ -69,7 +69,7 @@ class EnginePage(PlacesPage[SolvedEngine]):
 
     @property
     def layout(self) -> Table:
-        """How the cylinders stand."""
+        """Table of the arrangement of the cylinders."""
         columns = [orders_ids.crank, orders_ids.bank]
         columns += [orders_ids.station] if self.case.given.has_length else []
         return self.by_place("layout", columns, self.case.cylinders)

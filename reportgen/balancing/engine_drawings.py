@@ -1,4 +1,4 @@
-"""Drawings of an engine true to scale: its cranks and banks, its shaft, the stars of all orders, the drawing sheet."""
+"""Drawings of an engine to scale: its cranks and banks, its shaft, the stars of all orders, the drawing sheet."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ from reportgen.sheets.plates import on_sheet
 UP = 1j
 """The axis x of an engine points upwards."""
 LONG, SIDE, HIGH = 130.0, 50.0, 84.0
-"""What the crankshaft from the side, its height, and the engine from its end may fill on a page (mm)."""
+"""Largest length and height of the side view of the crankshaft, and of the end view of the engine, on a page (mm)."""
 WEB = 0.16
 """Half the width of a throw, as a share of the least distance of two cylinders."""
 APART, OUT = 6.0, 7.0
@@ -66,7 +66,7 @@ def extent_of(case: SolvedEngine) -> tuple[float, float]:
 
 
 def scheme(case: SolvedEngine, size: FigureSize = IN_REPORT) -> Scene:
-    """Return the engine from the end of its shaft and, where its cylinders stand one behind another, its shaft."""
+    """Return the engine from the end of its shaft and, if its cylinders are at several places along it, the shaft."""
     front, μ_r = _from_the_end(case, size)
     if not case.given.has_length:
         return finish(front, notes=(μ_r,))
@@ -113,7 +113,7 @@ def _pins(case: SolvedEngine) -> dict[float, list[Content]]:
 
 
 def _shaft(case: SolvedEngine, size: FigureSize) -> tuple[Canvas, Chain]:
-    """Return the crankshaft from the side, z to the right, with its throws as high as they stand."""
+    """Return the crankshaft from the side, z to the right, with its throws at their actual heights."""
     places = {place: one.at.si for place, one in zip(case.cylinders, case.given.cylinders, strict=True)}
     start, span = min(places.values()), max(places.values()) - min(places.values())
     usual = nice_up(max(span / LONG, 2 * case.given.r.si / SIDE) * MM)

@@ -1,4 +1,4 @@
-"""The file of an engine whose mechanism need not be given: crank, rod, moving masses, how its cylinders stand."""
+"""Model of the file of an engine given without a mechanism: crank, rod, moving masses, arrangement of the cylinders."""
 
 from __future__ import annotations
 
@@ -38,10 +38,10 @@ class Parameters(Part):
 
     @property
     def is_inline(self) -> bool:
-        """Whether all cylinders stand in one plane with the crankshaft, on one side of it."""
+        """True if all cylinders are in one plane with the crankshaft, on one side of it."""
         return all(one.bank.si == self.cylinders[0].bank.si for one in self.cylinders)
 
     @property
     def has_length(self) -> bool:
-        """Whether the cylinders stand at several places along the crankshaft."""
+        """True if the cylinders are at several places along the crankshaft."""
         return any(one.at.si != self.cylinders[0].at.si for one in self.cylinders)

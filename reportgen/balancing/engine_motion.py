@@ -1,4 +1,4 @@
-"""An engine in motion for a page: cranks and pistons, force and couple of each order on the frame with their paths."""
+"""A moving engine for a page: cranks and pistons, force and couple of each order on the frame with their paths."""
 
 from __future__ import annotations
 
@@ -112,7 +112,7 @@ def _engine(case: SolvedEngine, φ: EngineAngles, per: float) -> Pane:
 
 
 def _shaking(case: SolvedEngine, φ: EngineAngles) -> Iterator[Shaking]:
-    """Forces, and couples where the cylinders stand at several places."""
+    """Yield the forces, and the couples if the cylinders are at several places."""
     K, places = float(case.ledger["orders.K"].values[0]), case.cylinders
     yield _kept("forces", case.forces(φ), case.rotating(φ), K * len(places))
     if "couples" in case.stars:
@@ -123,7 +123,7 @@ def _shaking(case: SolvedEngine, φ: EngineAngles) -> Iterator[Shaking]:
 def _kept(
     name: str, by_order: dict[int, NDArray[np.complex128]], rotating: NDArray[np.complex128], natural: float
 ) -> Shaking:
-    """What is more than nothing beside all cylinders pulling in one direction."""
+    """Return the parts that are not negligible compared with all cylinders pulling in one direction."""
     letter, kind = ("F", "force") if name == "forces" else ("M", "torque")
     every = {**{str(order): part for order, part in by_order.items()}, ROTATING: rotating}
     least = ZERO * natural

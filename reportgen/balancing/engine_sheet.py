@@ -1,11 +1,12 @@
 """The sheet of an engine by orders: factors of the piston's acceleration, stars of cranks, forces, couples.
 
-The piston of a cylinder whose crank stands at θ and whose bank at ψ pulls on the frame, of order n, with
+The piston of a cylinder with its crank at θ and its bank at ψ pulls on the frame, in order n, with
 
     m r ω² Aₙ cos n(φ + θ − ψ) e^{iψ} = ½ m r ω² Aₙ (e^{i(nφ + γ)} + e^{−i(nφ + γ′)})
 
-γ = nθ − (n − 1)ψ, γ′ = nθ − (n + 1)ψ: two vectors that turn with the crank and against it.  Those of all cylinders
-add up to the stars f and g, and with their arms along the shaft to p and q.  Source: the identity of Euler.
+γ = nθ − (n − 1)ψ, γ′ = nθ − (n + 1)ψ: two vectors that turn with the crank and against it. The vectors of all
+cylinders add up to the stars f and g, and with their arms along the shaft to p and q. Source: the identity of
+Euler.
 """
 
 from __future__ import annotations
@@ -25,7 +26,7 @@ from reportgen.formula.sheet import Sheet
 from reportgen.formula.vocabulary import Chapter
 
 ORDERS = (1, 2, 4)
-"""The orders that are told: higher ones are too small to be felt."""
+"""Orders in the report; higher ones are too small to be felt."""
 FACTORS = (2, 4, 6)
 """The orders of the piston's acceleration; the first is 1, odd ones are not there."""
 FORCES, COUPLES = "fg", "pq"
@@ -156,7 +157,7 @@ class EngineSheet:
     # --- forces and couples
 
     def _enter_forces(self) -> None:
-        """F = K A f, or K A (f + g)/2 where the cylinders stand in several banks."""
+        """Enter F = K A f, or K A (f + g)/2 if the cylinders are in several banks."""
         q = self.q
         for what, stars in self.stars.items():
             family, line = (names.force, "forces") if what == "forces" else (names.couple, "couples")

@@ -1,4 +1,6 @@
-"""The force on the frame on a page: an arrow at the crank's centre with its trace, without and with counterweights."""
+"""Page layer of the force on the frame: an arrow at the crank's centre with its trace, without and with
+counterweights.
+"""
 
 from __future__ import annotations
 
@@ -40,7 +42,8 @@ def forces(turn: BalancedTurn, motion: Motion) -> list[tuple[str, str, Complexes
 def shown(
     report: Report, motion: Motion, scale: float, longest: float, chosen: Callable[[str, Callable[[], Any]], Any]
 ) -> tuple[list[MovingItem], list[BarScale]]:
-    """What shakes the frame, and its scale, on a drawing of `scale` mm to a metre; nothing where it is not asked for.
+    """Return the shaking forces and their scale, on a drawing of `scale` mm to a metre; empty if they are not
+    requested.
 
     The greatest force is an arrow `longest` mm long, to a scale that is `chosen` once.
     """
@@ -68,7 +71,7 @@ def _items(report: Report, turn: BalancedTurn, motion: Motion, scale: float, per
 
 
 def _place(weight: Counterweight, motion: Motion) -> Complexes:
-    """Where a counterweight is (m) [N]."""
+    """Return the places of a counterweight (m) [N]."""
     return motion.origins[weight.link].p + weight.place * unit(motion.links[weight.link].angle)
 
 

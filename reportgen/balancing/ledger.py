@@ -1,7 +1,8 @@
-"""The ledger of balancing: what shakes the frame at each position, the counterweights, what they change.
+"""Ledger entries for balancing: the shaking force and moment at each position, the counterweights and their effects.
 
 The components of each link's inertia force are taken from its size and the direction of its mass centre's
-acceleration; those of a counterweight from U and its angle ψ, which is counted from its link, anticlockwise positive.
+acceleration; those of a counterweight from U and its angle ψ, which is counted from its link, anticlockwise
+positive.
 """
 
 from __future__ import annotations
@@ -92,12 +93,12 @@ class _Entry:
 
     @cached_property
     def unbalance(self) -> float:
-        """What counts as one kg·m: all masses at the crank's pin."""
+        """Reference size of a product (kg·m): all masses at the crank's pin."""
         return self.crank.length * sum(body.mass for body in self.analysis.machine.linkage.inertias)
 
     @property
     def force(self) -> float:
-        """What counts as one force (N): that unbalance, turning with the crank."""
+        """Reference size of a force (N): that unbalance, turning with the crank."""
         return self.unbalance * self.analysis.machine.speed**2
 
     @property
@@ -177,7 +178,7 @@ class _Entry:
             self._product(rule, LETTERS[rule], enter[rule]())
 
     def _product(self, name: str, letters: str, parts: Sequence[Expression]) -> None:
-        """U with its angle from its components; one that is nothing by itself is not entered."""
+        """Enter U with its angle from its components; a single component that is `NOTHING` gets no entry."""
         q = self.q
         entered = [
             NOTHING
@@ -296,9 +297,9 @@ class _Entry:
     # --- the whole balance of a four-bar
 
     def whole_balance(self) -> None:
-        """U of both counterweights by their components, along their links and across them.
+        """Enter U of both counterweights by their components, along their links and across them.
 
-        The coupler's mass m₂ stands at its pins by the shares 1 − (ξ + iη)/b and (ξ + iη)/b.
+        The coupler's mass m₂ is distributed to its pins by the shares 1 − (ξ + iη)/b and (ξ + iη)/b.
         """
         q, linkage = self.q, self.analysis.machine.linkage
         dyad = four_bar(linkage)
@@ -358,7 +359,9 @@ class _Entry:
         self._torque_after(radius)
 
     def _force_after(self) -> None:
-        """What is left of F with a counterweight on the crank; R₀₁, which alone takes its force and its weight."""
+        """Enter the remaining force with a counterweight on the crank, and R₀₁, the only reaction that takes its
+        force and weight.
+        """
         q, φ, ψ = self.q, self.q["phi.1"], self.q[balance_ids.angle(DRIVER)]
         P = q.define(
             balance_ids.centrifugal(DRIVER), q[balance_ids.product(DRIVER)] * q["omega.1"] ** 2, scale=self.force

@@ -1,4 +1,4 @@
-"""How far a counterweight by the positions alone lies from that by the whole curve, which the ledger has.
+"""Error of a counterweight by the positions alone, compared with that by the whole curve, which the ledger has.
 
 A student has the force on the frame at the positions, and takes their mean, or the smallest circle round them.
 """
@@ -17,7 +17,7 @@ from reportgen.marking.topic_marks import MarkHooks
 
 
 def errors_of_positions(ledger: Ledger) -> Mapping[str, np.ndarray]:
-    """Of U (kg·m), its angle (rad) and what follows from it, by the rules that take the whole curve (SI)."""
+    """Return the errors (SI) of U, its angle and their dependent values, for the rules that use the whole curve."""
     along, across = balance_ids.seen("x"), balance_ids.seen("y")
     if along not in ledger:
         return {}
@@ -47,7 +47,7 @@ def _apart(here: complex, there: complex) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _is_first(ledger: Ledger, rule: str) -> bool:
-    """Whether it is the rule that is carried out."""
+    """Return True if it is the rule that is applied."""
     return balance_ids.rule_product(rule) in ledger.inputs[balance_ids.product(DRIVER)]
 
 

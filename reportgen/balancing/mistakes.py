@@ -1,4 +1,4 @@
-"""Common mistakes in balancing, as other definitions of quantities."""
+"""Common mistakes in balancing, as alternative definitions of quantities."""
 
 from __future__ import annotations
 

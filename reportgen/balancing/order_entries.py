@@ -1,7 +1,8 @@
-"""The ledger of an engine's orders: A_n exactly and by the series in λ, the stars of the cranks, forces and couples.
+"""Ledger entries for an engine's orders: A_n exactly and by the series in λ, the stars of the cranks, forces and
+couples.
 
-Angles of pins and cylinders are counted from those of the first cylinder; of cylinders that are offset, or whose rods
-hang on one another, the orders of the whole force stand alone, odd ones included.
+Angles of pins and cylinders are counted from those of the first cylinder. For cylinders that are offset, or whose
+rods are articulated on one another, only the orders of the whole force are entered, including odd ones.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ from reportgen.machine import Crank
 from reportgen.machine.analysis import Analysis
 
 ORDERS = (1, 2, 4)
-"""Orders of forces and couples; of one piston's acceleration the sixth is told, too."""
+"""Orders of forces and couples; the acceleration of a single piston also has the sixth."""
 EXACT = (2, 4, 6)
 OF_ALL = (1, 2, 3, 4, 5, 6)
 SENSES = {"forward": FORWARD, "backward": BACKWARD}
@@ -30,7 +31,7 @@ SAME_ANGLE = 1e-9
 
 
 PointMasses = Callable[[CrankRod], tuple[Expression, Expression]]
-"""Of a rod what turns with its pin, and what goes to and fro with its slider."""
+"""Function that returns the mass of a rod that turns with its pin, and the mass that reciprocates with its slider."""
 
 
 def enter_orders(q: Sheet, analysis: Analysis, curve: CrankCurve, force: float, point_masses: PointMasses) -> None:
@@ -97,7 +98,7 @@ def _angles(q: Sheet, layout: Engine, cylinder: EngineCylinder) -> tuple[Express
 
 
 def _whole(angle: float) -> bool:
-    """Whether an angle (rad) has whole hundredths of a degree."""
+    """Return True if an angle (rad) is a whole number of hundredths of a degree."""
     hundredths = np.degrees(angle) * 100
     return bool(abs(hundredths - round(hundredths)) < 1e-7)
 

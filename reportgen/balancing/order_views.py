@@ -22,8 +22,9 @@ def _engine(report: Report) -> Engine | None:
 
 
 def orders_state(report: Report) -> str:
-    """Whether the report tells orders: "none", of a "single" cylinder, of several in a "line" or in a "vee", or of the
-    "whole" force alone."""
+    """Return the state of the orders: "none", of a "single" cylinder, of several in a "line" or in a "vee", or of
+    the "whole" force alone.
+    """
     if balance_ids.order_force(1) not in report.ledger:
         return "none"
     layout = _engine(report)
@@ -43,7 +44,7 @@ def factor_lines(report: Report) -> list[str]:
 
 
 def _told_later(report: Report) -> bool:
-    """Whether a rule sets out the masses of the rods."""
+    """Return True if a rule prints the masses of the rods."""
     return bool({"rotating", "share"} & balanced_in(report.analysis).products.keys())
 
 

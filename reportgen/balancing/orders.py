@@ -1,9 +1,9 @@
-"""The orders of an engine's inertia forces: those of one piston's acceleration, and how those of all pistons add up.
+"""Orders of an engine's inertia forces: those of one piston's acceleration, and their sums over all pistons.
 
 A piston on a line through the crank's centre has a = −rω² Σ A_n cos nθ with A₁ = 1 and even orders further, θ the
-crank's angle from that line.  Cylinder j stands at the angle β_j and has its pin at ψ_j on the crank; its order n is a
-vector that turns forward with nφ, e^{i(β_j + n(ψ_j − β_j))}, and one that turns backward, e^{i(β_j − n(ψ_j − β_j))},
-each of half its size.
+crank's angle from that line. Cylinder j is at the angle β_j and has its pin at ψ_j on the crank; its order n is a
+vector that turns forward with nφ, e^{i(β_j + n(ψ_j − β_j))}, and one that turns backward, e^{i(β_j − n(ψ_j −
+β_j))}, each of half its size.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ class Engine:
 
     @property
     def in_line(self) -> bool:
-        """Whether all cylinders stand in one plane with the shaft."""
+        """True if all cylinders are in one plane with the shaft."""
         first = self.cylinders[0].bank
         return all(abs(np.exp(1j * (each.bank - first)) - 1) < SAME for each in self.cylinders)
 
@@ -55,7 +55,7 @@ class Engine:
         return sum(cylinder.vector(order, sense) for cylinder in self.cylinders)
 
     def force(self, order: int) -> float:
-        """Return the greatest force of an order over m r ω² A_n: half of what both stars come to."""
+        """Return the greatest force of an order over m r ω² A_n: half the sum of both stars' resultants."""
         return (abs(self.star(order, FORWARD)) + abs(self.star(order, BACKWARD))) / 2
 
 
@@ -87,5 +87,7 @@ def _alike(lengths: Sequence[tuple[float, float, float]]) -> bool:
 
 
 def on_sliders(linkage: Linkage) -> bool:
-    """Whether every group is a rod to a slider on the frame, as of an engine whose rods may hang on one another."""
+    """Return True if every group is a rod to a slider on the frame, as in an engine; rods may be articulated on
+    one another.
+    """
     return all(dyad.kind == "RRP" and isinstance(dyad.end, Guide) and dyad.end.link == GROUND for dyad in linkage.dyads)

@@ -1,4 +1,4 @@
-"""The ids of an engine that is balanced by orders, which begin with `orders`, and what they say.
+"""Ids of an engine that is balanced by orders, which begin with `orders`, with their vocabulary.
 
 A star is f or g of forces and p or q of couples: the first of a pair turns with the crank, the second against it.
 """

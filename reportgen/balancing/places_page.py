@@ -1,4 +1,4 @@
-"""Pages with tables of what stands at several places: masses, cylinders, bearings."""
+"""Pages with tables of values at several places: masses, cylinders, bearings."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from reportgen.document import Column, InlineMath, Inlines, Table, Text, Value
 from reportgen.formula import Number, Symbol
 
 FIRST_WIDTH, PAGE_WIDTH, WIDEST = 18.0, 165.0, 30.0
-"""What the first column takes, what a table may take of a page, and a column at most (mm)."""
+"""Width of the first column, of a table on a page, and of the widest column (mm)."""
 
 
 class PlacesPage(DesignPage[Designed]):
@@ -38,5 +38,5 @@ class PlacesPage(DesignPage[Designed]):
 
 
 def bare(number: Number) -> Inlines:
-    """Return a number whose unit stands in the head of its column."""
+    """Return a number without its unit, which is in the head of its column."""
     return (Value(replace(number, unit="")),)

@@ -1,4 +1,4 @@
-"""Balancing on the drawing sheets: a set of its own."""
+"""Balancing on the drawing sheets, as a separate set."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The kind `rotor`: which data cannot be, and what of a rotor is hardly meant."""
+"""The kind `rotor`, the checks of its data and warnings about unlikely data."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ if TYPE_CHECKING:
 Parameters = rotor_file.Parameters
 TURNS = 1
 PART = "rotor"
-"""What its ids begin with, in a coursework too."""
+"""Prefix of its ids, in a coursework too."""
 HAS_POSITIONS = False
 TOP = ("parameters",)
 NEEDS: Mapping[str, tuple[str, ...]] = {"bearings": ("n",), "grade": ("mass", "n", "bearings")}
-"""What a key asks for besides."""
+"""Other keys that a key requires."""
 BALANCED = 1e-9
 """A share of all unbalance that is nothing."""
 
@@ -81,7 +81,7 @@ def check(given: Parameters) -> Iterator[Finding]:
 
 
 def is_balanced(given: Parameters) -> bool:
-    """Whether the masses leave nothing to be corrected: neither a force nor a couple, which one plane cannot take."""
+    """Return True if the masses need no correction: no force and no couple, which one plane cannot correct."""
     unbalances = [(one.m.si * cmath.rect(one.r.si, one.angle.si), one.z.si - given.planes.A.si) for one in given.masses]
     force, couple = sum(U for U, _ in unbalances), sum(U * z for U, z in unbalances)
     if abs(force) > BALANCED * sum(abs(U) for U, _ in unbalances):

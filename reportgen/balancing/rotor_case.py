@@ -25,7 +25,7 @@ from reportgen.formula import Chain, Expression, Number, Symbol, total
 from reportgen.sheets.plates import drawn
 
 OF_BEARING = rotor_ids.at_bearing, rotor_ids.bearing_force
-"""What each bearing bears."""
+"""Ids of the load of each bearing."""
 WORKED = 6
 """Products of so many masses are written out; of more masses the table has all of them, and a line is of the first."""
 
@@ -90,7 +90,7 @@ class RotorPage(PlacesPage[SolvedRotor]):
 
     @property
     def leaves_couple(self) -> bool:
-        """Whether the moments about the one plane of correction have a resultant."""
+        """True if the moments about the single plane of correction have a resultant."""
         printed, parts = self.case.printed, [rotor_ids.resultant("V", axis) for axis in AXES]
         return not self.case.two_planes and any(printed[id].at(1) for id in parts if id in printed)
 
@@ -154,7 +154,7 @@ class RotorPage(PlacesPage[SolvedRotor]):
 
     @property
     def loads_table(self) -> Table:
-        """What each bearing bears before and after."""
+        """Table of the load of each bearing before and after."""
         printed, words = self.case.printed, self.words["loads"]
         columns = [(family, when) for when in (BEFORE, AFTER) for family in OF_BEARING]
         ids = {place: [family(when, place) for family, when in columns] for place in BEARINGS}

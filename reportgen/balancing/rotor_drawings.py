@@ -1,4 +1,4 @@
-"""Drawings of a rotor true to scale: along and across its axis, the plans of m r z and m r, the drawing sheet."""
+"""Drawings of a rotor to scale: along and across its axis, the plans of m r z and m r, the drawing sheet."""
 
 from __future__ import annotations
 
@@ -25,13 +25,13 @@ from reportgen.formula import Chain, Number, Symbol
 from reportgen.sheets.plates import on_sheet
 
 LONG, HIGH, WIDE = 140.0, 60.0, 64.0
-"""What the view along the axis, its height, and the view across the axis may fill on a page (mm)."""
+"""Length and height of the view along the axis, and width of the view across it, on a page (mm)."""
 SHAFT, MASS, ARM = Pen(0.8), Pen(0.35), Pen(0.25)
 CORRECTION = Pen(0.4, style.RED, style.DASHED)
 DISC = 1.7
 """The radius of the sign of a mass (mm)."""
 BEYOND = 7.0
-"""How far the shaft goes on beyond what stands on it (mm)."""
+"""Length of the shaft beyond the outermost planes and bearings (mm)."""
 APART = 6.0
 """White between both views (mm)."""
 CLEAR = 8.0
@@ -127,7 +127,7 @@ def _along_axis(case: SolvedRotor, size: FigureSize) -> tuple[Canvas, Chain]:
 
 
 def ruler(places: Collection[float], per: float, height: float, mm: str) -> tuple[list[Item], list[Request]]:
-    """Return the axis z below a shaft with the places (m) of what stands on it, the first of them at 0."""
+    """Return the axis z below a shaft with ticks at some places (m), the first of them at 0."""
     start, end = min(places), (max(places) - min(places)) * per
     base, tip = complex(-BEYOND, height), complex(end + BEYOND + 5, height)
     items: list[Item] = [Line(base, tip, style.DIMENSION)]

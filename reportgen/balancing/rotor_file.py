@@ -1,4 +1,4 @@
-"""The file of a rotor: its masses, its correction planes and what is known of the correction, its bearings."""
+"""Model of the file of a rotor: its masses, its correction planes, known data of the corrections, its bearings."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ VibrationGrade = Annotated[Given, quantity("mm/s", least=0.01, most=1e5)]
 
 
 class Planes(Part):
-    """Where the correction planes stand on the axis; with `B` left out there is one."""
+    """Places of the correction planes on the axis; without `B` there is one plane."""
 
     A: Coordinate
     B: Coordinate | None = None
 
 
 class RotorMass(Part):
-    """An unbalanced mass, its radius and angle, and where it stands on the axis."""
+    """An unbalanced mass with its radius, angle and place on the axis."""
 
     m: PositiveMass
     r: Length
@@ -45,7 +45,7 @@ class KnownMass(Part):
 
 
 class KnownCorrection(KnownMass):
-    """What is known of the correction masses: the same in every plane, or something in each."""
+    """Known data of the correction masses: the same in every plane, or separate for each."""
 
     A: KnownMass | None = None
     B: KnownMass | None = None
@@ -71,7 +71,7 @@ class Parameters(Part):
 
     @property
     def known_masses(self) -> dict[str, KnownMass]:
-        """What is known of the correction mass in each plane; nothing where none is asked for."""
+        """Known data of the correction mass in each plane; empty if no correction masses are requested."""
         if self.correction is None:
             return {}
         own = {LEFT: self.correction.A, RIGHT: self.correction.B}
@@ -79,10 +79,10 @@ class Parameters(Part):
 
     @property
     def sought(self) -> frozenset[str]:
-        """What of the correction masses is sought: their mass `m`, their radius `r`, or one here and one there."""
+        """Unknowns of the correction masses: their mass `m`, their radius `r`, or both if the planes differ."""
         return frozenset("r" if known.r is None else "m" for known in self.known_masses.values())
 
     @property
     def has_couple(self) -> bool:
-        """Whether a mass stands outside of plane A, or a correction does."""
+        """True if a mass or a correction is outside of plane A."""
         return self.planes.B is not None or any(one.z.si != self.planes.A.si for one in self.masses)

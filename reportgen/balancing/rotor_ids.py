@@ -1,4 +1,4 @@
-"""The ids of a rotor, which begin with `rotor`, and what they say.
+"""Ids of a rotor, which begin with `rotor`, with their vocabulary.
 
 A place is the number of a mass, a correction plane A or B, or a bearing C or D.
 """

@@ -1,4 +1,4 @@
-"""A rotor in motion for a page: it turns, and what its bearings bear before and after balancing turns with it."""
+"""A moving rotor for a page: the forces on its bearings, before and after balancing, turn with it."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ from reportgen.formula.vocabulary import KINDS
 
 SAMPLES = 180
 ACROSS, ALONG, FORCE = 80.0, 150.0, 45.0
-"""What both views and the greatest force may fill (mm)."""
+"""Largest sizes of both views and of the greatest force (mm)."""
 PENS = {BEFORE: Pen(0.5, style.RED), AFTER: Pen(0.5, style.BLUE, style.DASHED)}
 CENTRE = Track(np.zeros(1, complex))
 RotorTurns = NDArray[np.complex128]
@@ -150,7 +150,7 @@ def _pane(key: str, case: SolvedRotor, items: list[MovingItem], per: float, newt
 
 
 def _charts(case: SolvedRotor, knots: NDArray[np.float64]) -> Iterator[Chart]:
-    """What each bearing bears upwards over a turn."""
+    """Yield charts of the upward force on each bearing over a turn."""
     degrees = np.degrees(knots)
     for bearing_name in BEARINGS:
         curves = [

@@ -17,7 +17,7 @@ from reportgen.formula.sheet import DUST, Sheet
 from reportgen.formula.vocabulary import Chapter
 
 ROOM = 105 + 85j
-"""What a plan may take on a page (mm)."""
+"""Largest width and height of a plan on a page (mm)."""
 AXES: Mapping[str, Callable[[Expression], Expression]] = {"x": cos, "y": sin}
 STRAIGHT, WHOLE_TURN = Number(180.0, unit="°"), Number(360.0, unit="°")
 BEFORE, AFTER = "before", "after"
@@ -167,7 +167,7 @@ class RotorSheet:
         return sum(abs(self.q.si(one)) for one in sizes.values())
 
     def _scale_of(self, plane: str) -> float:
-        """What a correction would be (kg·m) if all masses pulled in one direction."""
+        """Return the size of a correction (kg·m) if all masses pulled in one direction."""
         couples = self._all(self.V) / self.q.si("rotor.L") if RIGHT in self.given.planes_by_name else 0.0
         return couples if plane == RIGHT else self._all(self.U) + couples
 
@@ -220,13 +220,13 @@ class RotorSheet:
         return q.define(names.share(when, axis, place), formula, **traits)
 
     def _borne(self) -> float:
-        """What a bearing would bear (kg·m) if all masses pulled in one direction."""
+        """Return the load of a bearing (kg·m) if all masses pulled in one direction."""
         q = self.q
         arm = max(abs(q.si(self.z[bearing]) - q.si(self.z[LEFT])) for bearing in BEARINGS)
         return (self._all(self.U) * arm + self._all(self.V)) / q.si("rotor.b")
 
     def _left_by_rounding(self, when: str) -> bool:
-        """Whether there is nothing but what corrections as they are written leave."""
+        """Return True if the only remaining load comes from rounding of the printed corrections."""
         return when == AFTER and (RIGHT in self.given.planes_by_name or not self.V)
 
     def _enter_force(self, when: str, place: str, parts: Mapping[str, Ref]) -> None:

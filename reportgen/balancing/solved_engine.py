@@ -1,4 +1,4 @@
-"""An engine by its orders with its ledger, and what its quantities are often taken for."""
+"""An engine by its orders with its ledger, and common mistakes in its quantities."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ class SolvedEngine(DesignCase):
 
     @property
     def speed(self) -> float:
-        """Of the crankshaft (rad/s)."""
+        """Angular velocity of the crankshaft (rad/s)."""
         return self.given.n.si
 
     def forces(self, φ: ArrayLike) -> dict[int, NDArray[np.complex128]]:
@@ -79,7 +79,7 @@ class SolvedEngine(DesignCase):
 
     @property
     def _arms(self) -> list[float]:
-        """c of each cylinder (m); the ledger has none where all stand at one place."""
+        """Arm c of each cylinder (m); the ledger has none if all cylinders are at one place."""
         return [float(self.ledger[orders_ids.arm(place)].values[0]) for place in self.cylinders]
 
     def _by_order(self, φ: ArrayLike, weights: Sequence[float]) -> dict[int, NDArray[np.complex128]]:

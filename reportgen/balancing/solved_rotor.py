@@ -1,4 +1,4 @@
-"""A rotor with its ledger, and what its quantities are often taken for."""
+"""A rotor with its ledger, and common mistakes in its quantities."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class SolvedRotor(DesignCase):
 
     @property
     def moments(self) -> tuple[str, ...]:
-        """The places of those with a moment about plane A; none where all stand in that plane."""
+        """Places of the masses with a moment about plane A; () if all are in that plane."""
         return self.masses if self.given.has_couple else ()
 
     @cached_property
@@ -45,7 +45,7 @@ class SolvedRotor(DesignCase):
 
     @property
     def speed(self) -> float | None:
-        """Of the rotor (rad/s)."""
+        """Angular velocity of the rotor (rad/s)."""
         return None if self.given.n is None else self.given.n.si
 
     @property
@@ -62,7 +62,9 @@ class SolvedRotor(DesignCase):
 
     @property
     def permitted(self) -> tuple[bool, ...] | None:
-        """Whether each bearing's unbalance after balancing, as the corrections are written, is within the grade."""
+        """Flags for the bearings: True if the unbalance after balancing, with the printed corrections, is within
+        the grade.
+        """
         if self.given.grade is None:
             return None
         most = self.printed[rotor_ids.permitted("plane")].at(1)
@@ -93,7 +95,7 @@ class SolvedRotor(DesignCase):
         return {place: Ref(rotor_ids.moment(place)) for place in self.moments}
 
     def _of_planes(self) -> MistakenValues:
-        """What goes wrong with two planes."""
+        """Yield common mistakes with two planes."""
         if not self.two_planes:
             return
         U, V, α, L = self._U, self._V, self._α, Ref("rotor.L")

@@ -1,4 +1,6 @@
-"""The star of an order of an engine: a vector for each cylinder, all of one size, and their sum, to scale."""
+"""Drawing of the star of an order of an engine: a vector for each cylinder, all of one size, and their sum, to
+scale.
+"""
 
 from __future__ import annotations
 
@@ -17,7 +19,7 @@ SAME = 0.4
 CLOSED = 1e-9
 """A sum below this share of a vector is none."""
 BEYOND = 3.0
-"""How far the axes go beyond the circle (mm)."""
+"""Length of the axes beyond the circle (mm)."""
 
 
 def star(vectors: Sequence[complex], names: Sequence[Content], total: Content, title: str = "") -> Scene:

@@ -1,4 +1,4 @@
-"""Balancing as a file asks for it: what shakes the frame, a counterweight on the crank, a four-bar's whole balance."""
+"""The balancing section of a file: the shaking force, a counterweight on the crank, a four-bar's whole balance."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from reportgen.machine.analysis import Machine
 
 MOST_RULES = 4
 RODS = ("rotating", "share")
-"""Rules that tell what turns with the crank from what goes to and fro."""
+"""Rules that distinguish the masses turning with the crank from the reciprocating ones."""
 
 
 class CrankCounterweight(Part):
@@ -63,7 +63,9 @@ def enter(opening: Opening) -> TopicData:
 
 
 def faults(parameters: TopicParameters, machine: Machine) -> Iterator[Finding]:
-    """There are masses to balance and a crank that turns evenly; what is asked for is said once, and can be had."""
+    """Yield faults unless there are masses to balance and an evenly turning crank, and the request is unique and
+    possible.
+    """
     given = parameters.section("balancing", BalancingTask)
     if given is None:
         return

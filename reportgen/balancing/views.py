@@ -85,7 +85,7 @@ def shaking_lines(report: Report) -> list[str]:
 
 
 def seen_lines(report: Report) -> list[str]:
-    """What the crank sees of F."""
+    """Return the ids of F as seen from the crank."""
     return report.known(balance_ids.seen(axis) for axis in AXES)
 
 
@@ -115,8 +115,9 @@ RODS = ("rotating", "share")
 
 
 def balancing_state(report: Report) -> str:
-    """What is asked for: "none", what shakes the "frame", a counterweight on the "crank", one in "vain" that comes to
-    nothing, or the whole balance by counterweights on the "links" of a four-bar."""
+    """Return the request: "none", the shaking force on the "frame", a counterweight on the "crank", one in "vain"
+    that is zero, or the whole balance by counterweights on the "links" of a four-bar.
+    """
     turn = balanced_in(report.analysis)
     if turn.products:
         return "crank" if turn.weights else "vain"
@@ -136,7 +137,7 @@ def counterweight_lines(report: Report) -> list[str]:
 
 
 def after_lines(report: Report) -> list[str]:
-    """What is left at a position with the counterweights: force, reaction, moments."""
+    """Return the ids of the remaining values at a position with the counterweights: force, reaction, moments."""
     weights = balanced_in(report.analysis).weights
     arms = [balance_ids.place(f"W{weight.link}", "x") for weight in weights]
     components = [balance_ids.after_component(axis) for axis in AXES]
@@ -146,12 +147,12 @@ def after_lines(report: Report) -> list[str]:
 
 
 def on_link_lines(report: Report) -> list[str]:
-    """Where the mass centres of a four-bar lie on their links."""
+    """Return the ids of the places of a four-bar's mass centres on their links."""
     return [id for id in report.ledger.families if id in balance_ids.on_link]
 
 
 def main_rule(report: Report) -> str:
-    """Return the rule that is carried out, as it stands in a sentence."""
+    """Return the name of the rule that is applied, for use in a sentence."""
     return str(report.words["balancing"]["chosen"][next(iter(_turn(report).products))])
 
 
@@ -170,7 +171,7 @@ def greatest_left(report: Report) -> Value:
 
 
 def balanced_table(report: Report) -> list[str]:
-    """What the counterweights change, each beside what it was."""
+    """Return the ids of the values that the counterweights change, each beside its original."""
     pairs = (
         (balance_ids.FORCE, balance_ids.AFTER_FORCE),
         ("R.01", balance_ids.AFTER_REACTION),
@@ -209,7 +210,9 @@ def _compared(report: Report, name: str, pair: Sequence[str]) -> Sequence[object
 
 
 def residuals(report: Report) -> dict[str, float]:
-    """How far, as a share, F is from the reactions on the frame by inertia alone, and a balanced four-bar's from 0."""
+    """Return shares: the difference of F from the inertia reactions on the frame, and the remaining force of a
+    four-bar.
+    """
     analysis, turn = report.analysis, balanced_in(report.analysis)
     linkage, motion = analysis.machine.linkage, analysis.motion
     off = np.abs(shaking_force(linkage, motion) - frame_reactions(linkage, motion)).max()
@@ -270,7 +273,9 @@ def discs(report: Report) -> FigureScenes:
 
 
 def seen_curve(report: Report) -> FigureScenes:
-    """What the crank sees of F, the smallest circle round it with its points of touch, the origin by each rule."""
+    """Return F as the crank sees it, the smallest circle round it with its touching points, and the origin by each
+    rule.
+    """
     turn = _turn(report)
     force, crank, marks, names = _of_turn(report)
     seen = force / crank / report.machine.speed**2

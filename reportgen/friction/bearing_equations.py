@@ -1,12 +1,12 @@
-"""The forces that press joints with friction together, from the exact equations of a position.
+"""Exact equations for the forces that press joints with friction together, at one position.
 
-Friction goes by the forces p that press joints together, and the reactions u are linear in friction:
+Friction depends on the forces p that press joints together, and the reactions u are linear in friction:
 
     p_j = Σ |u_t|,  u_t = a_t + Σ b_tk p_k,  t over the reactions of joint j.
 
-In a guide u is a number, and |u| = ±u: once it is known on which side each guide bears, the equations are linear.  In a
-pin u is a vector, and Newton's method solves for its size.  `joint_friction` asks for them where its rounds do not
-settle.
+In a guide u is a number, and |u| = ±u: once the side on which each guide bears is known, the equations are linear.
+In a pin u is a vector, and Newton's method solves for its size. `joint_friction` uses them if its rounds do not
+converge.
 """
 
 from __future__ import annotations
@@ -23,9 +23,9 @@ from reportgen.base.arrays import Complexes, Flags, Floats
 MOST_STEPS = 40
 """Newton's method settles in ten steps or not at all."""
 SETTLED = 1e-12
-"""Of the greatest reaction: what is left of the equations is rounding."""
+"""Residual of the equations, as a share of the greatest reaction, that counts as rounding."""
 STARTS = (1.0, 0.0, 10.0)
-"""Of the forces without friction: where Newton's method begins."""
+"""Start values of Newton's method, as multiples of the forces without friction."""
 MOST_PATTERNS = 1024
 """Choices of sides that are tried: all of them up to ten faces of guides."""
 

@@ -1,4 +1,4 @@
-"""Drawings of what rubs on a drum: a belt or a band with its tensions, the lever of a brake, a shoe."""
+"""Drawings of friction on a drum: a belt or a band with its tensions, the lever of a brake, a shoe."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ from reportgen.formula import Symbol
 from reportgen.friction.exercise_drawings import FORCE, angle_mark, force
 
 RADIUS = 17.0
-"""Of a drum on a scheme (mm)."""
+"""Radius of a drum on a scheme (mm)."""
 FREE = 13.0
-"""How far a band goes on from where it leaves the drum (mm)."""
+"""Length of a band beyond the point where it leaves the drum (mm)."""
 LEVER = 92.0
-"""What a lever may take (mm)."""
+"""Largest length of a lever (mm)."""
 APART = 9.0
 TURN = math.tau
 

@@ -1,4 +1,4 @@
-"""What friction does over a whole cycle: the mean torque, and the places where a slider cannot move the crank."""
+"""Effects of friction over a whole cycle: the mean torque, and the places where a slider cannot move the crank."""
 
 from __future__ import annotations
 
@@ -66,7 +66,9 @@ class _LocksError(Exception):
 
 @dataclass(frozen=True, slots=True)
 class DeadZone:
-    """How far (rad) `before` and `behind` the dead centre at cycle angle `centre` a slider cannot move its crank."""
+    """Angles (rad) `before` and `behind` the dead centre at cycle angle `centre` within which a slider cannot move
+    its crank.
+    """
 
     centre: float
     before: float

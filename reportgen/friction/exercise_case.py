@@ -1,4 +1,4 @@
-"""The tasks with friction as cases: report and task of each, its key, its results, its drawing sheet."""
+"""The friction exercises as cases: report and task of each, its key, its results, its drawing sheet."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from reportgen.friction import brakes, exercise_drawings, exercise_mistakes, exe
 
 @dataclass(frozen=True)
 class FrictionTask:
-    """What makes the numbers and the drawings of a task; the last are its force plans, of a task that has any."""
+    """Functions that make the sheet and the drawings of a task; the last are its force plans, if it has any."""
 
     name: str
     sheet: Callable[[Any], Sheet]
@@ -79,12 +79,12 @@ class FrictionCase(DesignCase):
     @property
     @abstractmethod
     def holds(self) -> Mapping[str, bool]:
-        """What holds of it that the text tells in words."""
+        """Conditions that the text expresses in words, with their truth values."""
 
     @property
     @abstractmethod
     def locks(self) -> bool | None:
-        """Whether it holds by friction alone; None of what can only slip."""
+        """True if it is self-locking; None if it can only slip."""
 
     def at(self, name: str) -> float:
         """Return a result (SI) by the end of its id; 0 of one that the task has not."""
@@ -93,7 +93,7 @@ class FrictionCase(DesignCase):
 
     @cached_property
     def entries(self) -> ResultEntries:
-        """All that is worked out, by the ends of the ids, and whether it locks itself where that is a question."""
+        """All results by the ends of their ids, and whether it is self-locking, if that is a question."""
         head = f"friction.{self.TASK.name}."
         results: dict[str, Any] = {
             id.removeprefix(head): family.at(1)

@@ -1,4 +1,4 @@
-"""Drawings of the inclined plane, the wedge and the screw: schemes with their forces, force plans true to scale."""
+"""Drawings of the inclined plane, the wedge and the screw: schemes with their forces, force plans to scale."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from reportgen.formula import Fraction, Number, Product, Symbol
 
 DOWN = -1j
 FORCE = 19.0
-"""The length of a force on a scheme (mm), where it stands for its line alone."""
+"""Length of a force on a scheme (mm), where only its line matters."""
 BASE, HIGHEST = 72.0, 46.0
 """The length of a slope's base, and the most that a slope may rise (mm)."""
 ARC = 13.0
@@ -46,7 +46,7 @@ def angle_mark(at: complex, start: float, stop: float, name: Content, radius: fl
 
 
 def slope_base(α: float) -> float:
-    """How long the base of a slope is drawn (mm)."""
+    """Return the drawn length of the base of a slope (mm)."""
     return min(BASE, HIGHEST / math.tan(α))
 
 
@@ -116,7 +116,7 @@ def closed(
 
 
 def scale_of(case: DesignCase, task: str, size: FigureSize) -> tuple[tuple[Symbol, float, str], float]:
-    """Return the scale of the forces of a task as a note says it, and how many mm of the figure stand for 1 N."""
+    """Return the scale of the forces of a task as printed in a note, and the number of mm of the figure for 1 N."""
     number = case.printed.number(f"friction.{task}.mu")
     symbol = case.printed.symbol(f"friction.{task}.mu")
     return (symbol, number.value, number.unit), size.per_unit(number.value)
@@ -201,7 +201,7 @@ def wedge_plans(case: DesignCase, size: FigureSize = IN_REPORT) -> tuple[Scene, 
 # --- the screw --------------------------------------------------------------------------------------
 
 UNROLLED, STEEP = 96.0, 60.0
-"""How long one turn of the thread is drawn, and how high at most (mm)."""
+"""Drawn length of one turn of the thread, and its largest height (mm)."""
 
 
 def screw_scheme(case: DesignCase) -> Scene:

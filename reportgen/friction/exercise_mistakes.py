@@ -1,4 +1,4 @@
-"""What the quantities of tasks with friction are often taken for, besides what marking always looks for."""
+"""Common mistakes in friction exercises, in addition to those that marking always looks for."""
 
 from __future__ import annotations
 
@@ -72,7 +72,7 @@ def of_screw(q: Sheet) -> MistakenValues:
 
 
 def of_drum(task: str, q: Sheet) -> MistakenValues:
-    """What goes wrong where a band lies on a drum."""
+    """Yield common mistakes for a band on a drum."""
 
     def of(name: str) -> Ref:
         return Ref(f"friction.{task}.{name}")

@@ -1,4 +1,4 @@
-"""What the ids of exercises of friction are called, `friction.TASK.…`, and what they say."""
+"""Vocabulary of the friction exercises: the ids `friction.TASK.…` with their symbols, kinds and chapters."""
 
 from __future__ import annotations
 
@@ -16,7 +16,9 @@ KINDS: Mapping[str, QuantityKind] = {
 
 
 def _rows(task: str, *rows: tuple[str, str, str, str, Chapter | None]) -> tuple[VocabularyRow, ...]:
-    """Of each quantity of a task the end of its id, its letter with what is lowered, what is raised, kind, chapter."""
+    """Return the vocabulary rows of a task from the end of each id, letter with index, superscript, kind and
+    chapter.
+    """
     made = []
     for end, symbol, above, kind, chapter in rows:
         letter, _, below = symbol.partition("_")

@@ -1,6 +1,7 @@
-"""The sheets of the tasks with friction: every quantity with its formula, one sheet for each task.
+"""The sheets of the friction exercises: every quantity with its formula, one sheet for each task.
 
-Friction is dry friction of Coulomb; a full reaction makes the angle φ = arctan f with the normal, against the motion.
+Friction is dry friction of Coulomb; a full reaction makes the angle φ = arctan f with the normal, against the
+motion.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ from reportgen.formula.vocabulary import Chapter
 from reportgen.friction.friction_file import Band, BeltOnDrum, Incline, Screw, Shoe, Wedge
 
 TALL = 75.0
-"""How long the largest force of a plan may be on a page (mm)."""
+"""Largest length of the greatest force of a plan on a page (mm)."""
 STRAIGHT = Number(180.0, unit="°")
 
 
@@ -70,7 +71,7 @@ def wedge_sheet(given: Wedge) -> Sheet:
     borne: Expression = Q if in_guide is None else Q * cos(in_guide)
 
     def across(angle: Expression) -> Expression:
-        """What the guide of the load bears of R₁ at an angle from the vertical."""
+        """Return the force on the guide of the load from R₁ at an angle from the vertical."""
         part = q.find("friction.wedge.R1" if angle == driving else "friction.wedge.lowering.R1")
         assert part is not None
         return part * sin(angle) if in_guide is None else part * sin(angle) / cos(in_guide)

@@ -1,4 +1,4 @@
-"""The kind `friction`: what small mechanisms with dry friction are given by, and which of them cannot be."""
+"""The kind `friction`: small mechanisms with dry friction, and the checks of their data."""
 
 from __future__ import annotations
 
@@ -19,11 +19,13 @@ if TYPE_CHECKING:
 Parameters = friction_file.Parameters
 TURNS = 1
 PART = "friction"
-"""What its ids begin with, in a coursework too."""
+"""Prefix of its ids, in a coursework too."""
 HAS_POSITIONS = False
 TOP = ("parameters",)
 STEEPEST = math.radians(89)
-"""Of a force and what would jam it (rad): nearer to a right angle no force that can be drawn moves the body."""
+"""Largest angle between a force and the direction that would jam it (rad); closer to 90° no force that can be
+drawn moves the body.
+"""
 
 
 def case(assignment: Assignment) -> FrictionCase:
@@ -74,7 +76,7 @@ def of_screw(given: Screw) -> Iterator[Finding]:
 
 
 def of_belt(given: BeltOnDrum) -> Iterator[Finding]:
-    """Tensions that a number can tell."""
+    """Yield faults unless the tensions are finite numbers."""
     yield from wrapped("belt", given.f, given.theta)
 
 
@@ -109,7 +111,7 @@ CHECKED: Mapping[str, Callable[[Any], Iterator[Finding]]] = {
 
 
 def check(given: Parameters) -> Iterator[Finding]:
-    """What no single value of a task shows."""
+    """Yield faults that no single value of a task shows."""
     for task, look in CHECKED.items():
         if (of_task := getattr(given, task)) is not None:
             yield from look(of_task)

@@ -1,4 +1,4 @@
-"""The file of a task with dry friction: what each of the small mechanisms is given by."""
+"""Model of the file of a friction exercise: the data of each of the small mechanisms."""
 
 from __future__ import annotations
 
@@ -121,5 +121,5 @@ class Parameters(Part):
 
     @property
     def task(self) -> str:
-        """Which of them it is."""
+        """Name of the given task."""
         return next(task for task in TASKS if getattr(self, task) is not None)

@@ -1,4 +1,4 @@
-"""What the ids of friction are called, and what they say: in the joints of machines, and in exercises."""
+"""Ids of friction, in the joints of machines and in exercises, with their vocabulary."""
 
 from __future__ import annotations
 
@@ -15,20 +15,20 @@ circle = Name("friction.rho.{point}")
 angle = Name("friction.phi.{link}")
 turning = Name("friction.omega.{joint}")  # of the second link against the first, a size
 reaction = Name("friction.R.{joint}[.{round}]")
-"""Of a pin, or across a guide; with a round before it has come to stand."""
+"""Reaction of a pin, or across a guide; with a round, the reaction before convergence."""
 couple = Name("friction.M.{joint}")
 force = Name("friction.F.{joint}")
 part = Name("friction.part.{joint}")
-"""Of the driver's torque: what overcomes the friction of a joint."""
+"""Part of the driver's torque that overcomes the friction of a joint."""
 torque = "friction.M"
 reduced = "friction.reduced"
-"""What friction takes from the crank, as a reduced torque beside that of the loads."""
+"""Torque that friction takes from the crank, reduced to it like that of the loads."""
 torque_of_round = Name("friction.round.{round}")
 efficiency = "friction.eta"
 mean = "friction.mean"
 cycle_efficiency = "friction.eta.cycle"
 dead = Name("friction.dead.{link}.{number}.{side}")
-"""How far before or behind a dead centre a slider cannot move its crank."""
+"""Angle before or behind a dead centre within which a slider cannot move its crank."""
 dead_before = Name("friction.dead.{link}.{number}.before")
 dead_behind = Name("friction.dead.{link}.{number}.behind")
 

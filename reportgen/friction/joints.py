@@ -1,16 +1,17 @@
 """Friction in the joints: friction circles of pins, friction angles of guides, and the torque that overcomes them.
 
-The reaction R of a pin with friction is tangent to the circle of radius ρ = f r about its centre, and that of a guide
-leans by arctan f against the sliding.  So each joint brings a couple or a force that goes by its reaction,
+The reaction R of a pin with friction is tangent to the circle of radius ρ = f r about its centre, and that of a
+guide leans by arctan f against the sliding. So each joint contributes a couple or a force that depends on its
+reaction,
 
     M_ij = −sgn(ω_j − ω_i) ρ R_ij,   F_ij = −sgn(v_ji) f |N_ij|,
 
-on link j, and the opposite on link i.  They are put on the links as further loads and the links are balanced anew,
-round after round, until the reactions stand (Artobolevsky's method of successive approximations).  Where the rounds do
-not settle, the equations of the position are solved exactly (`bearing_equations`); only if they have no solution, the
-mechanism locks.
+on link j, and the opposite on link i. They are applied to the links as further loads, and the links are balanced
+again, round after round, until the reactions converge (Artobolevsky's method of successive approximations). If the
+rounds do not converge, the equations of the position are solved exactly (`bearing_equations`); only if they have no
+solution, the mechanism locks.
 
-Where the links of a joint do not move against each other at all, there is no friction.
+If the links of a joint do not move against each other at all, there is no friction.
 """
 
 from __future__ import annotations
@@ -31,19 +32,19 @@ from reportgen.machine.motion import LinkMotion, Motion, cross
 from reportgen.machine.senses import pace, sense_of
 
 STANDS = 1e-12
-"""Of the greatest reaction: what a round changes by less than this has come to stand."""
+"""A round that changes the reactions by less than this share of the greatest has converged."""
 MOST_ROUNDS = 40
 """Rounds that halve their change at least settle by then; for others the equations are solved."""
 
 
 @dataclass(frozen=True)
 class Friction:
-    """What joints have friction: the radius ρ (m) of the friction circle by pin, f by the slider of a guide."""
+    """The friction of the joints: the radius ρ (m) of the friction circle by pin, f by the slider of a guide."""
 
     circles: Mapping[str, float] = field(default_factory=dict)
     coefficients: Mapping[int, float] = field(default_factory=dict)
     faces: Mapping[int, Faces] = field(default_factory=dict)
-    """How wide sliders are, by their links: friction acts on each end that bears."""
+    """Faces of wide sliders, by their links: friction acts on each end that bears."""
 
     def joints(self, linkage: Linkage) -> tuple[Joint, ...]:
         """Return the joints that have friction, in the order of assembly."""
@@ -59,9 +60,9 @@ class FrictionForces:
     """Reactions and balancing torque with friction, and how they came out; arrays over positions [N]."""
 
     rounds: tuple[Forces, ...]
-    """The reactions of each round; the first are those without friction, the last have come to stand."""
+    """Reactions of each round; the first are those without friction, the last have converged."""
     loads: tuple[Load, ...]
-    """What friction does to each link of each joint: couples of pins, forces of guides."""
+    """Friction loads on each link of each joint: couples of pins, forces of guides."""
     held: Mapping[str, Flags]
     """The joints by their reactions, with the positions [N] at which theirs cannot be found: the mechanism locks."""
     exact: Flags
@@ -74,7 +75,7 @@ class FrictionForces:
 
     @property
     def stands(self) -> Flags:
-        """Where there are reactions with friction [N]; elsewhere the mechanism locks."""
+        """Flags [N]: True where reactions with friction exist; elsewhere the mechanism locks."""
         return np.asarray(~np.any(list(self.held.values()), axis=0))
 
     @property
@@ -84,7 +85,9 @@ class FrictionForces:
 
 
 def relative_motion(joint: Joint, motion: Motion) -> tuple[Floats, Floats]:
-    """How fast the second link of a joint turns (rad/s) or slides (m/s) against the first [N], and that rate's rate."""
+    """Return the rate at which a joint's second link turns (rad/s) or slides (m/s) against the first [N], and its
+    derivative.
+    """
     if joint.kind == "P":
         slide = motion.slides[joint.links]
         return slide.v, slide.a
@@ -94,10 +97,10 @@ def relative_motion(joint: Joint, motion: Motion) -> tuple[Floats, Floats]:
 
 
 def relative_sense(joint: Joint, motion: Motion) -> Floats:
-    """Return the sign of a joint's relative motion [N]; where that stands still, of the motion that follows.
+    """Return the sign of a joint's relative motion [N]; where it is at rest, that of the motion that follows.
 
-    It is 0 where neither is more than rounding beside how fast the whole mechanism moves: the links of the joint do not
-    move against each other.
+    It is 0 where neither is more than rounding compared with the speed of the whole mechanism: the links of the
+    joint do not move against each other.
     """
     rate, change = relative_motion(joint, motion)
     moves, hastens = pace(motion, joint.kind)
@@ -128,7 +131,8 @@ def pressing(friction: Friction, joint: Joint, motion: Motion, forces: Forces) -
 
 
 def _rubbing(friction: Friction, joint: Joint, sense: Floats, motion: Motion, pressed: Floats) -> tuple[Load, ...]:
-    """What friction does in a joint that is `pressed` together (N) [N], against the `sense` [N] of the motion in it.
+    """Return the friction loads of a joint that is `pressed` together (N) [N], against the `sense` [N] of the
+    motion in it.
 
     M = −sgn(ω_rel) ρ R of a pin, F = −sgn(v) f |N| along a guide, at the face of a wide slider.
     """

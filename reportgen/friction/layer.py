@@ -1,4 +1,4 @@
-"""The layer of friction on a moving machine: friction circles about pins, reactions tangent to them."""
+"""Page layer of friction on a moving machine: friction circles about pins, and the reactions tangent to them."""
 
 from __future__ import annotations
 

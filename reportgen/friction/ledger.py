@@ -1,9 +1,9 @@
-"""Friction in the joints as ledger entries: circles, couples and forces, rounds, torque and efficiency.
+"""Ledger entries for friction in the joints: circles, couples and forces, rounds, torque and efficiency.
 
-Of each joint that rubs: `friction.omega.12` how fast the second link turns against the first, `friction.R.12` the
-reaction with friction, `friction.M.12` = ρ R the couple of a pin, `friction.F.03` = f R the force of a guide,
-`friction.part.12` the torque that overcomes it.  The reactions are read off the force plans of their rounds; those of
-a round give the next torque by the balance of power,
+The entries of a joint with friction are: `friction.omega.12`, the rate at which the second link turns against the
+first; `friction.R.12`, the reaction with friction; `friction.M.12` = ρ R, the couple of a pin; `friction.F.03` = f
+R, the force of a guide; `friction.part.12`, the torque that overcomes it. The reactions are read off the force
+plans of their rounds; those of a round give the next torque by the balance of power,
 
     M = M₀ + Σ ρ R ω_rel/ω₁ + Σ f R v_rel/ω₁.
 """
@@ -45,7 +45,7 @@ class RubbingJoint:
 
     @property
     def is_pin(self) -> bool:
-        """Whether friction is a couple, about a pin."""
+        """True if friction is a couple about a pin."""
         return self.joint.kind == "R"
 
     @property

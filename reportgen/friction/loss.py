@@ -1,11 +1,11 @@
-"""The torque that friction takes from the crank over the cycle, for whatever turns the crank at a speed that varies.
+"""The torque that friction takes from the crank over the cycle, for drives whose speed varies.
 
-The friction of the joints follows their reactions at the planned speed ω₁: the power that is lost there, over ω₁, is
+The friction of the joints follows their reactions at the planned speed ω₁: the power lost there, divided by ω₁, is
 
     M_loss(φ) = |M_cb^fr| − |M_cb| = Σ ρ R ω_rel/ω₁ + Σ f R v_rel/ω₁,
 
-counted in the sense of rotation.  At the planned speed the balance of power with it is exact; the inertia forces of a
-speed that differs by a few hundredths change the friction by twice as much of their share in the reactions.
+counted in the sense of rotation. At the planned speed the balance of power with it is exact. The inertia forces of
+a speed that differs by a few hundredths change the friction by twice as much of their share in the reactions.
 """
 
 from __future__ import annotations
@@ -24,9 +24,9 @@ PARTS = 180
 ORDER = 6
 """Places in a part."""
 ACCURATE = 1e-9
-"""What the highest polynomials in a part may add to the torque, as a share of its greatest value."""
+"""Largest contribution of the highest polynomials in a part to the torque, as a share of its greatest value."""
 MOST_HALVINGS = 12
-"""How often a part is halved beside a corner that no law names, as where a slider begins to tilt."""
+"""Largest number of halvings of a part beside a corner that no law names, for example where a slider begins to tilt."""
 NODES = np.polynomial.legendre.leggauss(ORDER)[0]
 MODES = np.linalg.inv(np.polynomial.legendre.legvander(NODES, ORDER - 1))
 

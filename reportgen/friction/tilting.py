@@ -1,7 +1,7 @@
-"""Friction at both ends of a wide slider that tilts: what words and figures tell of its two face reactions.
+"""Friction at both ends of a wide slider that tilts: values for templates and figures about its two face reactions.
 
-Each of them leans from its normal by the angle of friction; their resultant does not, since the two normals are opposed
-and the two forces of friction are not.
+Each of them leans from its normal by the angle of friction; their resultant does not, since the two normals are
+opposed and the two forces of friction are not.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ class FaceForce:
 
 
 def face_forces(report: Report, joint: Joint, k: int) -> tuple[FaceForce, ...]:
-    """Those on the joint's second link at a position where it tilts with friction, else none."""
+    """Return the face forces on the joint's second link at a position where it tilts with friction, else ()."""
     friction, solved, link = friction_of(report.machine), with_friction(report.analysis), joint.links[1]
     if friction is None or solved is None or joint.kind != "P" or link not in friction.faces:
         return ()

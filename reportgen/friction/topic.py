@@ -1,4 +1,4 @@
-"""Friction in the joints as a file gives it: the pins with their friction circles, the sliders with their f."""
+"""The friction section of a machine's file: the pins with their friction circles, the sliders with their f."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ class PinFriction(Part):
 
 
 class JointFriction(Part):
-    """What joints rub: pins by their points, sliders by their links."""
+    """The joints that have friction: pins by their points, sliders by their links."""
 
     pins: Annotated[dict[Name, PinFriction], Field(max_length=MOST_LOADS)] = Field(default_factory=dict)
     sliders: Annotated[dict[Link, Coefficient], Field(max_length=MOST_LOADS)] = Field(default_factory=dict)

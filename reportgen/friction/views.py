@@ -1,4 +1,6 @@
-"""Friction in the joints: what templates name of each joint, the rounds, and the figures with friction circles."""
+"""Friction in a report: the values of each joint that templates name, the rounds, and the figures with friction
+circles.
+"""
 
 from __future__ import annotations
 
@@ -40,9 +42,9 @@ from reportgen.report.tables import QuantityTable, RowTable, bare
 from reportgen.report.topic_views import Passages, ViewHooks
 
 ENLARGED = 8.0
-"""The radius (mm) up to which a friction circle is drawn by itself."""
+"""Largest radius (mm) of an enlarged friction circle."""
 REACH = 22.0
-"""How far (mm) the lines of forces are drawn beyond the joints that they belong to."""
+"""Length (mm) by which the lines of forces are drawn beyond their joints."""
 CLOSING = "n"
 """The corner that closes a force plan."""
 ENLARGEMENTS = (2.0, 2.5, 4.0, 5.0, 10.0, 20.0, 25.0, 40.0, 50.0, 100.0, 200.0, 500.0, 1000.0)
@@ -51,7 +53,7 @@ ENLARGEMENTS = (2.0, 2.5, 4.0, 5.0, 10.0, 20.0, 25.0, 40.0, 50.0, 100.0, 200.0, 
 @view()
 @dataclass(frozen=True, slots=True)
 class Rubbing:
-    """A joint that rubs as words tell of it: the digits of its reaction, its pin or its slider."""
+    """A joint with friction as templates see it: the digits of its reaction, its pin or its slider."""
 
     of: RubbingJoint
     digits: str
@@ -84,12 +86,12 @@ def resting(report: Report) -> str:
 
 
 def solved_exactly(report: Report, k: int) -> bool:
-    """Whether the rounds do not settle at a position, and the equations are solved instead."""
+    """Return True if the rounds do not converge at a position, so that the equations are solved instead."""
     return bool(_found(report).exact[k - 1])
 
 
 def data(report: Report) -> Inlines:
-    """What is given of the joints that rub."""
+    """Return the given data of the joints with friction."""
     joints = rubbing(report)
     at = dict.fromkeys(str(each.point) if each.kind == "pin" else str(each.link) for each in joints)
     names = (friction_ids.coefficient, friction_ids.pin_radius, friction_ids.circle)
@@ -104,7 +106,7 @@ def loss_lines(report: Report) -> list[str]:
 
 
 def part_lines(report: Report) -> list[str]:
-    """What overcomes the friction of each joint, and the torque with all of it."""
+    """Return the ids of the parts that overcome the friction of each joint, and of the torque with all of it."""
     return [*(friction_ids.part(each.digits) for each in rubbing(report)), friction_ids.torque]
 
 
@@ -126,12 +128,12 @@ def angle_lines(report: Report) -> list[str]:
 
 
 def turning_lines(report: Report) -> list[str]:
-    """How fast the links of pins turn against each other, of those that both turn."""
+    """Return the ids of the relative rotations in pins, where both links turn."""
     return report.known(friction_ids.turning(each.digits) for each in rubbing(report))
 
 
 def drives(report: Report, k: int) -> str:
-    """Whether the driver drives at a position, so that it has an efficiency there, or is driven."""
+    """Return "drives" if the driver drives at a position, so that it has an efficiency there, else "driven"."""
     return "driven" if math.isnan(report.ledger.number(friction_ids.efficiency, k).value) else "drives"
 
 
@@ -141,9 +143,10 @@ def has_efficiency(report: Report, k: int) -> bool:
 
 
 def cycle(report: Report) -> str:
-    """What can be said of the efficiency over the cycle: the driver drives, is driven, is neither, or it locks.
+    """Return the state of the cycle for its efficiency: the driver "drives", is "driven", is neither ("even"), or
+    "locks".
 
-    Friction may also have "consumed" all that the machine gives.
+    Friction may also have "consumed" all work of the machine.
     """
     if friction_ids.mean not in report.ledger:
         return "locks"
@@ -205,7 +208,7 @@ def dead_rows(report: Report) -> Iterator[Sequence[object]]:
 
 @dataclass(frozen=True, slots=True)
 class JointForce:
-    """What a joint that rubs carries at a position: its force on the link that its name ends with, and where (m)."""
+    """Force in a joint with friction at a position, on the link that its name ends with, and its place (m)."""
 
     each: Rubbing
     force: complex
@@ -450,7 +453,7 @@ VALUES: Mapping[str, Callable[[Report], object]] = {
     "friction_resting": resting,
     "friction_turning": turning_lines,
 }
-"""What templates name of it without parentheses."""
+"""Values that templates name without parentheses."""
 
 FIGURES: Mapping[str, tuple[str, Callable[..., FigureScenes]]] = {
     "friction": ("fig.friction", scheme),

@@ -1,4 +1,4 @@
-"""The curves of the true motion of a machine, for its chapter and for the sheet of dynamics."""
+"""Curves of the true motion of a machine, for its chapter and for the sheet of dynamics."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from reportgen.report.report import Report
 THINNED = 3
 """Every third of the samples is enough for a curve."""
 BEYOND = 1.15
-"""How far beyond the fastest working point the characteristic is drawn, as a multiple of its speed."""
+"""End of the drawn characteristic, as a multiple of the speed of the fastest working point."""
 DRAWN = 241
 MOST = 4000
 """Samples of a long start or stop that its curves are drawn through."""

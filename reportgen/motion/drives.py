@@ -1,4 +1,4 @@
-"""What drives a machine or is driven by it: the torque of its shaft at any speed, as its characteristic gives it.
+"""Drives of a machine, or machines driven by it: the torque of the shaft at any speed, from a characteristic.
 
 Torques are in N·m, speeds in rad/s, both positive in the sense of the crank's rotation.
 """
@@ -43,7 +43,7 @@ class Drive(ABC):
 
     @property
     def governs(self) -> bool:
-        """Whether its torque depends on the speed, so that the speed settles by itself."""
+        """True if its torque depends on the speed, so that the speed converges without being prescribed."""
         return True
 
     @property
@@ -169,13 +169,13 @@ class Geared(Drive):
 
 @dataclass(frozen=True, slots=True)
 class MotionAsked:
-    """What is asked of the true motion of a machine.
+    """Request for the true motion of a machine.
 
-    `drive` as it acts on the crank, None for the constant torque that balances the mean of the loads; `inertia` (kg·m²)
-    of motor and gear there.  Cycle angles (rad) `start_from` where the machine starts from rest, `stop_from` where the
-    motor is switched off and the `brake` (N·m) acts; None where neither is asked for.  Start and stop have the flywheel
-    if `wheeled`.  `forces` asks for the forces at the true speeds and accelerations.  One of
-    the `motors` is chosen, behind a gear by which the crank turns `ratio` times as fast.
+    `drive` as it acts on the crank, None for the constant torque that balances the mean of the loads; `inertia`
+    (kg·m²) of motor and gear there. Cycle angles (rad): `start_from` where the machine starts from rest,
+    `stop_from` where the motor is switched off and the `brake` (N·m) acts; None if not requested. Start and stop
+    include the flywheel if `wheeled`. `forces` requests the forces at the true speeds and accelerations. One of the
+    `motors` is chosen, behind a gear by which the crank turns `ratio` times as fast.
     """
 
     drive: Drive | None

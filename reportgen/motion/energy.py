@@ -1,9 +1,9 @@
 """The equation of energy of a machine reduced to its crank, dT/dφ = M, along the way of the crank.
 
-With J the moment of inertia reduced to the crank and M = M_r(φ) + M_d(ω) the torque on it, T = ½Jω².  The way is
+With J the moment of inertia reduced to the crank and M = M_r(φ) + M_d(ω) the torque on it, T = ½Jω². The way is
 split where loads jump, and T is a polynomial in each part that fulfils the equation at the places of Gauss and
-Legendre (collocation).  Newton's method makes the equation linear about the T found before: each part then takes T to
-αT + β, and so does the whole cycle, whose fixed point β/(1 − α) is the steady motion.  Beside rest T is no polynomial
+Legendre (collocation). Newton's method makes the equation linear about the previous T. Each part then maps T to αT
++ β, and so does the whole cycle, whose fixed point β/(1 − α) is the steady motion. Near rest T is not a polynomial
 of the angle: there the motion is integrated in time (`machine.time_steps`).
 """
 
@@ -33,16 +33,18 @@ SAME_ANGLE = 1e-9
 SETTLED = 1e-13
 """Newton's way ends where T moves by less than this share of itself."""
 ROUNDING = 1e-9
-"""What moves less than this and no longer less from step to step is rounding."""
+"""Relative change below which a value that no longer decreases from step to step is rounding."""
 MOST_STEPS = 60
 MOST_CHANGE = 2.5
 """By what factor T may change in a part."""
 ACCURATE = 1e-8
-"""What the highest polynomials in a part may add to T and to the time, as a share; at its end both are far better."""
+"""Largest contribution of the highest polynomials in a part to T and to the time, as a share; at its end both are
+far better.
+"""
 FEW = 8
 """Parts that are tried at once first."""
 LEAST_ENERGY = 1e-12
-"""The share of the greatest energy below which none is taken, since the torque of a drive is told at a speed."""
+"""Smallest energy, as a share of the greatest, since the torque of a drive is evaluated at a speed."""
 LEFT = 1 / 4
 """No step of Newton's takes more of the energy at a place than leaves this share of it."""
 
@@ -126,7 +128,7 @@ class ReducedMachine:
 
     @property
     def yields(self) -> bool:
-        """Whether its loads push the crank back where they are stronger than the drive, rather than only resist it."""
+        """True if its loads can push the crank back where they exceed the drive; False if they only resist."""
         return not any(load.law.kind in ("opposing", "cutting") for load in self.machine.loads)
 
     def along(self, edges: Floats) -> ReducedWay:
@@ -172,7 +174,7 @@ class EnergyAlong:
     inside: Floats
 
     def first(self, count: int) -> EnergyAlong:
-        """That of the first parts."""
+        """Return the energy along the first parts."""
         return EnergyAlong(self.edges[: count + 1], self.inside[:count])
 
 
@@ -196,7 +198,7 @@ def energy_at_edges(first: float, alpha: Floats, beta: Floats) -> Floats:
 
 
 def _first_empty(edges: Floats, inside: Floats) -> int:
-    """Return the first part in which the energy comes to an end; the number of parts if none."""
+    """Return the first part in which the energy falls to zero; the number of parts if there is none."""
     empty = (inside <= 0).any(axis=1) | (edges[1:] <= 0)
     return int(empty.argmax()) if empty.any() else len(empty)
 

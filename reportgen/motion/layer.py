@@ -1,4 +1,4 @@
-"""The true motion of a machine on its page: steady running, start and stop in time, the working point of its drive."""
+"""Page layer of the true motion: steady running, start and stop in time, the working point of the drive."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""The true motion of a machine as entries of the ledger.
+"""Ledger entries for the true motion of a machine.
 
-What is integrated over the cycle is what the trapezoid rule makes of the positions, and the rest of the integral; the
-torque of the drive is a reading of its characteristic at the speed that is found.
+A value integrated over the cycle is the trapezoid rule over the positions plus the rest of the integral; the torque
+of the drive is read from its characteristic at the speed found.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from reportgen.motion.mistakes import mistakes
 from reportgen.motion.true_motion import TrueMotion, WheelState, at_positions, motion_in
 
 GIVEN = ("M0", "k", "Mk", "sk", "n0", "i", "J0", "brake")
-"""What a file gives of the drive, as these quantities of `run`."""
+"""Data of the drive given in a file, as quantities of `run`."""
 
 
 def enter(q: Sheet, analysis: Analysis) -> None:
@@ -62,7 +62,7 @@ def enter(q: Sheet, analysis: Analysis) -> None:
 
 
 def _slope(q: Sheet, analysis: Analysis) -> Expression:
-    """J′ = 2 Σ(m v_S a_S^v + J ω ε)/ω₁³; where that is too long for a line, each link's part is entered by itself."""
+    """Enter J′ = 2 Σ(m v_S a_S^v + J ω ε)/ω₁³; if that is too long for a line, each link's part is a separate entry."""
     ω1 = q["omega.1"]
     parts: dict[int, list[Expression]] = {}
     for body in analysis.machine.linkage.inertias:
@@ -217,7 +217,7 @@ class _Steady:
 
 
 def _start_and_stop(q: Sheet, motion: TrueMotion) -> None:
-    """How long the machine takes, and how far it turns, from rest to the steady motion and down to rest."""
+    """Enter the time and the angle that the machine takes from rest to the steady motion and down to rest."""
     if motion.started is not None:
         run = motion.started.run
         q.give("run.t.start", motion.started.time, Symbol("t", "md"), "time", exact=False)

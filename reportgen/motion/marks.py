@@ -1,4 +1,4 @@
-"""How far the true motion by the trapezoid rule over the positions lies from that by the whole curve."""
+"""Error of the true motion by the trapezoid rule over the positions, compared with the whole curve."""
 
 from __future__ import annotations
 
@@ -18,7 +18,8 @@ OF_CURVE = frozenset({"max", "min", "mean", "delta"})
 
 
 def errors_of_positions(ledger: Ledger) -> Mapping[str, np.ndarray]:
-    """How far what stands on integrals of the true motion is from what the rule makes of the positions.
+    """Return the errors of values that depend on integrals of the true motion, if the rule over the positions is
+    used.
 
     The bounds of the speed are those of its curve, wherever the positions lie.
     """

@@ -1,4 +1,4 @@
-"""Common mistakes in finding the true motion of a machine, as other definitions of quantities."""
+"""Common mistakes in the true motion of a machine, as alternative definitions of quantities."""
 
 from __future__ import annotations
 

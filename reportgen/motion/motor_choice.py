@@ -1,4 +1,4 @@
-"""The choice of a motor: what the steady motion asks of it, and each motor of the list with its checks."""
+"""The choice of a motor: the requirements of the steady motion, and each motor of the list with its checks."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def _checks(report: Report) -> Sequence[MotorChecks]:
 
 
 def has_motors(report: Report) -> bool:
-    """Whether motors are given to choose from."""
+    """Return True if motors are given to choose from."""
     return bool(_checks(report))
 
 
@@ -54,7 +54,7 @@ def motor_list(report: Report) -> Inlines:
 
 
 def demand_lines(report: Report) -> list[str]:
-    """What is asked of the motor, at the crank."""
+    """Return the ids of the requirements for the motor, at the crank."""
     return report.known(["run.Mmean", "run.Meff", "run.Mmost", "run.Mres"])
 
 

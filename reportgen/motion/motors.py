@@ -1,4 +1,4 @@
-"""Which of some motors is strong enough for a machine: by heating, at the start, at its greatest load."""
+"""Choose the motors that are strong enough for a machine: by heating, at the start, at its greatest load."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from reportgen.motion.running import SteadyMotion
 
 @dataclass(frozen=True, slots=True)
 class DriveDemand:
-    """What a steady motion asks of its drive, at the crank (N·m).
+    """Requirements of a steady motion for its drive, at the crank (N·m).
 
     `mean` over the angle and `effective`, the root of the mean square over time, of the torque of the drive; `most` of
     it, and the greatest `resistance` of the loads, against which the machine is to start.
@@ -26,7 +26,7 @@ class DriveDemand:
 
     @classmethod
     def of(cls, steady: SteadyMotion, whole: float) -> DriveDemand:
-        """That of a steady motion over a cycle of so many radians."""
+        """Return the requirements of a steady motion over a cycle of so many radians."""
         run = steady.run
         square = np.diff(run.time) @ (run.drive[1:] ** 2 + run.drive[:-1] ** 2) / 2
         return cls(
@@ -49,17 +49,17 @@ class MotorChecks:
 
     @property
     def endures(self) -> bool:
-        """Whether it does not grow too hot: M_eff ≤ M_n."""
+        """True if it does not overheat: M_eff ≤ M_n."""
         return self.demand.effective <= self.rated
 
     @property
     def starts(self) -> bool:
-        """Whether it starts against the greatest resistance."""
+        """True if it starts against the greatest resistance."""
         return self.start >= self.demand.resistance
 
     @property
     def holds(self) -> bool:
-        """Whether it is not overloaded at any moment: M_max ≤ M_k."""
+        """True if it is not overloaded at any moment: M_max ≤ M_k."""
         return self.demand.most <= self.breakdown
 
     @property

@@ -12,7 +12,9 @@ STATES = {"": "alone", "wheel": "with_flywheel"}
 
 
 def _at_positions(analysis: Analysis) -> list[Entries]:
-    """What holds at each position of the steady motion, by itself and with the flywheel; its reactions if asked for."""
+    """Return the results at each position of the steady motion, without and with the flywheel; its reactions if
+    requested.
+    """
     machine, motion = analysis.machine, motion_in(analysis)
     at = {state: at_positions(machine, steady) for state, steady in motion.states.items()}
     true = at_true_speeds(analysis, motion.states[motion.shown]) if motion.asked.forces else None
@@ -43,7 +45,7 @@ def _reactions(analysis: Analysis, k: int) -> Entries:
 
 
 def besides(analysis: Analysis) -> Entries:
-    """What the cycle comes to, start and stop, the choice of a motor."""
+    """Return the results of the cycle, start and stop, and the choice of a motor."""
     machine, motion = analysis.machine, motion_in(analysis)
     entries: dict[str, Any] = {
         STATES[state]: {

@@ -1,4 +1,4 @@
-"""The ids of the true motion of a machine, which begin with `run`, and what they say."""
+"""Ids of the true motion of a machine, which begin with `run`, with their vocabulary."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ quantity = Name("run.{quantity}[.{state}]")  # of the machine by itself, or with
 
 
 def in_state(name: str, state: str) -> str:
-    """Return the id of a quantity of the machine by itself, or with its flywheel."""
+    """Return the id of a quantity of the machine without, or with its flywheel."""
     return quantity(name, *([state] if state else []))
 
 

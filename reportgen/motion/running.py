@@ -1,7 +1,7 @@
-"""The steady motion of a machine under a drive, and a run of it over any way: ω(φ), ε(φ), t(φ).
+"""The steady motion of a machine under a drive, and its run over any way: ω(φ), ε(φ), t(φ).
 
-With J reduced to the crank and M = M_r(φ) + M_d(ω) the torque on it, T = ½Jω² grows by dT/dφ = M (`machine.energy`);
-then ω = √(2T/J),  ε = (M − ½ω²J′)/J,  dt = dφ/ω.
+With J reduced to the crank and M = M_r(φ) + M_d(ω) the torque on it, T = ½Jω² grows by dT/dφ = M
+(`machine.energy`); then ω = √(2T/J),  ε = (M − ½ω²J′)/J,  dt = dφ/ω.
 """
 
 from __future__ import annotations
@@ -39,9 +39,9 @@ from reportgen.motion.time_steps import TimeStepper, UnsettledError, times
 BALANCED = 1e-9
 """A mean torque below this share of the mean of its size is none."""
 MOST_CYCLES = 400
-"""A start that takes more cycles than this is told of instead."""
+"""Largest number of cycles of a start; a longer start is reported instead."""
 MOST_REFINED = 12
-"""How often a part of the cycle is halved in which T changes too much."""
+"""Largest number of halvings of a part of the cycle in which T changes too much."""
 HEAVIER = 4.0
 """By what factor the inertia grows until the steady motion is found, from which that of the machine itself follows."""
 MOST_HEAVIER = 12
@@ -184,11 +184,11 @@ def run_in_time(stepper: TimeStepper, angle: float, speed: float, edge: float) -
 def passage(
     body: ReducedMachine, edges: Floats, drive: Drive, speed: float, known: ReducedWay | None = None
 ) -> tuple[MotionRun, bool]:
-    """Return the run forward between edges (rad), along their way if it is `known`, and whether it comes to the last
-    of them.
+    """Return the run forward between edges (rad), along their way if it is `known`, and True if it reaches the last
+    one.
 
-    The speed at the first may be 0; then the torque there is positive.  The equation of energy serves as long as T is
-    as good as a polynomial of the angle, time for the rest.  Raises `NoMotionError`.
+    The speed at the first may be 0; then the torque there is positive. The equation of energy is used as long as T
+    is close to a polynomial of the angle, time steps for the rest. Raises `NoMotionError`.
     """
     path = known or body.along(edges)
     runs, at, stepper = list[MotionRun](), 0, TimeStepper(body, drive)
@@ -336,7 +336,9 @@ def steady(body: ReducedMachine, drive: Drive, speed: float, own: Sequence[float
 
 
 def _light(path: ReducedWay) -> NoMotionError | None:
-    """Return the error of a machine that has hardly any inertia somewhere, where T tells no speed."""
+    """Return an error if a machine has hardly any inertia at some angle, where T does not determine a speed; else
+    None.
+    """
     inside = path.inertia.ravel()
     if inside.min() > HARDLY * inside.max():
         return None
@@ -449,7 +451,7 @@ def _level(
 
 
 def _emptiest(path: ReducedWay, edges: Floats, inside: Floats) -> float:
-    """Where (rad) the energy is least."""
+    """Return the angle (rad) at which the energy is least."""
     return float(
         path.edges[int(edges.argmin())] if edges.min() < inside.min() else path.angle.ravel()[int(inside.argmin())]
     )

@@ -1,4 +1,4 @@
-"""A machine's start from rest under a drive, and its run-down to rest under a brake."""
+"""Start of a machine from rest under a drive, and its run-down to rest under a brake."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ def starting_ranges(body: ReducedMachine, drive: Drive) -> list[tuple[float, flo
 
 
 def _comes_through(body: ReducedMachine, drive: Drive, angle: float) -> bool:
-    """Whether a machine that starts from rest at an angle (rad) comes through a cycle."""
+    """Return True if a machine that starts from rest at an angle (rad) completes a cycle."""
     if not _moves(body, drive, angle):
         return False
     try:
@@ -123,12 +123,12 @@ def _first_cycle(body: ReducedMachine, drive: Drive, edges: Floats) -> tuple[Mot
 
 
 def _moves(body: ReducedMachine, drive: Drive, angle: float) -> bool:
-    """Whether the crank goes forward from rest at an angle (rad)."""
+    """Return True if the crank moves forward from rest at an angle (rad)."""
     return bool(body.reduced(np.array([angle]))[2][0] + drive.torque(np.zeros(1))[0] > 0)
 
 
 def _swing(body: ReducedMachine, drive: Drive, at: float) -> MotionRun | None:
-    """From rest at an angle (rad) back to where the crank comes to rest again; None if that is a cycle behind."""
+    """Return the run backwards from rest at an angle (rad) to the next rest; None if that is a cycle behind."""
     stepper, speed, runs = TimeStepper(body, drive, sense=-1), 0.0, list[MotionRun]()
     end = at - body.whole
     corners = np.concatenate([body.corners + turn * body.whole for turn in (-1, 0)])

@@ -1,8 +1,8 @@
-"""The motion of a machine integrated in time: for the way beside rest, and wherever the speed changes within a degree.
+"""The motion of a machine integrated in time: near rest, and wherever the speed changes within a degree.
 
-With J reduced to the crank and M = M_r(φ) + M_d(ω) the torque on it,  dφ/dt = ω,  dω/dt = ε = (M − ½ω²J′)/J.  In each
-step ω is a polynomial of time that fulfils the equation at the places of Gauss and Legendre (collocation), so a drive
-that settles within microseconds takes no shorter steps than the speed itself asks for.  A step ends where its time is
+With J reduced to the crank and M = M_r(φ) + M_d(ω) the torque on it,  dφ/dt = ω,  dω/dt = ε = (M − ½ω²J′)/J. In
+each step ω is a polynomial of time that fulfils the equation at the places of Gauss and Legendre (collocation). So
+a drive that settles within microseconds needs no shorter steps than the speed itself. A step ends when its time is
 over, at an angle, or where the crank comes to rest.
 """
 
@@ -21,11 +21,13 @@ SETTLED = 1e-13
 """The rounds of a step end where ω moves by less than this share of its greatest value in the step."""
 MOST_ROUNDS = 30
 ACCURATE = 1e-9
-"""What the highest of the polynomials in a step may add to ω, as a share of it; the end of the step is far better."""
+"""Largest contribution of the highest polynomials in a step to ω, as a share of it; the end of the step is far
+better.
+"""
 LONGEST = 0.05
 """The way of the first step (rad)."""
 GROWS, SHRINKS = 4.0, 0.1
-"""How many times as long as the step before it a step may be at most and at least."""
+"""Largest and smallest length of a step, as multiples of the step before it."""
 MOST_STEPS = 3000
 CREEPS = 1e-9
 """A crank slower than this share of its greatest speed on the way is at rest."""
@@ -69,7 +71,7 @@ class TimeStepper:
     sense: int = 1
 
     def reduced(self, angle: Floats) -> tuple[Floats, Floats, Floats]:
-        """J, J′ and M_r at angles [N] in the order in which the crank comes to them."""
+        """Return J, J′ and M_r at angles [N], in the order in which the crank reaches them."""
         if self.sense > 0:
             return self.body.reduced(angle)
         inertia, slope, torque = (values[::-1] for values in self.body.reduced(angle[::-1], -1))
@@ -99,7 +101,7 @@ class TimeStepper:
         raise UnsettledError(angle)
 
     def _first(self, angle: float, speed: float) -> float:
-        """How long the first step is tried (s): the way is short, the drive hardly changes."""
+        """Return a length for the first step (s): the way is short, and the drive hardly changes."""
         (J,), (slope,), (torque,) = self.reduced(np.array([angle]))
         ω = np.array([speed])
         ε = abs(float(torque + self.drive.torque(ω)[0] - speed**2 * slope / 2) / J)

@@ -1,4 +1,4 @@
-"""What a file asks of the true motion of a machine: the drive on its shaft, a start from rest, a stop under a brake."""
+"""The motion section of a file: the drive on the machine's shaft, a start from rest, a stop under a brake."""
 
 from __future__ import annotations
 
@@ -124,7 +124,7 @@ class DriveSection(Part):
 
     @property
     def i(self) -> float:
-        """How many times as fast as the motor the crank turns."""
+        """Ratio of the speeds of crank and motor."""
         return 1.0 if self.ratio is None else self.ratio.si
 
     @property
@@ -163,9 +163,9 @@ class StopSection(Part):
 
 
 class MotionSection(Part):
-    """What is asked of the true motion: always the steady one, start and stop where they are named.
+    """Request for the true motion: always the steady one; start and stop if they are named.
 
-    Start and stop have the `flywheel` if it is asked for; `forces` asks for those at the true speeds.
+    Start and stop include the `flywheel` if it is requested; `forces` requests those at the true speeds.
     """
 
     drive: DriveSection

@@ -1,4 +1,4 @@
-"""Accelerations, inertia forces and reactions of the true motion, beside those at constant speed."""
+"""Accelerations, inertia forces and reactions of the true motion, compared with those at constant speed."""
 
 from __future__ import annotations
 
@@ -20,20 +20,22 @@ WIDTHS = (36.0, 40.0, 40.0, 30.0)
 
 
 def asks_forces(report: Report) -> bool:
-    """Whether the forces of the true motion are asked for."""
+    """Return True if the forces of the true motion are requested."""
     motion = motion_in(report.analysis)
     return motion is not None and motion.asked.forces
 
 
 def forces_table(report: Report, key: str, caption: str, head: Sequence[str], k: Position) -> Table:
-    """What each is at a position at constant speed, and in the true motion, with its unit."""
+    """Return a table of values at a position, at constant speed and in the true motion, with their units."""
     motion = motion_of(report)
     true = at_true_speeds(report.analysis, motion.states[motion.shown])
     return list_table(report.prose, key, caption, head, list(_rows(report, true, k)), WIDTHS)
 
 
 def _rows(report: Report, true: Analysis, k: Position) -> Iterator[Sequence[object]]:
-    """Of points, links, inertia and joints what the report has at constant speed, which is as it is written there."""
+    """Yield rows for the quantities of points, links, inertia and joints that the report has at constant speed, as
+    printed there.
+    """
     values = {id: course for id, course in _courses(report, true) if id in report.ledger}
     greatest: dict[str, float] = {}
     for id, course in values.items():

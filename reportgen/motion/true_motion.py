@@ -1,4 +1,4 @@
-"""All that is asked of the true motion of a machine: steady with and without its flywheel, start and stop."""
+"""All requested parts of the true motion of a machine: steady with and without its flywheel, start and stop."""
 
 from __future__ import annotations
 
@@ -56,11 +56,13 @@ class TrueMotion:
         return abs(self.states[self.shown].mean / machine.speed - 1)
 
     def added(self, state: WheelState) -> float:
-        """What turns with the crank beside the links (kg·m²): motor and gear, the flywheel."""
+        """Return the inertia that turns with the crank besides the links (kg·m²): motor and gear, the flywheel."""
         return self.asked.inertia + (self.wheel if state else 0.0)
 
     def demand(self, machine: Machine) -> DriveDemand:
-        """What the steady motion asks of the drive, with the flywheel if start and stop have it."""
+        """Return the requirements for the drive in the steady motion, with the flywheel if start and stop include
+        it.
+        """
         return DriveDemand.of(self.states[self.shown], machine.turns * FULL_TURN)
 
     def motors(self, machine: Machine) -> list[MotorChecks]:
@@ -69,7 +71,7 @@ class TrueMotion:
 
     @property
     def shown(self) -> WheelState:
-        """Which of the two starts and stops."""
+        """State of the machine that starts and stops: "wheel" with the flywheel, else ""."""
         return "wheel" if self.asked.wheeled and self.wheeled is not None else ""
 
 
@@ -123,9 +125,10 @@ def _motion(analysis: Analysis) -> TrueMotion:
 
 
 def least_inertia(body: ReducedMachine, path: ReducedWay) -> tuple[float, float]:
-    """Return the cycle angle (rad) where the reduced moment of inertia is least, and that (kg·m²).
+    """Return the cycle angle (rad) where the reduced moment of inertia is least, and that value (kg·m²).
 
-    It is sought between the samples of the way, too: where all masses stand still it touches 0 at one angle alone.
+    It is also searched for between the samples of the way: if all masses are at rest, it touches 0 at a single
+    angle.
     """
     angles = np.concatenate((path.angle.ravel(), path.edges[:-1]))
     order = np.argsort(angles)

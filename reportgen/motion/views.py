@@ -1,4 +1,4 @@
-"""The chapter on the true motion of a machine: what its words name, its curves and tables."""
+"""The chapter on the true motion of a machine: the values that templates name, its curves and tables."""
 
 from __future__ import annotations
 
@@ -34,7 +34,9 @@ MOST_CYCLES = 12
 
 
 def drive_form(report: Report) -> str:
-    """How the drive is given: "linear", a "load", "kloss", "table", a "constant" torque, or one that is "found"."""
+    """Return the form of the drive: "linear", a "load", "kloss", "table", a "constant" torque, or one that is
+    "found".
+    """
     motion = motion_in(report.analysis)
     if not isinstance(motion.drive, ConstantDrive):
         if "run.k" in report.ledger:
@@ -44,7 +46,7 @@ def drive_form(report: Report) -> str:
 
 
 def governed(report: Report) -> bool:
-    """Whether the torque of the drive depends on the speed."""
+    """Return True if the torque of the drive depends on the speed."""
     return motion_in(report.analysis).drive.governs
 
 
@@ -56,7 +58,7 @@ def inertia_slopes(report: Report) -> list[str]:
 
 
 def characteristic_lines(report: Report) -> list[str]:
-    """What the formula of the characteristic gives at a speed."""
+    """Return the ids of the values that the formula of the characteristic gives at a speed."""
     return report.known(["run.slip", "run.Mc"])
 
 
@@ -66,7 +68,7 @@ def steady_lines(report: Report, k: int | None = None) -> list[str]:
 
 
 def bound_lines(report: Report, state: str = "") -> list[str]:
-    """What the cycle comes to: the mean of the bounds of the speed, their distance, the power."""
+    """Return the ids of the results of the cycle: the mean of the bounds of the speed, their distance, the power."""
     names = ("mean", "delta", "period", "work", "power")
     return report.known(run_ids.quantity(name, *([state] if state else [])) for name in names)
 
@@ -82,7 +84,7 @@ def _permitted(report: Report) -> float | None:
 
 
 def verdict(report: Report) -> str:
-    """Whether the true unevenness is "kept" within what is permitted, or "exceeded"; "" where nothing is permitted."""
+    """Return "kept" or "exceeded" for the true unevenness against the permitted one; "" if there is no limit."""
     if _permitted(report) is None:
         return ""
     return "exceeded" if _excess(report) > 0 else "kept"
@@ -103,7 +105,7 @@ def exceeded_by(report: Report) -> Inlines:
 
 
 def off_speed(report: Report) -> Inlines:
-    """How far the mean speed is from the planned one; nothing where it is near."""
+    """Return the deviation of the mean speed from the planned one, in percent; () if it is small."""
     share = motion_in(report.analysis).off_speed(report.machine)
     return (_percent(share),) if share > OFF_SPEED else ()
 
@@ -113,7 +115,7 @@ def _percent(share: float) -> Value:
 
 
 def with_wheel_or_alone(report: Report) -> str:
-    """Which of the two steady motions the verdict is about."""
+    """Return the steady motion that the verdict refers to, "wheel" or "alone"."""
     return "wheel" if has_wheeled(report) else "alone"
 
 
@@ -126,18 +128,20 @@ def stops(report: Report) -> bool:
 
 
 def drive_takes(report: Report) -> bool:
-    """Whether the machine drives what its shaft is coupled to, as an engine does, rather than being driven."""
+    """Return True if the machine drives the machine coupled to its shaft, as an engine does, rather than being
+    driven.
+    """
     return motion_in(report.analysis).alone.work < 0
 
 
 def starts_with(report: Report) -> str:
-    """Whether start and stop are those of the machine "alone" or with its "wheel"."""
+    """Return "wheel" if start and stop include the flywheel, else "alone"."""
     motion = motion_in(report.analysis)
     return "wheel" if motion.shown else "alone"
 
 
 def swings(report: Report) -> Inlines:
-    """Where the loads push the crank back as it starts; nothing where they do not."""
+    """Return the angles at which the loads push the crank back as it starts; () if there are none."""
     motion = motion_in(report.analysis)
     if motion.started is None:
         return ()
@@ -145,7 +149,7 @@ def swings(report: Report) -> Inlines:
 
 
 def cycles(report: Report) -> str:
-    """How many cycles the start takes."""
+    """Return the number of cycles that the start takes; "" without a start."""
     motion = motion_in(report.analysis)
     return "" if motion.started is None else str(len(motion.started.ends))
 
@@ -167,7 +171,7 @@ def _degrees(angle: float) -> Number:
 
 
 def extreme_places(report: Report, state: str = "") -> Mapping[str, Inlines]:
-    """Where the crank is fastest and slowest: its turn from the first position."""
+    """Return the angles at which the crank is fastest and slowest: its turn from the first position."""
     motion = motion_of(report)
     steady = motion.states["wheel" if state else ""]
     return {"fastest": _angle_of(steady.fastest.angle), "slowest": _angle_of(steady.slowest.angle)}
@@ -237,7 +241,7 @@ def _short(value: float, unit: str) -> Number:
 
 
 def step_equation(report: Report) -> Equation:
-    """How the speed goes on from a position to the next one, in symbols."""
+    """Return the equation for the speed at the next position, in symbols."""
     ω, J, M = Symbol("ω", "b"), Symbol("J"), Symbol("M")
     after = M * Symbol("Δφ") / (J * ω) + (3 * J - Symbol("J", "", "+")) * ω / (2 * J)
     return Equation((Chain((Symbol("ω", "b", "+"), after)),))
@@ -254,14 +258,18 @@ def reduced_here(report: Report) -> bool:
 
 
 def inertia_form(report: Report) -> str:
-    """Whether the reduced moment of inertia "varies", is "even", or there is only that of the motor, "none"."""
+    """Return the form of the reduced moment of inertia: it "varies", is "even", or there is only the motor's,
+    "none".
+    """
     if not report.has_reduced_inertia:
         return "none"
     return "varies" if inertia_slopes(report) else "even"
 
 
 def residuals(report: Report) -> dict[str, float]:
-    """How far the drive is from its characteristic, and a steady cycle from its beginning, as shares."""
+    """Return the deviations of the drive from its characteristic, and of a steady cycle from its beginning, as
+    shares.
+    """
     motion, families = motion_in(report.analysis), report.case.ledger.families
     closing = [abs(steady.run.energy[-1] / steady.run.energy[0] - 1) for steady in motion.states.values()]
     readings = [
