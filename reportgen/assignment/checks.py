@@ -86,7 +86,7 @@ class OneOf:
 
 
 def one_of(section: str, *names: str, required: bool = True, form: tuple[str, str] | None = None) -> OneOf:
-    """As `OneOf`, the names in place."""
+    """Return a `OneOf` check for these names."""
     return OneOf(section, names, required, form)
 
 
@@ -113,7 +113,7 @@ class SameLength:
 
 
 def same_length(section: str, key: str, rows: Sequence[str]) -> SameLength:
-    """As `SameLength`."""
+    """Return a `SameLength` check."""
     return SameLength(section, key, tuple(rows))
 
 
@@ -146,7 +146,7 @@ class Increasing:
 
 
 def increasing(section: str, key: str, first: float, last: float, unit: str = "") -> Increasing:
-    """As `Increasing`."""
+    """Return an `Increasing` check."""
     return Increasing(section, key, first, last, unit)
 
 
@@ -163,7 +163,7 @@ def _size(text: Any, unit: str) -> float | None:
 
 
 def worked_positions(turns: int, names: Labels | None = None) -> Check:
-    """Worked positions lie in the cycle of `turns` turns, each is named once."""
+    """Return a check that worked positions lie in the cycle of `turns` turns, and that each is named once."""
 
     def check(draft: Draft) -> Iterator[Finding]:
         report, positions = draft.sections.get("report"), draft.sections.get("positions")
@@ -186,7 +186,7 @@ def worked_positions(turns: int, names: Labels | None = None) -> Check:
 
 
 def school_of(path: Path) -> Check:
-    """The school's folder of the file at `path` lies beside it or below, with words in it, and there is one."""
+    """Return a check that the school's folder of the file at `path` exists beside it or below, and has words in it."""
 
     def check(draft: Draft) -> Iterator[Finding]:
         named, where = draft.at("report", "templates"), ("report", "templates")

@@ -48,7 +48,7 @@ class Part(BaseModel):
     @model_validator(mode="before")
     @classmethod
     def _without_empty(cls, content: Any) -> Any:
-        """A known key left empty is as good as none."""
+        """Drop known keys without a value, as if they were absent."""
         if not isinstance(content, dict):
             return content
         known = {field.alias or name for name, field in cls.model_fields.items()}
@@ -134,7 +134,7 @@ class Positions(Part):
 
 
 class Drawing(Part):
-    """Lengths on paper that were asked for; what is None is chosen."""
+    """Requested lengths on paper; None is chosen automatically."""
 
     crank: Annotated[Given, quantity("mm", least=0.1, most=150)] | None = None
 
@@ -216,10 +216,10 @@ class Kind:
 
 @dataclass(frozen=True, slots=True)
 class Assignment:
-    """An assignment file in order: text kept as typed, quantities in SI beside what was typed.
+    """A valid assignment file: text kept as typed, quantities in SI beside their typed text.
 
-    `parameters` and `indicator` are models of the kind's own; `turns` of the driver make a cycle;
-    `id` is the stem of the file.
+    `parameters` and `indicator` are models of the kind; `turns` of the driver make a cycle; `id` is the stem of the
+    file.
     """
 
     kind: str
@@ -278,7 +278,7 @@ class Assignment:
         return position
 
     def with_positions(self, count: int) -> Assignment:
-        """The same with `count` positions a turn; worked positions beyond the new cycle are dropped.
+        """Return the same with `count` positions a turn; worked positions beyond the new cycle are dropped.
 
         Raises `ValueError` for a count outside 4…360.
         """
@@ -363,7 +363,7 @@ PARTS = "parts"
 
 
 def sections(kind: Kind | None) -> dict[str, tuple[Any, Any]]:
-    """Keys of the file beside `kind`: type and default (`...`: required); None gives the common ones."""
+    """Return the keys of the file besides `kind`: type and default (`...`: required); None gives the common ones."""
     common: dict[str, tuple[Any, Any]] = {
         "variant": (OneLine, ""),
         "report": (ReportSection, ReportSection()),
@@ -391,9 +391,7 @@ def file_model(kind: Kind) -> type[Part]:
 
 
 def named_worked(report: ReportSection, positions: Positions) -> tuple[int | str, ...] | None:
-    """Return the positions written out in full as the file names them (None: all); of instants all, if it names
-    none.
-    """
+    """Return the positions written out in full as the file names them (None: all); all instants, if it names none."""
     untold = "worked_positions" not in report.model_fields_set
     return None if positions.at and untold else report.worked_positions
 
@@ -411,7 +409,7 @@ def labels_of(names: Labels | None, parameters: Any, positions: Positions, turns
 
 
 def number_of(named: int | str, labels: Sequence[str]) -> int:
-    """Return the number, from 1, of the position of a number or a label; 0 where there is none."""
+    """Return the number, from 1, of the position of a number or a label; 0 if there is no such position."""
     if isinstance(named, str):
         return labels.index(named) + 1 if named in labels else 0
     return named if named <= len(labels) else 0

@@ -86,7 +86,7 @@ class Interval:
         return {"range": f"{ends}{zero}", **{name: grouped(number) for name, number in shown.items()}}
 
     def require(self, value: float, text: str, unit: str = "", **hint: str) -> None:
-        """Raises the fault of a value (SI), typed as `text`, that does not lie here."""
+        """Raise the fault of a value (SI), typed as `text`, that is outside the interval."""
         if value not in self:
             raise fault("out-of-range", text=text, unit=f" {unit}" if unit else "", **self.words, **hint)
 

@@ -40,7 +40,7 @@ def read(
 ) -> tuple[list[AssignedPart], list[Fault]]:
     """Return the parts of a coursework's file, and all their faults.
 
-    `find` gives what the reader must know of a kind, `assess` the assignment of a part's nodes.
+    `find` returns the kind with this name, `assess` the assignment of a part's nodes.
     """
     parts: list[AssignedPart] = []
     faults: list[Fault] = []
@@ -83,7 +83,7 @@ def in_coursework(source: Source, path: Path, whole: Path, find: Callable[[str],
 
 
 def taking(source: Source, top: MappingNode, index: int, find: Callable[[str], Kind]) -> Source:
-    """Return a part with what it takes by the coursework's nodes, in order or not: what is not understood is left
+    """Return a part with the values it takes from the coursework's nodes, valid or not: unreadable ones are left
     out.
     """
     table = at(top, (PARTS, index, "from"))
@@ -127,8 +127,8 @@ def _named(top: Node | None, path: Path) -> Iterator[tuple[int, Path]]:
 
 
 def in_place(top: MappingNode, path: Path) -> tuple[MappingNode, dict[int, Source], list[Fault]]:
-    """Return a coursework's table with its parts in place of their files; these files by the part's number; what is
-    wrong.
+    """Return a coursework's table with its parts in place of their files; these files by the part's number; the
+    faults.
     """
     whole: Node = top
     listed = at(top, (PARTS,))
@@ -174,7 +174,7 @@ def is_frozen(path: Path, heads: Collection[str]) -> bool:
 
 
 def source_of(top: MappingNode, path: Path, index: int) -> tuple[Source, list[Fault]]:
-    """Return the nodes of a part by its number, and what keeps its file from being read."""
+    """Return the nodes of a part by its number, and the faults that prevent reading its file."""
     table = at(top, (PARTS, index))
     assert isinstance(table, MappingNode), "the list of parts is in order"
     place = table.find("file")
@@ -202,7 +202,7 @@ def _completed(
     factors: Mapping[str, float | None],
     find: Callable[[str], Kind],
 ) -> tuple[Source, list[Fault]]:
-    """Return the part with what it takes, so many times by its key, and with the driver's sense if it sits on that
+    """Return the part with the values it takes, multiplied by key, and with the driver's sense if it is on that
     shaft.
     """
     source, faults = _with_taken(source, top, index, taken, factors)
@@ -263,7 +263,7 @@ def place_of(name: str) -> Where:
 
 
 def scaled(text: str, times: float) -> str:
-    """Return a quantity as typed, so many times as large, in its own unit; what is no quantity stays."""
+    """Return a quantity as typed, multiplied, in its own unit; any other text stays unchanged."""
     typed = _TYPED.fullmatch(text)
     return f"{float(typed[1]) * times:.12g}{typed[2]}" if typed else text
 

@@ -41,7 +41,7 @@ def assess(
 ) -> tuple[Assignment | None, list[Fault]]:
     """Return the assignment of nodes that were read from `path` or put together from several files; else its faults.
 
-    `kinds` are those that a file may name; `find` gives what the reader must know of one of them.
+    `kinds` are those that a file may name; `find` returns the data of one of them.
     """
     top, faults = _top(source)
     if top is None:
@@ -87,8 +87,7 @@ def name_faults(path: Path) -> Iterator[Fault]:
 
 
 def inputs(path: Path) -> tuple[bytes, dict[str, bytes]]:
-    """Return an assignment file, and what it names beside itself by the ways from there: a school's words, files of
-    parts.
+    """Return an assignment file, and the files it names, by their relative paths: a school's words, files of parts.
 
     Raises `OSError` for a file that cannot be read.
     """
@@ -109,7 +108,7 @@ def words_beside(path: Path) -> dict[str, bytes]:
 
 
 def read_model(path: Path, model: type[Model], language: Language | None = None) -> Model:
-    """Return the content of a file that is no assignment, e.g. a marking policy.
+    """Return the content of a file other than an assignment, e.g. a marking policy.
 
     Raises `AssignmentError` with every fault of the file.
     """
@@ -125,7 +124,7 @@ def read_model(path: Path, model: type[Model], language: Language | None = None)
 
 
 def placed(source: Source, findings: Iterable[Finding]) -> list[Fault]:
-    """Findings with their marks in a file that was read."""
+    """Return findings with their marks in a file that was read."""
     top = _top(source)[0]
     return [] if top is None else [_placed(finding, top) for finding in findings]
 
@@ -140,12 +139,14 @@ WORDED = frozenset({"kind", "variant", "report", "sheet", "title", "file", "salt
 
 
 def doubtful(source: Source) -> Iterator[Fault]:
-    """Keys without a value, and numbers that may be meant as thousands, 1.400 N: how both are read."""
+    """Yield notes on keys without a value, and on numbers that may be meant as thousands, 1.400 N, with their
+    reading.
+    """
     yield from _doubtful(source.top)
 
 
 def doubtful_parts(source: Source, path: Path) -> Iterator[Fault]:
-    """As `doubtful`, of the files of a coursework's parts."""
+    """Yield the same as `doubtful` for the files of a coursework's parts."""
     for file in parts.files(source, path):
         yield from doubtful(read_source(file))
 
@@ -227,9 +228,10 @@ def _given(kind: Kind, raw: Mapping[str, Any]) -> Kind:
 def _section(
     key: str, type_: Any, content: Any, whole: Callable[[], Mapping[str, tuple[Any, Any]]]
 ) -> tuple[Any, list[Finding]]:
-    """Return the section's value (None if it has none) and its faults; unknown keys alone do not spoil the value.
+    """Return the section's value (None if it has none) and its faults; unknown keys alone do not invalidate the
+    value.
 
-    `whole` gives the sections with all topics, among whose keys the one that an unknown key means is looked for.
+    `whole` returns the sections with all topics; an unknown key is compared with all their keys.
     """
     adapter: TypeAdapter[Any] = TypeAdapter(type_)
     try:

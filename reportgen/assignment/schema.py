@@ -93,7 +93,7 @@ def _as_draft_07(part: Any) -> Any:
 
 
 def _tell_checks(part: Schema, root: Schema, kind: Kind) -> None:
-    """Put into the schema what the checks of a kind say of several keys."""
+    """Add the rules of a kind's checks about several keys to the schema."""
     for check in kind.all_checks:
         match check:
             case OneOf(names=names, required=required, form=form):
@@ -181,13 +181,13 @@ def choices_of(schema: Schema) -> list[str]:
 
 
 def alternatives_to(kind: Kind, path: Sequence[str]) -> list[str]:
-    """Return the other keys by which the same may be said as by that of a path."""
+    """Return the other keys with the same meaning as that of a path."""
     checks = (check for check in kind.all_checks if isinstance(check, OneOf) and check.where == tuple(path[:-1]))
     return [name for check in checks if path[-1] in check.names for name in check.names if name != path[-1]]
 
 
 def keys_at(schema: Schema, where: Where) -> list[str]:
-    """Keys that a JSON Schema allows at a place; of alternatives, all their keys."""
+    """Return the keys that a JSON Schema allows at a place; for alternatives, all their keys."""
     return list(
         dict.fromkeys(name for schema in places(schema, schema, where) for name in schema.get("properties", {}))
     )

@@ -41,7 +41,7 @@ ROUNDING = 1e-15
 ON_THE_CIRCLE = 1e-12
 """Largest distance of a point outside a circle, as a share of its radius, that counts as on the circle."""
 NEIGHBOURS = 1.5
-"""Places of the curve within so many steps belong to one point of touch."""
+"""Places of the curve within so many steps belong to one touching point."""
 REFINEMENTS = 40
 SETTLED = 1e-12
 """A step (rad) below which a point of touch is found."""
@@ -74,8 +74,8 @@ def shaking_moment(linkage: Linkage, motion: Motion) -> Floats:
 
 
 def frame_reactions(linkage: Linkage, motion: Motion) -> Complexes:
-    """Return the sum of the forces (N) [N] on the frame in all its joints when nothing but inertia acts: F once
-    more.
+    """Return the sum of the forces (N) [N] on the frame in all its joints if only inertia acts: F, computed in
+    another way.
     """
     reactions = solve_forces(linkage, motion, inertia_loads(linkage, motion)).reactions
     on_frame = [joint.links[1] for joint in joints(linkage) if joint.links[0] == GROUND]
@@ -274,7 +274,7 @@ def smallest_round(curve: CrankCurve) -> SmallestCircle:
 
 
 def _merged(touching: Floats, near: float) -> Floats:
-    """Places θ (rad), those on both sides of one point of touch, which are `near` each other (rad), taken as one."""
+    """Return places θ (rad) with those `near` each other (rad), on both sides of one touching point, merged."""
     kept: list[float] = []
     for angle in np.sort(np.mod(touching, FULL_TURN)):
         if kept and angle - kept[-1] < near:
@@ -288,7 +288,7 @@ def _merged(touching: Floats, near: float) -> Floats:
 
 
 def _refined(curve: CrankCurve, touching: Floats) -> Floats:
-    """Places θ (rad) near these at which the circle on the curve's points there touches the curve.
+    """Return the places θ (rad) near these at which the circle on the curve's points there touches the curve.
 
     Touching means (c − z) ⊥ c′ at each; Newton's method, with differences for its derivatives.
     """
@@ -315,7 +315,7 @@ def _refined(curve: CrankCurve, touching: Floats) -> Floats:
 # --- a turn with what balances it -------------------------------------------------------------------
 
 NOTHING = 1e-9
-"""A counterweight below this share of all masses at the crank's pin is none."""
+"""A counterweight below this share of all masses at the crank's pin is zero."""
 FINE = 720
 """Places of a cycle's turn at which torques and moments with and without counterweights are compared."""
 
@@ -351,7 +351,7 @@ class BalancedTurn:
 
 
 def counterweight(machine: Machine, curve: CrankCurve, rule: CounterweightRule, share: float) -> complex:
-    """U (kg·m) of the counterweight on the crank by a rule, in the crank's frame."""
+    """Return U (kg·m) of the counterweight on the crank by a rule, in the crank's frame."""
     match rule:
         case "rms":
             return -curve.mean

@@ -23,7 +23,7 @@ ARM = 1.0
 
 @dataclass(frozen=True, slots=True)
 class CounterweightDisc:
-    """A counterweight: its centre and the centre of its link (m), its mass (kg), what it is called."""
+    """A counterweight: its centre and the centre of its link (m), its mass (kg), its label."""
 
     at: complex
     pivot: complex

@@ -162,7 +162,8 @@ def four_bar(linkage: Linkage) -> Dyad | None:
 
 
 def force_balance(linkage: Linkage) -> Mapping[int, complex]:
-    """U (kg·m) of the counterweights on crank and rocker with which a four-bar's mass centre rests, in their frames.
+    """Return U (kg·m) of the counterweights on crank and rocker with which a four-bar's mass centre rests, in
+    their frames.
 
     With u the complex place of a link's mass centre in its frame and a, b, c the lengths of crank, coupler, rocker:
     U₁ = −(m₁u₁ + m₂a(1 − u₂/b)), U₃ = −(m₃u₃ + m₂c u₂/b)   (Berkof and Lowen 1969).

@@ -20,7 +20,7 @@ PART = "orders"
 HAS_POSITIONS = False
 TOP = ("parameters",)
 SHORTEST = 1.2
-"""A rod is at least so many times as long as the crank: a shorter one cannot pass it."""
+"""Smallest ratio of rod to crank: a shorter rod cannot pass the crank."""
 
 
 def case(assignment: Assignment) -> EngineCase:

@@ -141,7 +141,7 @@ class EngineCase(SolvedEngine):
 
     @cached_property
     def entries(self) -> ResultEntries:
-        """Forces and couples by orders, the counterweight and what it leaves."""
+        """Forces and couples by orders, the counterweight and the remaining values."""
         ledger = self.ledger
         orders: dict[str, Any] = {}
         for order in ORDERS:
@@ -160,7 +160,7 @@ class EngineCase(SolvedEngine):
         return (engine_motion.animation(self),)
 
     def plates(self, sets: Collection[str] = (), every: bool = False) -> Mapping[str, Sequence[DrawingPlate]]:
-        """Return its scheme, its stars and its results; there are no sets of them to choose from."""
+        """Return its scheme, its stars and its results; `sets` is ignored, since there is only one."""
         table = drawn(EnginePage(self).result, self.assignment.language)
         title = self.words["orders"]["captions"]["result"]
         return {"orders": [*engine_drawings.plates(self), DrawingPlate(title, (), "tables", (table,), spare=True)]}

@@ -142,7 +142,7 @@ def _shaft(case: SolvedEngine, size: FigureSize) -> tuple[Canvas, Chain]:
 
 
 def star(case: SolvedEngine, letter: str, order: int, size: FigureSize = IN_REPORT) -> Scene:
-    """Return the vectors of all cylinders one after another with the crank at 0, and what closes them."""
+    """Return the vectors of all cylinders one after another with the crank at 0, and the vector that closes them."""
     ledger = case.printed
     scale = orders_ids.scale(letter)
     μ = ledger.number(scale)
@@ -174,7 +174,7 @@ FIGURES: Mapping[str, tuple[str, DrawEngine]] = {
     "forces": ("plans", lambda case, size: stars(case, case.stars["forces"], size)),
     "couples": ("plans", lambda case, size: stars(case, case.stars["couples"], size)),
 }
-"""The layer of each figure on a sheet, and what draws it."""
+"""Layer of each figure on a sheet, and the function that draws it."""
 
 
 def plates(case: SolvedEngine) -> Iterator[DrawingPlate]:

@@ -99,7 +99,7 @@ class EngineSheet:
         q.set_out("amplitude", q.define("orders.K", m_rec * q["orders.r"] * ω**2))
 
     def _enter_arms(self) -> None:
-        """From the middle between the first and the last cylinder."""
+        """Enter the arms of the cylinders, from the middle between the first and the last one."""
         q, given = self.q, self.given
         if not given.has_length:
             return
@@ -145,7 +145,7 @@ class EngineSheet:
         return angles
 
     def _weight(self, of: Expression) -> float:
-        """Return a vector's weight in its star: 1 where its pieces are alike, else what is entered for its cylinder."""
+        """Return a vector's weight in its star: 1 if all are alike, else the value entered for its cylinder."""
         return self.q.si(of) if isinstance(of, Ref) else 1.0
 
     def _extent(self, weights: Mapping[str, Expression], directions: Mapping[str, Ref]) -> float:
@@ -172,7 +172,9 @@ class EngineSheet:
                 q.set_out(line, q.define(family(order), abs_of(order, size), scale=of_all))
 
     def _enter_counterweight(self) -> None:
-        """(m_A + ½ m_rec) r f₁ against the star f₁ takes all that turns with the crank at its speed."""
+        """Enter the counterweight (m_A + ½ m_rec) r f₁ against the star f₁, which balances all force turning with
+        the crank.
+        """
         q = self.q
         f = q[names.resultant("f", 1)]
         r, m, ω = q["orders.r"], q["orders.m"], q["orders.omega"]
@@ -191,9 +193,11 @@ class EngineSheet:
             self._enter_couple_of_counterweights(turning)
 
     def _enter_couple_of_counterweights(self, turning: Expression) -> None:
-        """The couple m_A r ω² p₁ of the rotating masses; what counterweights with a couple against p₁ take and leave.
+        """Enter the couple m_A r ω² p₁ of the rotating masses, and the effect of counterweights with a couple
+        against p₁.
 
-        (m_A + ½ m_rec) r p₁ takes all that turns with the crank: all of the first order where the star q₁ is closed.
+        (m_A + ½ m_rec) r p₁ balances everything that turns with the crank: all of the first order if the star q₁ is
+        closed.
         """
         q = self.q
         p = q[names.resultant("p", 1)]

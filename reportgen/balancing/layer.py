@@ -23,7 +23,7 @@ from reportgen.report.report import Report
 LAYERS = ("shaking", "balanced")
 """Without counterweights and with them."""
 NOTHING = 1e-9
-"""A force below this share of what it was without counterweights is not drawn."""
+"""A force below this share of the one without counterweights is not drawn."""
 DISC = 2.4
 """Radius of a counterweight as it is drawn (mm)."""
 
@@ -92,7 +92,9 @@ def with_room(report: Report, motion: Motion, scale: float, box: tuple[complex, 
 
 
 def values(report: Report, motion: Motion) -> Iterator[tuple[Symbol, str, Floats]]:
-    """Yield the sizes of these forces and the moment on the frame: symbol, kind, values [N]; none if not asked for."""
+    """Yield the sizes of these forces and the moment on the frame: symbol, kind, values [N]; nothing if not
+    requested.
+    """
     turn, ledger = balanced_in(report.analysis), report.ledger
     for _, id, force in forces(turn, motion):
         yield ledger.symbol(id), "force", np.abs(force)

@@ -56,13 +56,13 @@ from reportgen.machine.motion import unit as unit_vector
 AXES = ("x", "y")
 BEFORE, AFTER = "before", "after"
 LETTERS: Mapping[str, str] = {"rms": "rms", "max": "max", "rotating": "quay", "share": "tl"}
-"""The indices of what belongs to a rule."""
+"""Indices of the symbols of a rule."""
 ON_ITS_LINK = 1e-12
-"""A component below this share of a length is nothing."""
+"""A component below this share of a length is zero."""
 
 
 def enter(q: Sheet, analysis: Analysis) -> None:
-    """Enter force and moment on the frame, and the counterweights that are asked for with what they change."""
+    """Enter force and moment on the frame, and the requested counterweights with their effects."""
     turn = balanced_in(analysis)
     entry = _Entry(q, analysis, turn)
     with q.within(Chapter("balancing")):
@@ -163,7 +163,7 @@ class _Entry:
     # --- a counterweight on the crank
 
     def rules(self) -> None:
-        """U and its angle by each rule; what the crank sees of F at the positions."""
+        """Enter U and its angle by each rule, and F as seen from the crank at the positions."""
         q, φ, ω = self.q, self.q["phi.1"], self.q["omega.1"]
         F_x, F_y = (q[balance_ids.component(axis)] for axis in AXES)
         q.define(balance_ids.seen("x"), (F_x * cos(φ) + F_y * sin(φ)) / ω**2, scale=self.unbalance)
@@ -200,7 +200,7 @@ class _Entry:
         q.define(balance_ids.rule_angle(name), heading(x + turned(y)), symbol, "angle", scale=1.0, of=U.id)
 
     def _mean(self) -> Sequence[Expression]:
-        """Minus the mean of what the crank sees, which the positions give nearly."""
+        """Return minus the mean of F as seen from the crank, nearly that of the positions."""
         q, mean = self.q, self.turn.curve.mean
         values = zip(AXES, (mean.real, mean.imag), strict=True)
         means = [
@@ -250,7 +250,9 @@ class _Entry:
         return [-call("re", centre), -call("im", centre)]
 
     def _shares(self, share: Operand) -> Sequence[Expression]:
-        """Against what turns with the crank, and a share of what goes to and fro, taken at the crank's pins."""
+        """Return the terms against the masses that turn with the crank, and a share of the reciprocating ones at
+        its pins.
+        """
         q = self.q
         terms: tuple[list[Expression], list[Expression]] = ([], [])
 
@@ -282,7 +284,7 @@ class _Entry:
         return arm, q.find(id) or q.give(id, float(np.angle(place)))
 
     def point_masses(self, rod: CrankRod) -> tuple[Expression, Expression]:
-        """m_A and what goes to and fro: m_B and the slider's mass; each entered once."""
+        """Return m_A and the reciprocating mass, m_B and the slider's mass; each is entered once."""
         q, m, slider = self.q, self.q.find(ids.mass(rod.rod)), self.q.find(ids.mass(rod.slider)) or NOTHING
         if m is None:
             return NOTHING, slider
@@ -341,7 +343,7 @@ class _Entry:
         return tuple(weight.link for weight in self.turn.weights)
 
     def carried_out(self) -> None:
-        """Each counterweight's U, mass and weight; at the positions what is left of the force, R₀₁ and M_cb."""
+        """Enter each counterweight's U, mass and weight, and at the positions the remaining force, R₀₁ and M_cb."""
         q, φ = self.q, self.q["phi.1"]
         radius = q[balance_ids.RADIUS]
         heavy = self.unbalance / q.si(radius)
@@ -377,9 +379,10 @@ class _Entry:
         q.define(balance_ids.AFTER_REACTION, abs(held if G is None else held + turned(G)), scale=self.force)
 
     def _torque_after(self, radius: Ref) -> None:
-        """M_cb with the counterweights: their weights have moments, and one that does not turn evenly has inertia.
+        """Enter M_cb with the counterweights: their weights have moments, and one that does not turn evenly has
+        inertia.
 
-        One on another link is held by M_c = m r² ε + G x, which the crank gives by M_c ω/ω₁.
+        A counterweight on another link needs M_c = m r² ε + G x, which the crank provides by M_c ω/ω₁.
         """
         q, machine = self.q, self.analysis.machine
         torque: list[Expression] = [q["M.eq"]]
@@ -412,7 +415,9 @@ class _Entry:
     # --- over the turn
 
     def over_the_turn(self) -> None:
-        """The greatest and the mean F of the turn without a counterweight and by each rule; what else changes."""
+        """Enter the greatest and the mean F of the turn without a counterweight and by each rule, and the other
+        changes.
+        """
         q, curve, ω2 = self.q, self.turn.curve, self.analysis.machine.speed**2
         F = q[balance_ids.component("x")] + turned(q[balance_ids.component("y")])
         self._of_force(BEFORE, F, curve.greatest()[0] * ω2, curve.rms() * ω2)
@@ -450,7 +455,7 @@ class _Entry:
         )
 
     def _costs(self) -> None:
-        """The greatest |M| and |M_cb| and the masses, without and with what is carried out."""
+        """Enter the greatest |M| and |M_cb| and the masses, without and with the applied counterweights."""
         q, cycles = self.q, self.turn.cycles
         entered = {"M": (balance_ids.MOMENT, balance_ids.AFTER_MOMENT), "cb": ("M.eq", balance_ids.AFTER_TORQUE)}
         for quantity, pair in entered.items():

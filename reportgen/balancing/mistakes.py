@@ -39,7 +39,9 @@ def mistakes(ledger: Ledger, machine: Machine) -> Changed:
 
 
 def _of_all(ledger: Ledger, definition: Expression) -> Expression:
-    """The share taken of the masses that turn, too: κ(m_A + m_B + m) in place of m_A + κ(m_B + m)."""
+    """Return the definition with the mistake that the share includes the rotating masses: κ(m_A + m_B + m) in
+    place of m_A + κ(m_B + m).
+    """
     κ = Ref(balance_ids.SHARE)
     # What is left at the crank's pin stands on the mass at the other end.
     turning = [

@@ -35,7 +35,7 @@ PointMasses = Callable[[CrankRod], tuple[Expression, Expression]]
 
 
 def enter_orders(q: Sheet, analysis: Analysis, curve: CrankCurve, force: float, point_masses: PointMasses) -> None:
-    """Enter the orders of an engine, or of another machine of rods and sliders; `force` (N) is what counts as one."""
+    """Enter the orders of an engine, or of another machine of rods and sliders; `force` (N) is a reference size."""
     linkage = analysis.machine.linkage
     layout = engine(linkage)
     if layout is not None and isinstance(linkage.driver, Crank):
@@ -76,7 +76,7 @@ def _of_engine(q: Sheet, layout: Engine, centre: str, point_masses: PointMasses)
 
 
 def _size(factor: Expression, order: int) -> Expression:
-    """|A_n|: the fourth order is negative."""
+    """Return |A_n|: the fourth order is negative."""
     return -factor if order == 4 else factor
 
 

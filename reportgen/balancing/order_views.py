@@ -36,7 +36,7 @@ def orders_state(report: Report) -> str:
 
 
 def factor_lines(report: Report) -> list[str]:
-    """λ, the orders of a piston's acceleration by the series, the mass that goes to and fro."""
+    """Return the ids of λ, the orders of a piston's acceleration by the series, and the reciprocating mass."""
     series = (balance_ids.series(order) for order in EXACT)
     masses = [id for id in report.ledger.families if id in balance_ids.point_mass]
     first = masses if masses and not _told_later(report) else []
@@ -65,7 +65,7 @@ def order_lines(report: Report) -> list[str]:
 
 
 def factors_table(report: Report) -> Iterator[Sequence[object]]:
-    """A_n exactly, by the series, and what this is off by."""
+    """Yield rows of A_n: exactly, by the series, and the error of the series."""
     yield "1", (Value(Number(1.0)),), (Value(Number(1.0)),), (Value(Number(0.0)),)
     for order in EXACT:
         ids = balance_ids.factor(order), balance_ids.series(order), balance_ids.series_error(order)

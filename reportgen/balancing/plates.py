@@ -11,7 +11,7 @@ from reportgen.sheets.topic_plates import PlateHooks
 
 
 def _balancing(sources: Sources) -> Iterator[Drawn]:
-    """Yield the hodographs of the force on the frame, and what the crank sees of it."""
+    """Yield the hodographs of the force on the frame, and its curve as seen from the crank."""
     small = sources.small
     turn = balanced_in(small.analysis)
     yield Drawn("hodograph", "curves", views.hodograph(small).scenes)

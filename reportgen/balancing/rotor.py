@@ -25,7 +25,7 @@ TOP = ("parameters",)
 NEEDS: Mapping[str, tuple[str, ...]] = {"bearings": ("n",), "grade": ("mass", "n", "bearings")}
 """Other keys that a key requires."""
 BALANCED = 1e-9
-"""A share of all unbalance that is nothing."""
+"""An unbalance below this share of all unbalance is zero."""
 
 
 def case(assignment: Assignment) -> RotorCase:
@@ -58,7 +58,9 @@ def table_rows(position: Mapping[str, Any]) -> dict[str, dict[str, float | None]
 
 
 def check(given: Parameters) -> Iterator[Finding]:
-    """Planes and bearings from left to right, what a key asks for besides, and that something is to be balanced."""
+    """Yield faults unless planes and bearings go from left to right, required keys exist, and something needs
+    balancing.
+    """
     planes, bearings = given.planes, given.bearings
     if planes.B is not None and planes.B.si <= planes.A.si:
         yield Finding("rotor-places", (*TOP, "planes", "B"), {"left": planes.A.text, "right": planes.B.text})

@@ -27,7 +27,7 @@ from reportgen.sheets.plates import drawn
 OF_BEARING = rotor_ids.at_bearing, rotor_ids.bearing_force
 """Ids of the load of each bearing."""
 WORKED = 6
-"""Products of so many masses are written out; of more masses the table has all of them, and a line is of the first."""
+"""Largest number of masses whose products are written out; with more, the table has all and a line shows the first."""
 
 
 @dataclass(frozen=True)
@@ -95,7 +95,7 @@ class RotorPage(PlacesPage[SolvedRotor]):
         return not self.case.two_planes and any(printed[id].at(1) for id in parts if id in printed)
 
     def closing(self, of: str, masses: Sequence[str]) -> Equation:
-        """Return the vectors of a plan, whose sum is nothing: those of the masses and of the corrections."""
+        """Return the vectors of a plan, whose sum is zero: those of the masses and of the corrections."""
         vectors = [Symbol(of, place, over="vector") for place in masses]
         if len(vectors) > WORKED:
             vectors = [*vectors[:2], Symbol("…"), vectors[-1]]
@@ -193,7 +193,7 @@ class RotorCase(SolvedRotor):
 
     @cached_property
     def entries(self) -> ResultEntries:
-        """The corrections in their planes, and what the bearings bear before and after."""
+        """The corrections in their planes, and the loads of the bearings before and after."""
         position: dict[str, Any] = {"number": 1, "corrections": {}}
         for plane in self.planes:
             size = self.ledger[rotor_ids.unbalance(plane)].at(1)
@@ -216,7 +216,7 @@ class RotorCase(SolvedRotor):
         return (rotor_motion.animation(self),)
 
     def plates(self, sets: Collection[str] = (), every: bool = False) -> Mapping[str, Sequence[DrawingPlate]]:
-        """Return its scheme, its plans and its tables; there are no sets of them to choose from."""
+        """Return its scheme, its plans and its tables; `sets` is ignored, since there is only one."""
         return {"rotor": [*rotor_drawings.plates(self), *self._tables()]}
 
     def _tables(self) -> Iterator[DrawingPlate]:

@@ -181,12 +181,12 @@ def _across_axis(case: SolvedRotor, size: FigureSize) -> tuple[Canvas, Chain]:
 
 
 def moments_plan(case: SolvedRotor, size: FigureSize = IN_REPORT) -> Scene:
-    """m r z of all masses, closed by that of the correction in plane B."""
+    """Draw m r z of all masses, closed by that of the correction in plane B."""
     return plan(_polygon(case, "V", case.masses, RIGHT, size))
 
 
 def unbalance_plan(case: SolvedRotor, size: FigureSize = IN_REPORT) -> Scene:
-    """m r of all masses and of the correction in plane B, closed by that in plane A."""
+    """Draw m r of all masses and of the correction in plane B, closed by that in plane A."""
     sides = (*case.masses, RIGHT) if case.two_planes else case.masses
     return plan(_polygon(case, "U", sides, LEFT, size))
 
@@ -221,7 +221,7 @@ FIGURES: Mapping[str, tuple[str, DrawRotor]] = {
     "moments": ("plans", moments_plan),
     "unbalances": ("plans", unbalance_plan),
 }
-"""The layer of each figure on a sheet, and what draws it."""
+"""Layer of each figure on a sheet, and the function that draws it."""
 
 
 def plates(case: SolvedRotor) -> Iterator[DrawingPlate]:

@@ -73,7 +73,9 @@ def animation(case: SolvedRotor) -> Animation:
 
 
 def forces(case: SolvedRotor) -> Iterator[tuple[str, str, complex]]:
-    """When, at which bearing, and the force on it (N) in the axes that turn with the rotor; without what is nothing."""
+    """Yield the state, the bearing and the force on it (N) in the axes that turn with the rotor; zero forces are
+    left out.
+    """
     for place in BEARINGS if case.given.bearings else ():
         for when in (BEFORE, AFTER):
             if force := case.force_on(when, place):
@@ -85,7 +87,7 @@ def force_symbol(when: str, place: str) -> Symbol:
 
 
 def _per_force(case: SolvedRotor) -> float:
-    """Newtons for a millimetre of the drawing."""
+    """Return the newtons for a millimetre of the drawing."""
     return max((abs(force) for _, _, force in forces(case)), default=FORCE) / FORCE
 
 

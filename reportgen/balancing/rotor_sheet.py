@@ -86,7 +86,9 @@ class RotorSheet:
     # --- plans
 
     def _enter_plans(self) -> None:
-        """V_B closes the plan of V about plane A, where U_A has no moment; U_A closes the plan of U."""
+        """Enter the plans: V_B closes the plan of V about plane A, where U_A has no moment; U_A closes the plan of
+        U.
+        """
         q, U = self.q, dict(self.U)
         directions = dict(self.α)
         if RIGHT in self.given.planes_by_name:
@@ -163,7 +165,7 @@ class RotorSheet:
         self._enter_polar(LEFT, near)
 
     def _all(self, sizes: Mapping[str, Ref]) -> float:
-        """Return the sizes of all masses together (SI), of which a share of 1e-9 is nothing."""
+        """Return the sum of the sizes of all masses (SI); a share of 1e-9 of it is negligible."""
         return sum(abs(self.q.si(one)) for one in sizes.values())
 
     def _scale_of(self, plane: str) -> float:

@@ -34,7 +34,7 @@ class SolvedEngine(DesignCase):
 
     @cached_property
     def entered(self) -> EngineSheet:
-        """The sheet with what it was written by."""
+        """The sheet together with the object that wrote it."""
         sheet = EngineSheet(self.given)
         sheet.written()
         return sheet

@@ -54,7 +54,7 @@ class SolvedRotor(DesignCase):
         return tuple(self.given.planes_by_name)
 
     def force_on(self, when: str, place: str) -> complex:
-        """Return the force on a bearing (N), along the axes that turn with the rotor; what is dust is nothing."""
+        """Return the force on a bearing (N), along the axes that turn with the rotor; 0 for rounding errors."""
         ω = self.ledger["rotor.omega"].at(1)
         x, y = (self.ledger[rotor_ids.share(when, axis, place)].at(1) for axis in "xy")
         most = sum(abs(self.ledger[rotor_ids.unbalance(mass)].at(1)) for mass in self.masses)
@@ -116,7 +116,7 @@ class SolvedRotor(DesignCase):
                 yield from taken(RIGHT, "rotor-plane-z", -(resultant(moments, α) / L))
 
     def _origins(self) -> Iterator[Expression]:
-        """From where z may be taken wrongly: the right plane, the origin of all z, a bearing."""
+        """Yield wrong origins of z: the right plane, the origin of all z, a bearing."""
         at = {place: self.ledger[rotor_ids.station(place)].values[0] for place in (LEFT, RIGHT)}
         yield Ref(rotor_ids.station(RIGHT))
         if at[LEFT]:
@@ -126,12 +126,12 @@ class SolvedRotor(DesignCase):
                 yield Ref(rotor_ids.station(place))
 
     def _of_sides(self) -> MistakenValues:
-        """The mass put where the unbalance is, not opposite to it."""
+        """Yield the mistake of placing the mass on the side of the unbalance, not opposite to it."""
         for of, plane in (("V", RIGHT), ("U", LEFT)):
             yield rotor_ids.direction(plane), "rotor-wrong-side", heading(Ref(rotor_ids.drawn(of, plane))) + PI
 
     def _of_degrees(self) -> MistakenValues:
-        """A calculator set to radians that is fed with degrees, for all masses."""
+        """Yield the mistake of entering degrees into a calculator set to radians, for all masses."""
         α = {place: in_degrees(angle) for place, angle in self._α.items()}
         static, name = resultant(self._U, α), "degrees-for-radians"
         if self.two_planes:
@@ -157,7 +157,7 @@ class SolvedRotor(DesignCase):
         yield rotor_ids.bearing_force(BEFORE, place), Ref("rotor.omega") ** 2
 
     def _of_speed(self) -> MistakenValues:
-        """U ω for U ω²."""
+        """Yield the mistake U ω for U ω²."""
         for when in (BEFORE, AFTER):
             for place in BEARINGS:
                 U = Ref(rotor_ids.at_bearing(when, place))
@@ -169,6 +169,6 @@ def in_degrees(angle: Expression) -> Expression:
 
 
 def taken(plane: str, name: str, correction: Expression) -> MistakenValues:
-    """A vector taken for the correction in a plane: its size and its direction."""
+    """Yield the mistake of using another vector as the correction in a plane: its size and its direction."""
     yield rotor_ids.unbalance(plane), name, abs(correction)
     yield rotor_ids.direction(plane), name, heading(correction)

@@ -17,13 +17,13 @@ RAY = 14.0
 SAME = 0.4
 """Ends within this (mm) are one."""
 CLOSED = 1e-9
-"""A sum below this share of a vector is none."""
+"""A sum below this share of a vector is zero."""
 BEYOND = 3.0
 """Length of the axes beyond the circle (mm)."""
 
 
 def star(vectors: Sequence[complex], names: Sequence[Content], total: Content, title: str = "") -> Scene:
-    """Vectors of the size 1 from one pole with what they are called, and their sum, called `total`."""
+    """Draw vectors of the size 1 from one pole with their labels, and their sum, labelled `total`."""
     reach = RAY + BEYOND
     items: list[Item] = [Line(-reach + 0j, reach + 0j, style.AXIS), Line(-1j * reach, 1j * reach, style.AXIS)]
     items.append(Circle(0j, RAY, style.THIN))

@@ -104,7 +104,7 @@ def _of_rules(given: CrankCounterweight, machine: Machine) -> Iterator[Finding]:
 
 
 def _of_links(given: BalancingTask, machine: Machine) -> Iterator[Finding]:
-    """Counterweights on crank and rocker of a four-bar, at a distance from their centres."""
+    """Yield faults of counterweights on crank and rocker of a four-bar, at a distance from their centres."""
     where = ("parameters", "balancing")
     if given.links is None:
         if given.radius is not None:

@@ -53,9 +53,9 @@ class ShakenLink:
 @view("name", "lines", "masses")
 @dataclass(frozen=True, slots=True)
 class BalancingRule:
-    """A rule for the counterweight on the crank: the ids of what U follows from, of U itself and its angle.
+    """A rule for the counterweight on the crank: the ids of the inputs of U, of U itself and its angle.
 
-    `masses` are those of the rods at their pins, where the rule is the first that takes them.
+    `masses` are those of the rods at their pins, if the rule is the first that uses them.
     """
 
     name: str
@@ -79,7 +79,7 @@ def shaken(report: Report) -> tuple[ShakenLink, ...]:
 
 
 def shaking_lines(report: Report) -> list[str]:
-    """F by its components, its direction, M."""
+    """Return the ids of F by its components, its direction, and M."""
     components = (balance_ids.component(axis) for axis in AXES)
     return report.known([*components, balance_ids.FORCE, balance_ids.DIRECTION, balance_ids.MOMENT])
 
@@ -125,7 +125,7 @@ def balancing_state(report: Report) -> str:
 
 
 def counterweight_lines(report: Report) -> list[str]:
-    """U of each counterweight that is carried out with its angle, its mass and its weight."""
+    """Return the ids of U of each applied counterweight with its angle, its mass and its weight."""
     turn = _turn(report)
     lines: list[str] = []
     for weight in turn.weights:
@@ -229,7 +229,7 @@ def residuals(report: Report) -> dict[str, float]:
 
 
 def _of_turn(report: Report) -> tuple[np.ndarray, np.ndarray, tuple[int, ...], tuple[str, ...]]:
-    """F (N) at the samples of a turn, e^{iφ} there, which of them are the positions shown, and their names."""
+    """Return F (N) at the samples of a turn, e^{iφ} there, the indices of the shown positions, and their names."""
     cycle = report.dense_cycle
     count = int(np.searchsorted(cycle.cycle_angle, FULL_TURN * (1 + 1e-9), side="right"))
     force = shaking_force(report.machine.linkage, cycle.motion)[:count]
@@ -298,7 +298,7 @@ def seen_curve(report: Report) -> FigureScenes:
 
 
 def _polar(report: Report, curves: tuple[PlottedCurve, ...], component: ids.Name) -> Scene:
-    """Hodographs whose axes are called as these components are."""
+    """Draw hodographs whose axes have the symbols of these components."""
     ledger = report.ledger
     across, up = (
         Chain((ledger.symbol(component(axis)),), ledger.printed_unit(KINDS[ledger[component(axis)].kind].unit))

@@ -101,8 +101,8 @@ class Finding:
 class Problem:
     """One fault of an input file: `FILE:LINE:COLUMN: error[code]: message` and an optional hint.
 
-    A file in order may have warnings, and notes on how it was understood.  `advice` is what a hint is called;
-    `where` and `remedies` are those of its fault.
+    A valid file may have warnings, and notes on how it was understood. `advice` is the label of a hint; `where` and
+    `remedies` are those of its fault.
     """
 
     code: str
@@ -124,7 +124,9 @@ class Problem:
 
 
 class ReportgenError(Exception):
-    """Base of everything this package raises on purpose; `exit_code` is what the command line ends with."""
+    """Base of all exceptions that this package raises on purpose; `exit_code` is the exit status of the command
+    line.
+    """
 
     exit_code = 1
 
@@ -171,13 +173,13 @@ class NotOfferedError(ReportgenError):
 
 
 class UnknownNameError(ReportgenError):
-    """There is nothing of the name that was asked for: no figure, quantity, position or parameter."""
+    """The requested name does not exist: no such figure, quantity, position or parameter."""
 
     exit_code = 2
 
 
 class TypesetterError(ReportgenError):
-    """The typesetter is missing or failed; nothing the assignment can mend."""
+    """The typesetter is missing or failed; a change of the assignment cannot help."""
 
     exit_code = 3
 

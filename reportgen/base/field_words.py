@@ -30,7 +30,7 @@ PARAMETERS = "parameters"
 
 @dataclass(frozen=True, slots=True)
 class FieldWords:
-    """A key's name as a label has it, a remark on what is to be known of it, and the title of its group."""
+    """Labels of a key: its name, a remark about its use, and the title of its group."""
 
     name: str
     remark: str = ""
@@ -49,9 +49,9 @@ class FieldWords:
 
 
 def field_words(kind: str, language: Language) -> Mapping[str, FieldWords]:
-    """Return the words of all keys of a kind's file, by their paths, in the order in which a form has them.
+    """Return the words of all keys of a kind's file, by their paths, in the order of a form.
 
-    A kind without the section has the common ones.  Raises `TemplateError` for a section that is no table.
+    A kind without the section has the common ones. Raises `TemplateError` for a section that is not a table.
     """
     own, common = told_in(language, f"{MACHINES}/{kind}.md"), told_in(language, FILE)
     of_topics = _of_topics(language)

@@ -49,9 +49,9 @@ def put_file(target: Path, content: bytes) -> None:
 
 
 def renew_file(target: Path, content: bytes) -> None:
-    """As `put_file`, for a user's own file: what a link leads to is renewed, with the rights that it has.
+    """Write a user's own file like `put_file`: the target of a link is replaced, with its permissions.
 
-    Raises `OSError`, for a file that may not be written, too.
+    Raises `OSError`, also for a file that may not be written.
     """
     real = Path(os.path.realpath(target))
     with ExitStack() as temporary, _named(target):
@@ -137,7 +137,7 @@ def _second_name(target: Path, until: ExitStack) -> Path:
 
 
 def remove_unfinished(folder: Path) -> None:
-    """Removes what a killed run was writing just then."""
+    """Remove the temporary files that a killed run was writing."""
     if folder.is_dir():
         for path in folder.iterdir():
             if _UNFINISHED.fullmatch(path.name):
@@ -146,7 +146,7 @@ def remove_unfinished(folder: Path) -> None:
 
 @contextmanager
 def _named(target: Path) -> Iterator[None]:
-    """Makes what the system complains of speak of this file."""
+    """Make system errors in this context name this file."""
     try:
         yield
     except NotRegularError:
@@ -158,7 +158,7 @@ def _named(target: Path) -> Iterator[None]:
 
 @contextmanager
 def reported(about: Path | None = None) -> Iterator[None]:
-    """A full disk or a forbidden folder is a fault in one line, which names its path, or else `about`."""
+    """Report a full disk or a forbidden folder as a fault in one line, which names its path, or else `about`."""
     try:
         yield
     except OSError as error:
@@ -174,7 +174,7 @@ class NotRegularError(OSError):
 
 
 def cause(error: OSError) -> str:
-    """Why the system refused a file: the name of a kind of fault, which has words, else what the system says."""
+    """Return why the system refused a file: the name of a kind of fault, which has words, else the system's message."""
     return error.strerror if type(error) is OSError and error.strerror else type(error).__name__
 
 
@@ -205,7 +205,7 @@ def standing(folder: Path, kind: str, below: str = "") -> set[Path]:
 
 
 def overwritten(outputs: Iterable[Path], inputs: Iterable[Path]) -> Iterator[Fault]:
-    """Yield a fault for each output that is an input, by whatever name: a link, another way, another case."""
+    """Yield a fault for each output that is an input, by whatever name: a link, another path, another case."""
     known = {identity: path for path in inputs for identity in _identities(path)}
     for output in outputs:
         if same := [known[identity] for identity in _identities(output) if identity in known]:
@@ -236,9 +236,10 @@ _NO_LOCKS = frozenset({errno.EBADF, errno.EINVAL, errno.ENOLCK, errno.EOPNOTSUPP
 
 @contextmanager
 def scratch(out: Path) -> Iterator[Path]:
-    """A folder below `out` (mode 0700) for all temporary files made meanwhile; it goes with all in it.
+    """Provide a folder below `out` (mode 0700) for all temporary files in this context, and remove it with its
+    contents.
 
-    Folders made for it go too, if nothing else was put there.  Raises `OSError` where there can be none.
+    Folders created for it are removed too, if they are empty. Raises `OSError` if no folder can be made.
     """
     made = [folder for folder in (out, *out.parents) if not folder.exists()]
     sweep(out)
@@ -258,9 +259,9 @@ def scratch(out: Path) -> Iterator[Path]:
 
 
 def _own(out: Path, lock: ExitStack) -> Path:
-    """A new folder below `out` whose lock is held.  Raises `OSError` where none can be made.
+    """Return a new folder below `out`, locked. Raises `OSError` if none can be made.
 
-    A sweep may have come between making and locking, another run may have removed `out`: then a further one is made.
+    If a sweep came between making and locking, or another run removed `out`, another folder is made.
     """
     for _ in range(MOST_SWEPT):
         out.mkdir(parents=True, exist_ok=True)
@@ -285,9 +286,9 @@ def sweep(out: Path) -> None:
 
 @contextmanager
 def held(folder: Path) -> Iterator[bool]:
-    """Holds the lock of a folder, without leaving a trace; False where the system or the file system knows no locks.
+    """Lock a folder in this context, without leaving a trace; yield False if the system or file system has no locks.
 
-    Raises `BlockingIOError` if another process holds it, `OSError` if the folder cannot be opened.
+    Raises `BlockingIOError` if another process has the lock, `OSError` if the folder cannot be opened.
     """
     try:
         import fcntl
@@ -314,7 +315,9 @@ def held(folder: Path) -> Iterator[bool]:
 
 
 LARGEST, OLDEST = 20_000_000, 60 * 24 * 3600.0
-"""Bytes of all that is kept at most, and seconds since it was used last: beyond that, what was used least goes."""
+"""Largest size of the cache (bytes), and largest age since the last use (s); the least used files beyond them are
+removed.
+"""
 
 
 def kept(name: str) -> bytes | None:
@@ -348,7 +351,7 @@ def keep(name: str, data: bytes) -> Path | None:
 
 
 def _seal(data: bytes) -> bytes:
-    """Return the first line of what is kept: the version of the program and a checksum."""
+    """Return the first line of a cached file: the version of the program and a checksum."""
     return f"reportgen {version()} {sha256(data).hexdigest()}".encode()
 
 
@@ -363,9 +366,10 @@ def version() -> str:
 
 @cache
 def prune(folder_kept: Path) -> None:
-    """Remove from the folder what was used least, down to the `LARGEST` size, and what is older than the `OLDEST`.
+    """Remove the least recently used files from the folder, down to the `LARGEST` size, and those older than
+    `OLDEST`.
 
-    Once a process, when something is added: looking at every file takes longer than reading a few.
+    It runs once in a process, when a file is added, since examining every file takes longer than reading a few.
     """
     files = []
     for path in folder_kept.iterdir():
@@ -382,7 +386,7 @@ def prune(folder_kept: Path) -> None:
 
 @cache
 def folder() -> Path | None:
-    """Return the folder that things are kept in; None where there can be none of this user's own."""
+    """Return the cache folder; None if there is no folder that belongs to this user alone."""
     from platformdirs import user_cache_path
 
     private = user_cache_path("reportgen", appauthor=False)

@@ -19,10 +19,10 @@ OPENPYXL, EZDXF, FFMPEG = "openpyxl", "ezdxf", "ffmpeg"
 class Format:
     """One format of one product.
 
-    `name` is what `--format` calls it, and the ending of its files unless `ending` is given.  `writer` is
-    `module:function`, imported only when the format is written.  `needs` names what it needs beside numpy: LaTeX and
-    ffmpeg are programs that a user installs, all else comes with the package.  `usual` formats are written if none is
-    named.  `stem` is a pattern of the file's name before its ending.
+    `name` is its name in `--format`, and the ending of its files unless `ending` is given. `writer` is
+    `module:function`, imported only when the format is written. `needs` names its requirements besides numpy: LaTeX
+    and ffmpeg are programs that a user installs, everything else comes with the package. `usual` formats are
+    written if none is named. `stem` is a pattern of the file's name before its ending.
     """
 
     product: str
@@ -49,7 +49,7 @@ class Format:
         return rf"{self.stem or self.product}{part}\.{self.suffix}"
 
     def load(self) -> Callable[..., Any]:
-        """Import the writer; raises `ImportError`, `AttributeError` where there is none."""
+        """Import the writer; raises `ImportError` or `AttributeError` if it does not exist."""
         return _imported(self.writer)
 
 
@@ -147,7 +147,7 @@ def rows(product: str) -> tuple[Format, ...]:
 
 
 def names(product: str) -> tuple[str, ...]:
-    """Return what `--format` calls the formats of a product."""
+    """Return the names of the formats of a product, as in `--format`."""
     return tuple(row.name for row in rows(product))
 
 

@@ -19,7 +19,7 @@ _ENTRY = re.compile(r"\{[^{}]*[.\[!]")
 
 
 def gaps(template: str) -> set[str]:
-    """Return the names of what fills a text in."""
+    """Return the names of the placeholders of a text."""
     return {name for _, name, _, _ in Formatter().parse(template) if name}
 
 
@@ -35,9 +35,10 @@ def plain_gaps(text: str) -> bool:
 
 
 def filled(text: str, values: Sequence[Any], named: Mapping[str, Any]) -> str:
-    """Return a text with its gaps filled.
+    """Return a text with its placeholders filled.
 
-    Raises `LookupError`, `TypeError` or `ValueError` for one that nothing fills, or no text and no number.
+    Raises `LookupError`, `TypeError` or `ValueError` for a placeholder without a value, or with a value that is
+    neither text nor number.
     """
     if _ENTRY.search(text) or not all(isinstance(value, FILLS) for value in (*values, *named.values())):
         return _Filling().vformat(text, values, named)

@@ -93,7 +93,7 @@ class ReadingWords:
     dead_centre: tuple[str, ...] = ()
     """A position without a number."""
     this_position: tuple[str, ...] = ()
-    """The one that the text already deals with, or a name that is of none, as “position plan”."""
+    """Words for the position that the text deals with, or a name that belongs to none, as “position plan”."""
     compared: tuple[str, ...] = ()
     """The text compares with another position."""
     extreme: tuple[str, ...] = ()
@@ -113,7 +113,7 @@ class ReadingWords:
     chapter: tuple[str, ...] = ()
     """A line in bold with one of these names a chapter about the same position."""
     reason: tuple[str, ...] = ()
-    """At the beginning of a remark in parentheses that says why a number is what it is."""
+    """Words at the beginning of a remark in parentheses that explains a number."""
     head: tuple[str, ...] = ()
     """Heads of a table over the names of positions, besides `position`."""
 
@@ -184,7 +184,7 @@ class UnitNames(dict[str, str]):
     """Units as a language prints them: whole ones by name, any other by the letters in it, m/s as м/с."""
 
     def get(self, unit: str, default: object = None) -> str:
-        """Return the unit as it is printed; what has no other name stays as it is."""
+        """Return the unit as it is printed; a unit without another name stays unchanged."""
         return self[unit] if unit in self else _LETTERS.sub(lambda found: dict.get(self, found[0], found[0]), unit)
 
 
@@ -235,7 +235,7 @@ def _in_letters(word: str, names: Mapping[str, str]) -> str:
 
 
 def read_setting(file: Path) -> LanguageSetting:
-    """Return a file `language.yaml`.  Raises `TemplateError` with file and line for what does not belong there."""
+    """Return the content of a file `language.yaml`. Raises `TemplateError` with file and line for unknown content."""
     text = text_in(file)
     if not isinstance(text, str):
         raise TemplateError(f"{file}: {text.wordless}")

@@ -26,7 +26,7 @@ Argument = TypeVar("Argument")
 Result = TypeVar("Result")
 
 PATIENCE = 3
-"""The clock may show so many times the seconds of the processor, on a machine that does other work, too."""
+"""Largest ratio of elapsed time to processor time, on a machine that does other work, too."""
 GRACE = 2
 """Seconds of the processor between the word that time is up and the end of the process."""
 LARGEST_ANSWER = 30_000_000
@@ -54,7 +54,7 @@ M_TRIM_THRESHOLD, KEPT_FREE = -1, 128 * 1024
 
 @cache
 def give_memory_back() -> None:
-    """Let what is freed go back to the system: the more was in use, the more glibc would keep."""
+    """Make glibc return freed memory to the system; by default it keeps more, the more was in use."""
     import ctypes
 
     # Other libraries of C have no such option, and some systems no library that can be asked.
@@ -152,7 +152,9 @@ def _end_group(number: int) -> None:
 
 
 def serve() -> None:
-    """The other side of `call_within`: one call from standard input, its outcome to standard output."""
+    """Serve one `call_within` in the subprocess: read the call from standard input, write its outcome to standard
+    output.
+    """
     global _bounded
     _bounded = True
     answer: Any = None

@@ -30,7 +30,7 @@ LARGEST = 1_000_000
 
 @dataclass(frozen=True, slots=True)
 class Made:
-    """Files of a folder by name, with the SHA-256 that they were written with, and what they were made of."""
+    """Files of a folder by name, with the SHA-256 that they were written with, and the inputs they were made from."""
 
     made_of: MadeOf = field(default_factory=dict)
     files: Mapping[str, str] = field(default_factory=dict)
@@ -66,14 +66,14 @@ class Put:
 
 
 def assignment_hash(content: bytes, beside: Mapping[str, bytes]) -> str:
-    """SHA-256 of an assignment file, and of what lies beside it."""
+    """Return the SHA-256 of an assignment file together with the files beside it."""
     return sha256(b"\0".join((content, *beside.values()))).hexdigest()
 
 
 def made_of(
     assignment: str, engine: str, language: str | None, templates: str, version: str, **more: str
 ) -> dict[str, str | None]:
-    """Return the values of `MADE_OF`, and whatever else decides the bytes of a product if that is not empty."""
+    """Return the values of `MADE_OF`, and all other inputs of a product that are not empty."""
     known = dict(zip(MADE_OF, (assignment, engine, language, templates, version), strict=True))
     return {**known, **{name: value for name, value in more.items() if value}}
 
@@ -87,9 +87,10 @@ def hash_of(path: Path) -> str:
 
 
 def put_made(folder: Path, files: Mapping[str, bytes], kind: str, of: MadeOf, alone: bool = False) -> Put:
-    """Put files of a product into a folder, together or not at all, and take its stale ones away.
+    """Put files of a product into a folder, together or not at all, and remove its stale files.
 
-    The folder's record says then what each was made `of`.  Files put `alone` leave all others.  Raises `OutputError`.
+    The folder's record then lists the inputs `of` each. Files put `alone` leave all others unchanged. Raises
+    `OutputError`.
     """
     record = _read(folder)
     earlier = record.get(kind, [])
@@ -120,7 +121,7 @@ def _text(record: Mapping[str, list[Made]]) -> bytes:
 
 
 def _read(folder: Path) -> dict[str, list[Made]]:
-    """Return the record of a folder by the kinds of files; what cannot be understood counts as missing."""
+    """Return the record of a folder by the kinds of files; an unreadable record counts as missing."""
     try:
         content: Any = json.loads(contents(folder / RECORD, LARGEST))
         if content["format"] != FORMAT:

@@ -26,7 +26,9 @@ CENTURY = 2000
 
 
 def moment(text: str, *, end: bool = False) -> datetime.datetime | None:
-    """Return the moment that a text names, None if it names none; a day alone begins, or with `end` is over."""
+    """Return the moment that a text names, None if it names none; a date alone is the day's begin, or with `end`
+    its end.
+    """
     said = re.sub(r"(?<=\d)t(?=\d)", " ", " ".join(unicodedata.normalize("NFC", text).casefold().split()))
     try:
         time, rest = _time(said)
@@ -39,7 +41,7 @@ def moment(text: str, *, end: bool = False) -> datetime.datetime | None:
 
 
 def _time(said: str) -> tuple[datetime.time | None, str]:
-    """Return the time of day and what is left of the text; raises `ValueError` for a time that no clock shows."""
+    """Return the time of day and the rest of the text; raises `ValueError` for an impossible time."""
     match = _TIME.search(said)
     if match is None:
         return None, said

@@ -21,7 +21,7 @@ _ALL: dict[type, frozenset[str]] = {}
 
 
 def shown(*names: str) -> Callable[[Shown], Shown]:
-    """Shows these members of a class."""
+    """Register members of a class that templates may read."""
 
     def entered(of: Shown) -> Shown:
         MEMBERS[of] = frozenset(names)
@@ -31,7 +31,7 @@ def shown(*names: str) -> Callable[[Shown], Shown]:
 
 
 def view(*names: str) -> Callable[[Shown], Shown]:
-    """Shows the fields of a dataclass that is made for words, and these further members."""
+    """Register the fields of a dataclass that is made for templates, and these further members."""
 
     def entered(of: Shown) -> Shown:
         listed: Iterable[str] = getattr(of, FIELDS, ())

@@ -18,7 +18,7 @@ _NEXT = re.compile(rf"\s+{_NAME}\s*[:=].*")
 """Pattern of a text that continues over the lines of further keys."""
 _ODD_BLANK = re.compile("[\u00a0\u1680\u2000-\u200b\u202f\u205f\u3000\ufeff]")
 _QUOTES = {"“": "”", "”": "”", "„": "“”", "«": "»", "‘": "’", "’": "’", "‚": "‘’"}
-"""Typographic quotation marks and what closes them."""
+"""Typographic quotation marks with their closing marks."""
 
 
 def in_quotes(text: str) -> str | None:
@@ -85,7 +85,7 @@ def _odd_blank(blank: re.Match[str], mark: Mark) -> Fault:
 
 
 def _unparted(text: str, mark: Mark) -> Fault | None:
-    """Return a key and its value that nothing parts, or an equals sign."""
+    """Return a fault for a key and its value without a separator, or with an equals sign."""
     match = _UNPARTED.fullmatch(text)
     if match is None:
         return None

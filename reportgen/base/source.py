@@ -33,11 +33,11 @@ MOST_TOKENS = 30_000
 DEEPEST = 12
 MOST_KEYS = 200
 MOST_FAULTS = 100
-"""After so many faults of its syntax a file is read no further."""
+"""Largest number of syntax faults; after that the file is read no further."""
 _MAY_BE_MORE = re.compile(r"(?m)(?:^|[\s\[{,])[&*!]\S")
 """Pattern that matches anchors, aliases and tags, and a few other texts."""
 STRANGE = re.compile(r"[\x00-\x1f\x7f-\x9f\u2028\u2029\ud800-\uf8ff\ufdd0-\ufdef\ufffe\uffff\U000f0000-\U0010ffff]")
-"""A sign that has no place in a line of text: control and private characters, ends of lines, what is no character."""
+"""Characters not allowed in a line of text: control and private characters, line ends, unassigned code points."""
 _NULL = {"", "~", "null", "Null", "NULL"}
 _SYNTAX = (
     ("mapping values are not allowed", "syntax-colon"),
@@ -128,13 +128,13 @@ def scalars(node: Node | None) -> Iterator[Scalar]:
 
 
 def read_source(path: Path) -> Source:
-    """Return the nodes of a file; every fault of its bytes and syntax is in `faults`, none is raised."""
+    """Return the nodes of a file; every fault of its bytes and syntax is in `faults`, and none is raised."""
     text = text_in(path)
     return Source(str(path), faults=(text,)) if isinstance(text, Fault) else read_text(text, str(path))
 
 
 def text_in(path: Path) -> str | Fault:
-    """Return the text of a file, or what keeps it from being read."""
+    """Return the text of a file, or the fault that prevents reading it."""
     file = str(path)
     try:
         data = contents(path, LARGEST + 1)
@@ -163,9 +163,10 @@ def encoding_of(data: bytes) -> tuple[bytes, str]:
 
 
 def decoded(data: bytes, file: str) -> str | Fault:
-    """Return the text of bytes, or where they are none.
+    """Return the text of bytes, or a fault at the place where they cannot be decoded.
 
-    They are UTF-8, or UTF-16 with its mark, as Notepad and PowerShell write it, Chinese in GBK, or Russian in cp1251.
+    They are UTF-8, or UTF-16 with its mark, as Notepad and PowerShell write it, Chinese in GBK, or Russian in
+    cp1251.
     """
     mark, codec = encoding_of(data)
     content, broken = data.removeprefix(mark), False
@@ -213,16 +214,16 @@ def read_text(text: str, file: str = "") -> Source:
 
 
 def read_words(path: Path) -> Source:
-    """As `read_source`, for a file of the templates, which is trusted and long: libyaml reads it ten times faster.
+    """Read a template file like `read_source`; it is trusted and long, and libyaml reads it ten times faster.
 
-    What libyaml refuses, and what is more than plain nodes, is read again with care, to say where the fault is.
+    A file that libyaml refuses, or that has more than plain nodes, is read again with care, to locate the fault.
     """
     text = text_in(path)
     return Source(str(path), faults=(text,)) if isinstance(text, Fault) else read_own(text, str(path))
 
 
 def read_own(text: str, file: str = "") -> Source:
-    """As `read_text`, for text of the program's own."""
+    """Parse text of the program's own templates like `read_text`."""
     faults: list[Fault] = []
     try:
         if _MAY_BE_MORE.search(text) and _is_more(text):
@@ -241,7 +242,7 @@ def _is_more(text: str) -> bool:
 
 
 def plain(node: Node, said: Callable[[Scalar], str] = attrgetter("text")) -> Any:
-    """Nodes as dict, list and str, or what else is `said` by a text; what was left empty is None."""
+    """Return nodes as dict, list and str, or the result of `said` for a text; an empty value is None."""
     match node:
         case Scalar(null=null, quoted=in_marks):
             text = None if null else said(node)

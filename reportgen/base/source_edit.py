@@ -24,7 +24,7 @@ BRACKETS = 2000
 
 
 class EditError(ValueError):
-    """A change that a text cannot take; the key of the words that say why, and what fills them."""
+    """A change that a text cannot take; has the key of the message and its arguments."""
 
     def __init__(self, key: str, /, **arguments: str) -> None:
         super().__init__(key)
@@ -32,9 +32,9 @@ class EditError(ValueError):
 
 
 def with_value(text: str, where: Where, value: Node) -> str:
-    """Return the text with a value at a place, put in if there is none; a list takes one more item at its end.
+    """Return the text with a value at a place, inserted if there is none; a list takes one more item at its end.
 
-    Raises `EditError` for a text that is no table, and where the change would be read as anything else.
+    Raises `EditError` for a text that is not a table, and if the changed text would be read differently.
     """
     top = _top(text)
     node = at(top, where)
@@ -185,7 +185,7 @@ def _line_end(text: str, index: int) -> int:
 
 
 def _content_end(text: str, index: int) -> int:
-    """Return the end of what is written before an index: the break behind a text in block form is none of it."""
+    """Return the end of the content before an index, without the line break behind a text in block form."""
     return index - len(text[:index]) + len(text[:index].rstrip("\r\n"))
 
 
@@ -332,7 +332,7 @@ def _agreeing(text: str, wanted: Any) -> str:
 
 
 def _bare(content: Any) -> Any:
-    """Return a content in which an empty table is as good as none."""
+    """Return a content in which empty tables are None."""
     if isinstance(content, dict):
         return {key: _bare(value) for key, value in content.items()} or None
     return [_bare(item) for item in content] if isinstance(content, list) else content

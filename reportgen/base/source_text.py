@@ -107,7 +107,7 @@ def _is_block(key: Scalar, table: MappingNode) -> bool:
 
 
 def _spans(table: MappingNode, lines: Sequence[str]) -> dict[str, Sequence[str]]:
-    """Return the lines of each entry, up to the next; none for entries that share lines."""
+    """Return the lines of each entry, up to the next; empty for entries that share lines."""
     keys = [key for key, _ in table.entries]
     starts = [key.mark.line for key in keys]
     shared = any(lines[key.mark.line - 1][: key.mark.column - 1].strip() for key in keys)
@@ -129,7 +129,7 @@ def _with_comment(entry: str, span: Sequence[str], value: Node) -> str:
 
 
 def entry_text(key: Scalar, value: Node, depth: int) -> str:
-    """Return a key and its value so far to the right, in one line if that is short or there is nothing in it."""
+    """Return a key and its value at an indentation, in one line if that is short or the value is empty."""
     name, space = quoted(key.text), " " * depth
     line = flow(value)
     if isinstance(value, Scalar) or line in ("[]", "{}") or len(space) + len(name) + len(line) + 2 <= WIDTH:

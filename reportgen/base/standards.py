@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 Standards = tuple[str, ...]
-"""Standards that one file keeps together; none is kept of ()."""
+"""Standards that one file follows together; () for none."""
 
 STANDARDS: Standards = ("ua-1", "a-2a")
 """Default standards of every PDF: accessible (ISO 14289-1) and archivable (ISO 19005-2)."""

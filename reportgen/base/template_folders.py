@@ -30,7 +30,7 @@ def templates() -> Path:
 
 @cache
 def languages() -> tuple[Language, ...]:
-    """The languages there are: that of who names none, that of reference, then all others by their names."""
+    """Return the available languages: the default one, the reference language, then all others by their names."""
     names = {file.parent.name for file in templates().glob(f"*/{LANGUAGE_FILE}")}
     first = [language for language in (DEFAULT_LANGUAGE, REFERENCE) if language in names]
     return (*first, *sorted(names - {*first}))
@@ -120,6 +120,6 @@ def topic_file(topic: str) -> str:
 
 
 def told_in(language: Language, name: str) -> Path:
-    """Return a file of words of a language, a kind's, `catalogue/cam.md`, too; that of reference where it has none."""
+    """Return a file of words of a language, also a kind's, `catalogue/cam.md`; that of the reference if it has none."""
     own = templates() / language / name
     return own if own.is_file() else templates() / REFERENCE / name

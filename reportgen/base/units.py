@@ -120,7 +120,7 @@ class Given:
 
 
 class QuantityFault(ValueError):
-    """Text that is no quantity of the kind asked for; `code` and `arguments` name a message."""
+    """Text that is not a quantity of the requested kind; `code` and `arguments` name a message."""
 
     def __init__(self, code: str, **arguments: str) -> None:
         super().__init__(code)
@@ -189,9 +189,11 @@ def _is_unit(text: str) -> bool:
 
 
 def _ways(body: str) -> list[str]:
-    """Digits with points or commas among them, with a decimal point or none as they may be meant: the decimals first.
+    """Return the readings of digits with points or commas among them, each with a decimal point or none: decimals
+    first.
 
-    1,6 is 1.6; 1,600 is 1.6 or 1600; 1.400.000 and 1.400,5 are 1400000 and 1400.5; none for what is no number.
+    1,6 is 1.6; 1,600 is 1.6 or 1600; 1.400.000 and 1.400,5 are 1400000 and 1400.5; empty for a text that is not a
+    number.
     """
     whole, *groups = re.split("[.,]", body)
     *marks, last = re.findall("[.,]", body)
@@ -233,7 +235,7 @@ def scale(unit: str) -> tuple[float, Dimension]:
 
 @cache
 def scale_by_pint(unit: str) -> tuple[float, Dimension]:
-    """As `scale`, always by pint; `m2`, `m²`, `kg·m2`, `kg.m2` and `kgm2` are understood."""
+    """Return the same as `scale`, always by pint; `m2`, `m²`, `kg·m2`, `kg.m2` and `kgm2` are understood."""
     if not re.fullmatch(UNIT, unit) or len(unit) > _LONGEST or _TOWER.search(unit):
         raise ValueError(unit)
     spelled = re.sub(r"(?<=[A-Za-z)])\s*[.·⋅]\s*(?=[A-Za-z(])", " ", _JOINED.sub(r"\1 ", unit).replace("º", "°"))
@@ -255,7 +257,7 @@ def _registry() -> Any:
 
 
 def _cleaned(text: str) -> str:
-    """Return the text without outer blanks, its minus sign plain; raises for what can be no number at all."""
+    """Return the text without outer blanks, its minus sign plain; raises for a text that cannot be a number."""
     cleaned = text.strip().replace("\N{MINUS SIGN}", "-")
     if len(cleaned) > _LONGEST:
         raise QuantityFault("not-a-number", text=text)
@@ -333,7 +335,7 @@ def by_power_of_ten(value: float, decimals: int | None) -> PowerOfTen | None:
 
 
 def power_of_ten(exponent: int) -> str:
-    """10⁻⁶."""
+    """Return a power of ten as text: 10⁻⁶."""
     return f"10{str(exponent).translate(_RAISED)}"
 
 

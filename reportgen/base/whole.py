@@ -51,7 +51,7 @@ def _has_all(language: Language) -> bool:
 
 
 def _missing(own: Path, reference: Path) -> Iterator[str]:
-    """Yield the sections and the words that a file lacks; all if there is no such file."""
+    """Yield the sections and the words that a file lacks; all of them if there is no such file."""
     here, there = sections(own), sections(reference)
     yield from there.keys() - here.keys()
     if SECTION in here and SECTION in there:

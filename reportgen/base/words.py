@@ -78,7 +78,7 @@ def templates_hash() -> str:
 def named_school() -> Path | None:
     """Return the school's folder that was named for all files of a run.
 
-    Raises `TemplateError` where it is none, and where a link in it leads out.
+    Raises `TemplateError` if there is no such folder, or if a link in it leads out.
     """
     if not (named := os.environ.get(TEMPLATES)):
         return None
@@ -121,7 +121,9 @@ def words_alone(language: Path) -> Mapping[str, Any]:
 
 
 def _with_topics(language: Path, name: str, section: str) -> Mapping[str, Any]:
-    """Return a file of words of a language with what the topics add in a section; a word in the file goes before."""
+    """Return a file of words of a language with the additions of topics in a section; words in the file take
+    precedence.
+    """
     further = of_topics(language, section)
     return _beneath(further, _read(language / name)) if further else _read(language / name)
 
@@ -171,7 +173,7 @@ class _Word(str):
     mark = Mark("")
 
     def format(self, *values: object, **named: object) -> str:
-        """As that of a text.  Raises `TemplateError`."""
+        """Fill the placeholders like `str.format`. Raises `TemplateError`."""
         try:
             return filled(self, values, named)
         except (AttributeError, LookupError, TypeError, ValueError) as error:
@@ -244,7 +246,7 @@ def _alike(present: Any, standing_in: Any) -> bool:
 def language_of(source: Source) -> Language:
     """Return the language a file asks for, found by its line so that faulty syntax does not matter.
 
-    A file that asks for none is reported in the language of who names none; one that cannot be read says nothing.
+    A file that asks for none is reported in the default language; one that cannot be read gives no language.
     """
     known = "|".join(languages())
     asked = re.search(rf"^[^#\n]*[\s{{]language:\s*['\"]?({known})\b", source.text, re.MULTILINE)
@@ -254,11 +256,11 @@ def language_of(source: Source) -> Language:
 
 
 SPOKEN = "REPORTGEN_LANG"
-"""The variable of the environment that says what language is spoken, in processes that are started, too."""
+"""Environment variable with the language of messages, also for processes that are started."""
 
 
 def speak(language: Language) -> None:
-    """Sets the language of what no file and no option says one for."""
+    """Set the language for cases in which no file and no option gives one."""
     os.environ[SPOKEN] = language
 
 
@@ -295,7 +297,7 @@ def common_words(language: Language) -> Mapping[str, Any]:
 
 
 def _with_reference(language: Language, name: str, section: str = "") -> Mapping[str, Any]:
-    """Return a file of words with the sections of topics; what a language does not have comes in that of reference."""
+    """Return a file of words with the sections of topics; words missing in a language are those of the reference."""
     folder, reference = (templates() / one for one in (language, REFERENCE))
     if language == REFERENCE or not (folder / name).is_file():
         return _with_topics(reference, name, section)
@@ -409,7 +411,7 @@ def sections(file: Path) -> Mapping[str, Passage]:
 
 
 _NAME = re.compile(r"[\w-]+(/[\w-]+)?")
-"""A section's name, perhaps with that of its file before it; a way to anywhere else is none."""
+"""A section's name, perhaps with that of its file before it; no other path matches."""
 
 
 def find(name: str, places: Sequence[Path]) -> Passage | None:

@@ -93,12 +93,14 @@ def assess(source: Source, path: Path) -> tuple[Assignment | None, list[Fault]]:
 
 
 def understood(source: Source, path: Path) -> tuple[Assignment | None, list[Fault]]:
-    """As `assess`, but whether the machine reaches all its places is not asked: sooner, of what has been assessed."""
+    """Return the same as `assess`, without the check that the machine reaches all its places: faster, for assessed
+    nodes.
+    """
     return reading.assess(source, path, kinds(), kind)
 
 
 def _misplaced(assignment: Assignment, machine: Machine) -> Iterator[Finding]:
-    """Instants at places of another sort of driver; loads on links and points that are not there."""
+    """Yield faults for instants at places of another sort of driver, and for loads on missing links and points."""
     slides = bool(machine.span)
     for index, at in enumerate(assignment.positions.at or ()):
         if slides == measures(at.unit, "deg"):
@@ -135,8 +137,7 @@ def _out_of_reach(machine: Machine) -> Iterator[Finding]:
 
 
 def load(path: Path | str, language: Language | None = None, whole: Path | None = None) -> Assignment:
-    """Return the assignment of a file, in its own language or in `language`; of a part, with what it takes in the
-    `whole`.
+    """Return the assignment of a file, in its own language or in `language`; a part takes values from the `whole`.
 
     Raises `AssignmentError` with all faults of the file, located.
     """
@@ -144,7 +145,7 @@ def load(path: Path | str, language: Language | None = None, whole: Path | None 
 
 
 def with_taken(source: Source, path: Path, whole: Path | None) -> Source:
-    """Nodes that were read from `path`, of a part with what it takes from the machine of the coursework `whole`."""
+    """Return nodes that were read from `path`; a part includes the values taken from the coursework `whole`."""
     return parts.in_coursework(source, path, whole, kind) if whole else source
 
 
@@ -187,7 +188,7 @@ def examine(path: Path | str, language: Language | None = None) -> list[Problem]
 
 
 def problems_of(source: Source, path: Path, language: Language | None = None) -> list[Problem]:
-    """As `examine`, of nodes that were read from `path`."""
+    """Return the same as `examine` for nodes that were read from `path`."""
     try:
         assignment = _in_order(source, path, language)
     except AssignmentError as error:
@@ -255,9 +256,7 @@ def schema(language: Language | None = None) -> dict[str, Any]:
 
 
 def sample(name: str, language: Language) -> str:
-    """Return the commented assignment file to fill in of a kind; raises `KeyError`, `TemplateError` where it has
-    none.
-    """
+    """Return the commented starter file of a kind; raises `KeyError`, or `TemplateError` if the kind has none."""
     known = kind(name)
     file = told_in(language, f"{MACHINES}/{name}.md")
     if (section := sections(file).get(SAMPLE)) is None:
@@ -278,7 +277,9 @@ def _more(known: Kind, path: Sequence[str], value: str, language: Language) -> s
 
 
 def _instead(schema: dict[str, Any], path: Sequence[str], value: str) -> str:
-    """Another key that says the same as one with this value; with its own value, if it is of the same dimension."""
+    """Return another key with the same meaning as one with this value; with its own value, if the dimension is the
+    same.
+    """
     units = [one[UNIT_KEY] for one in places(schema, schema, tuple(path)) if UNIT_KEY in one]
     with suppress(QuantityFault):
         for unit in units:

@@ -148,9 +148,10 @@ def turns(linkage: Linkage) -> bool:
 
 
 def room(linkage: Linkage, angles: Floats) -> tuple[float, float]:
-    """Width and height (m) of all that the points of a linkage reach at angles [N] of its driver; 0 if it reaches none.
+    """Return width and height (m) of the area that the points of a linkage reach at angles [N] of its driver; 0 if
+    none.
 
-    Only positions count at which all groups assemble.
+    Only positions at which all groups assemble count.
     """
     motion = solve_motion(linkage, angles, 1.0)
     places = np.array([point.p for point in motion.points.values()])[:, motion.reachable]

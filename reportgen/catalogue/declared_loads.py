@@ -130,7 +130,7 @@ CrankLoading = Annotated[Constant | OverAngle, Field(discriminator="by")]
 
 
 def pins(linkage: Linkage) -> dict[int, set[str]]:
-    """Return the points of every moving link: its joints and what is fixed to it."""
+    """Return the points of every moving link: its joints and the points fixed to it."""
     driver = linkage.driver
     found = {DRIVER: {driver.pin}}
     if isinstance(driver, Crank):
@@ -174,7 +174,7 @@ def faults(load: PlainLoad, points: Mapping[int, set[str]], end: float, at: Wher
 
 
 def sized(load: PlainLoad, at: Where) -> Iterator[Finding]:
-    """A force has a point and a size in newtons, a torque neither, but its own."""
+    """Yield faults unless a force has a point and a size in newtons, and a torque no point and its own size."""
     if isinstance(load, Constant):
         wanted, forbidden = ("F", "M") if load.at else ("M", "F")
         if getattr(load, wanted) is None:
@@ -192,7 +192,7 @@ def sized(load: PlainLoad, at: Where) -> Iterator[Finding]:
 def table(
     at: Where, key: str, nodes: tuple[float, ...], last: float, unit: str = "", **rows: tuple[float, ...]
 ) -> Iterator[Finding]:
-    """Nodes grow from 0 to `last` and every row has a value for each."""
+    """Yield faults unless the nodes grow from 0 to `last` and every row has a value for each."""
     for name, row in rows.items():
         if len(row) != len(nodes):
             counts = {"key": name, "given": str(len(row)), "other": key, "wanted": str(len(nodes))}
@@ -210,7 +210,7 @@ def table(
 
 
 def named(family: Family, link: int, others: Iterable[Applied | Torque]) -> str:
-    """P3; a second one on the same link P3a, then P3b."""
+    """Return the name of a load: P3; a second one on the same link is P3a, then P3b."""
     count = sum(one.link == link and one.name in family for one in others)
     return family(link, chr(ord("a") + count - 1)) if count else family(link)
 

@@ -44,7 +44,7 @@ Indicator = given_loads.Diagram
 
 
 class Parameters(Driven, masses=(2, 3), required=(2, 3), moments=(2,)):
-    """The cylinder, then crank and rod by H, e, K or by R and L; the speed; what moves."""
+    """The cylinder, then crank and rod by H, e, K or by R and L; the speed; masses of moving links."""
 
     D: Length
     H: Length | None = None
@@ -64,7 +64,7 @@ class Parameters(Driven, masses=(2, 3), required=(2, 3), moments=(2,)):
 
 
 def _start(geometry: OffsetSlider, positions: Positions) -> float:
-    """φ of the first position: the top, unless the file says otherwise."""
+    """Return φ of the first position: the top, unless the file says otherwise."""
     return geometry.stretched if positions.first is None else geometry.phi(positions.first.si)
 
 
@@ -84,7 +84,7 @@ def position_labels(parameters: Parameters, positions: Positions) -> tuple[str, 
 
 
 def _check_lengths(draft: Draft) -> Iterator[Finding]:
-    """Crank and rod are given one way only: H with e and K, or R with L."""
+    """Yield faults unless crank and rod are given one way only: H with e and K, or R with L."""
     raw = draft.raw.get("parameters")
     if not isinstance(raw, dict):
         return

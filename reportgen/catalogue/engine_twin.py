@@ -33,11 +33,13 @@ TURNS = 2
 UP = math.pi / 2
 """The direction of the cylinders; the crank's angle at which piston 3 is at its top dead centre."""
 CRANK_DRAWN = 0.05
-"""Drawn length of the crank (m on paper) when none is asked for."""
+"""Default of the drawn length of the crank (m on paper)."""
 
 
 class Parameters(Driven, masses=(2, 3, 4, 5), required=(2, 3), moments=(2, 4)):
-    """The stroke, the ratio λ = R/L, the cylinder, the speed, and what moves: link 4 as 2, 5 as 3 if not given."""
+    """The stroke, the ratio λ = R/L, the cylinder, the speed, and masses; link 4 is like 2, and 5 like 3, unless
+    given.
+    """
 
     H: Length
     lambda_: RodRatio = Field(alias="lambda")
@@ -71,7 +73,8 @@ Indicator = Annotated[IndicatorByStroke | IndicatorByCrankAngle | IndicatorByOrd
 
 
 def possible_phases(crank_angle: float, positions: Positions) -> dict[tuple[Stroke, ...], tuple[float, float]]:
-    """Strokes in which pistons 3 and 5 may leave position 1, the default first, and their cycle angles there (rad).
+    """Return the strokes in which pistons 3 and 5 may leave position 1, the default first, and their cycle angles
+    (rad).
 
     Each piston may be a whole turn further on in its cycle than the crank shows.
     """

@@ -37,7 +37,9 @@ EngineForce = Annotated[Given, quantity("N", least=-1e7, most=1e7, tiny=1e-6)]
 
 
 class Parameters(Driven, masses=(2, 3, 4, 5), moments=(2, 4), shares=(2, 4), loads=("PC", "PE", "D")):
-    """Lengths, the two axes, the speed; forces on the pistons, or their bore; what moves has mass if given one."""
+    """Lengths, the two axes, the speed; forces on the pistons, or their bore; a moving link has mass only if it is
+    given.
+    """
 
     AB: Length
     BC: Length
@@ -76,7 +78,7 @@ def position_labels(parameters: Parameters, positions: Positions) -> tuple[str, 
 
 
 def _check_loads(draft: Draft) -> Iterator[Finding]:
-    """Forces on the pistons are given outright, or by their bore and the indicator diagram."""
+    """Yield faults unless forces on the pistons are given directly, or by their bore and the indicator diagram."""
     raw = draft.raw.get("parameters")
     if not isinstance(raw, dict):
         return
@@ -113,7 +115,7 @@ CHECKS = (*given_loads.DIAGRAM_CHECKS, _check_loads, _check_assembly)
 
 
 def _idle_engine(assignment: Assignment) -> Iterator[Finding]:
-    """Constant forces on the pistons do no work over a turn: an engine delivers none without its diagram."""
+    """Warn that constant forces on the pistons do no work over a turn: an engine needs its diagram to deliver work."""
     key = next((key for key in ("PC", "PE") if getattr(assignment.parameters, key) is not None), None)
     if key is not None:
         yield Finding("engine-without-work", ("parameters", key), at="key")

@@ -117,7 +117,7 @@ def extremes(
 
 
 def triangle(q: Sheet, name: str) -> None:
-    """l_BE² = x² + y² of a coupler point given by x along BC and y across it; off BC, l_CE² = (l − x)² + y²."""
+    """Enter l_BE² = x² + y² of a coupler point given by x along BC and y across it; off BC, l_CE² = (l − x)² + y²."""
     x, y, BC = q[ids.along_link(name)], q[ids.across_link(name)], q["l.BC"]
     BE = q.define(ids.length("B", name), sqrt(x**2 + y**2) if q.si(y) else abs(x))
     q.set_out("places", BE)
@@ -348,7 +348,7 @@ def _linkage(given: Parameters, q: GivenSheet) -> Linkage:
 
 @of_turning
 def _check_turning(given: Parameters) -> Iterator[Finding]:
-    """Yield faults unless the crank turns fully, without dead points, and link 3 does what the file says of it."""
+    """Yield faults unless the crank turns fully, without dead points, and link 3 moves as the file says."""
     linkage = _linkage(given, _sheet(given))
     obstacles = list(assembly.findings(linkage, {(2, 3): assembly.Member("BC, CD", ("parameters", "BC"))}))
     yield from obstacles

@@ -21,7 +21,7 @@ from reportgen.machine import DRIVER, Inertia, LinkPoint
 from reportgen.machine.laws import FULL_TURN
 
 CRANK_DRAWN = 0.04
-"""Drawn length of the crank (m on paper) when none is asked for."""
+"""Default of the drawn length of the crank (m on paper)."""
 MIDDLE = 0.5
 """Place of the mass centre of a uniform bar, as a share of its length."""
 
@@ -36,7 +36,7 @@ def _figures(value: float) -> int:
 
 
 class GivenSheet(Sheet):
-    """The sheet that a machine opens: its given data as typed, and what the file gives for its links."""
+    """The sheet that a machine opens: its given data as typed, and the data of its links in the file."""
 
     def __init__(self, given: Driven | None = None) -> None:
         super().__init__()
@@ -62,9 +62,9 @@ class GivenSheet(Sheet):
         epsilon1: Given | None = None,
         topics: TopicParameters | None = None,
     ) -> None:
-        """Enter ω₁ (its size) as given, or ω₁ = 2πn/60 from the speed in rpm; ε₁ (its size); what topics add.
+        """Enter ω₁ (its size) as given, or ω₁ = 2πn/60 from the speed in rpm; ε₁ (its size); data added by topics.
 
-        A file with neither is refused by the kind's checks.
+        The kind's checks refuse a file with neither.
         """
         if self.given is not None:
             n, omega1, epsilon1 = self.given.n, self.given.omega1, self.given.epsilon1
@@ -97,16 +97,17 @@ class GivenSheet(Sheet):
         return given
 
     def gravity(self, letters: str = "Gm") -> None:
-        """g, if one of these letters is given for any link; none in a horizontal plane."""
+        """Enter g if one of these letters is given for any link; not in a horizontal plane."""
         assert self.given is not None, "a sheet without parameters has no links"
         told = (self.of_link(letter, link) for letter in letters for link in self.given.links[letter])
         if self.given.gravity and any(told):
             self.datum("g", self.given.g)
 
     def mass(self, link: int, weight: Given | None = None, mass: Given | None = None, like: int = 0) -> None:
-        """Weight and mass of a link: one as typed, or as that of the link `like`, the other from it; else none.
+        """Enter weight and mass of a link: one as typed, or as that of the link `like`, and the other computed from
+        it.
 
-        Without gravity there is no weight.
+        Nothing is entered if neither is given. Without gravity there is no weight.
         """
         weight, mass = weight or self.of_link("G", link), mass or self.of_link("m", link)
         G, m = ids.weight(link), ids.mass(link)
@@ -127,7 +128,9 @@ class GivenSheet(Sheet):
             self.define(G, self.define(m, self[ids.mass(like)]) * self["g"])
 
     def moment(self, link: int, default: Operand | None) -> None:
-        """J about the mass centre: as given, else its `default`, such as m l²/12; none where there is no default."""
+        """Enter J about the mass centre: as given, else its `default`, such as m l²/12; nothing if there is no
+        default.
+        """
         given = self.of_link("J", link)
         if given is not None:
             self.datum(ids.inertia(link), given)
@@ -214,7 +217,7 @@ def natural_sizes(r: float, ω: float) -> dict[str, float]:
 
 
 def natural_lines(q: Sheet, crank: str) -> Callable[..., Ref]:
-    """`q.define` with a scale by the kind of the quantity: what is natural to the crank of this id counts as one."""
+    """Return `q.define` with a scale by the kind of the quantity: the natural size for the crank of this id."""
     sizes = natural_sizes(q.si(crank), q.si("omega.1"))
 
     def define(id: str, definition: Operand, symbol: Symbol | str = "", kind: str = "") -> Ref:
@@ -224,17 +227,19 @@ def natural_lines(q: Sheet, crank: str) -> Callable[..., Ref]:
 
 
 def driver_acceleration(q: Sheet, turn: int) -> Expression:
-    """ε₁ as a term of formulas, positive in the sense of ω₁ (`turn`); nothing of a crank that turns evenly."""
+    """Return ε₁ as a term of formulas, positive in the sense of ω₁ (`turn`); `NOTHING` for a crank that turns
+    evenly.
+    """
     ε1 = q.find(ids.angular_acceleration(DRIVER))
     return NOTHING if ε1 is None else signed(turn * q.si(ids.signed("eps", DRIVER)), ε1)
 
 
 def accelerating(accelerates: float) -> Expression:
-    """ε₁ in an equation, positive in the sense of ω₁; nothing of a crank that turns evenly."""
+    """Return ε₁ in an equation, positive in the sense of ω₁; `NOTHING` for a crank that turns evenly."""
     return signed(accelerates, Symbol("ε", str(DRIVER))) if accelerates else NOTHING
 
 
 def accelerated(q: Sheet, turn: int, at_constant_speed: Expression, rate: Expression) -> Expression:
-    """Return a second derivative of what the crank's angle φ gives: q̈ = q″ω₁² + q′ε₁, with q′ = q̇/ω₁."""
+    """Return a second derivative of a function of the crank's angle φ: q̈ = q″ω₁² + q′ε₁, with q′ = q̇/ω₁."""
     ε1 = driver_acceleration(q, turn)
     return at_constant_speed if ε1 is NOTHING else at_constant_speed + ε1 * rate / q["omega.1"]

@@ -110,10 +110,11 @@ def _sheet(given: Parameters, crank: Given | None = None) -> GivenSheet:
 
 
 def _synthesis(q: GivenSheet, asked: Swing) -> None:
-    """Crank and coupler from the swing ψ and K: B sees both ends C₁, C₂ of the pin's way under θ = 180°(K − 1)/(K + 1).
+    """Enter crank and coupler from the swing ψ and K: B sees both ends C₁, C₂ of the pin's way under θ = 180°(K −
+    1)/(K + 1).
 
-    It lies on the circle about O with the radius ρ on which it does so, and at its distance from D:
-    ρ = l_CD sin(ψ/2)/sin θ,  DO = l_CD cos(ψ/2) ± ρ cos θ,  AB = (BC₁ − BC₂)/2,  AC = (BC₁ + BC₂)/2.
+    B lies on the circle about O with radius ρ from which this angle is seen, and at its distance from D: ρ = l_CD
+    sin(ψ/2)/sin θ,  DO = l_CD cos(ψ/2) ± ρ cos θ,  AB = (BC₁ − BC₂)/2,  AC = (BC₁ + BC₂)/2.
     """
     ψ, K = q.datum("swing", asked.angle, "ψ", "angle"), q.datum("K", asked.K)
     x, y, CD = q["D.x"], q["D.y"], q["l.DC"]

@@ -47,7 +47,7 @@ STEPS = 72
 
 
 def _check_weights(draft: Draft) -> Iterator[Finding]:
-    """In a horizontal plane a body has a mass and no weight."""
+    """Yield faults for a weight in a horizontal plane, where a body has only a mass."""
     masses = draft.at("parameters", "masses")
     count = len(masses) if isinstance(masses, list) else 0
     yield from weightless([("parameters", "masses", index, "G") for index in range(count)])(draft)
@@ -63,7 +63,7 @@ def position_labels(parameters: Parameters, positions: Positions) -> tuple[str, 
 
 
 def _places(given: Parameters, positions: Positions) -> tuple[tuple[float, ...], tuple[str, ...]]:
-    """Uneven positions and their labels; none where every position is an even one."""
+    """Return uneven positions and their labels; empty if every position is an even one."""
     if positions.at:
         return positions.instants(given.turns), ROMAN[1 : len(positions.at) + 1]
     if not given.also_at or not isinstance(given.driver, file.CrankDriver):

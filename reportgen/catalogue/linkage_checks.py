@@ -31,7 +31,7 @@ TURNING = ("parameters", ("turns", "also_at"))
 
 
 def check(draft: Draft) -> Iterator[Finding]:
-    """Names and numbers first; only a linkage in order is assembled."""
+    """Yield faults of names and numbers first; only a valid linkage is assembled."""
     given: file.Parameters | None = draft.sections.get("parameters")
     if given is None:
         return
@@ -145,7 +145,7 @@ def _group(given: file.Parameters, group: file.GroupSection, at: Where, placed: 
 
 
 def _bodies(given: file.Parameters) -> Iterator[Finding]:
-    """Masses belong to links and their own points, one to a link."""
+    """Yield faults unless masses belong to links and their own points, one to a link."""
     points, seen = pins(given.linkage), set[int]()
     for index, body in enumerate(given.masses):
         at = (*TOP, "masses", index)
@@ -191,7 +191,7 @@ def _loads(given: file.Parameters) -> Iterator[Finding]:
 
 
 def _declared(given: file.Parameters) -> Iterator[Finding]:
-    """Degree of freedom, class and groups as the author holds them for."""
+    """Yield faults unless degree of freedom, class and groups are as the author declares them."""
     declared, at = given.declared, (*TOP, "declared")
     try:
         actual = mobility(given.linkage)

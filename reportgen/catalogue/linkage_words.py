@@ -109,7 +109,7 @@ def arms(given: file.Parameters) -> Iterator[str]:
 
 
 def _quantities(given: file.Parameters, rows: tuple[GroupRow, ...]) -> Iterator[tuple[str, str, str]]:
-    """Ids of given quantities, what they are, and of which link or between which points."""
+    """Yield ids of given quantities, their meaning, and their link or the points between which they are measured."""
     driver = given.driver
     if isinstance(driver, file.CrankDriver):
         yield ids.length(driver.centre, driver.pin), "crank", ""

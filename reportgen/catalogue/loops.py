@@ -220,7 +220,7 @@ class ClosedLoops:
         return x, y
 
     def known(self, part: str, plan: str, formula: Expression) -> Ref:
-        """Write down what a plan gives, too."""
+        """Enter a formula of a quantity that a plan also gives, and list it for comparison."""
         written = self.line(part, ids.formula(plan), formula)
         self.compared.append((plan, written.id))
         return written
@@ -268,7 +268,7 @@ class ClosedLoops:
                 self.point(point.name, body.carried(self.coordinates(point.name, self._place_of(point, body))))
 
     def _place_of(self, point: LinkPoint, body: LoopBody) -> VectorComponents:
-        """On the line of its link a point has a length, elsewhere its two typed distances."""
+        """Return the place of a point: by its length on the line of its link, elsewhere by its two typed distances."""
         if point.local.imag or not point.local:
             return body.place(point.local)
         length = Ref(ids.length(body.start, point.name))

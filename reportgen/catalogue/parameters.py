@@ -109,7 +109,7 @@ class Driven(UnderGravity):
 
     @classmethod
     def checks(cls) -> tuple[Check, ...]:
-        """One speed, one of weight and mass."""
+        """Return the checks that there is one speed, and one of weight and mass for each link."""
         one_mass = (
             one_of("parameters", f"G{link}", f"m{link}", required=link in cls.required) for link in cls.links["G"]
         )
@@ -118,7 +118,7 @@ class Driven(UnderGravity):
 
 
 def weightless(weights: Iterable[Where]) -> Check:
-    """In a horizontal plane g is 0, and no mass follows from a weight."""
+    """Return a check that refuses weights in a horizontal plane: g is 0 there, and no mass follows from a weight."""
     places = tuple(weights)
 
     def check(draft: Draft) -> Iterator[Finding]:

@@ -44,7 +44,7 @@ class CuttingForce(Part):
 
 
 class Parameters(Driven, masses=(2, 3, 4, 5), moments=(3, 4), loads=("cutting",)):
-    """Lengths, the stroke, the speed; what moves has mass only if it is given one."""
+    """Lengths, the stroke, the speed; a moving link has mass only if it is given."""
 
     a: Length
     b: Length
@@ -120,7 +120,7 @@ CHECKS = (_check_assembly,)
 
 
 def _cutting_interval(q: Sheet, breaks: Iterable[float], start: float) -> None:
-    """φ₁ where cutting begins and ends: 360° − θ and 180° + θ, or where the tool's way says if it runs free."""
+    """Enter φ₁ at the begin and end of cutting: 360° − θ and 180° + θ, or by the tool's way if it has free ends."""
     if "free" not in q:
         q.set_out("interval", q.define(ids.angle("in"), slotted.TURN - q["theta"], Symbol("φ", "a")))
         q.set_out("interval", q.define(ids.angle("out"), slotted.STRAIGHT + q["theta"], Symbol("φ", "b")))

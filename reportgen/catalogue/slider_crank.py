@@ -33,7 +33,7 @@ TURNS = 1
 
 
 class Parameters(Driven, masses=(2, 3), moments=(2,), loads=("force",)):
-    """Lengths, the guide, the speed; what moves has mass only if it is given one."""
+    """Lengths, the guide, the speed; a moving link has mass only if it is given."""
 
     r: Length
     l: Length  # noqa: E741 - the length's own letter

@@ -98,7 +98,7 @@ class SlottedCrank:
 
 
 def drawn_crank(crank: float, height: float) -> float:
-    """Return the drawn length of a crank (m on paper) with which what is `height` (m) high stays on the page."""
+    """Return the drawn length of a crank (m on paper) with which a mechanism `height` (m) high fits the page."""
     return next((drawn for drawn in DRAWN_CRANKS if drawn * height / crank <= HIGHEST), DRAWN_CRANKS[-1])
 
 
@@ -166,7 +166,7 @@ class Ram:
 
 
 def lever_formulas(q: Sheet, turn: int, angle: Floats, crank: str, centres: str) -> None:
-    """`phi.A`, `f.S`, `f.omega.3`, `f.v.r`, `f.eps.3` at φ₁ = `angle` [N] by the lengths r, d of these ids:
+    """Enter `phi.A`, `f.S`, `f.omega.3`, `f.v.r`, `f.eps.3` at φ₁ = `angle` [N] by the lengths r, d of these ids:
 
     S² = d² + r² + 2dr sin φ;  ω₃ = ω₁r(r + d sin φ)/S²;  v_r = ω₁dr cos φ/S;  ε₃ = ω₁²dr(d² − r²) cos φ/S⁴;
     ω₃ and ε₃ anticlockwise, so with a minus for the `turn` −1.
@@ -232,8 +232,10 @@ def ram_formulas(q: Sheet, turn: int, angle: Floats) -> None:
 
 
 def cutting(q: Sheet, force: Ref, free: Ref | None) -> Ref:
-    """`P.cut`: the force on the ram while φ₁ is in the working stroke, −θ ≤ φ₁ < 180° + θ, and, where its ends are
-    `free` for the shares k of the stroke H, while kH ≤ s ≤ (1 − k)H; s is the ram's way from the beginning."""
+    """Enter `P.cut`, the force on the ram while φ₁ is in the working stroke, −θ ≤ φ₁ < 180° + θ. If the ends are
+    `free` for the shares k of the stroke H, it acts only while kH ≤ s ≤ (1 − k)H; s is the ram's way from the
+    beginning.
+    """
     φ1, θ, s, H = q["phi.A"], q["theta"], q["f.s.E"], q["H"]
     turned = q.define(ids.angle("cut"), call("around", φ1 + θ), hidden=True)
     P = force * call("amid", turned, 0.0, STRAIGHT + 2 * θ)
@@ -330,7 +332,9 @@ RAM_COMPARED = (
 
 
 def lever_equations(turn: int, r: Symbol, d: Symbol, accelerates: float) -> dict[str, tuple[Chain, ...]]:
-    """Return the triangle ABC on x and y, along and across the lever, and what its derivatives say of the lever."""
+    """Return the triangle ABC on x and y, along and across the lever, and its derivatives, which give the lever's
+    motion.
+    """
     S, φ1, φ3, ω1, ω3 = Symbol("S"), Symbol("φ", "1"), Symbol("φ", "3"), Symbol("ω", "1"), Symbol("ω", "3")
     v_r, ε3 = Symbol("v", "r"), Symbol("ε", "3")
     ε1 = accelerating(accelerates)

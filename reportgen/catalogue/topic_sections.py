@@ -46,7 +46,7 @@ class TopicParameters(Part):
         super().__init_subclass__(**rest)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """A model that was made for some topics is found again by the model of its kind and their names."""
+        """Pickle a model with sections of topics by the model of its kind and the names of the topics."""
         if not self.topic_names:
             return super().__reduce__()  # type: ignore[return-value]
         return _blank, (type(self).__base__, self.topic_names), self.__getstate__()
@@ -69,7 +69,7 @@ class TopicParameters(Part):
 
 @dataclass(frozen=True)
 class Opening:
-    """A machine while its sheet is opened: what a topic may use to enter its data."""
+    """Data from which a topic enters its own while the sheet of a machine is opened."""
 
     given: TopicParameters
     linkage: Linkage
@@ -96,7 +96,7 @@ def _no_data(opening: Opening) -> TopicData:
 
 
 def _no_speed(given: TopicParameters, datum: Datum) -> None:
-    """A topic without a datum about the driver's speed."""
+    """Enter nothing: the default for a topic without a datum about the driver's speed."""
 
 
 def _no_faults(given: TopicParameters, machine: Machine) -> Iterator[Finding]:
@@ -142,11 +142,11 @@ class TopicSection:
     """Enters data that belong to the driver's speed."""
     enter: Callable[[Opening], TopicData] = _no_data
     faults: Callable[[TopicParameters, Machine], Iterator[Finding]] = _no_faults
-    """Finds what the machine does not have that the section names."""
+    """Yields faults for joints, links or points that the section names and the machine does not have."""
     failures: Callable[[Machine, Sequence[int]], Iterator[Finding]] = _no_failures
-    """Finds what goes wrong on the way of a machine in order; some positions are worked out."""
+    """Yields failures on the way of a valid machine; some positions are worked out."""
     warnings: Callable[[Machine], Iterator[Finding]] = _no_warnings
-    """Finds what is allowed but hardly meant."""
+    """Yields warnings about values that are allowed but probably not intended."""
 
 
 SECTIONS = HookModule(TOPIC_MODULE, TopicSection)

@@ -33,7 +33,7 @@ ONE_QUANTITY = (("M.eq", "M.vw", "M.least", "M.greatest", "M.difference"), ("M.m
 class PlannedLedger:
     """The ledger of an analysis, and the force plans that are laid out in it.
 
-    There is a plan for each group, the driver's is the last; none without loads.
+    There is a plan for each group, and the last is the driver's; without loads there are none.
     """
 
     ledger: Ledger
@@ -95,7 +95,7 @@ def enter_plans(
 
 
 def _masses(q: Sheet, analysis: Analysis) -> None:
-    """Mass m = G/g where the weight is given, weight G = m g where the mass is."""
+    """Enter the mass m = G/g if the weight is given, the weight G = m g if the mass is."""
     for body in analysis.machine.linkage.inertias:
         weight, mass = ids.weight(body.link), ids.mass(body.link)
         if body.mass > 0 and weight in q and mass not in q:
@@ -168,7 +168,9 @@ def _way(q: Sheet, linkage: Linkage, link: int, values: np.ndarray, stroke: floa
 
 
 def _applied(q: Sheet, analysis: Analysis) -> None:
-    """Forces, positive along their own direction, with what they are read by; torques, anticlockwise positive."""
+    """Enter forces, positive along their own direction, with the values they are read by; torques, anticlockwise
+    positive.
+    """
     machine = analysis.machine
     # A slider has one way, from which the gas on it is computed; a working force beside it is read off its own table.
     gassed = {force.link for force in machine.applied if force.name in analysis.gas}
@@ -245,5 +247,5 @@ def _cycle(q: Sheet, analysis: Analysis) -> None:
 
 
 def _without_dust(value: float, size: float) -> float:
-    """A mean that is nothing beside what it is the mean of is 0."""
+    """Return a mean, or 0 if it is negligible beside the `size` of the averaged values."""
     return 0.0 if abs(value) < ZERO * size else value

@@ -148,7 +148,7 @@ def _rrp(g: Group) -> Polygon:
 
 
 def _rpr(g: Group) -> Polygon:
-    """Lever j about T: R_ij l = ΣM_T(j) + ΣM_P(i), l the distance of T from the line of R_ij."""
+    """Solve lever j about T: R_ij l = ΣM_T(j) + ΣM_P(i), l the distance of T from the line of R_ij."""
     assert isinstance(g.dyad.end, str)
     q, across = g.q, ids.joint(g.i, g.j)
     couple = _moment(g, g.inner, g.start, g.on_i)
@@ -173,7 +173,7 @@ def _prp(g: Group) -> Polygon:
 
 
 def _rpp(g: Group) -> Polygon:
-    """Link j under its loads, R_ij across the slot and R_kj across the guide; then block i."""
+    """Solve link j under its loads, R_ij across the slot and R_kj across the guide; then block i."""
     polygon = _close(g, turned(g.q[ids.slot(g.j)]), turned(g.q[ids.guide(g.j)]), from_between=True)
     _slide(g, g.inner, g.start, g.on_i)
     q, back = g.q, ids.joint(g.i, g.j)
@@ -306,7 +306,9 @@ DYADS: Mapping[DyadKind, Callable[[Group], Polygon]] = {"RRR": _rrr, "RRP": _rrp
 
 
 def driver(statics: Statics) -> Polygon:
-    """Return the driver under the groups' reactions and its own loads: R01, and what balances it (`M.eq`)."""
+    """Return the force plan of the driver under the groups' reactions and its own loads: R01, and the balance
+    (`M.eq`).
+    """
     machine = statics.scheme.linkage.driver
     own = tuple(sorted(statics.on(DRIVER), key=lambda load: load.origin is not Origin.reaction))
     if isinstance(machine, Crank):
@@ -315,7 +317,7 @@ def driver(statics: Statics) -> Polygon:
 
 
 def _driving_crank(statics: Statics, centre: str, own: tuple[LoadOn, ...]) -> Polygon:
-    """R01 closes the polygon; moments about the centre give M_cb = −Σ R h μ_l."""
+    """Close the polygon with R01; moments about the centre give M_cb = −Σ R h μ_l."""
     total = moments(statics, own, centre)
     balance = 0.0 if total is None else -total
     statics.q.define("M.eq", balance, Symbol("M", "cb", "(1)"), scale=statics.torque)
@@ -326,7 +328,7 @@ def _driving_crank(statics: Statics, centre: str, own: tuple[LoadOn, ...]) -> Po
 
 
 def _driving_slide(statics: Statics, pin: str, own: tuple[LoadOn, ...]) -> Polygon:
-    """R01 across the guide and the balancing force P_cb along it close the polygon."""
+    """Close the polygon with R01 across the guide and the balancing force P_cb along it."""
     q, path = statics.q, _laid(statics, own)
     guide = q["guide.1"]
     force_plan(statics, "1", "R(1)", path, lambda at, μ: meet(at[path.last], turned(guide), 0.0, guide))
@@ -348,11 +350,11 @@ def _laid(statics: Statics, own: tuple[LoadOn, ...]) -> ForceChain:
 
 
 def lever(statics: Statics, loads: tuple[LoadOn, ...]) -> None:
-    """Zhukovsky's lever: the velocity plan turned 90° against ω₁, every load at its image, balanced by M_cb.
+    """Enter Zhukovsky's lever: the velocity plan turned 90° against ω₁, every load at its image, balanced by M_cb.
 
-    Σ F v cos α + M_cb ω₁ = 0 with v = μ_v · (segment) gives M_cb = −Σ F h′ μ_v/ω₁, where μ_v/ω₁ = μ_l if pa is
-    the drawn crank; h′ is the signed arm of a load about the pole.  For a sliding driver P_cb = −Σ F h′ μ_v/v_A.
-    Enters the arms `h.X.p`, what each load contributes, `M.X.p`, and `M.vw`.
+    Σ F v cos α + M_cb ω₁ = 0 with v = μ_v · (segment) gives M_cb = −Σ F h′ μ_v/ω₁, where μ_v/ω₁ = μ_l if pa is the
+    drawn crank; h′ is the signed arm of a load about the pole. For a sliding driver P_cb = −Σ F h′ μ_v/v_A. Enters
+    the arms `h.X.p`, the contribution of each load, `M.X.p`, and `M.vw`.
     """
     q, turning = statics.q, isinstance(statics.scheme.linkage.driver, Crank)
     rate = q["omega.1"] if turning else q[ids.velocity(statics.scheme.linkage.driver.pin)]

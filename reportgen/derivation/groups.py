@@ -54,10 +54,10 @@ def enter_kinematics(
 ) -> None:
     """Enter every kinematic quantity of a linkage, link by link in order of assembly.
 
-    An accelerated driver runs faster with the `sense` +1, slower with −1; `eps.1` or `a.A` is there then.
+    An accelerated driver runs faster with the `sense` +1, slower with −1; then `eps.1` or `a.A` is already entered.
 
-    The plans are solved once on trial, to find the scales with which those of the `worked` positions (all of
-    them if none is named) fill their paper; without, where they are not `scaled`.
+    The plans are solved once on trial, to find the scales with which those of the `worked` positions (all of them
+    if none is named) fill their paper. If they are not `scaled`, the trial is skipped.
     """
     if not scaled:
         _enter(q, linkage, turn, sense)
@@ -93,7 +93,7 @@ def _enter(
 
 
 def velocity(k: Kinematics, first: Side, second: Side) -> None:
-    """v_M = v_P + v_MP, each side with one unknown size along a known direction: second lines meet in m."""
+    """Solve v_M = v_P + v_MP, each side with one unknown size along a known direction: the second lines meet in m."""
     for side in (first, second):
         _guide_point(k, "v", side)
     start1, start2 = _start(k, "v", first), _start(k, "v", second)
@@ -109,7 +109,7 @@ def velocity(k: Kinematics, first: Side, second: Side) -> None:
 
 
 def acceleration(k: Kinematics, first: Side, second: Side) -> None:
-    """a_M = a_P + aⁿ_MP + aᵗ_MP or a_G + aᵏ_MG + aʳ_MG: known vectors first, then second lines meet in m′."""
+    """Solve a_M = a_P + aⁿ_MP + aᵗ_MP or a_G + aᵏ_MG + aʳ_MG: known vectors first, then second lines meet in m′."""
     for side in (first, second):
         _guide_point(k, "a", side)
     starts = [_known_acceleration(k, side) for side in (first, second)]
@@ -280,7 +280,7 @@ def _rrp(k: Kinematics, dyad: Dyad) -> None:
 
 
 def _rpr(k: Kinematics, dyad: Dyad) -> None:
-    """The slot's line is a tangent from P to the circle of radius e about T: u = TP/(s + i e)."""
+    """Place the slot's line as a tangent from P to the circle of radius e about T: u = TP/(s + i e)."""
     start, end, middle = _pin(dyad.start), _pin(dyad.end), dyad.middle
     i, j = dyad.links
     q, offset, mu = k.q, dyad.lengths[1], k.q["mu.l"]
@@ -319,7 +319,7 @@ def _rpp(k: Kinematics, dyad: Dyad) -> None:
 
 
 def _middle_of_rpp(k: Kinematics, dyad: Dyad, what: What) -> None:
-    """The guided point Q of link j, from the point of j under P: they differ by j's rotation only."""
+    """Enter the guided point Q of link j, from the point of j under P: they differ by j's rotation only."""
     middle, (_, j) = dyad.middle, dyad.links
     known = under(_pin(dyad.start), j, k.scheme.owner)
     arm = k.place(middle) - k.place(known)
@@ -387,7 +387,9 @@ def images(k: Kinematics, what: What, link: int, turn: Side | None) -> None:
 
 
 def _by_similarity(k: Kinematics, what: What, point: LinkPoint, turn: Side) -> None:
-    """The similarity theorem: the plan's figure is similar to the link's and turned in the same way."""
+    """Enter a point by the similarity theorem: the plan's figure is similar to the link's and turned in the same
+    way.
+    """
     q, base, tip = k.q, turn.base, turn.point
     first, last, new = "p" if turn.still else image(base), image(tip), image(point.name)
     along = k.image(what, tip) - k.image(what, base)

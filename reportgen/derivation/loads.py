@@ -40,7 +40,7 @@ class Origin(IntEnum):
 
 @dataclass(frozen=True, slots=True)
 class LoadOn:
-    """A load: its name, its link, the point it acts at ("" for a couple alone), its size, what its arm is called.
+    """A load: its name, its link, the point it acts at ("" for a couple alone), its size, the name of its arm.
 
     A force that was read from the plan of another group has the scale of that plan.
     """
@@ -74,13 +74,13 @@ class Statics:
 
     @property
     def force(self) -> float:
-        """The largest load (N): a billionth of it is nothing."""
+        """The largest load (N); a load below a billionth of it is negligible."""
         sizes = (np.abs(self.q.value(load.size)) for load in self.loads if load.point)
         return max((float(size[np.isfinite(size)].max(initial=0.0)) for size in sizes), default=0.0)
 
     @property
     def span(self) -> float:
-        """The size on paper (mm) of what arms are compared with: the drawn crank."""
+        """Reference size on paper (mm) of arms: the drawn crank."""
         driver = self.scheme.linkage.driver
         if isinstance(driver, Crank):
             return self.q.si(ids.drawn(driver.centre, driver.pin))
@@ -144,7 +144,7 @@ def enter_loads(statics: Statics, applied: Applied, torques: Mapping[str, int]) 
 
 
 def _inertia(statics: Statics, body: Inertia) -> LoadOn:
-    """P_qt = m a_S against a_S, and M_qt = J ε against ε."""
+    """Enter P_qt = m a_S against a_S, and M_qt = J ε against ε."""
     q, link, centre = statics.q, body.link, body.centre
     name = ids.inertia_force(link)
     nothing = statics.scheme.still(centre) or body.mass <= 0
@@ -170,7 +170,7 @@ def _inertia(statics: Statics, body: Inertia) -> LoadOn:
 
 
 def _centre_of_percussion(statics: Statics, link: int, centre: str) -> None:
-    """Its distance from the mass centre, l_SK = J/(m l_AS), on a link that turns about a pin A."""
+    """Enter its distance from the mass centre, l_SK = J/(m l_AS), on a link that turns about a pin A."""
     q = statics.q
     driver = statics.scheme.linkage.driver
     ends: dict[int, str | Guide] = {DRIVER: driver.centre} if isinstance(driver, Crank) else {}
@@ -255,7 +255,7 @@ def moments(statics: Statics, loads: Iterable[LoadOn], centre: str) -> Expressio
 
 
 def lone_couple(statics: Statics, load: LoadOn) -> Expression:
-    """Return the couple of a load at positions where its force is nothing; left out of a line elsewhere."""
+    """Return the couple of a load at positions where its force is zero; elsewhere the term is left out of a line."""
     q, id, couple = statics.q, ids.lone_couple(load.name), statics.couple(load)
     assert couple is not None
     if id not in q:

@@ -238,7 +238,7 @@ class Kinematics:
         return Ref(ids.signed("omega", link))
 
     def put(self, link: int, origin: str, axis: Ref | None, tip: str = "") -> None:
-        """Place a link; how its points move follows from what it turns with."""
+        """Place a link; the motion of its points follows from the link that it turns with."""
         source = self.scheme.spins[link]
         omega = self.omega(link) if source else None
         of_source = ids.signed("eps", source)
@@ -353,9 +353,11 @@ def _accelerated_pin(k: Kinematics, driver: Crank, ε1: Ref) -> None:
 def slide(
     q: Sheet, scheme: Scheme, driver: SlidingDriver, turn: int, sense: int, scales: Mapping[str, float | None]
 ) -> Kinematics:
-    """The pin moves along its guide with v_A, and a_A if given; `scales` (SI per mm) are μ_v, μ_a, none for a trial.
+    """Place the driving slide: the pin moves along its guide with v_A, and a_A if given; `scales` (SI per mm) are
+    μ_v, μ_a.
 
-    Expects the driver's coordinate `s.1` and the size of its speed, `v.` and the pin's name.
+    Without scales, it is a trial. Expects the driver's coordinate `s.1` and the size of its speed, `v.` and the
+    pin's name.
     """
     pin, size = driver.pin, longest(scheme.linkage)
     k = Kinematics(q, scheme, turn, natural_sizes(q, scheme.linkage), sense)

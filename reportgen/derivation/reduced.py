@@ -19,7 +19,7 @@ TERMS = 4
 
 
 def enter_reduced(q: Sheet, analysis: Analysis, torque: np.ndarray, largest: float) -> tuple[Expression, Ref, Ref]:
-    """J_r, which is 0 where no link with mass moves, M_r [N] as it is computed, and the ways between positions."""
+    """Enter J_r, which is 0 if no link with mass moves, M_r [N] as computed, and the ways between positions."""
     machine = analysis.machine
     inertia = _reduced(q, machine.linkage)
     J_r: Expression = NOTHING if inertia is None else q.define("J.r", inertia, Symbol("J", "tt"))

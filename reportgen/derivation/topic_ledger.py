@@ -17,15 +17,15 @@ Changed = Mapping[str, Sequence[tuple[str, Expression]]]
 
 
 def _enter_nothing(q: Sheet, analysis: Analysis) -> None:
-    """A topic without entries of this sort."""
+    """Enter nothing: the default for a topic without such entries."""
 
 
 def _not_worked_out(q: Sheet, analysis: Analysis, worked: Sequence[int]) -> None:
-    """A topic that works nothing out at positions."""
+    """Enter nothing: the default for a topic without values at the worked positions."""
 
 
 def _no_guide(statics: Statics, digits: str, link: int) -> None:
-    """A topic without entries of sliders."""
+    """Enter nothing: the default for a topic without entries of sliders."""
 
 
 def _not_reduced(q: Sheet, largest: float) -> Ref | None:
@@ -43,9 +43,9 @@ class LedgerHooks:
     enter_guide: EnterGuide = _no_guide
     """Enters more of a slider in its guide, by the digits of its reaction and its link."""
     enter_forces: Callable[[Sheet, Analysis, Sequence[int]], None] = _not_worked_out
-    """Enters what follows the forces at the positions, some of which are worked out."""
+    """Enters quantities that depend on the forces at the positions, some of which are worked out."""
     enter_cycle: Callable[[Sheet, Analysis], None] = _enter_nothing
-    """Enters what belongs to the cycle as a whole."""
+    """Enters quantities of the cycle as a whole."""
     enter_last: Callable[[Sheet, Analysis], None] = _enter_nothing
     """Enters quantities that depend on all other results."""
     reduced: Callable[[Sheet, float], Ref | None] = _not_reduced

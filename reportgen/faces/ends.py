@@ -14,7 +14,7 @@ from reportgen.machine.motion import cross
 
 
 def faces_of(machine: Machine) -> Mapping[int, Faces]:
-    """Return the faces of the sliders of a machine, by their links; none if all sliders are narrow."""
+    """Return the faces of the sliders of a machine, by their links; empty if all sliders are narrow."""
     return machine.topic("faces", dict) or {}
 
 

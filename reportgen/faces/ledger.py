@@ -12,7 +12,7 @@ from reportgen.formula import Expression, Number, call, dot, ids, sign, turned
 def enter_guide(statics: Statics, digits: str, link: int) -> None:
     """Enter N and x along the guide of a slider whose face is given, and at positions where it tilts both its ends.
 
-    x N is what M, the moment of all else about the pin, leaves to the reaction: x = −M/N.
+    The reaction balances M, the moment of all other loads about the pin: x = −M/N.
     """
     q = statics.q
     first, last = q.find(ids.face_from(link)), q.find(ids.face_to(link))

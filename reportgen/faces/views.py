@@ -55,12 +55,12 @@ def wide_sliders(report: Report) -> tuple[WideSlider, ...]:
 
 
 def face_state(report: Report, slider: WideSlider, k: int) -> str:
-    """The key of the words for how a slider lies in its guide."""
+    """Return the key of the words for the state of a slider in its guide."""
     return "tilts" if tilts(report, slider.digits, k) else "within"
 
 
 def rows(report: Report, digits: str) -> Iterator[Sequence[object]]:
-    """At each position the reaction, where it acts, whether the slider tilts, and both ends if it does."""
+    """Yield for each position the reaction, its place, whether the slider tilts, and both ends if it does."""
     words = report.words["tables"]["faces"]
     ends = [ids.face_reaction(digits, number) for number in (1, 2)]
     for k in report.all_positions:

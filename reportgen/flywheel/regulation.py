@@ -60,7 +60,7 @@ def regulate(
 SAMPLES = 1440
 """Angles of a turn at which the extremes of energy are looked for: a quarter degree misses less than 1e-5."""
 SAME_ANGLE = 1e-9
-"""Angles nearer than this (rad) are one; a torque below this share of what the loads could do is none."""
+"""Angles closer than this (rad) are equal; a torque below this share of the possible torque is zero."""
 
 
 def _torque(analysis: Analysis) -> Floats:

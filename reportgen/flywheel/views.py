@@ -147,7 +147,7 @@ class Range:
 
 
 def work_range(report: Report) -> Range:
-    """Between which values the excess work of the flywheel's calculation goes."""
+    """Return the range of the excess work of the flywheel's calculation."""
     positions, values = report.all_positions, shown(report, "A.excess", report.all_positions)
 
     def end(value: float) -> tuple[Value, str]:

@@ -171,7 +171,7 @@ class Chain(_Algebra):
 
 @dataclass(frozen=True, slots=True)
 class Term:
-    """One vector of a vector equation and what is known of it.
+    """One vector of a vector equation and the known facts about it.
 
     `known` gives, in the order of the equation's `rows` (direction, sense, size), the text or
     expression printed below the symbol; None prints as the mark of an unknown, "?".
@@ -184,7 +184,7 @@ class Term:
 
 @dataclass(frozen=True, slots=True)
 class VectorEquation(_Algebra):
-    """Sides of a vector equation joined by "="; under each term its line of `rows` says what is known."""
+    """Sides of a vector equation joined by "="; `rows` below each term show the known facts about it."""
 
     sides: tuple[tuple[Term, ...], ...]
     rows: tuple[str, ...] = ()
@@ -218,7 +218,7 @@ def _terms(node: Any) -> tuple[Expression, ...]:
 
 
 def total(terms: Iterable[Expression]) -> Expression:
-    """Return the sum of terms as they are, none of them taken apart; a single one is itself."""
+    """Return the sum of terms, without merging nested sums; a single term is returned unchanged."""
     every = tuple(terms)
     return every[0] if len(every) == 1 else Sum(every)
 
@@ -331,7 +331,7 @@ def square(of: Expression) -> Expression:
 
 
 def between(minuend: Expression, subtrahend: Expression) -> Expression:
-    """one − other."""
+    """Return minuend − subtrahend, simplified."""
     if isinstance(minuend, Number) and isinstance(subtrahend, Number):
         return Number(minuend.value - subtrahend.value, unit="°")
     return plus(minuend, NOTHING if is_zero(subtrahend) else minus(subtrahend))
@@ -450,7 +450,7 @@ def refs(node: Expression) -> tuple[str, ...]:
 
 
 def substitute(node: Expression, change: Callable[[Ref], Expression]) -> Expression:
-    """Return the expression with every `Ref` replaced by what `change` gives for it."""
+    """Return the expression with every `Ref` replaced by the result of `change`."""
     if isinstance(node, Ref):
         return change(node)
     return rebuild(node, lambda child: substitute(child, change))

@@ -30,7 +30,7 @@ from reportgen.formula.sheet import DUST, ZERO, Family, is_short
 UNIT = 1 + 1e-6
 """Units of its last decimal that a printed value may be off, with the dust of floats."""
 MEASURED = "segment"
-"""The kind of what is laid off and measured on paper."""
+"""Kind of lengths that are laid off and measured on paper."""
 
 MOST = 10
 """Decimals that anything is carried with at most."""
@@ -70,7 +70,7 @@ def _standing_on(ledger: Ledger, some: AbstractSet[str]) -> set[str]:
 
 
 def _as_drawn(ledger: Ledger, id: str, measured: Mapping[str, np.ndarray]) -> int:
-    """Return the decimals that what is measured leaves a value: in the last of them it is right to one unit."""
+    """Return the decimals to which a value is right to one unit, given the errors of the `measured` lengths."""
     off = sum(_half_unit(ledger[one]) * float(np.max(np.abs(by))) for one, by in measured.items())
     return max(math.floor(-math.log10(2 * off / ledger[id].how.scale)), 0) if off else MOST
 

@@ -25,7 +25,7 @@ from reportgen.formula import (
 from reportgen.formula.constructions import Value
 
 NOTHING = 1e-9
-"""A value below this share of the greatest is nothing."""
+"""A value below this share of the greatest is negligible."""
 UNPHYSICAL = 1e10
 """No machine has such values (SI): a machine with a student's own numbers may not go together at some positions, where
 its rates divide by rounding errors.  They are no measure of the others."""
@@ -49,31 +49,31 @@ def nothing(value: Value) -> Value:
 
 
 def quotient(a: Value, b: Value) -> Value:
-    """a / b, and 0 where b is nothing: the arm of a force that is not there."""
+    """Return a / b, and 0 where b is negligible: the arm of a force that is zero."""
     b = np.asarray(b)
     none = nothing(b)
     return np.where(none, 0.0, a / np.where(none, 1.0, b))
 
 
 def sign(value: Value) -> Value:
-    """+1 or −1, and 0 for what is nothing."""
+    """Return +1 or −1, and 0 for a negligible value."""
     return np.where(nothing(value), 0.0, np.sign(value))
 
 
 def arg(vector: Value) -> Value:
-    """Return a vector's direction from +x, in (−π, π], one just above −π counted as π; 0 for what is nothing."""
+    """Return a vector's direction from +x, in (−π, π], one just above −π counted as π; 0 for a negligible vector."""
     angle = np.where(nothing(vector), 0.0, np.angle(vector))
     return np.where(angle <= BEHIND - np.pi, np.pi, angle)
 
 
 def single(moment: Value, force: Value) -> Value:
-    """Return the distance M/F of the one force that has this moment: 0 where both are nothing, nan for a couple."""
+    """Return the distance M/F of the one force that has this moment: 0 where both are zero, nan for a couple."""
     moment, force = np.asarray(moment), np.asarray(force)
     return np.where((force == 0) & (moment != 0), np.nan, quotient(moment, force))
 
 
 def if_zero(a: Value, b: Value) -> Value:
-    """b where a is nothing, 0 elsewhere: the couple that remains when its force vanishes."""
+    """Return b where a is zero, 0 elsewhere: the couple that remains when its force vanishes."""
     return np.where(np.asarray(a) == 0, b, 0.0)
 
 
@@ -84,13 +84,15 @@ def within(value: Value, least: Value, most: Value) -> Value:
 
 
 def branch(number: Value, *branches: Value) -> Value:
-    """At each position the branch of its number, from 0; numbers [N], branches with any axes in front of theirs."""
+    """Return the branch with the given number (from 0) at each position; numbers [N], branches with any axes in
+    front of theirs.
+    """
     number, *shaped = np.broadcast_arrays(number, *branches)
     return np.select([number == index for index in range(len(shaped))], shaped, np.nan)
 
 
 EDGE = 1e-9
-"""An angle (rad) or a share this little below an edge belongs to what begins there."""
+"""An angle (rad) or a share closer than this below an edge belongs to the next interval."""
 
 
 def around(angle: Value) -> Value:
@@ -128,14 +130,14 @@ def level(value: Value, steps: Value) -> Value:
 
 
 def excess(value: Value, steps: Value) -> Value:
-    """Return the integral of what is above the mean, from the first position to each, by the trapezoid rule."""
+    """Return the integral of the excess over the mean, from the first position to each, by the trapezoid rule."""
     above = np.asarray(value) - level(value, steps)
     parts = (above + np.roll(above, -1, axis=-1)) / 2 * steps
     return np.roll(np.cumsum(parts, axis=-1), 1, axis=-1) - np.sum(parts, axis=-1, keepdims=True)
 
 
 def along(a: Value, v: Value) -> Value:
-    """Return the component of a along v; 0 where v is nothing beside the greatest of all positions."""
+    """Return the component of a along v; 0 where v is negligible beside the greatest of all positions."""
     size = np.abs(v)
     moves = size > EDGE * np.max(size, axis=-1, keepdims=True)
     return np.where(moves, constructions.dot(a, v) / np.where(moves, size, 1.0), 0.0)
@@ -148,7 +150,8 @@ def summed(value: Value, steps: Value) -> Value:
 
 
 def stepped(speed: Value, torque: Value, inertia: Value, steps: Value) -> Value:
-    """Return the speed of a crank from position to position, from that at the first, with what acts and moves at each.
+    """Return the speed of a crank from position to position, from that at the first, with torque and inertia at
+    each.
 
     ω′ = M Δφ/(J ω) + (3J − J′)ω/(2J): the equation of energy, ΔT = M Δφ, with Δ(J ω²)/2 to the first order.
     """
@@ -161,8 +164,8 @@ def stepped(speed: Value, torque: Value, inertia: Value, steps: Value) -> Value:
 
 
 def heading(vector: Value) -> Value:
-    """Return a vector's direction from +x, in [0, 2π), one just below a full turn counted as 0; 0 for what is
-    nothing.
+    """Return a vector's direction from +x, in [0, 2π), one just below a full turn counted as 0; 0 for a negligible
+    one.
     """
     return np.mod(np.where(nothing(vector), 0.0, np.angle(vector)) + BEHIND, 2 * np.pi) - BEHIND
 

@@ -5,7 +5,7 @@ family at one position. Definitions are expressions over other families. So the 
 (`Ledger.evaluate`), knows the inputs of every quantity (`refs`), and prints its own worked lines (`Ledger.chain`).
 
 A plan's point and the length measured to it are two families, and later definitions use one or the other. A student
-who measured another length continues with a vector of that length, and a computed length is laid off on paper.
+who measured another length continues with a vector of that length; one who computed another length lays that off.
 `carried` pairs each size with its vector, and `follow` adapts the vector's length. A value computed from a measured
 length with a scale moves nothing on paper.
 """
@@ -42,7 +42,7 @@ from reportgen.formula.evaluation import evaluate
 from reportgen.formula.sheet import Family
 
 MistakenValues = Iterator[tuple[str, str, Expression]]
-"""The id of a quantity, the name of a mistake, and what the quantity becomes by it."""
+"""The id of a quantity, the name of a mistake, and the quantity's definition with the mistake."""
 
 Entered = Callable[[str, dict[str, np.ndarray]], None]
 """Callback after each quantity of an evaluation, with its id and all values so far."""
@@ -75,9 +75,9 @@ class Ledger:
     units: Mapping[str, str] = field(default_factory=dict)
     """Units whose printed form depends on the language, e.g. rpm."""
     same: tuple[tuple[str, ...], ...] = ()
-    """Ids of what is one quantity by whatever symbols, with one number of decimals."""
+    """Ids of families that are one quantity under several symbols, with one number of decimals."""
     lines: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
-    """The ids of what the report sets out together, by the names that the machine's sheet gives."""
+    """Ids of the lines that the report sets out together, by the names that the machine's sheet gives."""
 
     @cached_property
     def inputs(self) -> Mapping[str, tuple[str, ...]]:
@@ -272,7 +272,7 @@ def _negated(node: Expression) -> Expression:
 
 
 def _replace(node: Expression, change: Any) -> Expression:
-    """`substitute`, simplifying what only a definition needs: a factor 1, a double minus, a fraction of a minus."""
+    """Substitute as `substitute` does, and simplify a factor 1, a double minus, a fraction of a minus."""
     if isinstance(node, Ref):
         result: Expression = change(node)
         return result
@@ -356,7 +356,7 @@ def _comes_to(numbers: Expression, result: Number) -> bool:
 def follow(
     ledger: Ledger, changes: Mapping[str, Any], *, entered: Entered | None = None, only: Container[str] | None = None
 ) -> dict[str, np.ndarray]:
-    """As `Ledger.evaluate` (SI), with each vector as long as the size says that was measured of it or laid off."""
+    """Evaluate as `Ledger.evaluate` does (SI), and give each vector the length that was measured of it or laid off."""
     vectors = {size: one for size, one in ledger.vectors.items() if only is None or size in only}
     sizes: dict[str, list[str]] = {}
     for size, vector in vectors.items():

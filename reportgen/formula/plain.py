@@ -84,7 +84,7 @@ NUMPY: Mapping[str, str] = {
 def python(node: Expression, names: Mapping[str, str]) -> str:
     """Return an expression in Python, with numpy as np and the `names` of quantities by ids.
 
-    Raises `KeyError` for a quantity without a name and for a function that is no formula.
+    Raises `KeyError` for a quantity without a name and for a function that cannot be written as a formula.
     """
 
     def inside(part: Expression) -> str:

@@ -62,9 +62,7 @@ def by_lines(ledger: Ledger) -> Ledger:
 
 
 def _line(ledger: Ledger, family: Family) -> Expression | None:
-    """Return the formula by which a value is written; None for what is given, and for an integral, which is read
-    off.
-    """
+    """Return the formula by which a value is written; None for given data, and for an integral, which is read off."""
     integral = ids.rule(family.id) in ledger
     size = family.scale or _size(family.values)
     is_read = integral and _size(ledger[ids.rest(family.id)].values) > ZERO * size
@@ -77,7 +75,7 @@ def _size(values: np.ndarray) -> float:
 
 
 def _entered(family: Family, computed: np.ndarray, decimals: int | None) -> np.ndarray:
-    """Values (SI) as they are written down with so many decimals, or as they are."""
+    """Return values (SI) as they are written with so many decimals, or unrounded if None."""
     exact = np.real(family.values)
     values = np.real(computed) / family.how.scale
     values = _without_dust(values) if decimals is None else rounded(values, decimals)
@@ -99,7 +97,7 @@ def _without_dust(values: np.ndarray) -> np.ndarray:
 
 
 def usual_decimals(ledger: Ledger) -> dict[str, int | None]:
-    """Return the decimals of every family, one number for all that prints under one symbol; None for what was typed."""
+    """Return the decimals of every family, one number for all families with the same symbol; None for typed values."""
     together: dict[object, list[Family]] = {}
     names = names_of(ledger)
     for id, family in ledger.families.items():
@@ -118,7 +116,7 @@ def _of_quantity(members: Collection[Family]) -> int:
 
 
 def _largest(family: Family) -> float:
-    """Return its largest unrounded size in its printed unit; 0 where it is nothing at all positions."""
+    """Return its largest unrounded size in its printed unit; 0 if it is negligible at all positions."""
     sizes = np.abs(family.values[np.isfinite(family.values)])
     return float(np.max(sizes, initial=0.0, where=sizes >= ZERO * family.scale)) / family.how.scale
 

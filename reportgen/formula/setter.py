@@ -76,7 +76,7 @@ class TextSetter(Setter[str]):
     LINE: ClassVar[str] = " | "
     """Between the entries and the rows of a matrix."""
     APPLIED: ClassVar[str] = "%s%s"
-    """A function and what it is applied to without a fence."""
+    """Pattern for a function and its argument without parentheses."""
     CALL: ClassVar[str] = "%s%s"
     NOTE: ClassVar[str] = " %s"
 

@@ -62,15 +62,15 @@ CONSTRUCTIONS = frozenset(
 class Family:
     """One quantity at all positions.
 
-    `values` are SI (complex for a point or vector of the plane), one per position or a single one.
-    `definition` is None for given data.  `exact` data print as they were given.  An `arm` is a signed
-    length printed by its size, its sign going to the term it stands in; an `optional` term is left out
-    of a sum where it is nothing.  `scale` is the size below which, times 1e-9, a value is nothing.  A
-    `hidden` family serves a construction and is never printed.  `of` is the id of the size whose direction,
-    signed value or vector this is, of an arm the load, `about` the point an arm is measured from; both are ""
-    for any other quantity.  `written` is a formula of the same value in place of the definition on the page, where
-    printed figures would be too few for that.  A `residue` is what rounding leaves between two ways to one number.
-    What is `converted` was typed in a unit that gives more figures than anyone types; it is rounded like a result.
+    `values` are SI (complex for a point or vector of the plane), one per position or a single one. `definition` is
+    None for given data. `exact` data print as they were given. An `arm` is a signed length printed by its size, its
+    sign going to the term that contains it; an `optional` term is left out of a sum where it is negligible. `scale`
+    is a reference size: a value below 1e-9 of it is negligible. A `hidden` family serves a construction and is
+    never printed. `of` is the id of the size whose direction, signed value or vector this is, of an arm the load,
+    `about` the point an arm is measured from; both are "" for any other quantity. `written` is a formula of the
+    same value that replaces the definition on the page, where printed figures would be too few for that. A
+    `residue` is the rounding difference of two ways to one number. A `converted` value was typed in a unit that
+    gives more figures than anyone types; it is rounded like a result.
     """
 
     id: str
@@ -128,13 +128,13 @@ class Family:
         )
 
     def at(self, position: int | None) -> Any:
-        """Return its SI value at a position counted from 1; nothing is exactly 0."""
+        """Return its SI value at a position counted from 1; a negligible value is exactly 0."""
         value = self.values[0 if len(self.values) == 1 or position is None else position - 1]
         return value * 0 if abs(value) < ZERO * self.scale else value
 
 
 class Sheet:
-    """Quantities in the order of their definition, over so many positions; each is evaluated as it is entered."""
+    """Quantities in the order of their definition, over `positions` positions; each is evaluated when it is entered."""
 
     def __init__(self, positions: int = 1) -> None:
         self.positions = positions
@@ -142,7 +142,7 @@ class Sheet:
         self.typed: dict[str, Number] = {}
         """Given data in the units that they were typed with."""
         self.lines: dict[str, tuple[str, ...]] = {}
-        """The ids of what the report sets out together, by the name that its words have for it."""
+        """Ids of the lines that the report sets out together, by the names that templates use."""
         self.chapter = Chapter.geometry
         """Chapter of quantities for which the vocabulary gives none."""
         self._values: dict[str, np.ndarray] = {}
@@ -163,7 +163,7 @@ class Sheet:
             self.set_out(name, *ids)
 
     def set_out(self, name: str, *quantities: Ref | str) -> None:
-        """The report sets these quantities out in this order, behind any that it has under this name already.
+        """Let the report print these quantities in this order, after those already under this name.
 
         A quantity may be entered later; one that never is, is left out.
         """

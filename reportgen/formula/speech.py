@@ -42,7 +42,7 @@ PLAINLY, CAPITALS, INDICES = range(3)
 """Level of detail of a spoken symbol: its letters, also which of them are capitals, also which of them are lowered."""
 KEPT_UNITS = 256
 SHORTEST_WORD = 3
-"""Small letters of an index that are a word (max); fewer are said one by one (cb)."""
+"""Small letters of an index that are a word (max); fewer are spelled one by one (cb)."""
 DOT = "\N{COMBINING DOT ABOVE}"
 
 _RUN = re.compile(r"\d+|[^\W\d_]+|.")
@@ -53,10 +53,10 @@ _IN_TEXT = re.compile(r"[A-Z][A-Z₀-₉]+|[Α-Ωα-ω][₀-₉]*|(?<=\w)[₀-�
 
 
 class Speech(Setter[str]):
-    """Formulas in words; of `symbols`, those of one report, no two sound alike.
+    """Formulas in words; no two of `symbols`, those of one report, sound alike.
 
-    `words` has what is said for each part, and `units` by the signs that are printed.  Raises `TemplateError` for
-    counts that are no patterns.
+    `words` has the spoken word for each part, and `units` by the printed signs. Raises `TemplateError` for counts
+    that are not patterns.
     """
 
     def __init__(self, language: Language, words: Mapping[str, Any], symbols: Iterable[Symbol] = ()) -> None:
@@ -174,7 +174,7 @@ class Speech(Setter[str]):
         return _filled(words[node.over], symbol=said) if node.over else said
 
     def letters(self, text: str, detail: int, index: bool = False) -> str:
-        """Letters one by one, as they are or by their names; of an index small ones may be a word."""
+        """Return letters one by one, unchanged or by their names; small letters of an index may be a word."""
         said: list[str] = []
         for run in _RUN.findall(raised(text.replace("′′", "″"))):
             known = self.words["letters"]
@@ -218,7 +218,7 @@ class Speech(Setter[str]):
         return _filled(self.words["numbered"], number=number, formula=said) if number else said
 
     def vector_equation(self, equation: VectorEquation) -> str:
-        """Return the line first, then what is known of each term."""
+        """Return the line, followed by the known facts of each term."""
         said = [self.math(equation)]
         for _, term in terms(equation):
             entries = zip(equation.rows, known_of(term, equation), strict=True)

@@ -94,7 +94,7 @@ KINDS = _Kinds(
 OWN_IDS = "_ids"
 """Suffix of the names of modules that contain the ids of a kind of work."""
 MAX_DIGITS = max(kind.digits for kind in KINDS.values())
-"""Significant figures of the largest value of what is computed, at most."""
+"""Largest number of significant figures of any computed value."""
 
 
 def point(name: str) -> Symbol:
@@ -148,12 +148,12 @@ _NAMES = re.compile(r"([^\W\d_a-z]?)([a-z]*)(\d*)")
 
 
 def lowered(text: str) -> str:
-    """Digits of point names as lowered digits: B3 → B₃."""
+    """Return the digits of point names as lowered digits: B3 → B₃."""
     return text.translate(_LOWERED)
 
 
 def raised(text: str) -> str:
-    """Lowered digits as digits: B₃ → B3."""
+    """Return lowered digits as digits: B₃ → B3."""
     return text.translate(_RAISED)
 
 
@@ -404,7 +404,7 @@ def row(id: str) -> VocabularyRow:
 
 
 def symbol(id: str) -> Symbol:
-    """Return the symbol of a quantity: the letter of its row, below it what the id names.
+    """Return the symbol of a quantity: the letter of its row, with the index that the id gives.
 
     Raises `KeyError` for an id that no row gives a letter.
     """

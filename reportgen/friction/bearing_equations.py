@@ -90,6 +90,6 @@ class BearingEquations:
 
 
 def _patterns(guides: int) -> Iterator[tuple[int, ...]]:
-    """Return the guides that bear on the other side than without friction, none first."""
+    """Return the sets of guides that bear on the other side than without friction, beginning with the empty set."""
     every = chain.from_iterable(combinations(range(guides), count) for count in range(guides + 1))
     return islice(every, MOST_PATTERNS)

@@ -35,10 +35,10 @@ def turning_back(machine: Machine, joint: Joint) -> Iterator[float]:
 
 
 def mean_torque(machine: Machine) -> float:
-    """Return the mean of the balancing torque with friction (N·m) over the cycle; nan where the mechanism locks
+    """Return the mean of the balancing torque with friction (N·m) over the cycle; nan if the mechanism locks
     anywhere.
 
-    Raises `ValueError` for a machine in which nothing rubs.
+    Raises `ValueError` for a machine without friction.
     """
     friction = friction_of(machine)
     if friction is None:
@@ -76,10 +76,11 @@ class DeadZone:
 
 
 def dead_zones(machine: Machine, friction: Friction, stroke: Stroke) -> tuple[DeadZone, ...]:
-    """Return the dead zones of a slider that drives its crank with a constant force, all else without mass or load.
+    """Return the dead zones of a slider that drives its crank with a constant force; other masses and loads are
+    ignored.
 
-    Within them friction takes all that the slider gives: the torque to be put on the crank is no longer against its
-    motion.  nan where the slider moves the crank nowhere.
+    Within them friction consumes all work of the slider: the torque to apply to the crank no longer opposes its
+    motion. nan if the slider cannot move the crank anywhere.
     """
     bare = replace(machine, applied=(), torques=(), linkage=replace(machine.linkage, inertias=()))
 

@@ -109,7 +109,7 @@ class FrictionCase(DesignCase):
         return Misconceptions(changed=exercise_mistakes.changed(self.TASK.name, self.sheet))
 
     def plates(self, sets: Collection[str] = (), every: bool = False) -> Mapping[str, Sequence[DrawingPlate]]:
-        """Return its scheme and its force plans; there are no sets of them to choose from."""
+        """Return its scheme and its force plans; `sets` is ignored, since there is only one."""
         return {"friction": [*self._plates()]}
 
     def _plates(self) -> Iterator[DrawingPlate]:

@@ -109,7 +109,7 @@ def of_shoe(q: Sheet) -> MistakenValues:
 
 
 def exchanged_senses(task: str, q: Sheet) -> MistakenValues:
-    """The force on the lever of the other sense of rotation."""
+    """Yield the mistake of using the force on the lever for the other sense of rotation."""
     for id, opposite in ((f"friction.{task}.P", "backward.P"), (f"friction.{task}.backward.P", "P")):
         definition = q.families[f"friction.{task}.{opposite}"].definition
         assert definition is not None

@@ -25,7 +25,9 @@ def force_scale(*forces: float) -> float:
 
 
 def incline_sheet(given: Incline) -> Sheet:
-    """A body on a plane: P = Q sin(α + φ)/cos(β − φ) raises it, P′ = Q sin(α − φ)/cos(β + φ) lets it down."""
+    """Return the sheet of a body on a plane: P = Q sin(α + φ)/cos(β − φ) raises it, P′ = Q sin(α − φ)/cos(β + φ)
+    lowers it.
+    """
     q = Sheet()
     with q.within(Chapter.data):
         Q, α = q.give("friction.incline.Q", given.Q.si), q.give("friction.incline.alpha", given.alpha.si)
@@ -58,7 +60,9 @@ def incline_sheet(given: Incline) -> Sheet:
 
 
 def wedge_sheet(given: Wedge) -> Sheet:
-    """A wedge under a load: P = Q cos φ₃ sin(α + φ₁ + φ₂)/(cos φ₂ cos(α + φ₁ + φ₃)), and back with −φ."""
+    """Return the sheet of a wedge under a load: P = Q cos φ₃ sin(α + φ₁ + φ₂)/(cos φ₂ cos(α + φ₁ + φ₃)), and back
+    with −φ.
+    """
     q = Sheet()
     coefficients = {"1": given.f1, "2": given.f2, **({"3": given.f3} if given.f3 else {})}
     with q.within(Chapter.data):
@@ -101,7 +105,9 @@ def wedge_sheet(given: Wedge) -> Sheet:
 
 
 def screw_sheet(given: Screw) -> Sheet:
-    """A screw: M = Q d₂/2 tan(γ + φ′) + M_c, the profile in φ′ = arctan(f/cos β), η = Q l/(2π M)."""
+    """Return the sheet of a screw: M = Q d₂/2 tan(γ + φ′) + M_c, the profile in φ′ = arctan(f/cos β), η = Q l/(2π
+    M).
+    """
     q = Sheet()
     with q.within(Chapter.data):
         Q, d = q.give("friction.screw.Q", given.Q.si), q.give("friction.screw.d", given.d.si)
@@ -148,7 +154,9 @@ def wrap(q: Sheet, task: str, d: Ref, θ: Ref, f: Ref) -> tuple[Ref, Ref]:
 
 
 def belt_sheet(given: BeltOnDrum) -> Sheet:
-    """A belt about to slip: S₁ = S₂ e^{fθ}, M = (S₁ − S₂) r, the force on the axle, the greatest pressure."""
+    """Return the sheet of a belt about to slip: S₁ = S₂ e^{fθ}, M = (S₁ − S₂) r, the force on the axle, the
+    greatest pressure.
+    """
     q = Sheet()
     with q.within(Chapter.data):
         d, θ = q.give("friction.belt.d", given.d.si), q.give("friction.belt.theta", given.theta.si)
@@ -184,7 +192,7 @@ def tensions(q: Sheet, task: str, M: Ref, r: Ref, k: Ref) -> tuple[Ref, Ref]:
 
 
 def band_sheet(given: Band) -> Sheet:
-    """A band brake: P l = S₁ a + S₂ b in one sense of rotation, S₂ a + S₁ b in the other."""
+    """Return the sheet of a band brake: P l = S₁ a + S₂ b in one sense of rotation, S₂ a + S₁ b in the other."""
     q = Sheet()
     with q.within(Chapter.data):
         M, d = q.give("friction.band.M", given.M.si), q.give("friction.band.d", given.d.si)
@@ -203,7 +211,9 @@ def band_sheet(given: Band) -> Sheet:
 
 
 def shoe_sheet(given: Shoe) -> Sheet:
-    """A shoe on a lever: P l = N a ∓ F c, less where friction presses the shoe on the drum; locks at a ≤ f c."""
+    """Return the sheet of a shoe on a lever: P l = N a ∓ F c, less if friction presses the shoe on the drum; locks
+    at a ≤ f c.
+    """
     q = Sheet()
     with q.within(Chapter.data):
         M, d = q.give("friction.shoe.M", given.M.si), q.give("friction.shoe.d", given.d.si)

@@ -205,8 +205,8 @@ def _exactly(
     equilibrium: Equilibrium,
     rubbing: Callable[[Sequence[Floats]], tuple[Load, ...]],
 ) -> Floats:
-    """Return the forces (N) that press the joints together [joints, N] by the exact equations, nan where there are
-    none.
+    """Return the forces (N) that press the joints together [joints, N] by the exact equations, nan without a
+    solution.
     """
 
     def reactions(forces: Forces) -> list[Complexes]:
@@ -237,7 +237,7 @@ def _without(forces: Forces, at: Flags) -> Forces:
 
 
 def friction_of(machine: Machine) -> Friction | None:
-    """Return what joints of a machine rub, None if none does."""
+    """Return the friction of a machine's joints, None if there is none."""
     return machine.topic("friction", Friction)
 
 

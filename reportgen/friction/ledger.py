@@ -134,7 +134,7 @@ def enter_forces(q: Sheet, analysis: Analysis, worked: Sequence[int]) -> None:
 
 
 def _balanced(q: Sheet, linkage: Linkage) -> tuple[str, str, Ref]:
-    """Return the letter and the kind of what balances the driver, and the driver's rate."""
+    """Return the letter and the kind of the driver's balancing torque or force, and the driver's rate."""
     if isinstance(linkage.driver, Crank):
         return "M", "torque", q["omega.1"]
     return "P", "force", q[ids.velocity(linkage.driver.pin)]

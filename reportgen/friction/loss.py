@@ -40,7 +40,7 @@ class LocksError(Exception):
 
 
 def friction_loss(machine: Machine) -> CycleTorque | None:
-    """Return the torque that friction takes from the crank of a machine; None where nothing rubs.
+    """Return the torque that friction takes from the crank of a machine; None for a machine without friction.
 
     Raises `LocksError`.
     """

@@ -11,7 +11,7 @@ from reportgen.sheets.topic_plates import PlateHooks
 
 
 def _friction(sources: Sources) -> Iterator[Drawn]:
-    """At the worked positions the machine with its friction circles, and each of them enlarged."""
+    """Yield the machine with its friction circles at the worked positions, and each circle enlarged."""
     report, small = sources.report, sources.small
     if not views.rubbing(report):
         return

@@ -50,7 +50,9 @@ class JointFriction(Part):
 
 
 def faults(parameters: TopicParameters, machine: Machine) -> Iterator[Finding]:
-    """Joints are those of the linkage; a pin has its circle or both f and its radius; something presses the joints."""
+    """Yield faults unless joints belong to the linkage, each pin has its circle or both f and its radius, and
+    there are loads.
+    """
     given = parameters.section("friction", JointFriction)
     if given is None:
         return
@@ -100,10 +102,9 @@ def enter(opening: Opening) -> TopicData:
 
 
 def failures(machine: Machine, worked: Sequence[int]) -> Iterator[Finding]:
-    """Report a joint whose friction grows with what it causes, where the mechanism locks: at a position to be worked
-    out.
+    """Report a joint where the mechanism locks, since its friction grows with the reaction that it causes.
 
-    Anywhere in the cycle if another topic takes the torque with friction all over it.
+    Only the worked positions are examined, or the whole cycle if another topic uses the torque with friction.
     """
     solved = with_friction(analyse(machine))
     for name, held in solved.held.items():
@@ -123,7 +124,7 @@ def failures(machine: Machine, worked: Sequence[int]) -> Iterator[Finding]:
 
 
 def _faces(opening: Opening) -> dict[int, Faces]:
-    """Return the faces of wide sliders, which a topic before has entered; none if all sliders are narrow."""
+    """Return the faces of wide sliders, which an earlier topic has entered; empty if all sliders are narrow."""
     faces = opening.provided.get(FACES.name, {})
     assert isinstance(faces, dict), "faces are by their links"
     return faces

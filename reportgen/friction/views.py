@@ -77,7 +77,7 @@ def rubbing(report: Report) -> tuple[Rubbing, ...]:
 
 
 def resting(report: Report) -> str:
-    """Return the links of the joints in which nothing rubs, since they never move against each other: "2–3, 1–4"."""
+    """Return the links of joints without friction, since they never move against each other: "2–3, 1–4"."""
     friction = friction_of(report.machine)
     if friction is None or not report.has_forces:
         return ""
@@ -336,9 +336,10 @@ def _detail(report: Report, k: int, carried: JointForce, scale: float) -> Scene:
 
 
 def _guide_detail(report: Report, carried: JointForce) -> Scene:
-    """N across the guide and F along it against the sliding, in their ratio; the reaction leans by φ = arctan F/N.
+    """Draw N across the guide and F along it against the sliding, in their ratio; the reaction leans by φ = arctan
+    F/N.
 
-    Of a slider that tilts, the two forces on the ends of its face.
+    For a slider that tilts, draw the two forces on the ends of its face.
     """
     joint, digits = carried.each.of.joint, carried.each.digits
     guide = complex(report.analysis.motion.slides[joint.links].direction[carried.k - 1])
@@ -353,7 +354,7 @@ def _guide_detail(report: Report, carried: JointForce) -> Scene:
 
 
 def _at_ends(report: Report, carried: JointForce) -> list[tuple[FaceForce, Symbol]]:
-    """Return the forces on the ends of a slider that tilts, with their names; none of any other joint."""
+    """Return the forces on the ends of a slider that tilts, with their names; an empty list for any other joint."""
     joint, digits = carried.each.of.joint, carried.each.digits
     return [
         (force, report.named(Symbol("R", f"{digits},{force.number}", "fr", "vector")))

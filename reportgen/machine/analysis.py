@@ -61,7 +61,7 @@ class Analysis:
         return (*self.inertia, *self.applied, *self.weights)
 
     def derived(self, compute: Callable[[Analysis], Derived]) -> Derived:
-        """Return what a function computes of this analysis; it is computed once."""
+        """Return the result of a function of this analysis; each function is computed once."""
         if compute not in self._derived:
             self._derived[compute] = compute(self)
         return cast(Derived, self._derived[compute])
@@ -141,7 +141,7 @@ def breaks(machine: Machine) -> np.ndarray:
 
 
 ROUNDING = 1e-13
-"""A torque below this share of what the loads could do is rounding of the sum that it is."""
+"""A torque below this share of the `possible` torque of the loads is a rounding error of the sum."""
 
 
 def possible(motion: Motion, loads: Iterable[Load]) -> float:
@@ -251,7 +251,7 @@ class Position(int):
 
 
 def no_formulas(q: Sheet) -> None:
-    """A machine without closed formulas."""
+    """Enter nothing: the default for a machine without closed formulas."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -271,9 +271,9 @@ class ClosedFormulas:
 class Machine:
     """A mechanism with its drive, its loads and the outline of its report.
 
-    A turn has `count` positions, numbered from driver angle `start` in the direction `turn` (+1
-    anticlockwise); the cycle of loads takes `turns` turns of the driver.  `sheet` holds the given data and what
-    follows from them; `outline` names the report's sections in order.
+    A turn has `count` positions, numbered from driver angle `start` in the direction `turn` (+1 anticlockwise); the
+    cycle of loads takes `turns` turns of the driver. `sheet` contains the given data and the values computed from
+    them; `outline` names the report's sections in order.
     """
 
     kind: str

@@ -42,7 +42,9 @@ class Load:
 
 
 def weights(linkage: Linkage, motion: Motion) -> tuple[Load, ...]:
-    """Weights m·g at the mass centres, named "G" and the link's number; none of a massless link or without gravity."""
+    """Return the weights m·g at the mass centres, named "G" and the link's number; massless links have none, nor
+    is there any without gravity.
+    """
     still = np.zeros_like(motion.driver)
     return tuple(
         Load(
@@ -135,7 +137,8 @@ class Reaction:
 
 @dataclass(frozen=True, slots=True)
 class Forces:
-    """Reactions "R12" (link 1 on link 2) and "R21" for every joint, and what balances the driver.
+    """Reactions "R12" (link 1 on link 2) and "R21" for every joint, and the torque or force that balances the
+    driver.
 
     `torque` is the torque on the crank (N·m), or for a sliding driver the force along its guide (N).
     """
@@ -178,7 +181,7 @@ class Equilibrium:
     driving: Joint
     """The driver's joint with the ground."""
     groups: tuple[_Group, ...]
-    """Outermost first: what a group's joints hold is a load on the links that it hangs on."""
+    """Groups from the outermost on: the reactions in a group's joints are loads on the links that it hangs on."""
 
     @classmethod
     def of(cls, linkage: Linkage, motion: Motion) -> Equilibrium:
@@ -253,7 +256,7 @@ class _Group:
         return cls(dyad.links, own, pole, length, columns, np.ascontiguousarray(np.moveaxis(matrix, 2, 0)))
 
     def balance(self, carried: Mapping[int, Sequence[_Wrench]], valid: Flags) -> list[_Wrench]:
-        """Return the wrenches of the joints on their second links, under what the links carry."""
+        """Return the wrenches of the joints on their second links, for the loads `carried` by the links."""
         known = np.zeros((6, self.pole.size))
         for row, link in zip((0, 3), self.links, strict=True):
             for wrench in carried[link]:
@@ -301,7 +304,7 @@ def _enter(reactions: dict[str, Reaction], joint: Joint, wrench: _Wrench, motion
 
 
 def _drive(joint: Joint, motion: Motion, carried: Sequence[_Wrench]) -> tuple[_Wrench, Floats]:
-    """Return the ground's wrench on the driver and what balances it: M = −ΣM about the centre, or F = −ΣF·d."""
+    """Return the ground's wrench on the driver and its balance: M = −ΣM about the centre, or F = −ΣF·d."""
     at = motion.points[joint.point].p
     still = np.where(motion.reachable, 0.0, np.nan)
     force = sum((wrench.force for wrench in carried), still + 0j)

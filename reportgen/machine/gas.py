@@ -59,9 +59,9 @@ def _within(cycle_angle: ArrayLike) -> Floats:
 
 @dataclass(frozen=True, slots=True)
 class Tabled:
-    """A table as it is given: sizes (SI) at nodes, in a row for each stroke or in one for the whole cycle.
+    """A table as given: sizes (SI) at nodes, in a row for each stroke or in one for the whole cycle.
 
-    `over` is what the nodes are values of, `kind` its kind of quantity.
+    `over` is the symbol of the nodes' quantity, `kind` its kind.
     """
 
     over: Expression
@@ -142,7 +142,7 @@ class StrokeIndicator:
         return self.intake, self.compression, self.expansion, self.exhaust
 
     def tabled(self, turns: int = 2) -> Tabled:
-        """Return the table as it is given of so many turns, two strokes each."""
+        """Return the table as it was given for so many turns, two strokes each."""
         return Tabled(Fraction(Symbol("s"), Symbol("H")), "ratio", self.fractions, self.rows[: 2 * turns])
 
     def bracket(self, cycle_angle: Floats, fraction: Floats, dead_centres: ArrayLike = DEAD_CENTRES) -> Bracket:
@@ -211,12 +211,12 @@ class AngleIndicator:
         return (self.pressures,)
 
     def tabled(self, turns: int = 2) -> Tabled:
-        """Return the table as it is given of so many turns."""
+        """Return the table as it was given for so many turns."""
         count = sum(angle <= turns * 2 * math.pi * (1 + 1e-15) for angle in self.angles)
         return Tabled(Symbol("φ"), "angle", self.angles[:count], (self.pressures[:count],))
 
     def bracket(self, cycle_angle: Floats, fraction: Floats, dead_centres: ArrayLike = DEAD_CENTRES) -> Bracket:
-        """Between which nodes the cycle angles [N] lie."""
+        """Return the nodes on both sides of the cycle angles [N]."""
         rows = np.tile(self.pressures, (len(cycle_angle), 1))
         return Bracket.among("angle", np.mod(cycle_angle, CYCLE), self.angles, rows)
 

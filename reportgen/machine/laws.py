@@ -30,7 +30,7 @@ HALVINGS = 50
 AT_ONCE = 5
 """Halvings made in one step."""
 BEFORE_A_TURN = 1e-9
-"""Angles (rad) this near below the end of the cycle, or below a turning point, belong to what begins there."""
+"""Angles (rad) closer than this below the end of the cycle, or below a turning point, belong to the next part."""
 
 EDGE_OF_CUT = 1e-9
 """A share of the stroke this near to the tool's way in or out is rounding of it."""
@@ -138,7 +138,7 @@ class Law(ABC):
         return None
 
     def bracket(self, angle: Floats, motion: Motion) -> Bracket | None:
-        """Between which values of its table it is read at cycle angles [N]; None for what no table gives."""
+        """Return the nodes of its table on both sides of cycle angles [N]; None if it has no table."""
         return None
 
     @property
@@ -231,7 +231,7 @@ class GasLaw(TableLaw):
 
 @dataclass(frozen=True)
 class ListedLaw(Law):
-    """`values` (N or N·m) at `nodes`, linear between; of what the nodes are values its kinds say."""
+    """`values` (N or N·m) at `nodes`, linear between them; subclasses define the quantity of the nodes."""
 
     nodes: tuple[float, ...]
     values: tuple[float, ...]
@@ -270,7 +270,7 @@ class AngleLaw(ListedLaw):
 
 @dataclass(frozen=True)
 class WayLaw(ListedLaw):
-    """Over the way (m) of a sliding driver from its start; `span` is the whole way, which is no cycle."""
+    """Values over the way (m) of a sliding driver from its start; `span` is the whole way, which is not a cycle."""
 
     span: float
 
@@ -388,12 +388,14 @@ class Resistance(Law):
 
 
 def by_stroke(fractions: tuple[float, ...], inward: tuple[float, ...], outward: tuple[float, ...]) -> IndicatorTable:
-    """Forces (N) over s/H from the top: a row for the way in, towards the crank, and one for the way out."""
+    """Return forces (N) over s/H from the top: a row for the way in, towards the crank, and one for the way out."""
     return StrokeIndicator(fractions, inward, outward, inward, outward)
 
 
 def by_angle(angles: tuple[float, ...], values: tuple[float, ...]) -> IndicatorTable:
-    """Forces (N) over a turn from the top, 0…2π; the table's last value closes the turn or jumps to the first."""
+    """Return forces (N) over a turn from the top, 0…2π; the table's last value closes the turn or jumps to the
+    first.
+    """
     second = tuple(angle + FULL_TURN for angle in angles)
     if values[0] == values[-1]:
         return AngleIndicator((*angles, *second[1:]), (*values, *values[1:]))

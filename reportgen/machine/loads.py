@@ -152,7 +152,7 @@ class Applied:
 
 @dataclass(frozen=True)
 class Torque:
-    """A torque on a link that is no inertia couple: its law (N·m), anticlockwise positive."""
+    """A torque on a link other than an inertia couple: its law (N·m), anticlockwise positive."""
 
     name: str
     link: int
@@ -179,7 +179,7 @@ class LoadsByKind:
 
     @classmethod
     def of(cls, loads: Iterable[Applied | Torque]) -> LoadsByKind:
-        """Some loads by what they are, each in the order given."""
+        """Sort loads by kind, each kind in the given order."""
         loads = tuple(loads)
         acting = [load for load in loads if load.law.acts]
         return cls(

@@ -56,7 +56,7 @@ def dot(a: Complexes | complex, b: Complexes | complex) -> Floats:
 
 
 def solve2(u: Complexes | complex, w: Complexes | complex, rhs: Complexes | complex) -> tuple[Floats, Floats]:
-    """Cramer's rule: the real x, y [N] with x·u + y·w = rhs; nan where u and w are parallel to within `SINGULAR`."""
+    """Solve x·u + y·w = rhs for real x, y [N] by Cramer's rule; nan where u and w are parallel to within `SINGULAR`."""
     area = cross(u, w)
     regular = np.abs(area) > SINGULAR * np.abs(u) * np.abs(w)
     area = np.where(regular, area, np.nan)
@@ -160,7 +160,7 @@ def _root(scale: Floats | float) -> SquareRoot:
 
 
 def _rrr(dyad: Dyad, p: PointMotion, t: PointMotion, sign: Floats) -> Assembled:
-    """v_P + iω_i PQ = v_T + iω_j TQ."""
+    """Solve v_P + iω_i PQ = v_T + iω_j TQ."""
     first, second = dyad.lengths
     with np.errstate(divide="ignore", invalid="ignore"):
         q = circle_circle(p.p, first, t.p, second, sign, _root(first))
@@ -173,7 +173,7 @@ def _rrr(dyad: Dyad, p: PointMotion, t: PointMotion, sign: Floats) -> Assembled:
 
 
 def _rrp(dyad: Dyad, p: PointMotion, rail: Rail, sign: Floats) -> Assembled:
-    """v_P + iω_i PQ = v_Qk + ṡ d, with 2iω_k ṡ d (Coriolis) on a turning guide."""
+    """Solve v_P + iω_i PQ = v_Qk + ṡ d, with 2iω_k ṡ d (Coriolis) on a turning guide."""
     length = dyad.lengths[0]
     d = rail.direction
     s = along_line(p.p, length, rail.at.p, d, sign, _root(length))
@@ -190,7 +190,7 @@ def _rrp(dyad: Dyad, p: PointMotion, rail: Rail, sign: Floats) -> Assembled:
 
 
 def _rpr(dyad: Dyad, p: PointMotion, t: PointMotion, sign: Floats) -> Assembled:
-    """v_P = v_T + iω TP + ṡ u, a_P = a_T + (iε − ω²) TP + 2iωṡ u + s̈ u."""
+    """Solve v_P = v_T + iω TP + ṡ u, a_P = a_T + (iε − ω²) TP + 2iωṡ u + s̈ u."""
     offset = dyad.lengths[1]
     r = p.p - t.p
     # A pin met by its own slider's centre leaves the direction to rounding.
@@ -206,7 +206,7 @@ def _rpr(dyad: Dyad, p: PointMotion, t: PointMotion, sign: Floats) -> Assembled:
 
 
 def _prp(dyad: Dyad, first: Rail, second: Rail) -> Assembled:
-    """v_Qk + ṡ₁ d₁ = v_Qm + ṡ₂ d₂."""
+    """Solve v_Qk + ṡ₁ d₁ = v_Qm + ṡ₂ d₂."""
     d, e = first.direction, second.direction
     s, t = solve2(d, -e, second.at.p - first.at.p)
     q = first.at.p + s * d
@@ -225,7 +225,7 @@ def _prp(dyad: Dyad, first: Rail, second: Rail) -> Assembled:
 
 
 def _rpp(dyad: Dyad, p: PointMotion, rail: Rail) -> Assembled:
-    """v_P = v_Pk + ṡ d + ṫ w: both slides turn with the guide's link, 2iω_k (ṡ d + ṫ w) is Coriolis."""
+    """Solve v_P = v_Pk + ṡ d + ṫ w: both slides turn with the guide's link, 2iω_k (ṡ d + ṫ w) is Coriolis."""
     d = rail.direction
     w = d * unit(dyad.slide_angle)
     under = rail.carried(p.p)
@@ -260,8 +260,8 @@ class Motion:
     """The motion of every link, named point and slide over positions [N].
 
     `driver` is the crank's angle (rad) or the slide's coordinate (m), `rate` its rate at each position [N].
-    `slides` are keyed (guide link, slider link); `origins` are the origins of the links' frames.
-    Positions where `reachable` is False have nan where nothing can be said.
+    `slides` are keyed (guide link, slider link); `origins` are the origins of the links' frames. Undetermined
+    values at positions where `reachable` is False are nan.
     """
 
     driver: Floats

@@ -21,7 +21,7 @@ def sense_of(rate: Floats, pace: float) -> Floats:
 
 
 def moving(rate: Floats, pace: float) -> Floats:
-    """Return a rate [N] without rounding: 0 where it is nothing beside the mechanism's `pace` in the same unit."""
+    """Return a rate [N] without rounding: 0 where it is negligible beside the mechanism's `pace` in the same unit."""
     return np.asarray(np.where(np.abs(rate) > STILL * pace, rate, 0.0))
 
 
@@ -38,5 +38,5 @@ def pace(motion: Motion, kind: str) -> tuple[float, float]:
 
 
 def largest(*values: Floats | Complexes) -> float:
-    """Return the greatest size among values that may be nan, 0 of none."""
+    """Return the greatest size among values that may be nan; 0 if there is no value."""
     return max((float(np.nanmax(np.abs(each), initial=0.0)) for each in values), default=0.0)

@@ -36,7 +36,7 @@ ROUNDING = 1e-9
 """Relative change below which a value that no longer decreases from step to step is rounding."""
 MOST_STEPS = 60
 MOST_CHANGE = 2.5
-"""By what factor T may change in a part."""
+"""Largest factor by which T may change in a part."""
 ACCURATE = 1e-8
 """Largest contribution of the highest polynomials in a part to T and to the time, as a share; at its end both are
 far better.
@@ -64,9 +64,7 @@ MODES = np.linalg.inv(np.polynomial.legendre.legvander(2 * C - 1, STAGES - 1))
 
 
 def tail(values: Floats) -> float:
-    """Return the two highest of Legendre's polynomials in values at the places of a part [s]: what the others leave
-    out.
-    """
+    """Return the size of the two highest of Legendre's polynomials in values at the places of a part [s]."""
     return float(np.abs(MODES[-2:] @ values).max())
 
 
@@ -75,7 +73,7 @@ def tail(values: Floats) -> float:
 
 @dataclass(frozen=True)
 class ReducedWay:
-    """Parts of a way between rising cycle angles `edges` [n + 1], and what holds at the places in them [n, s].
+    """Parts of a way between rising cycle angles `edges` [n + 1], and the values at the places in them [n, s].
 
     `angle` of the places, `measure` dφ/dx times the length of the part, so that dT = M·measure over 0…1; J, J′ and
     M_r there, and at the edges.
@@ -102,7 +100,7 @@ class ReducedWay:
 
 @dataclass(frozen=True)
 class ReducedMachine:
-    """A machine with what turns beside its crank: `added` moment of inertia (kg·m²) of motor, gear, flywheel.
+    """A machine with further inertia on its crank: `added` moment of inertia (kg·m²) of motor, gear, flywheel.
 
     `loss` is the torque that friction takes from its crank, if any joint rubs.
     """
@@ -204,10 +202,10 @@ def _first_empty(edges: Floats, inside: Floats) -> int:
 
 
 def follow(path: ReducedWay, drive: Drive, first: float) -> tuple[EnergyAlong, int]:
-    """T along a way from T = `first`, and over how many of its parts it is accurate.
+    """Return T along a way from T = `first`, and the number of its parts over which it is accurate.
 
-    It ends before the first part in which T changes too much for a polynomial, is used up, or Newton's method fails.
-    Since no part depends on those behind it, few are tried first, then more and more.
+    It ends before the first part in which T changes too much for a polynomial, is used up, or Newton's method
+    fails. Since no part depends on those behind it, few are tried first, then more and more.
     """
     edges, inside = [np.array([first])], []
     done, size, start = 0, min(FEW, path.size), first
@@ -231,7 +229,9 @@ def follow(path: ReducedWay, drive: Drive, first: float) -> tuple[EnergyAlong, i
 
 
 def smooth(path: ReducedWay, drive: Drive, energy: EnergyAlong) -> NDArray[np.bool_]:
-    """In which parts [n] polynomials serve: T changes little, their highest terms hardly count in T nor in the time."""
+    """Return flags [n] of parts in which polynomials are accurate: T changes little, their highest terms are
+    negligible.
+    """
     every = np.column_stack((energy.edges[:-1], energy.inside, energy.edges[1:]))
     most, least = every.max(axis=1, initial=0.0), every.min(axis=1, initial=np.inf)
     speed = np.sqrt(2 * np.maximum(energy.inside, LEAST_ENERGY * most[:, None]) / path.inertia)
@@ -245,7 +245,7 @@ def smooth(path: ReducedWay, drive: Drive, energy: EnergyAlong) -> NDArray[np.bo
 
 
 def _newton(path: ReducedWay, drive: Drive, first: float, energy: Floats) -> tuple[EnergyAlong, int]:
-    """T along a way by Newton's method from a guess [n, s], and how many of its parts are sure."""
+    """Return T along a way by Newton's method from a guess [n, s], and the number of its parts that are certain."""
     scale = first + float(np.abs(path.measure * path.torque).sum())
     for _ in range(MOST_STEPS):
         energy = np.maximum(energy, LEAST_ENERGY * scale)
@@ -262,9 +262,9 @@ def _newton(path: ReducedWay, drive: Drive, first: float, energy: Floats) -> tup
 
 
 def closed(path: ReducedWay, drive: Drive, guess: Floats) -> tuple[EnergyAlong, float] | None:
-    """T along a cycle that returns to what it was, from a guess [n, s], and the factor α of a deviation in a cycle.
+    """Return T along a cycle that ends as it began, from a guess [n, s], and the factor α of a deviation in a cycle.
 
-    None where Newton's way does not lead to any, or only to one without energy.
+    Return None if Newton's method finds none, or only one without energy.
     """
     energy, before = guess, np.inf
     for _ in range(MOST_STEPS):

@@ -36,7 +36,7 @@ def _timed(key: str, run: MotionRun) -> TimedRun:
 
 
 def working_point(report: Report) -> Iterator[Chart]:
-    """Yield the characteristic, on which the working point of the drive moves; none of a constant torque."""
+    """Yield the characteristic, on which the working point of the drive moves; nothing for a constant torque."""
     motion = motion_in(report.analysis)
     if motion.drive.governs:
         symbol = report.ledger.symbol("run.Md")

@@ -46,7 +46,7 @@ def errors_of_positions(ledger: Ledger) -> Mapping[str, np.ndarray]:
 
 
 def stands_on(ledger: Ledger, id: str) -> str:
-    """Return the id of the work of all torques for what is found from it."""
+    """Return the id of the work of all torques for a value computed from it."""
     if not id.startswith(TRUE_MOTION) or ledger[id].definition is None or id not in errors_of_positions(ledger):
         return id
     return f"{TRUE_MOTION}A{id[id.rindex('.') :]}" if id.count(".") > 1 else f"{TRUE_MOTION}A"

@@ -40,7 +40,7 @@ def mistakes(ledger: Ledger, machine: Machine) -> Changed:
 
 
 def _accelerations(terms: tuple[Expression, ...], J: Expression, ω: Ref, M_r: Ref) -> Mapping[str, Expression]:
-    """ε of those who leave ½ω²J′ out, take ω for ω², or the resistance with the wrong sign."""
+    """Return ε with common mistakes: ½ω²J′ left out, ω for ω², or the resistance with the wrong sign."""
     torques, change = terms[:2], terms[2:]
     reversed_load = Sum((Negative(M_r), *terms[1:])) / J
     wrong: dict[str, Expression] = {"load-sign": reversed_load}

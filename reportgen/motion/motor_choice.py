@@ -29,7 +29,7 @@ def has_motors(report: Report) -> bool:
 
 
 def chosen_motor(report: Report) -> Inlines:
-    """Return the least motor that passes all checks, by name and power; nothing if none does."""
+    """Return the smallest motor that passes all checks, by name and power; () if there is none."""
     fitting = next((checked_motor for checked_motor in _checks(report) if checked_motor.fits), None)
     if fitting is None:
         return ()

@@ -39,7 +39,7 @@ class DriveDemand:
 
 @dataclass(frozen=True, slots=True)
 class MotorChecks:
-    """A motor with what it passes, its torques reduced to the crank (N·m)."""
+    """A motor with the checks that it passes, its torques reduced to the crank (N·m)."""
 
     motor: Motor
     rated: float

@@ -37,13 +37,13 @@ from reportgen.motion.energy import (
 from reportgen.motion.time_steps import TimeStepper, UnsettledError, times
 
 BALANCED = 1e-9
-"""A mean torque below this share of the mean of its size is none."""
+"""A mean torque below this share of the mean of its size is zero."""
 MOST_CYCLES = 400
 """Largest number of cycles of a start; a longer start is reported instead."""
 MOST_REFINED = 12
 """Largest number of halvings of a part of the cycle in which T changes too much."""
 HEAVIER = 4.0
-"""By what factor the inertia grows until the steady motion is found, from which that of the machine itself follows."""
+"""Factor by which the inertia grows until a steady motion is found, from which that of the machine itself follows."""
 MOST_HEAVIER = 12
 HARDLY = 1e-3
 """A reduced moment of inertia below this share of its greatest is so small that T may not settle the speed there."""
@@ -100,7 +100,7 @@ class MotionRun:
         return int(self.at[int(np.abs(edges - angle).argmin())])
 
     def joined(self, *after: MotionRun) -> MotionRun:
-        """This run and those that go on where it ends, one after the other."""
+        """Return this run and those that continue it, joined one after the other."""
         runs = (self, *after)
         names = ("angle", "inertia", "slope", "torque", "drive", "energy", "speed", "acceleration")
         both = {
@@ -289,9 +289,9 @@ def mean_torque(body: ReducedMachine, path: ReducedWay) -> tuple[float, float]:
 
 
 def levels(drive: Drive, mean: float, speed: float) -> list[float]:
-    """Speeds (rad/s) at which a drive balances a mean torque of the loads and returns to it, the highest first.
+    """Return the speeds (rad/s) at which a drive balances a mean torque of the loads stably, the highest first.
 
-    Between the corners of a characteristic its torque rises or falls throughout, and beyond the last it goes on.
+    Between the corners of a characteristic its torque rises or falls throughout, and beyond the last it continues.
     """
 
     def rest(at: float) -> float:
@@ -346,9 +346,9 @@ def _light(path: ReducedWay) -> NoMotionError | None:
 
 
 def _cycle(path: ReducedWay, drive: Drive, speed: float) -> tuple[EnergyAlong, float] | None:
-    """T along a steady cycle about a speed (rad/s), and what is left of a deviation; None where none is found.
+    """Return T along a steady cycle about a speed (rad/s), and the rest of a deviation; None if no cycle is found.
 
-    Where Newton's method does not find it at once, that of a machine with more inertia leads to it.
+    If Newton's method does not find it directly, that of a machine with more inertia leads to it.
     """
 
     def of(extra: float, squared: Floats) -> tuple[EnergyAlong, float] | None:
@@ -394,7 +394,7 @@ def _refined(body: ReducedMachine, path: ReducedWay, drive: Drive, energy: Energ
 
 
 def _simulated(body: ReducedMachine, path: ReducedWay, drive: Drive, speed: float) -> None:
-    """Raises `NoMotionError` where the machine stalls in the cycles after it had this speed (rad/s)."""
+    """Raise `NoMotionError` if the machine stalls in the cycles after it had this speed (rad/s)."""
     for _ in range(MOST_CYCLES // 4):
         before = speed
         run, arrives = passage(body, path.edges, drive, speed, path)

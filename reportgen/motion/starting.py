@@ -17,7 +17,7 @@ NEAR_STEADY = 0.01
 """A start is over at the end of the first cycle whose last speed is as near to the steady one."""
 STALLS = "start-stalls"
 NEAR_ENOUGH = np.radians(1.0)
-"""To what the limit of the angles is found (rad) from which a machine starts."""
+"""Accuracy (rad) of the limits of the angles from which a machine starts."""
 MOST_SWINGS = 50
 
 
@@ -38,9 +38,9 @@ class StartFromRest:
 
 
 def starting_ranges(body: ReducedMachine, drive: Drive) -> list[tuple[float, float]]:
-    """From which cycle angles to which (rad) a machine at rest starts and comes through a cycle.
+    """Return the ranges of cycle angles (rad) from which a machine at rest starts and completes a cycle.
 
-    The farther before a place where the loads are too strong it starts, the more energy it has there.
+    The farther it starts before a place where the loads are too strong, the more energy it has there.
     """
     angle = np.linspace(0.0, body.whole, body.machine.turns * 2 * PARTS + 1)
     moves = body.reduced(angle)[2] + drive.torque(np.zeros_like(angle)) > 0
@@ -74,9 +74,9 @@ def _comes_through(body: ReducedMachine, drive: Drive, angle: float) -> bool:
 def start(
     body: ReducedMachine, drive: Drive, to: SteadyMotion, angle: float = 0.0, own: Sequence[float] = ()
 ) -> StartFromRest:
-    """From rest at a cycle angle (rad) until the steady motion is as good as reached.
+    """Run from rest at a cycle angle (rad) until the steady motion is practically reached.
 
-    Raises `NoMotionError` where the machine does not start, or stalls on the way.
+    Raises `NoMotionError` if the machine does not start, or stalls on the way.
     """
     edges = body.parted(angle, own)
     torque = float(body.reduced(edges[:1])[2][0] + drive.torque(np.zeros(1))[0])
@@ -99,10 +99,11 @@ def start(
 
 
 def _first_cycle(body: ReducedMachine, drive: Drive, edges: Floats) -> tuple[MotionRun, tuple[float, ...]]:
-    """From rest to the last of the edges (rad), swinging back where the loads push; and where it turns back.
+    """Run from rest to the last of the edges (rad), swinging back where the loads push; also return where it turns
+    back.
 
-    A crank that swings back less far than where it last set out from comes less far at every further swing, since no
-    path of speed over angle crosses itself: it stalls.
+    A crank that swings back less far than to its last start gets less far at every further swing, since no path of
+    speed over angle crosses itself: it stalls.
     """
     turns_back: list[float] = []
     run, arrives = passage(body, edges, drive, 0.0)

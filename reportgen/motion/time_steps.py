@@ -78,7 +78,7 @@ class TimeStepper:
         return inertia, slope, torque
 
     def leg(self, angle: float, speed: float, edge: float) -> Leg:
-        """From an angle and a speed until the crank is at an edge (rad), or at rest.
+        """Run from an angle and a speed until the crank is at an edge (rad), or at rest.
 
         Raises `UnsettledError`.
         """

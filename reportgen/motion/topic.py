@@ -70,7 +70,7 @@ class FoundTorque(Reader):
 
 @dataclass(frozen=True, slots=True)
 class Always(Reader):
-    """`true`: what is there in any case may be said."""
+    """`true`: a value that is always present and may be written."""
 
     def read(self, value: object) -> bool:
         if value != "true":
@@ -111,7 +111,7 @@ class MotorSection(Part):
 
 
 class DriveSection(Part):
-    """The characteristic of the motor, the gear between it and the crank, what turns with the motor."""
+    """The characteristic of the motor, the gear between it and the crank, the inertia that turns with the motor."""
 
     M0: Torque | None = None
     k: Damping | None = None

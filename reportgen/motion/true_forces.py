@@ -64,10 +64,9 @@ def _courses(report: Report, true: Analysis) -> Iterator[tuple[str, np.ndarray]]
 
 
 def _row(report: Report, id: str, true: np.ndarray, k: Position) -> tuple[object, ...]:
-    """Return a quantity with its value at constant speed and the true one of [N], in the decimals that the report
-    has for it.
+    """Return a quantity with its value at constant speed and the true one of [N], in the decimals of the report.
 
-    What is nothing at constant speed has the figures of its kind.
+    A value that is negligible at constant speed has the figures of its kind.
     """
     ledger = report.ledger
     how, signed = ledger[id].how, ledger[id].is_signed_rotation

@@ -20,9 +20,9 @@ from reportgen.motion.running import MotionRun, NoMotionError, SteadyMotion, mea
 from reportgen.motion.starting import StartFromRest, start, stop
 
 NO_INERTIA = 1e-12
-"""A reduced moment of inertia below this share of its greatest is none."""
+"""A reduced moment of inertia below this share of its greatest is zero."""
 LOW, FINER, CLOSER = 1e-2, 16, 7
-"""Below this share of the greatest a minimum is sought again, over so many places on either side, so many times."""
+"""Minima below this share of the greatest are refined, over so many places on either side, so many times."""
 OFF_SPEED = 0.1
 """A machine that runs faster or slower than planned by more than this share is another one: the user is warned."""
 WheelState = Literal["", "wheel"]
@@ -52,7 +52,7 @@ class TrueMotion:
         return {"": self.alone} if self.wheeled is None else {"": self.alone, "wheel": self.wheeled}
 
     def off_speed(self, machine: Machine) -> float:
-        """By what share the mean speed of the motion that starts and stops differs from the planned one."""
+        """Return the relative difference of the mean speed of the motion that starts and stops from the planned one."""
         return abs(self.states[self.shown].mean / machine.speed - 1)
 
     def added(self, state: WheelState) -> float:

@@ -91,7 +91,9 @@ def verdict(report: Report) -> str:
 
 
 def _excess(report: Report) -> float:
-    """By what share the true unevenness exceeds the permitted one, both as they are printed; negative if it is less."""
+    """Return the share by which the true unevenness exceeds the permitted one, both as printed; negative if it is
+    less.
+    """
     motion, permitted = motion_in(report.analysis), _permitted(report)
     assert permitted is not None, "a verdict names what is permitted"
     printed = report.ledger.number(run_ids.in_state("delta", list(motion.states)[-1]))
@@ -100,7 +102,7 @@ def _excess(report: Report) -> float:
 
 
 def exceeded_by(report: Report) -> Inlines:
-    """By how much the true unevenness exceeds the permitted one; nothing where it does not."""
+    """Return the percentage by which the true unevenness exceeds the permitted one; () if it does not."""
     return (_percent(_excess(report)),) if verdict(report) == "exceeded" else ()
 
 
@@ -178,7 +180,7 @@ def extreme_places(report: Report, state: str = "") -> Mapping[str, Inlines]:
 
 
 def motion_equations(report: Report) -> Equation:
-    """Return the equation of motion, the equation of energy and what it gives, in symbols."""
+    """Return the equation of motion, the equation of energy and its solution, in symbols."""
     ledger = report.ledger
     parts = [ledger.symbol(id) for id in ("J.r", "run.J") if id in ledger]
     J = plus(*parts)
@@ -209,7 +211,7 @@ def drive_equations(report: Report) -> Equation:
 
 
 def drive_formula(report: Report) -> Inlines:
-    """Return the same within a sentence; nothing of a drive without a formula."""
+    """Return the same within a sentence; () for a drive without a formula."""
     if drive_form(report) not in ("linear", "load", "kloss"):
         return ()
     chains = (InlineMath(chain, slashed=True) for chain in drive_equations(report).rows if isinstance(chain, Chain))
@@ -217,7 +219,7 @@ def drive_formula(report: Report) -> Inlines:
 
 
 def drive_points(report: Report) -> Inlines:
-    """Return the torques of a characteristic that is a table, at its speeds; nothing of another one."""
+    """Return the torques of a characteristic that is a table, at its speeds; () for another one."""
     motion = motion_in(report.analysis)
     drive = motion.drive
     motor = drive.motor if isinstance(drive, Geared) else drive

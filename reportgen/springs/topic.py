@@ -128,9 +128,7 @@ MEET = 1e-3
 
 
 def faults(parameters: TopicParameters, machine: Machine) -> Iterator[Finding]:
-    """Yield faults unless each spring has its ends on links and at points that are there, and sizes of its sort;
-    none winds up.
-    """
+    """Yield faults unless the ends of each spring are on existing links and points, and no torsion spring winds up."""
     springs: tuple[Spring, ...] = parameters.section("springs", tuple) or ()
     misplaced = list(misplaced_ends(springs, machine.linkage))
     yield from misplaced or wound_up(springs, machine)
@@ -144,9 +142,10 @@ def misplaced_ends(springs: Sequence[Spring], linkage: Linkage) -> Iterator[Find
 
 
 def failures(machine: Machine, worked: Sequence[int]) -> Iterator[Finding]:
-    """Report a spring whose ends meet on the way: its force would have no direction there, and jump to the other side.
+    """Report a spring whose ends meet on the way: its force would have no direction there, and jump to the other
+    side.
 
-    One without a free length pulls with c times the vector between its ends, which is nothing there.
+    A spring without a free length pulls with c times the vector between its ends, which is zero there.
     """
     laws = {load.law.number: load.law for load in machine.loads if isinstance(load.law, SpringLaw)}
     if not laws:
@@ -237,7 +236,7 @@ def swing(link: int, motion_at: MotionAt) -> tuple[float, float]:
 
 
 def wound_up(springs: Sequence[Spring], machine: Machine) -> Iterator[Finding]:
-    """Torsion springs on links that turn round and round, and so wind their spring up; at instants nothing turns."""
+    """Yield faults for torsion springs on links that make whole turns, and so wind the spring up; not at instants."""
     for index, spring in enumerate(() if machine.instants else springs):
         if spring.twists and spring.link in machine.linkage.links:
             _, range_ = swing(spring.link, partial(motion_of, machine))

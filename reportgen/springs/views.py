@@ -32,8 +32,8 @@ def spring_lines(report: Report) -> list[str]:
 
 
 def spring_works(report: Report) -> Inlines:
-    """Return the works of the springs (J) over the way of a sliding driver, in the order of their numbers; of a
-    crank none.
+    """Return the works of the springs (J) over the way of a sliding driver, in the order of their numbers; () for
+    a crank.
     """
     machine = report.machine
     if not machine.span:

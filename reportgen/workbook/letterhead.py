@@ -92,7 +92,7 @@ MARGINS = {"top": "top", "bottom": "bottom", "left": "left", "right": "right", "
 
 @dataclass(frozen=True, slots=True)
 class Letterhead:
-    """Parts as XML, "" for what the file does not have; margins in mm."""
+    """Parts as XML, "" for missing ones; margins in mm."""
 
     styles: str
     header: str = ""
@@ -169,7 +169,7 @@ def _margins(attributes: Attributes, package: Package) -> dict[str, float]:
 
 
 def _part(package: Package, name: str, called: str) -> str:
-    """Return a part with nothing in it but Word's own elements and attributes, none of which names another part."""
+    """Return a part with only Word's own elements and attributes, without references to other parts."""
     builder = ElementTree.TreeBuilder()
     codes: list[str] = []
     skipped = depth = count = 0
@@ -253,7 +253,7 @@ def _stands_right(child: ElementTree.Element, parent: ElementTree.Element) -> bo
 
 
 def _wrong_value(element: ElementTree.Element) -> str | None:
-    """Return a number of an element that is out of Word's range; None where there is none."""
+    """Return a number of an element that is out of Word's range; None if all are in range."""
     local = element.tag.removeprefix(_W)
     for key, value in element.attrib.items():
         attribute = key.removeprefix(_W)

@@ -46,9 +46,7 @@ def _first_section(number_format: str) -> str:
 
 
 def _tokens(section: str) -> Iterator[tuple[str | None, bool]]:
-    """Yield the signs of a format, and whether each is a place for a digit; None for what makes it one of
-    quantities.
-    """
+    """Yield the signs of a format, each with True for the place of a digit; None for a sign that marks a quantity."""
     for match in _TOKEN.finditer(section):
         quoted, escaped, blank, place, literal, quantity = match.groups()
         if place:

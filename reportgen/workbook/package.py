@@ -30,7 +30,7 @@ MOST_ELEMENTS = 100_000
 CONTENT_TYPES = "[Content_Types].xml"
 CHUNK = 1 << 16
 MOST_HELD = 1 << 18
-"""Elements and attributes held at once; the longest row there can be, of cells with nothing but a style, has 50 000."""
+"""Largest number of elements and attributes in memory; the longest possible row, of styled empty cells, has 50 000."""
 MOST_GROUPS = 1 << 20
 """Rows of a sheet, strings of a table; no sheet can have more rows."""
 MOST_TRANSLATED = 20_000_000
@@ -42,7 +42,7 @@ encrypted or packed in an unknown way (`RuntimeError` and a subclass).
 """
 
 _EMPTY_CELL = re.compile(rb"<((?:\w+:)?c)(?=\s)[^<>]*?(?:/>|>\s*</\1\s*>)")
-"""A cell with a look and nothing in it."""
+"""A cell with a style but without content."""
 _UNPLACED_CELL = re.compile(rb"<(?:\w+:)?c(?=[\s/>])(?![^<>]*\sr\s*=)")
 """A cell that does not give its place: it follows the one before it."""
 _OLD = b"\xd0\xcf\x11\xe0"
@@ -78,7 +78,7 @@ class Package:
     """An opened package whose directory has been found harmless; parts are read on demand, within limits."""
 
     def __init__(self, data: bytes, file: str, bounds: Bounds | None = None) -> None:
-        """Raises `RefusedError`."""
+        """Open and check a package; raises `RefusedError`."""
         self.mark = Mark(file)
         self.bounds = bounds or Bounds()
         if data.startswith(_OLD):
@@ -104,7 +104,7 @@ class Package:
         return list(self._parts)
 
     def size(self, name: str) -> int:
-        """Bytes of a part, unpacked."""
+        """Return the number of bytes of a part, unpacked."""
         return self._parts[name].file_size
 
     def refused(self, code: str, **arguments: str) -> RefusedError:
@@ -154,7 +154,7 @@ class Package:
                         raise self.refused("sheet-links")
 
     def relations(self, name: str) -> dict[str, Relation]:
-        """Return the relations of a .rels part by their ids; none if there is no such part."""
+        """Return the relations of a .rels part by their ids; empty if there is no such part."""
         if name not in self._parts:
             return {}
         return {
@@ -184,7 +184,7 @@ class Package:
         return b"".join(self._chunks(name))
 
     def without_empty_cells(self, name: str) -> None:
-        """Leave out the cells of a sheet that hold nothing, of which a program may write a million for one border."""
+        """Leave out the empty cells of a sheet, of which a program may write a million for one border."""
         content = self.content(name)
         if b"<![CDATA[" not in content and not _UNPLACED_CELL.search(content):
             self._thinned[name] = _EMPTY_CELL.sub(b"", content)
@@ -327,11 +327,11 @@ _NUMBER_CELL = re.compile(rf"{_NUMBER.pattern}(?:[{_SEPARATORS}]|$)")
 
 @dataclass(frozen=True, slots=True)
 class SheetCell:
-    """A cell as it shows: `value` is a number of kind "number", None of kind "empty", else text.
+    """A cell as displayed: `value` is a number of kind "number", None of kind "empty", else text.
 
-    A date is ISO text, a boolean TRUE or FALSE, an error its code (#DIV/0!).  Of a formula, `formula` is its
-    text with the equals sign and `value` the result stored beside it, None if there is none.  `code` is how a number is
-    displayed that its format makes a code, "" of any other cell.
+    A date is ISO text, a boolean TRUE or FALSE, an error its code (#DIV/0!). For a formula, `formula` is its text
+    with the equals sign and `value` the result stored with it, None if there is none. `code` is the displayed text
+    of a number whose format makes it a code, "" for any other cell.
     """
 
     value: str | float | None
@@ -393,11 +393,10 @@ def number_text(value: float) -> str:
 
 
 def guarded(text: str) -> str:
-    """Return the text with an apostrophe before all that a spreadsheet would take for the formula of a cell; numbers
-    stay.
+    """Return the text with an apostrophe before everything that a spreadsheet would read as a formula; numbers stay.
 
-    Such a formula may also begin inside: programs of other countries part cells at semicolons, tabs or bars, and
-    know nothing of the quotation marks that keep a cell together.
+    Such a formula may also begin inside: programs of other countries separate cells at semicolons, tabs or bars,
+    and ignore the quotation marks around a cell.
     """
     inside = _INSIDE.sub(_with_apostrophe, text)
     return f"'{inside}" if _LIVE.match(inside) and not _NUMBER.fullmatch(inside) else inside

@@ -301,7 +301,7 @@ def _read(path: Path, data: bytes | None) -> tuple[Page, ...]:
 
 
 def _read_csv(data: bytes, file: str, name: str) -> Page:
-    """Return the page of a CSV file, refused at the place of what cannot be read."""
+    """Return the page of a CSV file; refuse it at the place that cannot be read."""
     text = decoded(data, file)
     if isinstance(text, Fault):
         raise RefusedError(text.code, text.mark)

@@ -40,9 +40,9 @@ LONGEST_NAME = 31
 UPRIGHT = 110.0
 """Characters of a line that is legible on A4 upright."""
 CHARACTER, MARGIN = 1.86, 1.33
-"""Width (mm) of a character of a column, and what a column has beside its characters."""
+"""Width (mm) of a character of a column, and of a column without characters."""
 PRINTED = {True: 174.0, False: 261.0}
-"""Width (mm) of what is printed on A4, upright and across, between a spreadsheet's usual margins."""
+"""Printable width (mm) on A4, portrait and landscape, between a spreadsheet's usual margins."""
 _FORBIDDEN = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
 _ESCAPED = re.compile(r"_(?=x[0-9A-Fa-f]{4}_)")
 _NAME = re.compile(r"[\[\]:*?/\\\x00-\x1f]")
@@ -89,7 +89,7 @@ class Book:
 
 
 def write_csv(rows: Iterable[Sequence[str | float | None]]) -> bytes:
-    """Rows as UTF-8 CSV with a byte order mark, by which spreadsheets know the encoding."""
+    """Write rows as UTF-8 CSV with a byte order mark, by which spreadsheets know the encoding."""
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\r\n")
     for row in rows:
@@ -153,7 +153,7 @@ def _fill(page: Worksheet, sheet: BookSheet) -> None:
 
 
 def _set_print(page: Worksheet, widths: Sequence[float], heads: int, breaks: Sequence[int]) -> None:
-    """A4, as wide as the sheet, upright where that is legible; the rows that stay in view head each page."""
+    """Set the page to A4 and the width of the sheet, portrait if that is legible; the frozen rows head each page."""
     from openpyxl.worksheet.pagebreak import Break
 
     width = sum(widths)
@@ -174,7 +174,7 @@ def _set_print(page: Worksheet, widths: Sequence[float], heads: int, breaks: Seq
 
 
 def _put(cell: Any, value: str | float | None) -> None:
-    """Text as a string whatever it looks like: never a formula, never an error code."""
+    """Write a value into a cell; any text is a string, never a formula or an error code."""
     if isinstance(value, str):
         text = _ESCAPED.sub("_x005F_", _clean(value))[:LONGEST_CELL]
         cell.value = text
@@ -217,7 +217,7 @@ def _sheet_name(name: str, taken: set[str]) -> str:
 
 
 def _clean(text: str) -> str:
-    """Text that XML can carry."""
+    """Return text with only characters that XML allows."""
     return _FORBIDDEN.sub("\N{REPLACEMENT CHARACTER}", unicodedata.normalize("NFC", text))
 
 
