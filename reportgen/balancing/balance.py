@@ -53,7 +53,7 @@ DIFFERENCE = 1e-6
 
 
 def shaking_force(linkage: Linkage, motion: Motion) -> Complexes:
-    """F = −Σ m a_S (N) [N], the force that the links' inertia exerts on the frame."""
+    """Return F = −Σ m a_S (N) [N], the force that the links' inertia exerts on the frame."""
     total = np.zeros_like(motion.driver, dtype=np.complex128)
     for body in linkage.inertias:
         total -= body.mass * motion.points[body.centre].a
@@ -61,7 +61,7 @@ def shaking_force(linkage: Linkage, motion: Motion) -> Complexes:
 
 
 def shaking_moment(linkage: Linkage, motion: Motion) -> Floats:
-    """M = −Σ (r_S × m a_S + J ε) (N·m) [N] about the crank's centre, anticlockwise positive.
+    """Return M = −Σ (r_S × m a_S + J ε) (N·m) [N] about the crank's centre, anticlockwise positive.
 
     Raises `TypeError` for a driver that slides.
     """

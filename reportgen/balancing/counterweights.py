@@ -153,7 +153,9 @@ def reciprocating_part(linkage: Linkage) -> complex:
 
 
 def four_bar(linkage: Linkage) -> Dyad | None:
-    """Coupler and rocker, if the linkage is a four-bar: one group of rods between the crank and a fixed point."""
+    """Return the coupler and rocker, if the linkage is a four-bar: one group of rods between the crank and a fixed
+    point.
+    """
     if not isinstance(linkage.driver, Crank) or len(linkage.dyads) != 1:
         return None
     (dyad,) = linkage.dyads

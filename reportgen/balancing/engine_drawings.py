@@ -55,7 +55,7 @@ def banks(case: SolvedEngine) -> dict[float, str]:
 
 
 def extent_of(case: SolvedEngine) -> tuple[float, float]:
-    """Width and height (m) of cranks and pistons seen from the end of the shaft."""
+    """Return the width and height (m) of cranks and pistons seen from the end of the shaft."""
     r = case.given.r.si
     ends = [*(UP * piston_at(case, place) for place in banks(case).values()), complex(-r, -r), complex(r, r)]
     low, high = corners_of(ends)
@@ -77,7 +77,7 @@ def scheme(case: SolvedEngine, size: FigureSize = IN_REPORT) -> Scene:
 
 
 def _from_the_end(case: SolvedEngine, size: FigureSize) -> tuple[Canvas, Chain]:
-    """Cranks with the numbers of their cylinders, the axes of the banks, a rod and a piston of each."""
+    """Draw the cranks with the numbers of their cylinders, the axes of the banks, a rod and a piston of each."""
     given = case.given
     usual = nice_up(max(extent_of(case)) * MM / HIGH)
     per = MM * size.per_unit(usual)

@@ -113,7 +113,7 @@ class EngineSheet:
     # --- stars
 
     def _enter_stars(self, stars: str) -> None:
-        """The stars of forces, or of couples: all at one scale."""
+        """Enter the stars of forces, or of couples: all at one scale."""
         q = self.q
         weights: dict[str, Expression] = dict.fromkeys(self.cylinders, Number(1.0))
         if stars[0] in COUPLES:
@@ -132,7 +132,7 @@ class EngineSheet:
             q.set_out(f"star_{star}", result)
 
     def _enter_angles(self, star: str, order: int) -> Mapping[str, Ref]:
-        """γ = nθ − (n − 1)ψ of a star that turns with the crank, nθ − (n + 1)ψ of one that turns against it."""
+        """Return γ = nθ − (n − 1)ψ of a star that turns with the crank, nθ − (n + 1)ψ of one that turns against it."""
         q, with_crank = self.q, star in (FORCES[0], COUPLES[0])
         times = order - 1 if with_crank else order + 1
         angles = {}

@@ -29,7 +29,7 @@ DISC = 2.4
 
 
 def forces(turn: BalancedTurn, motion: Motion) -> list[tuple[str, str, Complexes]]:
-    """Layer, id and values (N) [N] of F without counterweights, and of F with the one on the crank."""
+    """Return the layer, id and values (N) [N] of F without counterweights, and of F with the one on the crank."""
     before = shaking_force(turn.machine.linkage, motion)
     layers = [(LAYERS[0], balance_ids.FORCE, before)]
     if turn.products and turn.weights:
@@ -54,7 +54,7 @@ def shown(
 
 
 def _items(report: Report, turn: BalancedTurn, motion: Motion, scale: float, per: float) -> Iterator[MovingItem]:
-    """Arrows, traces and counterweights, `per` N to a millimetre."""
+    """Yield the arrows, traces and counterweights, `per` N to a millimetre."""
     centre = motion.points[report.driver.centre].p * scale
     arrows = forces(turn, motion)
     greatest = float(np.abs(arrows[0][2]).max())

@@ -108,7 +108,7 @@ class _Entry:
     # --- at the positions
 
     def shaking(self) -> None:
-        """F and its direction, M, each as the sum of the links' parts."""
+        """Enter F and its direction, M, each as the sum of the links' parts."""
         q = self.q
         across: list[Ref] = []
         up: list[Ref] = []
@@ -218,7 +218,7 @@ class _Entry:
         return [-mean for mean in means]
 
     def _circle(self) -> Sequence[Expression]:
-        """Minus the centre of the circle through the two or three points where it touches the curve.
+        """Return minus the centre of the circle through the two or three points where it touches the curve.
 
         Each of them follows the position next to it.
         """

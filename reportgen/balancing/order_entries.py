@@ -81,7 +81,7 @@ def _size(factor: Expression, order: int) -> Expression:
 
 
 def _angles(q: Sheet, layout: Engine, cylinder: EngineCylinder) -> tuple[Expression, Expression]:
-    """β and γ = ψ − β of a cylinder, both from those of the first."""
+    """Enter β and γ = ψ − β of a cylinder, both relative to those of the first."""
     first = layout.cylinders[0]
     parts: list[Expression] = []
     for name, value in (
@@ -122,7 +122,7 @@ def _star(q: Sheet, layout: Engine, order: int, sense: str) -> Ref:
 
 
 def _couple(q: Sheet, layout: Engine, order: int) -> None:
-    """The couple of an order over m r ω² A_n and the pitch of the cylinders, about the middle of the shaft."""
+    """Enter the couple of an order over m r ω² A_n and the pitch of the cylinders, about the middle of the shaft."""
     middle = (len(layout.cylinders) - 1) / 2
     across: list[Expression] = []
     up: list[Expression] = []

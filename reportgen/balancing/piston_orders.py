@@ -12,7 +12,7 @@ FEWEST_TERMS = 24
 
 
 def acceleration_factor(order: int, λ: Ref, about: float) -> Expression:
-    """Aₙ of a = rω²(cos φ + Σ Aₙ cos nφ), n even, as a power series of λ that is exact to the last digit.
+    """Return Aₙ of a = rω²(cos φ + Σ Aₙ cos nφ), n even, as a power series of λ that is exact to the last digit.
 
     Aₙ = (2n²/λ) (−1)^{n/2} Σₖ C(½, k) (−1)ᵏ C(2k, k − n/2) (λ/2)^{2k}, from √(1 − λ² sin² φ).
     """

@@ -180,7 +180,7 @@ class RotorSheet:
         return part
 
     def _enter_polar(self, plane: str, parts: Mapping[str, Ref]) -> None:
-        """The size of a correction and its angle within one turn."""
+        """Enter the size of a correction and its angle within one turn."""
         q, x, y = self.q, parts["x"], parts["y"]
         size = q.define(names.by_components("U", plane), sqrt(x**2 + y**2), scale=self._scale_of(plane))
         α = q.define(names.by_components("alpha", plane), angle_of(q, x, y), of=size.id)
@@ -256,7 +256,7 @@ class RotorSheet:
 
 
 def resultant(sizes: Mapping[str, Expression], directions: Mapping[str, Expression]) -> Expression:
-    """Σ U e^{iα}."""
+    """Return Σ U e^{iα}."""
     return total([size * cis(directions[place]) for place, size in sizes.items()])
 
 

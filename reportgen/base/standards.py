@@ -16,7 +16,7 @@ KNOWN: Standards = (
 
 
 def titled(standards: Standards) -> str:
-    """Standards as people call them: PDF/UA-1, PDF/A-2a, PDF 1.7."""
+    """Return the usual names of standards: PDF/UA-1, PDF/A-2a, PDF 1.7."""
     return ", ".join(
         f"PDF {name}" if name[0].isdigit() else f"PDF/{name.partition('-')[0].upper()}-{name.partition('-')[2]}"
         for name in standards

@@ -359,7 +359,9 @@ def significant_decimals(value: float, digits: int) -> int:
 
 
 def figure_decimals(largest: float, digits: int) -> int:
-    """Decimals that show numbers up to the `largest` with its `digits` significant figures; whole ones to `LARGE`."""
+    """Return the decimals that show numbers up to the `largest` with its `digits` significant figures; whole ones to
+    `LARGE`.
+    """
     decimals = significant_decimals(largest, digits)
     return decimals if abs(largest) >= LARGE else max(decimals, 0)
 

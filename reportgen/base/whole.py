@@ -59,7 +59,7 @@ def _missing(own: Path, reference: Path) -> Iterator[str]:
 
 
 def _absent(own: Mapping[str, Any], reference: Mapping[str, Any]) -> Iterator[str]:
-    """Keys of a table, and of the tables in it, that another one lacks."""
+    """Yield the keys of a table, and of the tables in it, that another one lacks."""
     for key in reference.keys() - UNTOLD:
         if key not in own:
             yield key

@@ -66,7 +66,7 @@ TEMPLATES = "REPORTGEN_TEMPLATES"
 
 
 def templates_hash() -> str:
-    """SHA-256 of the names and contents of all templates, those of schools included, in sorted order."""
+    """Return the SHA-256 of the names and contents of all templates, those of schools included, in sorted order."""
     root, own, digest = templates(), named_school(), sha256()
     for path in (*sorted(path for path in root.rglob("*") if path.is_file()), *(school_files(own) if own else ())):
         name = path.relative_to(root if path.is_relative_to(root) else path.parent).as_posix()

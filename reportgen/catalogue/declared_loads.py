@@ -146,7 +146,7 @@ def pins(linkage: Linkage) -> dict[int, set[str]]:
 
 
 def listed(numbers: Collection[int]) -> str:
-    """Numbers of links in a message."""
+    """Return the numbers of links as text for a message."""
     return ", ".join(map(str, sorted(numbers)))
 
 

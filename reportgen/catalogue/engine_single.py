@@ -135,7 +135,7 @@ CHECKS = (
 
 
 def _enter_lengths(q: GivenSheet, given: Parameters) -> tuple[Ref, Ref]:
-    """Crank R and rod L, from the triangle that A makes with the dead centres, or as given, then with the stroke.
+    """Enter crank R and rod L, from the triangle of A and the dead centres, or as given, and then the stroke.
 
     The triangle has the sides L + R, L − R and H, at A the angle θ = 180°(K − 1)/(K + 1) and the height e, whence
     4R² = H² − q₁ and 4L² = H² + q₂ with q₁ = 2He tan(θ/2), q₂ = 2He/tan(θ/2).

@@ -129,7 +129,9 @@ WARNINGS = (_idle_engine,)
 
 
 def _sheet(given: Parameters, turn: int = 1, crank: Given | None = None) -> GivenSheet:
-    """Given data, λ = R/L, the angle between the cylinders, masses and moments of inertia, the area of a piston."""
+    """Return the sheet: given data, λ = R/L, the angle between the cylinders, masses, moments of inertia, a
+    piston's area.
+    """
     q, rod = GivenSheet(given), f"{given.joint}E"
     for id, length in {"AB": given.AB, "BC": given.BC, "BD": given.BD, rod: given.DE}.items():
         if length.si:
@@ -215,7 +217,7 @@ def machine(assignment: Assignment) -> Machine:
 
 
 def _constant(given: Parameters) -> tuple[Applied, ...]:
-    """Constant forces that push the pistons towards the crank."""
+    """Return constant forces that push the pistons towards the crank."""
     ends = ((3, "C", given.PC, given.alpha), (5, "E", given.PE, given.beta))
     return tuple(
         Applied(ids.applied_force(link), link, pin, fixed(-cmath.exp(1j * axis.si)), ConstantLaw(force.si))

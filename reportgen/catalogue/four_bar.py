@@ -81,7 +81,7 @@ def cosine(a: Expression, b: Expression, opposite: Expression) -> Expression:
 
 
 def proportions(q: Sheet) -> None:
-    """Grashof's two sums; for a rocker the extreme positions C₁, C₂, its swing ψ and the ratio of times K."""
+    """Enter Grashof's two sums; for a rocker the extreme positions C₁, C₂, its swing ψ and the ratio of times K."""
     AB, BC, CD, AD = sides = tuple(q[ids.length(id)] for id in ("AB", "BC", "DC", "AD"))
     first, second, third, last = sorted(sides, key=q.si)
     ends = q.define("sum.ends", first + last, Symbol("l", "", "′"), "length")
@@ -174,7 +174,9 @@ def analytic_method(q: Sheet, angle: Floats, points: Iterable[LinkPoint], turn: 
 
 
 def _positions(q: Sheet, angle: Floats, side: int) -> tuple[Ref, Ref, Ref]:
-    """BD, then φ₂ = sβ − δ and φ₃ = 180° − δ − sγ, each from BD at once: sums of rounded angles lose a digit."""
+    """Enter BD, then φ₂ = sβ − δ and φ₃ = 180° − δ − sγ, each directly from BD, since sums of rounded angles lose
+    a digit.
+    """
     AB, BC, CD, AD = q["l.AB"], q["l.BC"], q["l.DC"], q["l.AD"]
     φ1 = q.angle("f.phi.1", angle)
     across, along = AB * sin(φ1), AD - AB * cos(φ1)
@@ -198,7 +200,7 @@ def _entries(
 
 
 def _coupler_point(q: Sheet, point: LinkPoint, turn: int) -> None:
-    """v and a of a point P of the coupler by components, BP at the angle φ₂ + η from x."""
+    """Enter v and a of a point P of the coupler by components, BP at the angle φ₂ + η from x."""
     name, AB, BP, φ1, ω1 = point.name, q["l.AB"], q[ids.length("B", point.name)], q["f.phi.1"], q["omega.1"]
     ω2, ε2 = q["f.omega.2"], q["f.eps.2"]
     φ: Expression = q["f.phi.2"]
@@ -304,7 +306,7 @@ class Parameters(Driven, masses=(1, 2, 3), moments=(1, 2, 3), shares=(1, 2, 3), 
 
 
 def _sheet(given: Parameters, crank: Given | None = None) -> GivenSheet:
-    """Given data, coupler points, mass centres, masses and moments of inertia, Grashof's sums."""
+    """Return the sheet of given data, coupler points, mass centres, masses and moments of inertia, Grashof's sums."""
     q = GivenSheet(given)
     for id, length in {"AB": given.AB, "BC": given.BC, "DC": given.CD, "AD": given.AD}.items():
         q.datum(ids.length(id), length, Symbol("l", "CD" if id == "DC" else id))

@@ -138,7 +138,8 @@ class GivenSheet(Sheet):
             self.define(ids.inertia(link), default)
 
     def bar(self, link: int, start: str, end: str, always: bool = False) -> None:
-        """A straight link from pin `start` to pin `end`: the place of its mass centre, l_AS = s·l, its mass, its J.
+        """Enter a straight link from pin `start` to pin `end`: the place of its mass centre, l_AS = s·l, its mass,
+        its J.
 
         The centre of a link without mass is entered only if its place is given, or `always`.
         """
@@ -164,13 +165,15 @@ class GivenSheet(Sheet):
         return x if x and self.si(x) else NOTHING, y if y and self.si(y) else NOTHING
 
     def fix(self, id: str, at: complex, length: Operand) -> None:
-        """A fixed point or a guide's point `at` (m) that lies at a `length` from the origin, and so goes with it."""
+        """Enter a fixed point or a guide's point `at` (m) at a `length` from the origin, so that it follows
+        changes of that length.
+        """
         far = self.construct(ids.far(id), length)
         if self.si(far):
             self.construct(id, far * self.give(ids.unit(id), complex(at / self.si(far)), Symbol(id), "ratio"))
 
     def bodies(self, bars: Mapping[int, tuple[str, str]], slider: int, always: bool = False) -> None:
-        """Gravity if anything has mass; the bars by the pins at their ends, as `bar` does; the slider's mass."""
+        """Enter gravity if anything has mass; the bars by the pins at their ends, as `bar` does; the slider's mass."""
         self.gravity("GmJ")
         for link, (start, end) in bars.items():
             self.bar(link, start, end, always)
@@ -194,7 +197,7 @@ class GivenSheet(Sheet):
 
 
 def cycle_angles(positions: Positions, turns: int = 1, places: Sequence[float] = ()) -> np.ndarray:
-    """Cycle angles (rad) of evenly spaced positions [count·turns], or of the instants [N].
+    """Return the cycle angles (rad) of evenly spaced positions [count·turns], or of the instants [N].
 
     Those of uneven `places` in a turn are the same in each of the turns.
     """

@@ -78,7 +78,7 @@ class Parameters(Driven, masses=(1, 2, 3, 4, 5), moments=(1, 2, 3, 4), shares=(1
 
 
 def _sheet(given: Parameters, crank: Given | None = None) -> GivenSheet:
-    """Given data, the place of E, mass centres, masses and moments of inertia."""
+    """Return the sheet of given data, the place of E, mass centres, masses and moments of inertia."""
     q = GivenSheet(given)
     if given.AB and given.AC:
         q.datum("l.BA", given.AB, Symbol("l", "AB"))
@@ -258,7 +258,7 @@ def machine(assignment: Assignment) -> Machine:
 
 
 def _stroke(q: Sheet, slider: Stroke, start: float, turn: int) -> None:
-    """The slider's ends F₁, F₂ and the crank's angles there, read off its way; its stroke, the turns between."""
+    """Enter the slider's ends F₁, F₂ and the crank's angles there, read off its way; its stroke, the turns between."""
     ends, angles = [], []
     for name, place, own in (("F1", slider.top, slider.top_angle), ("F2", slider.bottom, slider.bottom_angle)):
         ends.append(q.give(ids.coordinate(name, "x"), place.real, Symbol("x", name), "length", exact=False))

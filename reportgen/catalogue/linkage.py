@@ -142,7 +142,7 @@ def _motion_at(machine: Machine) -> MotionAt:
 
 
 def _sheet(given: Parameters, linkage: Linkage, built: Machine, drawn: float | None) -> GivenSheet:
-    """Fixed points, lengths, speed, drawn length, masses and moments of inertia."""
+    """Return the sheet of fixed points, lengths, speed, drawn length, masses and moments of inertia."""
     q, driver = GivenSheet(), given.driver
     for name, place in linkage.ground.items():
         x, y = (

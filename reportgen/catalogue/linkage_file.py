@@ -272,7 +272,7 @@ class Body(Part):
     J: MomentOfInertia | None = None
 
     def mass(self, g: float) -> float:
-        """m = G/g (kg)."""
+        """Return m = G/g (kg)."""
         return self.G.si / g if self.G is not None and g else self.m.si if self.m is not None else 0.0
 
 

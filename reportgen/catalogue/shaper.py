@@ -57,7 +57,9 @@ class Parameters(Driven, masses=(2, 3, 4, 5), moments=(3, 4), loads=("cutting",)
 
 
 def _sheet(given: Parameters, crank: Given | None = None) -> GivenSheet:
-    """Given data and the synthesis l₁ = aH/(2 l₃); mass centres, masses, moments of inertia; the drawn crank."""
+    """Return the sheet: given data and the synthesis l₁ = aH/(2 l₃); mass centres, masses, moments of inertia; the
+    drawn crank.
+    """
     q = GivenSheet(given)
     a, b = q.datum("a", given.a, "a", "length"), q.datum("b", given.b, "b", "length")
     l3 = q.datum("l.CD", given.l3, Symbol("l", "3"))

@@ -50,7 +50,7 @@ HALVINGS = 60
 
 
 def compared(plans: Iterable[str]) -> tuple[tuple[str, str], ...]:
-    """Plan quantities and the closed formulas that must give the same sizes."""
+    """Return plan quantities and the closed formulas that must give the same sizes."""
     return tuple((plan, ids.formula(plan)) for plan in plans)
 
 
@@ -115,7 +115,8 @@ def components(
 
 
 def second_cylinder(q: Sheet, turn: int, joint: str) -> None:
-    """The closed formulas of piston E, whose rod 4 hangs on D on the main rod, at l_BD from the crank pin, or on B.
+    """Enter the closed formulas of piston E, whose rod 4 hangs on D on the main rod, at l_BD from the crank pin, or
+    on B.
 
     sin γ = h/l₄;  v_E = v⊥ tan γ − v∥;  a_E = a⊥ tan γ + v⊥²/(l₄ cos³γ) − a∥, towards the crank.  Uses `delta` and
     what `centred_slider` enters; enters `beta.4`, `f.v.E`, `f.omega.4`, `f.a.E`, `f.eps.4`.
@@ -205,20 +206,20 @@ class OffsetSlider:
         return self.axis + self.turn * phi
 
     def phi(self, crank_angle: float) -> float:
-        """φ (rad) of a crank's angle (rad) from +x of the drawing."""
+        """Return φ (rad) of a crank's angle (rad) from +x of the drawing."""
         return self.turn * (crank_angle - self.axis)
 
     def _placed(self, own: complex) -> complex:
         return complex(own.real, self.turn * own.imag) * cmath.exp(1j * self.axis)
 
     def acceleration(self, phi: Floats) -> Floats:
-        """a_C/ω₁² (m) [N]."""
+        """Return a_C/ω₁² (m) [N]."""
         beta = np.arcsin((self.e - self.r * np.sin(phi)) / self.l)
         omega = -self.r * np.cos(phi) / (self.l * np.cos(beta))
         return -(self.r * np.cos(phi - beta) + omega**2 * self.l) / np.cos(beta)
 
     def fastest(self) -> tuple[float, float]:
-        """φ (rad) of the slider's greatest speeds, inward and outward: a_C = 0, once in each stroke."""
+        """Return φ (rad) of the slider's greatest speeds, inward and outward: a_C = 0, once in each stroke."""
         low = np.array([self.stretched, self.folded])
         high = np.array([self.folded, self.stretched + FULL_TURN])
         before = self.acceleration(low)[:, None]
@@ -257,7 +258,7 @@ class OffsetSlider:
 
 
 def offset_slider(q: Sheet, turn: int, angle: Floats, offset: Expression | None, centre: bool) -> None:
-    """The closed formulas at φ = `angle` [N], with `offset` e or none, of S2 too if there is a `centre`.
+    """Enter the closed formulas at φ = `angle` [N], with `offset` e or none, of S2 too if there is a `centre`.
 
     Enters `phi.3`, `beta.2`, `x.C`, `f.omega.2`, `f.v.C`, `f.eps.2`, `f.a.C`, and of S2 its components, `f.v.S2`,
     `f.a.S2`.  Uses `l.AB`, `l.BC`, `l.BS2`, `omega.1`.

@@ -79,7 +79,7 @@ class SlottedCrank:
         return self.axis + self.turn * (phi - math.pi / 2)
 
     def phi(self, crank_angle: float) -> float:
-        """φ (rad) of a crank's angle (rad) from +x of the drawing."""
+        """Return φ (rad) of a crank's angle (rad) from +x of the drawing."""
         return math.pi / 2 + self.turn * (crank_angle - self.axis)
 
     @property
@@ -183,7 +183,7 @@ def lever_formulas(q: Sheet, turn: int, angle: Floats, crank: str, centres: str)
 
 
 def lever_end(q: Sheet, turn: int, angle: Floats) -> None:
-    """The closed formulas of the lever CD at φ = `angle` [N]: a_r = ω₃²S − ω₁²r(r + d sin φ)/S;  aᵏ = 2ω₃v_r.
+    """Enter the closed formulas of the lever CD at φ = `angle` [N]: a_r = ω₃²S − ω₁²r(r + d sin φ)/S;  aᵏ = 2ω₃v_r.
 
     Uses `l.AB`, `l.AC`, `l.CD`, `omega.1`.  Ids: those of `lever_formulas`, `f.v.D`, `f.a.k`, `f.a.r`,
     `f.a.D.n`, `f.a.D.t`, `f.a.D`.
@@ -204,7 +204,7 @@ def lever_end(q: Sheet, turn: int, angle: Floats) -> None:
 
 
 def ram_formulas(q: Sheet, turn: int, angle: Floats) -> None:
-    """The closed formulas of the ram at φ₁ = `angle` [N]; x, v and a of the ram and of D count to the right.
+    """Enter the closed formulas of the ram at φ₁ = `angle` [N]; x, v and a of the ram and of D count to the right.
 
     Uses `l.AB`, `l.CD`, `l.DE`, `a`, `b`, `theta`, `omega.1`.  Ids: those of `lever_formulas`, `phi.3`, `phi.4`,
     `f.x.E`, its value `x.0` at the beginning of the stroke, the way `f.s.E` from there, `f.omega.4`, `f.v.E`,
@@ -298,14 +298,14 @@ def ram_torque(q: Sheet, turn: int) -> None:
 
 
 def swing(q: Sheet, sine: Expression) -> None:
-    """The lever's greatest angle θ from CA by its sine, and the ratio K = (180° + 2θ)/(180° − 2θ) of the
+    """Enter the lever's greatest angle θ from CA by its sine, and the ratio K = (180° + 2θ)/(180° − 2θ) of the
     crank's turns for the lever's two ways."""
     θ = q.define("theta", asin(sine))
     q.set_out("swing", θ, q.define("K", (STRAIGHT + 2 * θ) / (STRAIGHT - 2 * θ)))
 
 
 def strokes(q: Sheet, H: Ref) -> None:
-    """The times of a turn and of the ram's two strokes, and its mean speeds over the stroke H."""
+    """Enter the times of a turn and of the ram's two strokes, and its mean speeds over the stroke H."""
     K = q["K"]
     ω1 = q["omega.1"]
     T = q.define("t.turn", 2 * PI / ω1, "T", "time")

@@ -43,7 +43,7 @@ class Parameters(Driven, masses=(2, 3, 4, 5), moments=(2, 3, 4), shares=(2, 3, 4
 
 
 def _sheet(given: Parameters, crank: Given | None = None) -> GivenSheet:
-    """Given data, mass centres, masses and moments of inertia."""
+    """Return the sheet of given data, mass centres, masses and moments of inertia."""
     q = GivenSheet(given)
     for id, length in {"OA": given.OA, "AB": given.AB, "DB": given.BD, "BC": given.BD}.items():
         q.datum(ids.length(id), length, Symbol("l", "BD" if id == "DB" else id))

@@ -147,7 +147,7 @@ def _stroke(q: Sheet, course: Stroke) -> Ref:
 
 
 def _way(q: Sheet, linkage: Linkage, link: int, values: np.ndarray, stroke: float) -> None:
-    """A slider's way from its dead centre, measured on the drawing; there crank and rod lie in one line."""
+    """Enter a slider's way from its dead centre, measured on the drawing; there crank and rod lie in one line."""
     driver, id = linkage.driver, ids.displacement(link)
     dyad = next((one for one in linkage.dyads if one.kind == "RRP" and one.links[1] == link), None)
     if dyad is not None and isinstance(driver, Crank) and ids.length(driver.centre, dyad.start) in q:
@@ -194,7 +194,7 @@ def _applied(q: Sheet, analysis: Analysis) -> None:
 
 
 def _size(q: Sheet, load: Applied | Torque, analysis: Analysis, symbol: Symbol | str = "") -> None:
-    """The size of a load by the formula of its law, or as it is given."""
+    """Enter the size of a load by the formula of its law, or as it is given."""
     formula = load.law.formula(q, load.link)
     if formula is not None:
         with q.within(Chapter.loads):
@@ -210,7 +210,7 @@ def _size(q: Sheet, load: Applied | Torque, analysis: Analysis, symbol: Symbol |
 
 
 def _cycle(q: Sheet, analysis: Analysis) -> None:
-    """Mean, extremes, power and energy of the cycle."""
+    """Enter the mean, extremes, power and energy of the cycle."""
     machine = analysis.machine
     size, most = float(np.nanmax(np.abs(analysis.torque))), possible(analysis.motion, analysis.loads)
     if size < ZERO * most:

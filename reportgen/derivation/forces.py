@@ -188,7 +188,7 @@ def _rpp(g: Group) -> Polygon:
 
 
 def _tangential(g: Group, link: int, digits: str, pin: str, middle: str, loads: tuple[LoadOn, ...]) -> None:
-    """Moments of a rod about the inner joint: Rᵗ l = ΣM, positive along the rod turned by 90°."""
+    """Enter the moments of a rod about the inner joint: Rᵗ l = ΣM, positive along the rod turned by 90°."""
     q, length = g.q, g.q[ids.length(pin, middle)]
     moment = moments(g.statics, loads, middle)
     size = q.define(ids.reaction(digits, "t"), 0.0 if moment is None else moment / length, scale=g.statics.force)
@@ -288,7 +288,9 @@ def _moment(g: Group, digits: str, pin: str, loads: tuple[LoadOn, ...]) -> Expre
 
 
 def _offset(g: Group, digits: str) -> None:
-    """The distance x = M/R from the pin to the line of a slide's reaction; nan where R = 0 leaves M to a couple."""
+    """Enter the distance x = M/R from the pin to the line of a slide's reaction; nan where R = 0 leaves M to a
+    couple.
+    """
     q, statics, size, moment = g.q, g.statics, g.q[ids.reaction(digits)], g.q.find(ids.reaction_couple(digits))
     values = q.value(size)
     written: Expression | None = None

@@ -148,7 +148,7 @@ def _symbol(base: str, side: Side, sup: str = "") -> Symbol:
 
 
 def _relative_velocity(k: Kinematics, side: Side) -> None:
-    """The velocity of the point relative to its base, and ω of the link that turns with it."""
+    """Enter the velocity of the point relative to its base, and ω of the link that turns with it."""
     id = ids.segment("v", image(side.base), image(side.point))
     drawn = k.segment(id, on_plan(side.base), on_plan(side.point), _along(k, side), "v")
     _enter_relative(k, side, k.q["mu.v"] * drawn)
@@ -415,7 +415,7 @@ def _by_similarity(k: Kinematics, what: What, point: LinkPoint, turn: Side) -> N
 
 
 def _by_rotation(k: Kinematics, what: What, point: LinkPoint, placed: PlacedLink) -> None:
-    """v_E = v_O + ω l_OE, a_E = a_O + ω² l_OE + ε l_OE, as the link turns about its origin."""
+    """Enter v_E = v_O + ω l_OE, a_E = a_O + ω² l_OE + ε l_OE, as the link turns about its origin."""
     q, name, link = k.q, point.name, point.link
     length, relative = q[ids.length(placed.origin, name)], f"{name}{placed.origin}"
     if point.local:

@@ -237,7 +237,7 @@ def arm(statics: Statics, load: LoadOn, centre: str) -> Ref:
 
 
 def moments(statics: Statics, loads: Iterable[LoadOn], centre: str) -> Expression | None:
-    """Moments about a point as printed: (ΣF·h)·μ_l, and couples; None if there are none."""
+    """Return the moments about a point as printed: (ΣF·h)·μ_l, and couples; None if there are none."""
     terms: list[Expression] = []
     couples: list[Expression] = []
     for load in loads:
@@ -367,7 +367,7 @@ def force_plan(statics: Statics, name: str, title: str, path: ForceChain, closin
 
 
 def read(statics: Statics, plan: str, name: str, symbol: Symbol, id: str, start: str, end: str) -> None:
-    """A force read from a plan between two vertices: its segment, its size, its vector and its direction."""
+    """Enter a force read from a plan between two vertices: its segment, its size, its vector and its direction."""
     q, scale = statics.q, statics.force
     μ, along = q[ids.force_scale(plan)], q[ids.force_corner(plan, end)] - q[ids.force_corner(plan, start)]
     drawn = q.define(

@@ -150,7 +150,7 @@ class Kinematics:
         self.direction(what, name)
 
     def direction(self, what: What, name: str) -> None:
-        """The angle of a point's velocity or acceleration from +x."""
+        """Enter the angle of a point's velocity or acceleration from +x."""
         vector = self.q[ids.plan_point(what, image(name))]
         self.q.define(ids.direction(what, name), heading(vector), scale=1.0, of=ids.POINT_RATE[what](name))
 
@@ -255,7 +255,7 @@ def longest(linkage: Linkage) -> float:
 
 
 def natural_sizes(q: Sheet, linkage: Linkage) -> Sizes:
-    """Velocity, acceleration and rotation that are natural to a linkage: those of its driver's pin."""
+    """Return the reference sizes of velocity, acceleration and rotation of a linkage: those of its driver's pin."""
     driver = linkage.driver
     if isinstance(driver, Crank):
         omega, ε1 = q.si("omega.1"), ids.angular_acceleration(DRIVER)
@@ -275,7 +275,8 @@ LONGEST_DRAWN = 0.08
 def crank(
     q: Sheet, scheme: Scheme, driver: Crank, turn: int, sense: int, scales: Mapping[str, float | None]
 ) -> Kinematics:
-    """v_A = ω₁ l, aⁿ_A = ω₁² l, aᵗ_A = ε₁ l; without chosen `scales` (SI per mm) μ_v = ω₁ μ_l, μ_a = ω₁² μ_l.
+    """Place the driving crank: v_A = ω₁ l, aⁿ_A = ω₁² l, aᵗ_A = ε₁ l; `scales` (SI per mm) default to μ_v = ω₁ μ_l,
+    μ_a = ω₁² μ_l.
 
     Then pa and πn are the drawn crank; without `eps.1` πn is πa′.
     """
@@ -335,7 +336,7 @@ def crank(
 
 
 def _accelerated_pin(k: Kinematics, driver: Crank, ε1: Ref) -> None:
-    """aᵗ_A = ε₁ l square to the crank, laid on to aⁿ_A from n: a_A = √(aⁿ² + aᵗ²); the sense of ε₁."""
+    """Enter aᵗ_A = ε₁ l square to the crank, laid off from n behind aⁿ_A: a_A = √(aⁿ² + aᵗ²); and the sense of ε₁."""
     q, pin, arm = k.q, driver.pin, k.place(driver.pin) - k.place(driver.centre)
     sense = k.turn * k.sense
     q.define(ids.signed("eps", DRIVER), ε1 if sense > 0 else -ε1, of=ε1.id)
@@ -415,7 +416,7 @@ def links_in_plane_motion(scheme: Scheme) -> tuple[Side, ...]:
 
 
 def centre_symbol(link: int) -> Symbol:
-    """P with the link's number."""
+    """Return P with the link's number."""
     return Symbol("P", str(link))
 
 

@@ -50,9 +50,9 @@ def moving_bodies(q: Sheet, linkage: Linkage) -> Iterator[tuple[Inertia, str, st
 
 
 def _reduced(q: Sheet, linkage: Linkage) -> Expression | None:
-    """J_r = Σ m v_S²/ω₁² + J ω²/ω₁² over the links that move so; None where no link with mass moves.
+    """Return J_r = Σ m v_S²/ω₁² + J ω²/ω₁² over the moving links; None if no link with mass moves.
 
-    Where that is too long for a line, each link's part of it is entered as `J.r.` and its number.
+    If that is too long for a line, each link's part of it is entered as `J.r.` and its number.
     """
     ω1 = q["omega.1"]
     parts: dict[int, list[Expression]] = {}

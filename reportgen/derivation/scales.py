@@ -30,7 +30,7 @@ Scaling = Callable[[np.ndarray, float, Iterable[np.ndarray]], np.ndarray]
 
 
 def extents(points: Iterable[np.ndarray], positions: int) -> np.ndarray:
-    """Width and height [2, N] of the boxes around points of a plan; nan where the mechanism has no position."""
+    """Return width and height [2, N] of the boxes around points of a plan; nan where the mechanism has no position."""
     places = np.array([np.broadcast_to(point, (positions,)) for point in points])
     return np.array([np.ptp(places.real, axis=0), np.ptp(places.imag, axis=0)])
 

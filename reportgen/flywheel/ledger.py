@@ -62,7 +62,7 @@ def enter(q: Sheet, analysis: Analysis) -> None:
 
 
 def _energy_mass(q: Sheet, regulated: RegulatedCycle) -> None:
-    """The scales of the energy–mass diagram and the inclinations of its tangents, tan ψ = μ_J ω²/(2 μ_A)."""
+    """Enter the scales of the energy–mass diagram and the inclinations of its tangents, tan ψ = μ_J ω²/(2 μ_A)."""
     heights = np.append(regulated.work, (regulated.upper, regulated.lower, 0.0))
     μ_J = q.give("mu.J", fitting_axis(float(regulated.inertia.max()), DIAGRAM[0]))
     μ_A = q.give("mu.A", fitting_axis(float(np.ptp(heights)), DIAGRAM[1]))

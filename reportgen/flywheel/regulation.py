@@ -64,7 +64,7 @@ SAME_ANGLE = 1e-9
 
 
 def _torque(analysis: Analysis) -> Floats:
-    """M_r [N] (N·m) of weights and applied loads."""
+    """Return M_r [N] (N·m) of weights and applied loads."""
     return reduced_torque(analysis.machine, analysis.motion, (*analysis.weights, *analysis.applied))
 
 

@@ -54,14 +54,14 @@ def _over_cycle(
 
 
 def flywheel_torque(report: Report) -> FigureScenes:
-    """M_r and the torque that balances its mean."""
+    """Draw M_r and the torque that balances its mean."""
     wheel = _wheel(report)
     level = (-wheel.constant, Symbol("−M", "c"))
     return FigureScenes((_over_cycle(report, wheel.torque, axis_of(report, "M.r"), (level,)),))
 
 
 def flywheel_work(report: Report) -> FigureScenes:
-    """J_r, if moving links have mass, and A over the cycle."""
+    """Draw J_r, if moving links have mass, and A over the cycle."""
     wheel = _wheel(report)
     drawings = [(wheel.inertia, "J.r")] if report.has_reduced_inertia else []
     drawings.append((wheel.work, "A.excess"))
@@ -127,7 +127,9 @@ def speed_limits(report: Report) -> list[str]:
 
 
 def cycle_table(report: Report, key: str, caption: str, head: Sequence[str]) -> tuple[Table | Paragraph, ...]:
-    """Reduced torque and excess work; the reduced inertia if links have mass, the speed if there is a flywheel."""
+    """Return a table of reduced torque and excess work; also reduced inertia if links have mass, and speed if
+    there is a flywheel.
+    """
     words = report.words["tables"]["flywheel"]
     inertia = words["inertia"] if report.has_reduced_inertia else ""
     speed = words["speed"] if needs_flywheel(report) else ""

@@ -237,7 +237,7 @@ def sqrt(of: Operand) -> Root:
 
 
 def exp(of: Operand) -> Power:
-    """e raised to a power."""
+    """Return e raised to a power."""
     return Power(E, as_expression(of))
 
 

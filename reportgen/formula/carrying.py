@@ -76,7 +76,7 @@ def _as_drawn(ledger: Ledger, id: str, measured: Mapping[str, np.ndarray]) -> in
 
 
 def _half_unit(family: Family, decimals: int | None = None) -> float:
-    """Half a unit (SI) of the last of so many decimals, else of those of its kind."""
+    """Return half a unit (SI) of the last of so many decimals, else of those of its kind."""
     return 0.5 * 10.0 ** -(family.how.decimals or 0 if decimals is None else decimals) * family.how.scale
 
 

@@ -19,17 +19,17 @@ SquareRoot = Callable[[Value], Value]
 
 
 def real_root(square: Value) -> Value:
-    """√ of a number, 0 where it is less: a circle that is just missed is touched."""
+    """Return √ of a number, 0 if it is negative: a circle that is just missed counts as touched."""
     return np.sqrt(np.maximum(square, 0.0))
 
 
 def dot(a: Value, b: Value) -> Value:
-    """a · b = aₓbₓ + a_y b_y."""
+    """Return a · b = aₓbₓ + a_y b_y."""
     return (a.conjugate() * b).real
 
 
 def cross(a: Value, b: Value) -> Value:
-    """a × b = aₓb_y − a_y bₓ, the component along z."""
+    """Return a × b = aₓb_y − a_y bₓ, the component along z."""
     return (a.conjugate() * b).imag
 
 

@@ -101,7 +101,7 @@ def around(angle: Value) -> Value:
 
 
 def amid(value: Value, least: Value, most: Value) -> Value:
-    """1 from `least` up to `most`, 0 elsewhere."""
+    """Return 1 from `least` up to `most`, 0 elsewhere."""
     return np.where((value >= least - EDGE) & (value < most - EDGE), 1.0, 0.0)
 
 

@@ -108,7 +108,7 @@ def usual_decimals(ledger: Ledger) -> dict[str, int | None]:
 
 
 def _of_quantity(members: Collection[Family]) -> int:
-    """Decimals that show the largest value of a quantity with the figures of its kind; whole ones whole."""
+    """Return the decimals that show the largest value of a quantity with the figures of its kind; whole ones whole."""
     how = next(iter(members)).how
     if how.decimals is not None:
         return how.decimals

@@ -213,7 +213,7 @@ class Speech(Setter[str]):
         return f" {self.words['signs']['=']} ".join(" ".join(map(self.part, side)) for side in sides)
 
     def equation(self, rows: Iterable[str], number: str) -> str:
-        """Rows below each other, and the number beside them."""
+        """Return the rows one after another, with the equation's number if it has one."""
         said = "; ".join(rows)
         return _filled(self.words["numbered"], number=number, formula=said) if number else said
 

@@ -54,7 +54,7 @@ def slope_base(α: float) -> float:
 
 
 def incline_scheme(case: DesignCase) -> Scene:
-    """The body on its plane while it is raised: Q, P, the normal force and friction."""
+    """Draw the body on its plane while it is raised: Q, P, the normal force and friction."""
     ledger = case.printed
     α = ledger["friction.incline.alpha"].at(1)
     β = ledger["friction.incline.beta"].at(1) if "friction.incline.beta" in ledger else 0.0
@@ -133,7 +133,7 @@ def drawn_plan(case: DesignCase, task: str, vectors: Iterable[PlanVector[complex
 
 
 def wedge_scheme(case: DesignCase) -> Scene:
-    """The wedge under its load while it is driven: Q, P, the reactions at their angles of friction."""
+    """Draw the wedge under its load while it is driven: Q, P, the reactions at their angles of friction."""
     ledger = case.printed
     α, *φ = (
         ledger[f"friction.wedge.{name}"].at(1) if f"friction.wedge.{name}" in ledger else 0.0

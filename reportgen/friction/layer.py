@@ -21,7 +21,7 @@ CIRCLE = Pen(0.2, style.RED)
 
 
 def friction_items(report: Report, analysis: Analysis, scale: float, per: float, turn: int) -> Iterator[MovingItem]:
-    """Circles and reactions at the samples of an analysis, `scale` mm a metre, `per` newtons a millimetre.
+    """Yield the circles and reactions at the samples of an analysis, `scale` mm a metre, `per` newtons a millimetre.
 
     The first `turn` samples are one turn of the driver, in which the circles go round.
     """

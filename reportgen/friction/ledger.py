@@ -112,7 +112,7 @@ def enter_forces(q: Sheet, analysis: Analysis, worked: Sequence[int]) -> None:
         }
 
     def overcome(parts: Sequence[Expression]) -> Expression:
-        """M_cb with the torques against friction, which are in the sense of ω₁."""
+        """Return M_cb with the torques against friction, which are in the sense of ω₁."""
         return q["M.eq"] + signed(machine.turn, total(parts)) if parts else q["M.eq"]
 
     R = {each: q[ids.reaction(each.digits)] for each in rates}

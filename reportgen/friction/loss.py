@@ -69,7 +69,7 @@ def friction_loss(machine: Machine) -> CycleTorque | None:
 
 
 def _coefficients(machine: Machine, low: Floats, high: Floats) -> Floats:
-    """Legendre's coefficients [n, 6] of M_loss in parts [n]."""
+    """Return Legendre's coefficients [n, 6] of M_loss in parts [n]."""
     angle = low[:, None] + (high - low)[:, None] * (NODES + 1) / 2
     analysis = analyse(machine, angle.ravel())
     solved = with_friction(analysis)

@@ -84,7 +84,9 @@ class Leaning:
 
 
 def leaning_forces(guide: complex, forces: Sequence[Leaning], φ: Symbol, title: str) -> Scene:
-    """Forces of a guide at one scale, each with its parts and its lean φ; `guide` is the direction of the sliding."""
+    """Return the forces of a guide at one scale, each with its parts and its lean φ; `guide` is the direction of the
+    sliding.
+    """
     size = DETAIL / max(abs(force.across + force.along) for force in forces)
     reach = DETAIL / 2 + max(abs(force.at) for force in forces)
     drawing = Canvas((Line(-reach * guide, reach * guide, style.AXIS),))

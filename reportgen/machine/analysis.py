@@ -133,7 +133,7 @@ SAME_BREAK = 1e-9
 
 
 def breaks(machine: Machine) -> np.ndarray:
-    """Cycle angles (rad) where the loads have corners: dead centres and nodes of the tables."""
+    """Return the cycle angles (rad) where the loads have corners: dead centres and nodes of the tables."""
     corners = [corner for load in machine.loads for corner in load.law.breaks(partial(motion_at, machine))]
     whole = machine.turns * FULL_TURN
     angles = np.sort(np.mod(np.asarray(corners, dtype=float) + SAME_BREAK, whole) - SAME_BREAK)
@@ -197,7 +197,7 @@ def _energy_gained(machine: Machine) -> float:
 
 
 def summarise(machine: Machine) -> Summary:
-    """Mean, extremes and energy balance over the cycle: sgn(ω1)·mean(M_cb) = −W/(2π·turns)."""
+    """Return the mean, extremes and energy balance over the cycle: sgn(ω1)·mean(M_cb) = −W/(2π·turns)."""
     whole = machine.turns * FULL_TURN
     fine = np.linspace(0.0, whole, 360 * machine.turns, endpoint=False)
     sampled = analyse(machine, fine)
@@ -374,7 +374,7 @@ class Machine:
         return np.asarray((turns + np.asarray(self.places)).ravel())
 
     def angles(self, cycle_angle: np.ndarray) -> np.ndarray:
-        """Driver angles at the given cycle angles; the coordinates (m) of a sliding driver."""
+        """Return the driver angles at the given cycle angles; the coordinates (m) of a sliding driver."""
         return self.start + self.turn * cycle_angle * (self.span / (2 * np.pi) if self.span else 1.0)
 
     @property
@@ -393,10 +393,11 @@ class Machine:
 
 
 def lettered(count: int, turns: int, extra: Iterable[float]) -> tuple[tuple[float, ...], tuple[str, ...]]:
-    """Cycle angles (rad) of a turn's positions, labels of the cycle's: `count` even ones 0, 1, …, others a, b, ….
+    """Return the cycle angles (rad) of a turn's positions and labels of the cycle's: `count` even ones 0, 1, …, others
+    a, b, ….
 
-    Of the `extra` angles those that coincide with an even one are left out; the letters follow the angle and
-    go on from turn to turn, as the numbers do.
+    Those of the `extra` angles that coincide with an even one are left out; the letters follow the angle and
+    continue from turn to turn, as the numbers do.
     """
     even = np.arange(count) * (2 * np.pi / count)
     turned = np.mod(np.asarray(list(extra)) + SAME_POSITION, 2 * np.pi) - SAME_POSITION

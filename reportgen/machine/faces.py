@@ -26,7 +26,7 @@ class Faces:
     below: float = 0.0
 
     def ends(self, normal: Floats, moment: Floats) -> tuple[Floats, Floats]:
-        """N₁, N₂ (N) [N] of the reaction N (N), positive to the left of the guide, with the moment N x (N·m)."""
+        """Return N₁, N₂ (N) [N] of the reaction N (N), positive to the left of the guide, with the moment N x (N·m)."""
         width = self.last - self.first
         return (normal * self.last - moment) / width, (moment - normal * self.first) / width
 

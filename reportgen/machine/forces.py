@@ -32,11 +32,11 @@ class Load:
     couple: Floats
 
     def moment(self, about: Complexes | complex) -> Floats:
-        """Moment about a point (N·m) [N]: (point − about) × force + couple."""
+        """Return the moment about a point (N·m) [N]: (point − about) × force + couple."""
         return cross(self.point - about, self.force) + self.couple
 
     def power(self, motion: Motion) -> Floats:
-        """F·v + M ω (W) [N]."""
+        """Return F·v + M ω (W) [N]."""
         moved = motion.of(self.link, self.point).v
         return dot(self.force, moved) + self.couple * motion.links[self.link].omega
 
@@ -60,7 +60,7 @@ def weights(linkage: Linkage, motion: Motion) -> tuple[Load, ...]:
 
 
 def inertia_loads(linkage: Linkage, motion: Motion) -> tuple[Load, ...]:
-    """D'Alembert's loads −m a_S at S with the couple −J ε, named "Pqt" and the link's number."""
+    """Return D'Alembert's loads −m a_S at S with the couple −J ε, named "Pqt" and the link's number."""
     return tuple(
         Load(
             ids.inertia_force(body.link),
@@ -155,7 +155,7 @@ class _Wrench(NamedTuple):
     couple: Floats | float
 
     def moment(self, about: Complexes) -> Floats:
-        """Moment about a point (N·m) [N]."""
+        """Return the moment about a point (N·m) [N]."""
         return cross(self.point - about, self.force) + self.couple
 
 
@@ -283,7 +283,7 @@ def _unknowns(joint: Joint, motion: Motion, length: float) -> tuple[_Wrench, _Wr
 
 
 def _components(wrench: _Wrench, pole: Complexes, length: float, sense: float) -> Floats:
-    """ΣF_x, ΣF_y and ΣM/l of one wrench, [3, N]."""
+    """Return ΣF_x, ΣF_y and ΣM/l of one wrench, [3, N]."""
     force = sense * wrench.force
     return np.array((force.real, force.imag, sense * wrench.moment(pole) / length))
 

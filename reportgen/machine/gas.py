@@ -181,7 +181,7 @@ class StrokeIndicator:
         return tuple(sorted({*edges.tolist(), *bends.tolist()}))
 
     def work(self, area: float, stroke: float) -> float:
-        """Indicated work of one cylinder per cycle (J), W = A H Σ ±∫ p d(s/H), exact for the table.
+        """Return the indicated work of one cylinder per cycle (J), W = A H Σ ±∫ p d(s/H), exact for the table.
 
         `area` A of the piston (m²), `stroke` H (m).
         """
@@ -247,7 +247,7 @@ class AngleIndicator:
         return self.angles
 
     def work(self, volume_rate: Callable[[Floats], Floats]) -> float:
-        """Indicated work of one cylinder per cycle (J), W = ∫ p (dV/dφ) dφ over 4π.
+        """Return the indicated work of one cylinder per cycle (J), W = ∫ p (dV/dφ) dφ over 4π.
 
         `volume_rate` gives dV/dφ (m³/rad) at cycle angles [N].  Gauss–Legendre quadrature with 16
         nodes between table nodes, on parts of at most 15°: exact to rounding for a slider-crank.
@@ -264,7 +264,7 @@ IndicatorTable = StrokeIndicator | AngleIndicator
 def indicated_work(
     indicator: IndicatorTable, area: float, stroke: float, fraction_rate: Callable[[Floats], Floats]
 ) -> float:
-    """Indicated work of one cylinder per cycle (J) for either form.
+    """Return the indicated work of one cylinder per cycle (J) for either form.
 
     `fraction_rate` gives d(s/H)/dφ (1/rad) at cycle angles [N]; the form by stroke does not need it.
     """

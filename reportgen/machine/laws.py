@@ -74,17 +74,17 @@ class Stroke:
         return np.array([0.0, inward_turn, FULL_TURN, FULL_TURN + inward_turn])
 
     def fraction(self, motion: Motion) -> Floats:
-        """s/H [N]: the pin's way from its top over the stroke."""
+        """Return s/H [N]: the pin's way from its top over the stroke."""
         fraction = np.real(np.conj(self.inward) * (motion.points[self.pin].p - self.top)) / self.stroke
         return np.asarray(np.clip(fraction, 0.0, 1.0))
 
     def fraction_rate(self, motion: Motion) -> Floats:
-        """d(s/H)/dφ [N] over the driver's turn φ in the direction of rotation."""
+        """Return d(s/H)/dφ [N] over the driver's turn φ in the direction of rotation."""
         speed = np.real(np.conj(self.inward) * motion.points[self.pin].v)
         return np.asarray(speed / (self.stroke * np.abs(motion.rate)))
 
     def share_at(self, motion_at: MotionAt) -> Callable[[Floats], Floats]:
-        """s/H [N] at the slider's own cycle angles [N], in any order."""
+        """Return s/H [N] at the slider's own cycle angles [N], in any order."""
 
         def share(angle: Floats) -> Floats:
             order = np.argsort(angle)
@@ -115,7 +115,7 @@ class Law(ABC):
 
     @abstractmethod
     def breaks(self, motion_at: MotionAt) -> Iterable[float]:
-        """Cycle angles (rad) where the size bends or jumps, in any order and any turn."""
+        """Return the cycle angles (rad) where the size bends or jumps, in any order and any turn."""
 
     @property
     @abstractmethod

@@ -39,12 +39,12 @@ RODS: Mapping[DyadKind, int] = {"RRR": 2, "RRP": 1, "RPR": 0, "PRP": 0, "RPP": 0
 
 
 def unit(angle: Floats | float) -> Complexes:
-    """Unit vector e^{iθ} at `angle` (rad)."""
+    """Return the unit vector e^{iθ} at `angle` (rad)."""
     return np.asarray(np.exp(1j * np.asarray(angle, dtype=np.float64)), dtype=np.complex128)
 
 
 def cross(a: Complexes | complex, b: Complexes | complex) -> Floats:
-    """a × b = aₓb_y − a_y bₓ [N], the component along z."""
+    """Return a × b = aₓb_y − a_y bₓ [N], the component along z."""
     a, b = np.asarray(a), np.asarray(b)
     return np.asarray(a.real * b.imag - a.imag * b.real, dtype=np.float64)
 

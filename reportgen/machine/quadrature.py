@@ -32,14 +32,14 @@ def gauss(low: Floats, high: Floats, order: int = ORDER) -> tuple[Floats, Floats
 def integrals(
     function: Callable[[Floats], Floats], low: Floats, high: Floats, order: int = ORDER
 ) -> tuple[Floats, Floats]:
-    """∫ f dx and ∫ |f| dx of each part [N], from one call of the function at all places in order."""
+    """Return ∫ f dx and ∫ |f| dx of each part [N], from one call of the function at all places in order."""
     x, weights = gauss(low, high, order)
     values = np.asarray(function(x.ravel()), dtype=np.float64).reshape(x.shape)
     return np.sum(weights * values, axis=1), np.sum(weights * np.abs(values), axis=1)
 
 
 def accumulated(function: Callable[[Floats], Floats], at: Floats, order: int = ORDER) -> Floats:
-    """∫ f dx from the first place to each [N]; f is smooth between neighbouring places, which rise."""
+    """Return ∫ f dx from the first place to each [N]; f is smooth between neighbouring places, which rise."""
     parts, _ = integrals(function, at[:-1], at[1:], order)
     return np.concatenate(([0.0], np.cumsum(parts)))
 

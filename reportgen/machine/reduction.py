@@ -17,7 +17,7 @@ from reportgen.machine.motion import Motion, dot, solve_motion
 
 
 def reduced_inertia(machine: Machine, motion: Motion) -> Floats:
-    """J_r = Σ m (v_S/ω₁)² + J (ω/ω₁)² [N] (kg·m²)."""
+    """Return J_r = Σ m (v_S/ω₁)² + J (ω/ω₁)² [N] (kg·m²)."""
     total = np.zeros_like(motion.driver)
     for body in machine.linkage.inertias:
         total += body.mass * np.abs(motion.points[body.centre].v) ** 2
@@ -26,7 +26,9 @@ def reduced_inertia(machine: Machine, motion: Motion) -> Floats:
 
 
 def inertia_slope(machine: Machine, motion: Motion) -> Floats:
-    """J_r′ = 2 Σ (m v_S·a_S + J ω ε)/|ω₁|³ [N] (kg·m²) over the turn in the sense of rotation, of motion at ε₁ = 0."""
+    """Return J_r′ = 2 Σ (m v_S·a_S + J ω ε)/|ω₁|³ [N] (kg·m²) over the turn in the sense of rotation, of motion at
+    ε₁ = 0.
+    """
     total = np.zeros_like(motion.driver)
     for body in machine.linkage.inertias:
         centre, link = motion.points[body.centre], motion.links[body.link]
@@ -35,7 +37,7 @@ def inertia_slope(machine: Machine, motion: Motion) -> Floats:
 
 
 def reduced_torque(machine: Machine, motion: Motion, loads: Sequence[Load]) -> Floats:
-    """M_r [N] (N·m) of weights and applied loads, positive in the direction of rotation."""
+    """Return M_r [N] (N·m) of weights and applied loads, positive in the direction of rotation."""
     return np.asarray(-machine.turn * virtual_work_torque(machine.linkage, motion, loads))
 
 
@@ -45,7 +47,7 @@ def at_unit_speed(machine: Machine, angle: Floats) -> Motion:
 
 
 def reduced(machine: Machine, angle: Floats) -> tuple[Floats, Floats, Floats]:
-    """J_r, J_r′ (kg·m²) and M_r (N·m) at cycle angles [N] (rad)."""
+    """Return J_r, J_r′ (kg·m²) and M_r (N·m) at cycle angles [N] (rad)."""
     motion = at_unit_speed(machine, angle)
     loads = (*weights(machine.linkage, motion), *(load.load(angle, motion) for load in machine.loads))
     torque = reduced_torque(machine, motion, loads)

@@ -79,7 +79,7 @@ def _steady_curves(report: Report, id: str, values: str) -> list[Curve]:
 
 
 def inertia(report: Report) -> FigureScenes:
-    """J_r and its slope over the cycle, as far as they are there."""
+    """Return curves of J_r and its slope over the cycle, if they exist."""
     run = motion_of(report).alone.run
     kept = _thinned(run)
     angle, own = np.degrees(run.angle[kept]), motion_of(report).asked.inertia
@@ -93,7 +93,7 @@ def inertia(report: Report) -> FigureScenes:
 
 
 def speed(report: Report) -> FigureScenes:
-    """ω over the cycle, without and with the flywheel, with the mean of its bounds."""
+    """Draw ω over the cycle, without and with the flywheel, with the mean of its bounds."""
     mean = report.ledger.number("run.mean").value
     level = ((mean, report.ledger.symbol("run.mean")),)
     curves, up = _steady_curves(report, "omega", "speed"), _axis_of(report, "run.omega")
@@ -101,13 +101,13 @@ def speed(report: Report) -> FigureScenes:
 
 
 def acceleration(report: Report) -> FigureScenes:
-    """ε over the cycle, without and with the flywheel."""
+    """Draw ε over the cycle, without and with the flywheel."""
     curves = _steady_curves(report, "eps", "acceleration")
     return FigureScenes((_chart(report, curves, _over_angle(report), _axis_of(report, "run.eps")),))
 
 
 def torques(report: Report) -> FigureScenes:
-    """M_r and the torque of the drive over the cycle."""
+    """Draw M_r and the torque of the drive over the cycle."""
     run = motion_of(report).alone.run
     kept = _thinned(run)
     angle = np.degrees(run.angle[kept])
@@ -140,7 +140,7 @@ def characteristic_chart(report: Report, half: bool = False) -> charts.Plotted:
 
 
 def energy(report: Report) -> FigureScenes:
-    """T over J: the closed loop between the lines T = ½ω²J of the greatest and the least speed."""
+    """Draw T over J: the closed loop between the lines T = ½ω²J of the greatest and the least speed."""
     motion = motion_of(report)
     steady = motion.alone
     run, kept = steady.run, _thinned(steady.run)
@@ -169,21 +169,23 @@ def _of_run(report: Report, run: MotionRun) -> FigureScenes:
 
 
 def starting(report: Report) -> FigureScenes:
-    """ω over φ and t from rest."""
+    """Draw ω over φ and t from rest."""
     started = motion_of(report).started
     assert started is not None, "a start is drawn where it is asked for"
     return _of_run(report, started.run)
 
 
 def stopping(report: Report) -> FigureScenes:
-    """ω over φ and t to the stop."""
+    """Draw ω over φ and t to the stop."""
     stopped = motion_of(report).stopped
     assert stopped is not None, "a stop is drawn where it is asked for"
     return _of_run(report, stopped)
 
 
 def sheet(report: Report) -> Iterator[Scene]:
-    """Torques, work, reduced inertia, speed, acceleration one under the other on one axis φ; the energy beside them."""
+    """Yield the torques, work, reduced inertia, speed, acceleration one under the other on one axis φ; the energy beside
+    them.
+    """
     motion = motion_of(report)
     run = motion.alone.run
     kept = _thinned(run)
@@ -203,7 +205,7 @@ def sheet(report: Report) -> Iterator[Scene]:
 
 
 def _one_below_another(plots: Sequence[charts.Plotted]) -> Scene:
-    """Charts with their frames one below another."""
+    """Return the charts with their frames one below another."""
     left = max(plot.low.real for plot in plots)
     height = sum(plot.scene.height for plot in plots)
     width = max(left - plot.low.real + plot.scene.width for plot in plots)

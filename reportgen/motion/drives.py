@@ -35,11 +35,11 @@ class Drive(ABC):
 
     @abstractmethod
     def torque(self, speed: Floats) -> Floats:
-        """M [N] (N·m) at ω [N] (rad/s)."""
+        """Return M [N] (N·m) at ω [N] (rad/s)."""
 
     @abstractmethod
     def slope(self, speed: Floats) -> Floats:
-        """dM/dω [N] (N·m·s) at ω [N] (rad/s)."""
+        """Return dM/dω [N] (N·m·s) at ω [N] (rad/s)."""
 
     @property
     def governs(self) -> bool:

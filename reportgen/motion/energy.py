@@ -50,7 +50,7 @@ LEFT = 1 / 4
 
 
 def _stages() -> tuple[Floats, Floats, Floats]:
-    """Places c and weights b of the rule on 0…1, and its matrix A: ∫₀^{c_j} f = Σ A_jl f_l."""
+    """Return the places c and weights b of the rule on 0…1, and its matrix A: ∫₀^{c_j} f = Σ A_jl f_l."""
     places, weights = gauss(np.zeros(1), np.ones(1), STAGES)
     c, b = places[0], weights[0]
     powers = np.arange(STAGES)
@@ -115,7 +115,7 @@ class ReducedMachine:
         return self.machine.turns * FULL_TURN
 
     def reduced(self, angle: Floats, sense: int = 1) -> tuple[Floats, Floats, Floats]:
-        """J, J′ and M_r at rising cycle angles [N]; they may go on beyond the cycle.
+        """Return J, J′ and M_r at rising cycle angles [N]; they may go on beyond the cycle.
 
         Friction acts against the `sense` in which the crank goes.
         """
@@ -188,7 +188,7 @@ def linear(path: ReducedWay, drive: Drive, energy: Floats) -> tuple[Floats, Floa
 
 
 def energy_at_edges(first: float, alpha: Floats, beta: Floats) -> Floats:
-    """T at the edges [n + 1] from that at the first."""
+    """Return T at the edges [n + 1] from that at the first."""
     at = [first]
     for a, b in zip(alpha.tolist(), beta.tolist(), strict=True):
         at.append(a * at[-1] + b)

@@ -187,7 +187,9 @@ class _Steady:
         return with_rest(q, "run.Md", drive.size, level, Symbol("M", "dc"), "torque")
 
     def _characteristic(self, ω: Ref) -> None:
-        """The torque by the formula of the characteristic, where it has one, and how far the reading is from it."""
+        """Enter the torque by the formula of the characteristic, if it has one, and the difference of the reading
+        from it.
+        """
         q, i = self.q, self.q.find("run.i")
         if isinstance(self.motion.drive, ConstantDrive):
             return

@@ -163,7 +163,7 @@ class TimeStepper:
         return None
 
     def _beside(self, angle: float) -> tuple[Floats, Floats, Floats]:
-        """J, J′ and M_r just behind an angle, for all places of a step that leaves rest."""
+        """Return J, J′ and M_r just behind an angle, for all places of a step that starts from rest."""
         J, slope, torque = self.reduced(np.full(STAGES, angle + self.sense * SPACING * max(abs(angle), 1.0)))
         return J, slope, torque
 

@@ -63,7 +63,7 @@ def characteristic_lines(report: Report) -> list[str]:
 
 
 def steady_lines(report: Report, k: int | None = None) -> list[str]:
-    """Energy, speed, acceleration at a position."""
+    """Return the ids of energy, speed and acceleration at a position."""
     return report.known(["run.T", "run.omega", "run.eps"])
 
 

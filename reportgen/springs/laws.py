@@ -21,7 +21,7 @@ Size = TypeVar("Size", Floats, Expression)
 
 
 def pull(c: Size, length: Size, free: Size) -> Size:
-    """F = c(l − l₀), positive where the spring is stretched and pulls."""
+    """Return F = c(l − l₀), positive where the spring is stretched and pulls."""
     return c * (length - free)
 
 
@@ -40,7 +40,7 @@ class SpringLaw(Law):
         return np.asarray(self.ends[1].at(motion) - self.ends[0].at(motion), dtype=np.complex128)
 
     def energy(self, motion: Motion) -> Floats:
-        """½c(l − l₀)² (J) [N]."""
+        """Return ½c(l − l₀)² (J) [N]."""
         return np.asarray(self.c * (np.abs(self.along(motion)) - self.free) ** 2 / 2)
 
     def towards(self, end: int) -> Direction:
@@ -71,7 +71,7 @@ class SpringLaw(Law):
         return Coil(self.number, self.ends)
 
     def formula(self, q: Sheet, link: int) -> Expression:
-        """F = c(l − l₀) with l measured on the drawing."""
+        """Return F = c(l − l₀) with l measured on the drawing."""
         number, first = self.number, self.ends[0].on(q, self.number)
         if ids.spring_length(number) not in q:
             apart = abs(self.ends[1].on(q, number) - first)
@@ -104,11 +104,11 @@ class TorsionLaw(Law):
     kind = "spring"
 
     def deflection(self, motion: Motion) -> Floats:
-        """φ − φ₀ (rad) [N]."""
+        """Return φ − φ₀ (rad) [N]."""
         return self.wound + within_half_a_turn(motion.links[self.link].angle - self.free - self.wound)
 
     def energy(self, motion: Motion) -> Floats:
-        """½c(φ − φ₀)² (J) [N]."""
+        """Return ½c(φ − φ₀)² (J) [N]."""
         return np.asarray(self.c * self.deflection(motion) ** 2 / 2)
 
     def value(self, angle: Floats, motion: Motion) -> Floats:
@@ -126,7 +126,7 @@ class TorsionLaw(Law):
         return Coil(self.number, (Anchor(self.pin), Anchor(self.point)), wound=True)
 
     def formula(self, q: Sheet, link: int) -> Expression:
-        """M = −c θ, θ = φ − φ₀ measured on the drawing in degrees."""
+        """Return M = −c θ, θ = φ − φ₀ measured on the drawing in degrees."""
         free, slot = q[ids.spring_free(self.number)], q.find(ids.slot(link))
         line = slot if slot is not None else q[ids.place(self.point)] - q[ids.place(self.pin)]
         turned: Expression = arg(quotient(line, cis(free + self.wound if self.wound else free)))

@@ -267,7 +267,9 @@ def measure(package: Package, name: str) -> tuple[int, int]:
     shared = False
 
     def start(tag: str, attributes: Attributes) -> None:
-        """`depth` is 1 right inside a row or a string, 0 outside of all; `outside` is held whatever is let go."""
+        """Count an element; `depth` is 1 right inside a row or a string, 0 outside of all; `outside` is never
+        released.
+        """
         nonlocal depth, held, outside, groups, cells, formulas, dependents, shared, length
         if depth:
             depth += 1
@@ -291,7 +293,7 @@ def measure(package: Package, name: str) -> tuple[int, int]:
                 held = outside
 
     def text(data: str) -> None:
-        """No cell could hold a longer formula."""
+        """Measure the text of a formula; no cell could hold a longer one."""
         nonlocal length, longest
         if shared:
             length += len(data)
