@@ -139,7 +139,7 @@ class Increasing:
             yield Finding("not-increasing", (*where, falls[0]), {"key": self.key})
             return
         for index, value, wanted in ((0, sizes[0], self.first), (len(sizes) - 1, sizes[-1], self.last)):
-            # Ends are exact but for the rounding of a unit (2 turn for 720 deg).
+            # Ends are exact up to the rounding of a unit (2 turn for 720 deg).
             if abs(value - wanted) > 1e-10 * (self.last - self.first):
                 end = f"{wanted:g} {self.unit}".strip()
                 yield Finding("table-end", (*where, index), {"key": self.key, "end": end})

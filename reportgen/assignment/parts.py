@@ -57,7 +57,7 @@ def read(
         own = own or list(_no_part(source, find))
         assignment, wrong = (None, own) if own else assess(source, Path(source.file))
         if assignment is None:
-            # A part in place has its faults in this very file, one in a file of its own has them there.
+            # The faults of a part in place belong to this file, those of a part in a separate file to that one.
             faults += [
                 replace(fault, where=(PARTS, index, *fault.where)) if fault.mark.file == str(path) else fault
                 for fault in wrong
@@ -187,7 +187,7 @@ def source_of(top: MappingNode, path: Path, index: int) -> tuple[Source, list[Fa
         return Source(str(path)), [Fault("both-given", second.mark, {"first": "file", "second": second.text})]
     file = path.parent / named.text
     if leads_out(file, path.parent):
-        # Nothing of it is read, so that nothing of it is told.
+        # The file is outside the folder, so it is not read and its content is not reported.
         return Source(str(path)), [Fault("path-outside", named.mark, {"text": named.text})]
     source = read_source(file)
     unread = [replace(fault, mark=named.mark) for fault in source.faults if fault.code == "unreadable"]

@@ -57,7 +57,7 @@ def assess(
         for check_one in (school_of(path), *_given(kind, raw).all_checks, *numbered):
             places = {finding.where for finding in findings}
             findings += [finding for finding in check_one(draft) if finding.where not in places]
-    # What the source already refuses is not judged a second time.
+    # The source has already refused these nodes; they are not checked again.
     refused = {fault.mark.line for fault in faults if fault.code in {"alias", "tag", "tab"}}
     placed = [_placed(finding, top) for finding in _without_renamed(findings)]
     faults += [fault for fault in placed if fault.mark.line not in refused]
@@ -79,7 +79,7 @@ def name_faults(path: Path) -> Iterator[Fault]:
     stem = path.stem
     shown = "".join(character for character in stem if unicodedata.category(character) not in _CONTROLS)
     if os.path.isdir(path):
-        # A folder in place of a file is told as such.
+        # A folder in place of a file is reported as such.
         return
     outside = stem.strip(" .") == "" or stem != shown.strip() or stem.endswith(".")
     if outside or RESERVED.fullmatch(stem.partition(".")[0].strip().upper()):
@@ -162,7 +162,7 @@ def _doubtful(node: Node | None) -> Iterator[Fault]:
                 yield from _doubtful(value)
         case SequenceNode(items):
             texts = [item.text for item in items if isinstance(item, Scalar)]
-            # Beside 0.125 a bare 1.250 can be nothing else: the point of the list is the decimal one.
+            # Beside 0.125, a bare 1.250 has only one reading: the list uses the decimal point.
             plain_points = any("." in text and two_readings(text) is None for text in texts)
             for item in items:
                 bare = isinstance(item, Scalar) and item.text.strip()[-1:].isdigit()
@@ -198,7 +198,7 @@ def _sections(raw: dict[str, Any], kind: Kind | None) -> tuple[list[Finding], Dr
     findings: list[Finding] = []
     valid: dict[str, Any] = {}
     for key in raw.keys() - known.keys() - {"kind"}:
-        # Of an unknown kind the own sections are unknown too: the kind is the fault, not they.
+        # The own sections of an unknown kind are unknown too: only the kind is reported.
         if kind is not None or key not in {"parameters", "indicator"}:
             findings.append(_unknown((key,), ["kind", *known]))
     for key, (type_, default) in known.items():
@@ -307,7 +307,7 @@ def _real(location: Where, content: Any) -> Iterator[str | int]:
     for number, step in enumerate(location):
         last = number == len(location) - 1
         if isinstance(content, dict):
-            # The member of a union may be named as one of its own keys is: `by: way` beside `way: [...]`.
+            # The member of a union may have the name of one of its keys: `by: way` beside `way: [...]`.
             named_alike = not last and isinstance(location[number + 1], str) and isinstance(content.get(step), list)
             if step in content and not named_alike:
                 content = content[step]
@@ -337,7 +337,7 @@ def _placed(finding: Finding, top: MappingNode) -> Fault:
     at_key = finding.at == "key"
     mark: Mark = key_mark if at_key or unwritten else node.mark
     text = str(finding.where[-1]) if at_key else node.text if isinstance(node, Scalar) and not node.quoted else ""
-    # What is said of a value in order, as that it is out of range, stays.
+    # Faults of a valid value, for example that it is out of range, stay.
     mistyped = slip(text, mark) if finding.code in MISTYPED else None
     if mistyped is not None:
         return replace(mistyped, where=finding.where)

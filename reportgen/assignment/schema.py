@@ -62,7 +62,7 @@ def schema_of(kinds: Iterable[Kind], words: Callable[[str], Mapping[str, FieldWo
     """Return the JSON Schema (draft-07, which every editor knows) of a file of any of the kinds, with the words of
     each.
     """
-    # All at once: models of one name in different kinds get names of their own.
+    # All together: models with one name in different kinds get different names.
     models: dict[Kind, tuple[type[BaseModel], JsonSchemaMode]] = {
         kind: (file_model(kind), "validation") for kind in kinds
     }
@@ -133,7 +133,7 @@ def _tell_words(part: Schema, root: Schema, words: Mapping[str, FieldWords], pat
             _tell_words(inner, root, words, path)
         for key, about in schema.get("properties", {}).items():
             said = words.get(".".join((*path, key)))
-            # A definition that several kinds share is told in the words of the first.
+            # A definition that several kinds share is described in the words of the first.
             if said is not None and "description" not in about:
                 about["title"], about["description"] = said.label, said.whole
             _tell_words(about, root, words, (*path, key))

@@ -370,7 +370,7 @@ def balanced_turn(machine: Machine) -> BalancedTurn:
     carried_out = force_balance(machine.linkage) if asked.links else {}
     if products:
         carried_out = {DRIVER: products[asked.rules[0]]}
-    # What counts as one: all masses at the crank's pin.
+    # Reference size: all masses at the crank's pin.
     whole = _crank(machine.linkage).length * sum(body.mass for body in machine.linkage.inertias)
     weights = (
         Counterweight(link, product, asked.radius)

@@ -15,15 +15,15 @@ force_of_link = Name("balance.P.{link}.{axis}")
 moment_of_link = Name("balance.M.{link}")
 place = Name("balance.r.{point}.{axis}")  # from the crank's centre, or from the centre that a counterweight turns about
 seen = Name("balance.u.{axis}")  # F e^{−iφ}/ω², seen from the crank
-mean = Name("balance.mean.{axis}")  # of what is seen
+mean = Name("balance.mean.{axis}")  # mean of F as seen from the crank
 
 # --- counterweights, by their links or by the rules that they are compared by
 
 touching = Name("balance.touch.{number}.{axis}")
 beside = Name("balance.beside.{number}")  # which position is next to a point of touch
-point_mass = Name("balance.rod.{link}.{point}")  # of a rod, at one of its pins
-pin_turn = Name("balance.delta.{link}")  # of a pin from the crank
-on_link = Name("balance.on.{link}.{axis}")  # the mass centre of a link in the link's frame
+point_mass = Name("balance.rod.{link}.{point}")  # point mass of a rod, at one of its pins
+pin_turn = Name("balance.delta.{link}")  # turn of a pin from the crank
+on_link = Name("balance.on.{link}.{axis}")  # place of the mass centre of a link in the link's frame
 product = Name("balance.U.{link}")
 product_component = Name("balance.U.{link}.{axis}")
 angle = Name("balance.psi.{link}")
@@ -34,8 +34,8 @@ RADIUS, SHARE = "balance.radius", "balance.share"
 mass = Name("balance.m.{link}")
 weight = Name("balance.G.{link}")
 centrifugal = Name("balance.C.{link}")
-way = Name("balance.way.{link}")  # the direction of a counterweight from the centre of its link
-hold = Name("balance.hold.{link}")  # the moment that turns a counterweight as its link does
+way = Name("balance.way.{link}")  # direction of a counterweight from the centre of its link
+hold = Name("balance.hold.{link}")  # moment that turns a counterweight with its link
 
 # --- over the turn, without a counterweight (`before`), with that of a rule, or with what is carried out (`after`)
 

@@ -20,7 +20,7 @@ def mistakes(ledger: Ledger, machine: Machine) -> Changed:
             continue
         angle = balance_ids.rule_angle.read(id)
         if angle is not None:
-            # A counterweight that is carried out has the angle of its rule, or of its own components.
+            # An applied counterweight has the angle of its rule, or of its own components.
             own = definition.id.removeprefix("balance.psi.") if isinstance(definition, Ref) else angle["rule"]
             parts = [balance_ids.rule_component(own, axis) for axis in AXES]
             x, y = (Ref(part) if part in ledger else None for part in parts)
@@ -43,7 +43,7 @@ def _of_all(ledger: Ledger, definition: Expression) -> Expression:
     place of m_A + κ(m_B + m).
     """
     κ = Ref(balance_ids.SHARE)
-    # What is left at the crank's pin stands on the mass at the other end.
+    # The mass at the crank's pin depends on the mass at the other end.
     turning = [
         id
         for id in ledger.families

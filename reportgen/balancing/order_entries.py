@@ -43,7 +43,7 @@ def enter_orders(q: Sheet, analysis: Analysis, curve: CrankCurve, force: float, 
     elif on_sliders(linkage):
         count = len(curve.harmonics)
         for order in OF_ALL:
-            # Seen from the crank, what turns with nφ turns with (n − 1)φ.
+            # Seen from the crank, a vector that turns with nφ turns with (n − 1)φ.
             turn = analysis.machine.turn
             parts = (curve.harmonics[(turn * (sense * order - 1)) % count] for sense in SENSES.values())
             size = sum(map(abs, parts)) * analysis.machine.speed**2

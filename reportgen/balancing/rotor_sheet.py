@@ -184,7 +184,7 @@ class RotorSheet:
         q, x, y = self.q, parts["x"], parts["y"]
         size = q.define(names.by_components("U", plane), sqrt(x**2 + y**2), scale=self._scale_of(plane))
         α = q.define(names.by_components("alpha", plane), angle_of(q, x, y), of=size.id)
-        # What is nothing has no direction.
+        # A correction of size zero has no direction.
         q.set_out("by_components", size, *([α] if q.families[size.id].at(1) else []))
 
     # --- bearings

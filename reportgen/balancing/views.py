@@ -216,7 +216,7 @@ def residuals(report: Report) -> dict[str, float]:
     analysis, turn = report.analysis, balanced_in(report.analysis)
     linkage, motion = analysis.machine.linkage, analysis.motion
     off = np.abs(shaking_force(linkage, motion) - frame_reactions(linkage, motion)).max()
-    # The forces of inertia of all links together: their sum may be nothing.
+    # Sum of the sizes of all links' inertia forces, since their vector sum may be zero.
     greatest = sum(body.mass * float(np.abs(motion.points[body.centre].a).max()) for body in linkage.inertias)
     entered = {"balance": float(off) / greatest}
     if balancing_state(report) == "links":
@@ -283,7 +283,7 @@ def seen_curve(report: Report) -> FigureScenes:
     if "max" in turn.products:
         round_it = turn.curve.circle
         touching = turn.curve.at(np.array(round_it.touching))
-        # The points of touch are vertices of the drawn circle, so that they can be marked on it.
+        # The touching points are vertices of the drawn circle, so that they can be marked on it.
         own = np.angle(touching - round_it.centre)
         angles = np.sort(np.concatenate((np.linspace(-np.pi, np.pi, ROUND), own)))
         circle = round_it.centre + round_it.radius * unit(angles)

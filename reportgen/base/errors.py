@@ -139,7 +139,7 @@ class AssignmentError(ReportgenError):
         super().__init__("\n".join(str(problem) for problem in self.problems))
 
     def __reduce__(self) -> tuple[type[AssignmentError], tuple[list[Problem]]]:
-        # Whoever unpickles it makes it of its problems, not of their text.
+        # Unpickling builds it from its problems, not from their text.
         return type(self), (list(self.problems),)
 
 

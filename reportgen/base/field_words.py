@@ -99,7 +99,7 @@ def _found(own: Path, common: Path, of_topics: tuple[Path, ...], *_: int) -> Map
     words = {path: _words(said) for path, said in shared["file"].items()}
     tables = (_own(own), shared[PARAMETERS], *map(_own, of_topics))
     parameters = [entry for table in tables for entry in _grouped(table, groups)]
-    # What a kind says of a key itself comes before what is said of it in general.
+    # The kind's own words for a key take precedence over the common ones.
     return words | {f"{PARAMETERS}.{path}": said for path, said in reversed(dict(reversed(parameters)).items())}
 
 

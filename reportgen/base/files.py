@@ -36,7 +36,7 @@ def put_files(folder: Path, files: Mapping[str, bytes], gone: Collection[Path] =
         try:
             put_set(written, gone)
         except OSError:
-            # A folder without a file tells nobody anything.
+            # An empty folder left behind would be of no use.
             with suppress(OSError):
                 folder.rmdir()
             raise
@@ -73,7 +73,7 @@ def put_set(files: Mapping[Path, bytes], gone: Collection[Path] = ()) -> None:
     with ExitStack() as temporary, ExitStack() as undo:
         written = {}
         for target, content in files.items():
-            # A full disk does not say itself what had no room on it.
+            # The error of a full disk does not name the file that had no room.
             with _named(target):
                 if is_stream(target):
                     raise NotRegularError(errno.EINVAL, "no regular file", str(target))
@@ -152,7 +152,7 @@ def _named(target: Path) -> Iterator[None]:
     except NotRegularError:
         raise
     except OSError as error:
-        # A second name that is set at all, if to None, would be told as one.
+        # OSError would report a second name even if it is None.
         raise OSError(error.errno, error.strerror or str(error), str(target)) from error
 
 
@@ -224,8 +224,8 @@ def _identities(path: Path) -> list[str | tuple[int, int]]:
 
 
 # --- temporary files beside the results -----------------------------------------------------------
-# Only their owner can read them, and what a killed run left is swept.
-# A run holds a lock on its folder for as long as it lives, so that another one does not take it for left behind.
+# Only their owner can read them, and files left by a killed run are swept.
+# A run locks its folder as long as it lives, so that another run does not consider it abandoned.
 
 PREFIX = ".reportgen-"
 MOST_SWEPT = 1000
@@ -247,7 +247,7 @@ def scratch(out: Path) -> Iterator[Path]:
     try:
         with ExitStack() as lock:
             own = _own(out, lock)
-            # It goes while its lock is held still: a sweep would take it for left behind.
+            # The folder is removed while it is still locked, so that no sweep considers it abandoned.
             lock.callback(shutil.rmtree, own, ignore_errors=True)
             tempfile.tempdir = str(own)
             yield own
@@ -269,7 +269,7 @@ def _own(out: Path, lock: ExitStack) -> Path:
             own = Path(tempfile.mkdtemp(prefix=PREFIX, dir=out))
             with ExitStack() as holding:
                 holding.enter_context(held(own))
-                # What is there now stays: it is swept by nobody but who holds its lock.
+                # The file there now stays: only the owner of its lock may sweep it.
                 own.stat()
                 lock.push(holding.pop_all())
                 return own
@@ -310,8 +310,8 @@ def held(folder: Path) -> Iterator[bool]:
 
 
 # --- what is worth keeping from one run to the next, in the user's cache folder -------------------
-# It saves time and nothing else: all of it may be deleted at any moment, several processes may write it at once, and
-# where nothing can be kept (a read-only home, a full disk, somebody else's folder) everything is worked out anew.
+# The cache only saves time: all of it may be deleted at any moment, several processes may write it together, and if it
+# cannot be used (a read-only home, a full disk, somebody else's folder), everything is computed again.
 
 
 LARGEST, OLDEST = 20_000_000, 60 * 24 * 3600.0

@@ -82,11 +82,11 @@ def _imported(name: str) -> Callable[..., Any]:
 
 
 FORMATS = (
-    # Writers of a report: ReportJob → bytes by ending; besides its own, it may give a source for `--keep-source`.
+    # Writers of a report: ReportJob → bytes by ending; a writer may add a source for `--keep-source`.
     Format("report", "pdf", "reportgen.api.writing:report_pdf", needs=(ENGINE,), usual=True),
     Format("report", "html", "reportgen.api.writing:report_page"),
     Format("report", "docx", "reportgen.api.writing:report_word", needs=(TYPST,)),
-    # Of a key: KeyJob → bytes.
+    # Writers of a key: KeyJob → bytes.
     Format("key", "pdf", "reportgen.api.writing:key_pdf", needs=(ENGINE,), usual=True),
     Format("key", "xlsx", "reportgen.api.writing:key_workbook", needs=(OPENPYXL,), usual=True),
     Format("key", "csv", "reportgen.api.writing:key_table"),
@@ -101,7 +101,7 @@ FORMATS = (
     Format("figures", "eps", "reportgen.writers.figure:eps_files", needs=(MATPLOTLIB,), stem=".+"),
     Format("figures", "gif", "reportgen.writers.video:gif", needs=(TYPST, PILLOW), stem=".+", moves=True),
     Format("figures", "mp4", "reportgen.writers.video:mp4", needs=(TYPST, PILLOW, FFMPEG), stem=".+", moves=True),
-    # Of plots: a figure of matplotlib, the name of the format, dots an inch → bytes.
+    # Writers of plots: a figure of matplotlib, the name of the format, dots an inch → bytes.
     Format("plots", "svg", "reportgen.writers.figure:saved", needs=(MATPLOTLIB,), usual=True, stem=".+"),
     Format("plots", "png", "reportgen.writers.figure:saved", needs=(MATPLOTLIB,), stem=".+"),
     Format("plots", "pdf", "reportgen.writers.figure:saved", needs=(MATPLOTLIB,), stem=".+"),

@@ -89,7 +89,7 @@ def call_within(limits: Limits, function: Callable[[Argument], Result], argument
         try:
             assert process.stdin
             assert process.stdout
-            # Its standard input stays open: that it closes says that nobody waits any more.
+            # Its standard input stays open: when it closes, the process knows that the caller no longer waits.
             with suppress(BrokenPipeError):
                 process.stdin.write(request)
                 process.stdin.flush()
@@ -160,7 +160,7 @@ def serve() -> None:
     answer: Any = None
     fault: Exception | None = None
     stream = os.fdopen(os.dup(1), "wb")
-    os.dup2(2, 1)  # what a library prints is no answer
+    os.dup2(2, 1)  # output that a library prints must not become part of the answer
     limits, function, argument = pickle.load(sys.stdin.buffer)
     Thread(target=_end_alone, daemon=True).start()
     limit_memory(limits.megabytes)

@@ -320,7 +320,7 @@ def _node(node: yaml.Node, file: str, faults: list[Fault]) -> Node:
     if isinstance(node, yaml.MappingNode):
         entries = tuple(_entries(node, file, faults))
         return MappingNode(entries, mark, (start, end if node.flow_style or not entries else entries[-1][1].span[1]))
-    style = getattr(node, "style", None) or None  # libyaml calls that of a plain scalar ""
+    style = getattr(node, "style", None) or None  # libyaml gives a plain scalar the style ""
     if style is None and "\t" in node.value:
         faults.append(Fault("tab", mark))
     null, in_marks = style is None and node.value in _NULL, style in ("'", '"')

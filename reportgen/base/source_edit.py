@@ -52,7 +52,7 @@ def with_value(text: str, where: Where, value: Node) -> str:
         if (uncommented := _from_remark(text, top, above, rest, value)) is not None:
             return uncommented
         return _checked(_with_entry(text, above, key, inner), where, value, top)
-    # What is empty, or is one value so far, becomes a table.
+    # An empty value or a single value becomes a table.
     return _checked(_replaced(text, above, _within(rest, value)), where, value, top)
 
 
@@ -81,7 +81,7 @@ def without(text: str, where: Where) -> str:
         if head.strip(" -"):
             raise EditError("same_line", place=path_text(where))
         if head.strip() and isinstance(above, MappingNode):
-            # The first key of an item in block form stands behind its dash.
+            # The first key of an item in block form follows its dash.
             following = above.entries[1][0].span[0]
             return _agreeing(text[:start] + text[following:], wanted)
         return _agreeing(text[:begins] + text[ends:], wanted)
@@ -218,7 +218,7 @@ def _replaced(text: str, node: Node, value: Node) -> str:
     start, end = node.span[0], _content_end(text, node.span[1])
     in_marks = isinstance(node, Scalar) and node.quoted
     new = quoted(value.text, in_marks or value.quoted) if isinstance(value, Scalar) and not value.null else flow(value)
-    # An empty value stands right behind its colon.
+    # An empty value is right behind its colon.
     gap = " " if start == end and new and not text[start - 1].isspace() else ""
     return text[:start] + gap + new + text[end:]
 

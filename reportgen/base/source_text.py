@@ -84,7 +84,7 @@ def _block(table: MappingNode, original: MappingNode, lines: Sequence[str], dept
         entry = original.find(key.text)
         span = spans.get(key.text)
         if entry is None or span is None:
-            # Before the blank lines that separate this table from what follows it.
+            # Before the blank lines that separate this table from the next one.
             full = text.rstrip("\n") + "\n" if text.strip() else text
             text = full + entry_text(key, value, depth) + text[len(full) :]
         elif value is entry[1]:

@@ -42,7 +42,7 @@ def offered(language: Language) -> list[str]:
 def _has_all(language: Language) -> bool:
     """Return True if a language has all words that reports of any kind use, apart from the words of topics."""
     if language in (DEFAULT_LANGUAGE, REFERENCE):
-        # The program's own tests hold these whole, and a file is checked sooner.
+        # The program's tests check these, and skipping them makes checking a file faster.
         return True
     own, reference = templates() / language, templates() / REFERENCE
     if not (own / FILE).is_file() or any(_absent(words_alone(own), words_alone(reference))):

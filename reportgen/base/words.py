@@ -334,7 +334,7 @@ def unexpected(error: BaseException, language: Language | None) -> str:
 def as_problem(fault: Fault, language: Language | None, level: Level = "error") -> Problem:
     """Return the fault in words; its hint is given when the arguments it speaks of are known."""
     table = messages(language or spoken())
-    # What is known is the program's own, and told in full.
+    # The list of known names comes from the program, so it is shown in full.
     arguments = {name: text if name in {"known", "place"} else _shown(text) for name, text in fault.arguments.items()}
     for name in arguments.keys() & {"expected", "reason", "range"}:
         words = [table["words"].get(one) for one in fault.arguments[name].split("+")]
@@ -358,7 +358,7 @@ def as_error(faults: Iterable[Fault], language: Language | None) -> AssignmentEr
 
 def close_or_known(key: str, known: Sequence[str]) -> dict[str, str]:
     """Return arguments for a message about an unknown key: the known key that was probably meant, or all known keys."""
-    # What differs in case alone is nearer than anything else.
+    # A name that differs in case alone is closer than any other.
     same = [name for name in known if name.casefold() == key.casefold()]
     close = same or difflib.get_close_matches(key, known, n=1, cutoff=0.6)
     return {"close": close[0]} if close else {"known": ", ".join(known)}

@@ -282,7 +282,7 @@ def against(size: float, rate: Callable[[Motion], Floats], motion_at: MotionAt, 
     if not through:
         return Resistance(size, rate, ())
     resistance = opposing(size, lambda angle: rate(motion_at(angle)))
-    # A crank has an angular velocity of its own, a slide has none.
+    # A crank has an angular velocity, a slide has none.
     turns = bool(np.any(motion_at(np.zeros(1)).links[DRIVER].omega))
     return resistance if turns else Resistance(size, rate, resistance.reversals)
 

@@ -73,7 +73,7 @@ def with_crank(q: GivenSheet, linkage: Linkage) -> Linkage:
     share = q.of_link("s", DRIVER)
     weightless = not any(q.of_link(letter, DRIVER) for letter in "Gm")
     if (given.crank_on_axis or weightless) if share is None else share.si == 0:
-        # A body on its own axis is no rod: its moment of inertia is given, or none.
+        # A body on its own axis is not a rod: its moment of inertia is given, or it has none.
         q.mass(DRIVER)
         q.moment(DRIVER, None)
         centre = next(
@@ -117,7 +117,7 @@ def driven(
     loads = LoadsByKind.of((*of_kind, *declared, *topics.loads))
     rows = declared_loads.rows(given.loads, declared, loads.idle)
     further = {*(row.id for row in rows), *(load.name for load in topics.loads)}
-    # What a kind sets out by its name is its own load.
+    # Loads that a kind sets out by name are its own.
     q.lines = {name: tuple(id for id in lines if id not in further) for name, lines in q.lines.items()}
     own["facts"] = {**own.get("facts", {}), "declared": rows}
     words = sections or KindSections()

@@ -147,7 +147,7 @@ def analytic_method(q: Sheet, angle: Floats, points: Iterable[LinkPoint], turn: 
     q.set_out("entries", *a({"11": -BC * sin(φ2), "12": CD * sin(φ3), "21": BC * cos(φ2), "22": -CD * cos(φ3)}))
     q.set_out("entries", *b({"1": signed(turn, AB * sin(φ1)), "2": signed(-turn, AB * cos(φ1))}))
     q.define("A.det", BC * CD * sin(φ2 - φ3), "Δ", "product of lengths")
-    # Cramer's rule, with what stands in both numerators and in Δ left out.
+    # Cramer's rule, without the factors common to both numerators and Δ.
     ω2 = q.define("f.omega.2", signed(turn, ω1 * AB * sin(φ3 - φ1) / (BC * sin(φ2 - φ3))), scale=1.0)
     ω3 = q.define("f.omega.3", signed(turn, ω1 * AB * sin(φ2 - φ1) / (CD * sin(φ2 - φ3))), scale=1.0)
     q.set_out("velocity", ω2, ω3)

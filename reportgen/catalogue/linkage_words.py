@@ -151,7 +151,7 @@ def _axes(given: file.Parameters) -> dict[int, tuple[str, str]]:
 
 
 def _motions(given: file.Parameters) -> Iterator[MotionRow]:
-    # Links that do not turn: the frame, a sliding driver, and what slides on such a link.
+    # Links that do not turn: the frame, a sliding driver, and links that slide on such a link.
     level = {0} if isinstance(given.driver, file.CrankDriver) else {0, 1}
     for group in given.groups:
         dyad = group.dyad

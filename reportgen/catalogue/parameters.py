@@ -83,13 +83,13 @@ class Driven(UnderGravity):
     ) -> None:
         super().__init_subclass__(**rest)
         if cls.topic_names:
-            # All else is that of the class below, to which sections of topics are added.
+            # Everything else belongs to the class below, to which sections of topics are added.
             return
         of_masses, of_moments, of_shares = (tuple(sorted({DRIVER, *links})) for links in (masses, moments, shares))
         cls.links = {"G": of_masses, "m": of_masses, "J": of_moments, "s": of_shares}
         cls.required = tuple(required)
         cls.load_keys = (*(f"{letter}{link}" for letter in "GmJ" for link in cls.links[letter]), *loads, "loads")
-        # A field of pydantic is an annotation with a default, which the body of the class would have had.
+        # A field of pydantic is an annotation with a default; here both are made without a class body.
         for letter, numbers in cls.links.items():
             for number in numbers:
                 cls.__annotations__[f"{letter}{number}"] = OF_LINK[letter] | None

@@ -128,7 +128,7 @@ def second_cylinder(q: Sheet, turn: int, joint: str) -> None:
     v_ξ, v_η = (ids.formula_component(axis, joint, "v") for axis in "xy")
     a_ξ, a_η = (ids.formula_component(axis, joint, "a") for axis in "xy")
 
-    # Across and along the second cylinder, which stands at δ from the first.
+    # Across and along the second cylinder, which is at the angle δ from the first.
     def across(ξ: str, η: str) -> Expression:
         return q[ξ] * cos(δ) - q[η] * sin(δ)
 

@@ -268,7 +268,7 @@ def ram_torque(q: Sheet, turn: int) -> None:
     if (G4 := q.find(ids.weight(4))) and (m4 := q.find(ids.mass(4))):
         l3, s4 = q["l.CD"], q["l.DS4"]
         arms = (l3, ω3, ε3, φ3), (s4, ω4, ε4, φ4)
-        # Along x the signs of ω and ε and of the axis meet: what has one factor of both needs neither.
+        # Along x the signs of ω and ε cancel that of the axis: a product of both needs neither sign.
         plain = (l3, q["f.omega.3"], q["f.eps.3"], φ3), (s4, q["f.omega.4"], q["f.eps.4"], φ4)
         v_x = minus(plus(*(times(r, ω, sin(φ)) for r, ω, _, φ in plain)))
         v_y = plus(*(times(r, ω, cos(φ)) for r, ω, _, φ in arms))

@@ -216,7 +216,7 @@ def _cycle(q: Sheet, analysis: Analysis) -> None:
     if size < ZERO * most:
         # All of it is rounding, as where a guide takes the whole load.
         size = most
-    # A sliding driver is balanced by a force, and its way takes the place of the angle.
+    # A sliding driver is balanced by a force, and its way replaces the angle.
     letter, kind = ("P", "force") if machine.span else ("M", "torque")
     q.define("M.difference", abs(q["M.eq"] - q["M.vw"]), Symbol(f"Δ{letter}", "cb"), kind, scale=size, residue=True)
     nothing = abs(float(np.nanmean(q.value("M.eq")))) < ZERO * size
@@ -233,7 +233,7 @@ def _cycle(q: Sheet, analysis: Analysis) -> None:
     )
     mean = q.give("M.mean", _without_dust(summary.mean_torque, size), Symbol(letter, "m"), kind, exact=False)
     (_, least), (_, greatest) = summary.extremes
-    # No extreme lies inside the range of the table.
+    # There is no extreme inside the range of the table.
     for id, index, extreme, of_two, of_all in (
         ("M.least", "min", least, "min", "lowest"),
         ("M.greatest", "max", greatest, "max", "highest"),

@@ -77,8 +77,8 @@ def enter_forces(
 # across the guide RPR R_ij across the slot, about T the end of R_ij laid on from b PRP – lines across the guides RPP
 # – from b across the slot, from e across the guide ==== ========================================
 # ==================================================
-# In a slide, M is the moment of all else on the link about the pin; the reaction acts at the distance M/R. The driver
-# comes last, under what the groups leave on it, and the balance by virtual work on Zhukovsky's lever.
+# In a slide, M is the moment of all other loads on the link about the pin; the reaction acts at the distance M/R. The
+# driver comes last, under the reactions of the groups, and the balance by virtual work on Zhukovsky's lever.
 
 CLEAR = 1e-3
 """A slide's reaction that stays above this share of the loads has a distance printed as M/R."""

@@ -70,7 +70,7 @@ def _enter(
     q: Sheet, linkage: Linkage, turn: int, sense: int, scales: Mapping[str, float | None] | None = None
 ) -> Kinematics:
     for name, at in linkage.ground.items():
-        # The machine has placed what follows from given lengths.
+        # The machine has already placed the points that follow from given lengths.
         if ids.place(name) not in q:
             q.give(ids.place(name), complex(at), vocabulary.point(name), "length")
     plan = scheme(linkage)

@@ -133,7 +133,7 @@ def enter_loads(statics: Statics, applied: Applied, torques: Mapping[str, int]) 
         if (body.mass > 0 or body.moment > 0) and not idle:
             loads.append(_inertia(statics, body))
     for name, (link, place, sense) in applied.items():
-        # The machine has entered the sense of a force along a guide that is given by its angle.
+        # The machine has already entered the sense of a force along a guide, which is given by its angle.
         senses = np.atleast_1d(np.asarray(sense, dtype=complex))
         fixed = bool(np.all(senses == senses[0]))
         positive = q.find(ids.sense(name)) or q.give(ids.sense(name), senses[:1] if fixed else senses, name, "ratio")
@@ -262,7 +262,7 @@ def lone_couple(statics: Statics, load: LoadOn) -> Expression:
         letters = load.letters.removeprefix("P")
         alone = call("if_zero", _divisor(statics, load), couple)
         q.define(id, alone, Symbol("M", letters), "torque", optional=True)
-    return Sum((q[id],))  # a term of its own, so that it can be left out
+    return Sum((q[id],))  # a separate term, so that it can be left out
 
 
 # --- force plans ----------------------------------------------------------------------------------

@@ -287,10 +287,10 @@ def crank(
         q.give(ids.drawn(centre, pin), DRAWN, drawn_length(centre, pin))
     drawn = q[ids.drawn(centre, pin)]
     exact = q.families[drawn.id].exact
-    # On paper a scale of the series is what the crank was drawn to, not what comes of its drawn length.
+    # A scale chosen from the series is printed as chosen, not as computed from the drawn length.
     chosen_scale = q.find("scale")
     μ_l = q.define("mu.l", length / drawn, written=chosen_scale)
-    # What one length on paper is: the drawn crank says it, whatever is written down for μ_l.
+    # Length of one unit on paper: it follows the drawn crank, whatever is written for μ_l.
     q.define("drawing", length / drawn, Symbol("drawing"), "ratio", hidden=True, written=chosen_scale)
     q.construct(ids.place(pin), k.place(centre) + length * cis(φ1))
     further = [place for place in scheme.linkage.points if place.link == DRIVER]
@@ -397,7 +397,7 @@ def chosen_scale(trial: Kinematics, what: What, worked: Sequence[int]) -> float 
 
 
 # --- instant centres of velocity ------------------------------------------------------------------
-# And what they and the projections on a link say of its motion.
+# The centres and the projections on a link, with their results for the link's motion.
 # For each link k with two moving points B (its base) and C: `ic.k` the centre P, where the normals to both velocities
 # meet; `ic.seg.k.B`, `ic.seg.k.C` its distances as drawn, nan where they are too short to measure or P lies off every
 # sheet that holds the mechanism; `ic.omega.k` = v_B/(μ_l·PB), `ic.v.k` = v_B·PC/PB; `ic.angle.k.B`, `ic.angle.k.C`

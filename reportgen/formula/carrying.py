@@ -84,7 +84,7 @@ def _derivatives(ledger: Ledger, decimals: Mapping[str, int | None]) -> Derivati
     """Return the derivatives of the ledger: each value is moved by half a unit of its last decimal, in one row of
     arrays [values, positions].
     """
-    # What is nothing is written as 0, whatever stands above it.
+    # A negligible value is written as 0, whatever the values above it.
     nothing = {id for id, family in ledger.families.items() if np.all(np.abs(family.values) <= ZERO * family.scale)}
     rounded = [id for id, own in decimals.items() if own is not None and id not in nothing]
     steps = {id: _half_unit(ledger[id], decimals[id]) for id in rounded}
@@ -123,7 +123,7 @@ def _causes(ledger: Ledger, rounded: Ledger, derivatives: Derivatives, roundings
         shares = {
             other: float((derivative * roundings[other] * np.ones(len(size)))[at] * np.sign(apart[at]))
             for other, derivative in by.items()
-            # What ends by itself gets no finer.
+            # An exact value gets no further decimals.
             if rounded.decimals[other] is not None
         }
         cause = max(shares, key=lambda other: shares[other], default="")

@@ -18,7 +18,7 @@ from functools import cached_property
 # velocity("B") == "v.B"
 # velocity.read("v.B") == {"point": "B"}
 # "v.B" in velocity
-# A template is text with places, of which `PLACES` says what may stand in them; what is in brackets may be missing.
+# A template is text with places in braces; `PLACES` gives the words allowed in them. Text in brackets is optional.
 
 PLACES: Mapping[str, str] = {
     # links and the forces between them
@@ -38,7 +38,7 @@ PLACES: Mapping[str, str] = {
     "pair": r"[A-Z][^.]*[A-Z][^.]*",
     "start": r"[a-z]\d*",
     "end": r"[a-z]\d*",
-    # what of a quantity is meant
+    # the meaning of a quantity's variant
     "what": "[va]",
     "plan": "[lva]",
     "rate": "omega|eps",
@@ -51,7 +51,7 @@ PLACES: Mapping[str, str] = {
     "method": "eq|vw",
     "figure": r"r|c|given|mean|mean\.positions|least|greatest|energy|difference|share",
     "matrix": "d?[AB]",
-    # the rest of an id, whatever it is
+    # any rest of an id
     "corner": ".+",
     "edge": ".+",
     "id": ".+",
@@ -127,11 +127,11 @@ laid_line = Name("laid.{line}[{to}]")
 scale = Name("mu.{plan}")
 place = Name("p.{point}")
 coordinate = Name("{point}.{axis}")
-mass_centre = Name("s.{link}")  # its share of the length of a rod
+mass_centre = Name("s.{link}")  # place of the mass centre as a share of a rod's length
 along_link = Name("{point}.along")
 across_link = Name("{point}.across")
 frame_coordinate = Name("frame.{axis}.{point}")
-point_turn = Name("turn.{point}")  # from the rod to the arm of a point of its link
+point_turn = Name("turn.{point}")  # turn from the rod to the arm of a point of its link
 rod = Name("rod.{link}")
 link_axis = Name("axis.{link}")
 slot = Name("slot.{link}")
@@ -187,7 +187,7 @@ sliding_velocity = Name("v.{point}.r")
 centre_coordinate = Name("centre.{link}.{axis}")
 velocity_factor = Name("k.{point}")
 share = Name("share.{rate}.{link}.{id}")  # of another quantity in a rotation
-heading = Name("way.{what}.{point}")  # the angle that its direction is defined by
+heading = Name("way.{what}.{point}")  # angle that defines the direction
 
 # --- instant centres
 
@@ -211,12 +211,12 @@ formula_sliding = Name("f.{what}.{slide}")
 formula_angular_velocity = Name("f.omega.{link}")
 formula_angular_acceleration = Name("f.eps.{link}")
 slider_way = Name("x.{slider}")
-loop_distance = Name("f.d.{group}")  # of the outer joints of a group, or of one from its guide
-slide_way = Name("f.s.{joint}")  # of the second link over the first
+loop_distance = Name("f.d.{group}")  # distance between the outer joints of a group, or of one from its guide
+slide_way = Name("f.s.{joint}")  # way of the second link over the first
 slide_velocity = Name("f.v.{joint}")
 slide_acceleration = Name("f.a.{joint}")
 matrix_entry = Name("{matrix}.{number}")
-right_side = Name("f.b.{what}.{line}")  # of the equations of a loop
+right_side = Name("f.b.{what}.{line}")  # right-hand side of the equations of a loop
 numerator = Name("q.{link}")
 
 # --- loads
@@ -224,8 +224,8 @@ numerator = Name("q.{link}")
 displacement = Name("s.{link}")
 displacement_on_paper = Name("way.{link}")
 stroke = Name("H.{link}")
-node = Name("node.{of}.{link}")  # of an indicator diagram, next to a position
-load_node = Name("node.{of}.{force}")  # of the table of a load
+node = Name("node.{of}.{link}")  # node of an indicator diagram, next to a position
+load_node = Name("node.{of}.{force}")  # node of the table of a load
 pressure = Name("p.{link}")
 applied_force = Name("P{link}[{letter}]")  # a letter where a link has several
 applied_torque = Name("M{link}[{letter}]")
@@ -234,14 +234,14 @@ spring_rate = Name("spring.c.{number}")
 spring_free = Name("spring.free.{number}")  # its length, or its angle, when slack
 spring_length = Name("spring.l.{number}")
 spring_on_paper = Name("spring.drawn.{number}")
-spring_turn = Name("spring.turn.{number}")  # of a torsion spring from slack
+spring_turn = Name("spring.turn.{number}")  # turn of a torsion spring from slack
 spring_anchor = Name("spring.at.{number}")  # the end on the frame
 inertia_force = Name("Pqt{link}")
 inertia_couple = Name("M.Pqt{link}")
 inertia_offset = Name("e.Pqt{link}")
 force_vector = Name("F.{force}")
 couple = Name("couple.{force}")
-lone_couple = Name("lone.{force}")  # where its force is nothing
+lone_couple = Name("lone.{force}")  # couple where the force is zero
 beside = Name("beside.{force}")  # from the mass centre to where an inertia force acts
 sense = Name("sense.{force}")
 assumed = Name("assumed.{force}")  # the sense that its formula assumes
@@ -255,7 +255,7 @@ application = Name("x.{joint}")
 face_from, face_to, face_below = Name("face.from.{link}"), Name("face.to.{link}"), Name("face.below.{link}")
 normal_reaction = Name("N.{joint}")  # across a guide, with its sign
 normal_place = Name("along.{joint}")  # where it acts, from the pin along the guide
-face_reaction = Name("face.{joint}.{number}")  # at an end of a slider that tilts
+face_reaction = Name("face.{joint}.{number}")  # reaction at an end of a slider that tilts
 arm = Name("h.{force}.{about}")
 force_scale = Name("mu.R{group}")
 force_segment = Name("seg.{group}.{force}")
@@ -269,14 +269,14 @@ lever_arm = Name("h.{force}.p")
 lever_moment = Name("M.{force}.p")
 lone_moment = Name("M.{force}.lone.p")
 balance = Name("M.{method}")
-figure_of_balance = Name("M.{figure}")  # over the cycle, or of the reduced torque
+figure_of_balance = Name("M.{figure}")  # figure over the cycle, or of the reduced torque
 
 # --- a word before the id of another quantity
 
 formula = Name("f.{id}")  # the same by a closed formula
 far = Name("far.{id}")  # how far a fixed place is from the origin
 unit = Name("unit.{id}")  # in which direction
-rule = Name("rule.{id}")  # what a rule for the positions makes of an integral
+rule = Name("rule.{id}")  # value of an integral by a rule for the positions
 reading = Name("read.{id}")  # off a curve
 rest = Name("rest.{id}")  # of that integral
 

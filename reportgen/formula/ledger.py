@@ -104,7 +104,7 @@ class Ledger:
             match family.definition:
                 case Call("abs", (Ref(vector),)):
                     vectors[id] = vector
-            # A vector that is computed from its size follows it by itself.
+            # A vector that is computed from its size follows it without a correction.
             size = family.of if family.hidden else ""
             if size in self and family.definition is not None and size not in self.inputs[id]:
                 vectors[size] = id
@@ -239,7 +239,7 @@ class Ledger:
         the other families keep their values.
         """
         values: dict[str, np.ndarray] = {}
-        # What no drawing can have (a sine above 1) is NaN, and so is what stands on it.
+        # An impossible drawing (a sine above 1) gives NaN, and so do the values that depend on it.
         with np.errstate(all="ignore"):
             for id, family in self.families.items():
                 change = None if changes is None else changes.get(id)
@@ -332,7 +332,7 @@ def _power_of_angle(node: Expression) -> int | None:
         case Negative(of):
             return _power_of_angle(of)
         case Power(base) | Root(base):
-            # A power of an angle is one of radians, a ratio of angles has none.
+            # A power of an angle is one of radians; a ratio of angles has no unit.
             return 0 if _power_of_angle(base) == 0 else None
         case _:
             return 0

@@ -368,8 +368,8 @@ _NO_ROW = VocabularyRow(Name(""))
 
 
 # --- what a kind of work has for itself ------------------------------------------------------------
-# The ids of a kind begin with one word, as cam.r0: they, their ROWS and KINDS stand in its room, in a module that is
-# called by that word, `cam_ids.py`.  It is imported when such an id is met, in whatever process that is.
+# The ids of a kind begin with one word, as cam.r0. They are in the kind's package with their ROWS and KINDS, in a
+# module named after that word, `cam_ids.py`. It is imported when such an id is met, in any process.
 
 
 @cache
@@ -460,7 +460,7 @@ def wording(id: str, shown: Symbol) -> tuple[str, dict[str, str]]:
     }
     name = f"{family.name}.{parts['part']}" if family.letter and parts.get("part") else family.name.format(**parts)
     if family.name == "acceleration" and parts.get("part") in ("n", "t") and len(points) == 1:
-        # A component of the point's own acceleration, as of the pin of a crank.
+        # A component of the acceleration of a point itself, for example of the crank's pin.
         name = f"{name}.own"
     return (f"{name}.relative" if name in _OF_POINTS and len(points) > 1 else name), words
 

@@ -8,12 +8,12 @@ from reportgen.formula.ids import Name
 from reportgen.formula.vocabulary import Chapter, QuantityKind, VocabularyRow
 from reportgen.friction import exercise_rows
 
-coefficient = Name("friction.f.{point}")  # of a pin
+coefficient = Name("friction.f.{point}")  # coefficient of a pin
 coefficient_of_slider = Name("friction.f.{link}")
 pin_radius = Name("friction.r.{point}")
 circle = Name("friction.rho.{point}")
 angle = Name("friction.phi.{link}")
-turning = Name("friction.omega.{joint}")  # of the second link against the first, a size
+turning = Name("friction.omega.{joint}")  # size of the rate of the second link against the first
 reaction = Name("friction.R.{joint}[.{round}]")
 """Reaction of a pin, or across a guide; with a round, the reaction before convergence."""
 couple = Name("friction.M.{joint}")

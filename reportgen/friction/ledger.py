@@ -128,7 +128,7 @@ def enter_forces(q: Sheet, analysis: Analysis, worked: Sequence[int]) -> None:
         symbol = Symbol(f"Δ{letter}", each.digits)
         parts.append(q.define(friction_ids.part(each.digits), power, symbol, kind, scale=size))
     M = q.define(friction_ids.torque, overcome(parts), Symbol(letter, "cb", "fr"), kind, scale=size)
-    # What is nothing beside the greatest torque drives nothing.
+    # A torque that is negligible beside the greatest drives nothing.
     drives = signed(machine.turn, q["M.eq"]) - ZERO * size
     q.define(friction_ids.efficiency, call("where_positive", q["M.eq"] / M, drives))
 

@@ -325,7 +325,7 @@ def _detail(report: Report, k: int, carried: JointForce, scale: float) -> Scene:
         Line(foot - REACH / 2 * along, foot + REACH / 2 * along, style.CONSTRUCTION),
         Arc(0j, radius + 3.0, start, stop, style.DIMENSION, style.DIMENSION_HEAD),
     ]
-    # The link that the force acts on turns against the other; of a pin on the frame it does so by itself.
+    # The link that the force acts on turns against the other; on the frame, that is its own rotation.
     ω = Symbol("ω", str(loaded) if acting == GROUND else ids.joint(loaded, acting))
     ρ = report.ledger.symbol(friction_ids.circle(carried.each.point))
     names = [label(foot / 2, ρ), label((radius + 3.0) * polar(turn), ω)]
@@ -406,7 +406,7 @@ def force_plan_with_friction(report: Report, polygon: Polygon, k: int) -> Plan:
         if abs(at - corners[edge.start]) > SAME_POINT or abs(end - corners[edge.end]) > SAME_POINT:
             digits = edge.name.removeprefix("R")
             symbol = report.named(Symbol("R", digits, "fr", "vector"))
-            # A load that stands elsewhere than without friction has its name there.
+            # A load gets its name at its new place in the plan with friction.
             shown = symbol if edge.is_reaction else report.force_vector(edge.name)
             name = f"{edge.start}{edge.end}.fr"
             moved.append(PlanVector(name, at, end, "relative", shown, lettered=not edge.is_reaction))

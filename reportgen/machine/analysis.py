@@ -224,13 +224,13 @@ def _extreme(machine: Machine, angles: np.ndarray, torque: np.ndarray, sense: in
             angles = np.unique(np.clip(angles, 0.0, FULL_TURN))
         torque = analyse(machine, angles).torque
     best = int(np.nanargmax(sense * torque))
-    # A turn closes at its end; a slide has come to it.
+    # A turn closes at its end, so the end repeats the start; a slide really reaches it.
     return float(angles[best] if machine.span else angles[best] % (machine.turns * FULL_TURN)), float(torque[best])
 
 
 # --- what a machine of the catalogue turns its parameters into ------------------------------------
-# Plain data that the rest of the house reads.
-# A catalogue file gives a `Machine`; nothing downstream asks which kind it is.
+# Plain data that the rest of the package reads.
+# A module of the catalogue makes a `Machine`; later code does not depend on the kind.
 
 SAME_POSITION = 1e-6
 """Positions nearer than this (rad) are one."""

@@ -242,7 +242,7 @@ def _rpp(dyad: Dyad, p: PointMotion, rail: Rail) -> Assembled:
 
 
 # --- positions ------------------------------------------------------------------------------------
-# Velocities and accelerations of a whole mechanism, over all positions at once.
+# Velocities and accelerations of a whole mechanism, over all positions together.
 
 __all__ = ["LinkMotion", "Motion", "PointMotion", "SlideMotion", "solve_motion"]
 

@@ -183,7 +183,7 @@ def stopping(report: Report) -> FigureScenes:
 
 
 def sheet(report: Report) -> Iterator[Scene]:
-    """Yield the torques, work, reduced inertia, speed, acceleration one under the other on one axis φ; the energy beside
+    """Yield torques, work, reduced inertia, speed, acceleration one below another on one axis φ; the energy beside
     them.
     """
     motion = motion_of(report)

@@ -156,7 +156,7 @@ class ReducedMachine:
         inner = start + np.mod(np.concatenate((self.corners, np.asarray(own, dtype=float))) - start, self.whole)
         edges = np.sort(np.concatenate((grid, inner)))
         kept = np.concatenate((edges[:-1][np.diff(edges) > SAME_ANGLE], [grid[-1]]))
-        # What lies a hair before an edge is that edge: the exact place of a jump counts.
+        # A place slightly before an edge is that edge: the exact place of a jump counts.
         kept[0] = start
         return kept
 

@@ -7,11 +7,11 @@ from collections.abc import Mapping
 from reportgen.formula.ids import Name
 from reportgen.formula.vocabulary import Chapter, QuantityKind, VocabularyRow
 
-along_velocity = Name("run.a.{point}")  # the component of an acceleration along the velocity
-slope = Name("run.dJ[.{link}]")  # J′ of the machine, or what a link gives to it
+along_velocity = Name("run.a.{point}")  # component of an acceleration along the velocity
+slope = Name("run.dJ[.{link}]")  # J′ of the machine, or the part of a link
 WHEEL = "wheel"
 with_wheel = Name("run.{quantity}.wheel")
-quantity = Name("run.{quantity}[.{state}]")  # of the machine by itself, or with its flywheel
+quantity = Name("run.{quantity}[.{state}]")  # quantity of the machine without, or with its flywheel
 
 
 def in_state(name: str, state: str) -> str:

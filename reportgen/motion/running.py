@@ -418,7 +418,7 @@ def _level(
     torque = float(drive.torque(np.zeros(1))[0])
     if abs(mean + torque) > BALANCED * max(size, abs(torque)):
         raise NoMotionError("runs-away" if mean + torque > 0 else "runs-down", missing=-(mean + torque))
-    # What is left of the mean is rounding.
+    # The remaining mean is rounding.
     even = ConstantDrive(-mean)
     p, r, alpha, beta = linear(path, even, np.ones_like(path.angle))
     edges = energy_at_edges(0.0, alpha, beta)

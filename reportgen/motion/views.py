@@ -361,7 +361,7 @@ def start_table(report: Report, key: str, caption: str, head: Head) -> Table:
     run, begin = started.run, float(started.run.angle[0])
     whole = report.machine.turns * 2 * math.pi
     places = sorted(begin + np.mod(angle - begin, whole) for angle in report.machine.cycle_angles)
-    # Of a crank that swings back the last time at a place counts.
+    # If a crank swings back, its last pass of a place counts.
     first = [_last_at(run, at, started.ends[0]) for at in places if not np.isclose(at, begin)]
     ends = list(started.ends)
     step = -(-len(ends) // MOST_CYCLES)

@@ -155,7 +155,7 @@ def failures(machine: Machine, worked: Sequence[int]) -> Iterator[Finding]:
     for law in laws.values():
         along = law.along(motion)
         length = np.abs(along)
-        # Between two places of the grid the ends come nearer by no more than they move there.
+        # Between two places of the grid the ends approach by no more than they move there.
         if law.free > 0 and length.min() <= np.abs(np.diff(along)).max():
             angle, least = _nearest(machine, law, float(grid[int(length.argmin())]), float(grid[1] - grid[0]))
             if least < MEET * float(length.max()):
@@ -180,7 +180,7 @@ def _faults(spring: Spring, linkage: Linkage, points: Mapping[int, set[str]], at
     yield from on_link(dict(points), spring.link, spring.at, at)
     rate, slack = ("N m/rad", "deg") if spring.twists else ("N/mm", "mm")
     for key, given, unit in (("c", spring.c, rate), ("free", spring.free, slack)):
-        # Nothing said of a torsion spring's angle is 0°.
+        # The default angle of a torsion spring is 0°.
         if not measures(given.unit, unit) and key in spring.model_fields_set:
             yield Finding("wrong-unit", (*at, key), {"given": given.unit, "unit": unit})
     if spring.twists:

@@ -157,7 +157,7 @@ def _margins(attributes: Attributes, package: Package) -> dict[str, float]:
                 raise package.refused("letterhead-value", text=f"{name}={attributes[name]}")
             margins[own] = abs(float(attributes[name])) / _TWIPS
     for sides, size in PAGE.items():
-        # What a file does not say is as in reports; half a page is enough for any single one.
+        # Missing margins are those of reports; half a page is enough for any single one.
         if sum(margins.get(side, 0.0) for side in sides) > size - LEAST_ROOM:
             lengths = ", ".join(f"{margins[side]:.6g}" for side in sides if side in margins)
             raise package.refused("letterhead-margins", text=lengths)

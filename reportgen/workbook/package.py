@@ -249,8 +249,8 @@ def _local(name: str) -> str:
 
 
 # --- how much a part holds ------------------------------------------------------------------------
-# openpyxl builds the tree of a part and lets go of each row of a sheet and each shared string once it is
-# read: its memory grows with the largest of them and with all that stands outside.
+# openpyxl builds the tree of a part and frees each row of a sheet and each shared string once it is read:
+# its memory grows with the largest of them and with everything outside of them.
 
 _MAIN = "http://schemas.openxmlformats.org/spreadsheetml/2006/main"
 _GROUPS = frozenset({f"{_MAIN} row", f"{_MAIN} si"})
@@ -275,7 +275,7 @@ def measure(package: Package, name: str) -> tuple[int, int]:
             depth += 1
             cells += depth == 2
         elif tag in _GROUPS:
-            # openpyxl keeps what else is said of a row, such as its height.
+            # openpyxl keeps the other attributes of a row, such as its height.
             depth, groups, outside = 1, groups + 1, held + (not attributes.keys() <= _PLACE)
         held += 1 + len(attributes)
         shared, length = tag == _FORMULA and attributes.get("t") == "shared", 0
@@ -308,7 +308,7 @@ def measure(package: Package, name: str) -> tuple[int, int]:
 
 
 # --- what a table file holds ----------------------------------------------------------------------
-# Pages of rows of cells, each of which knows where it stands.
+# Pages of rows of cells; each cell knows its place.
 
 CellKind = Literal["empty", "text", "number", "boolean", "date", "error", "formula"]
 

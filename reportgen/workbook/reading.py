@@ -61,7 +61,7 @@ def read_xlsx(data: bytes, file: str) -> tuple[Page, ...]:
     """Return the sheets of a workbook in their order; raises `RefusedError`."""
     copy, counts, formulas = _judged(Package(data, file))
     with warnings.catch_warnings(), redirect_stdout(io.StringIO()):
-        # openpyxl warns of, and even prints, what it leaves out: looks and rules, but no value of a cell.
+        # openpyxl warns of, and even prints, the parts that it ignores: looks and rules, but never the value of a cell.
         warnings.simplefilter("ignore")
         try:
             with closing(_load(copy, stored=True)) as values:
@@ -72,7 +72,7 @@ def read_xlsx(data: bytes, file: str) -> tuple[Page, ...]:
         except RefusedError:
             raise
         except Exception:
-            # openpyxl has no exception of its own for a damaged workbook.
+            # openpyxl has no exception class for a damaged workbook.
             raise RefusedError("sheet-damaged", Mark(file)) from None
 
 
@@ -207,7 +207,7 @@ def _cell(typed: Any, stored: Any, mark: CellMark) -> SheetCell:
     code = displayed(value, _format(stored)) if isinstance(value, float) else ""
     if typed.data_type != "f":
         return SheetCell(value, mark, kind, code=code)
-    # The formula of an array is an object with its text, that of a table of data one without.
+    # The formula of an array is an object with its text, that of a data table one without.
     text = typed.value if isinstance(typed.value, str) else getattr(typed.value, "text", "=")
     return SheetCell(value, mark, "formula", text, code)
 
@@ -320,7 +320,7 @@ def _csv_rows(text: str, file: str) -> Iterator[tuple[SheetCell, ...]]:
     stated = _STATED.match(text)
     separator = stated[1] if stated else _separator(text)
     plain = rf"([^{re.escape(separator)}\r\n]*+)"
-    # What follows a closed quotation mark belongs to the cell, as every reader of CSV has it.
+    # Text behind a closed quotation mark belongs to the cell, as in every CSV reader.
     cell = re.compile(rf'"([^"]*+(?:""[^"]*+)*+)("?){plain}|{plain}')
     line, start = (2, stated.end()) if stated else (1, 0)
     at = start

@@ -135,7 +135,7 @@ def _fill(page: Worksheet, sheet: BookSheet) -> None:
                 continue
             cell: Any = page.cell(row, column)
             _put(cell, entry.value)
-            # Looking a style up in the workbook's lists takes longer than all else: once for each look is enough.
+            # Looking a style up in the workbook's lists takes longest, so each look is looked up only once.
             look = (entry.style, entry.format, entry.unlocked, bool(cell.quotePrefix))
             if look in dressed:
                 cell._style = copy(dressed[look])
@@ -161,7 +161,7 @@ def _set_print(page: Worksheet, widths: Sequence[float], heads: int, breaks: Seq
     upright = width <= UPRIGHT
     page.page_setup.orientation = "portrait" if upright else "landscape"
     if breaks:
-        # Programs that fit a sheet to a page leave its page breaks out, so the scale is said.
+        # Programs that fit a sheet to a page ignore its page breaks, so the scale is given explicitly.
         needed = sum(CHARACTER * one + MARGIN for one in widths)
         page.page_setup.scale = max(min(int(100 * PRINTED[upright] / needed), 100), 10)
         for row in breaks:
