@@ -158,7 +158,7 @@ class UnitOf(Reader):
 
 @dataclass(frozen=True, slots=True)
 class Ratio(Reader):
-    """A pure number, `0.35` or `1/3.6`; with `inverse`, 1 and more is taken for the inverse ratio."""
+    """A pure number, `0.35` or `1/3.6`; with `inverse`, a value of 1 or more is read as the inverse ratio."""
 
     interval: Interval = Interval()
     inverse: str = ""

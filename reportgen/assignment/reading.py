@@ -213,7 +213,7 @@ def _sections(raw: dict[str, Any], kind: Kind | None) -> tuple[list[Finding], Dr
 
 
 def _asking(kind: Kind, raw: Mapping[str, Any]) -> Kind:
-    """Return the kind with those of its topics that the file asks for."""
+    """Return the kind with the topics that the file names."""
     parameters = raw.get("parameters")
     return kind.asking(parameters if isinstance(parameters, dict) else ())
 

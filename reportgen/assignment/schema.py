@@ -89,7 +89,7 @@ def _as_draft_07(part: Any) -> Any:
             return part
 
 
-# --- what checks and words say ----------------------------------------------------------------------
+# --- rules of checks, and words of keys -------------------------------------------------------------
 
 
 def _tell_checks(part: Schema, root: Schema, kind: Kind) -> None:
@@ -150,7 +150,7 @@ def _unnamed(schema: Schema) -> Iterator[Schema]:
             yield inner
 
 
-# --- what stands at a place -------------------------------------------------------------------------
+# --- the schema at a place --------------------------------------------------------------------------
 
 
 def tables_at(part: Schema, root: Schema, where: Where) -> list[Schema]:

@@ -312,7 +312,7 @@ def _refined(curve: CrankCurve, touching: Floats) -> Floats:
     return angle
 
 
-# --- a turn with what balances it -------------------------------------------------------------------
+# --- a turn with its counterweights -----------------------------------------------------------------
 
 NOTHING = 1e-9
 """A counterweight below this share of all masses at the crank's pin is zero."""
@@ -364,7 +364,7 @@ def counterweight(machine: Machine, curve: CrankCurve, rule: CounterweightRule, 
 
 
 def balanced_turn(machine: Machine) -> BalancedTurn:
-    """Return the balancing that a machine's report asks for; the machine's crank turns evenly."""
+    """Return the balancing that a machine's report requests; the machine's crank turns evenly."""
     asked, curve = machine.topic("balancing", Balancing) or Balancing(), seen_from_crank(machine)
     products = {rule: counterweight(machine, curve, rule, asked.share) for rule in asked.rules}
     carried_out = force_balance(machine.linkage) if asked.links else {}
@@ -381,7 +381,7 @@ def balanced_turn(machine: Machine) -> BalancedTurn:
 
 
 def balanced_in(analysis: Analysis) -> BalancedTurn:
-    """Return the balancing of a machine whose file asks for it; it is computed once."""
+    """Return the balancing of a machine whose file requests it; it is computed once."""
     return analysis.derived(_balanced)
 
 

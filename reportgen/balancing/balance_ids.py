@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from reportgen.formula.ids import Name
 from reportgen.formula.vocabulary import Chapter, QuantityKind, VocabularyRow
 
-# --- what shakes the frame
+# --- shaking force and moment
 
 FORCE, DIRECTION, MOMENT = "balance.F", "balance.F.dir", "balance.M"
 component = Name("balance.F.{axis}")
@@ -37,7 +37,7 @@ centrifugal = Name("balance.C.{link}")
 way = Name("balance.way.{link}")  # direction of a counterweight from the centre of its link
 hold = Name("balance.hold.{link}")  # moment that turns a counterweight with its link
 
-# --- over the turn, without a counterweight (`before`), with that of a rule, or with what is carried out (`after`)
+# --- over the turn, without a counterweight (`before`), with that of a rule, or with the applied ones (`after`) --
 
 greatest = Name("balance.top.{quantity}.{state}")
 rms = Name("balance.rms.{state}")
@@ -56,7 +56,7 @@ star_size = Name("balance.star.{number}.{sense}")
 order_force = Name("balance.order.{number}")
 couple = Name("balance.couple.{number}")
 
-# --- with the counterweights that are carried out
+# --- with the applied counterweights ------------
 
 AFTER_FORCE, AFTER_MOMENT = "balance.after.F", "balance.after.M"
 AFTER_REACTION, AFTER_TORQUE = "balance.after.R01", "balance.after.cb"

@@ -7,7 +7,7 @@ import math
 from reportgen.formula import Expression, Ref, total
 
 EXACT = 1e-18
-"""Terms of the exact series go on until a power of λ² is so small."""
+"""Power of λ² at which the exact series is cut off."""
 FEWEST_TERMS = 24
 
 

@@ -54,7 +54,7 @@ def table_rows(position: Mapping[str, Any]) -> dict[str, dict[str, float | None]
     return rows
 
 
-# --- what cannot be -------------------------------------------------------------------------------
+# --- checks ---------------------------------------------------------------------------------------
 
 
 def check(given: Parameters) -> Iterator[Finding]:

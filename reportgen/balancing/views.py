@@ -90,7 +90,7 @@ def seen_lines(report: Report) -> list[str]:
 
 
 def balance_rules(report: Report) -> tuple[BalancingRule, ...]:
-    """Return the rules asked for, in their order, the first of them the one that is carried out."""
+    """Return the requested rules, in their order; the first one is applied."""
     shown_before: set[str] = set()
     rules = []
     for rule in _turn(report).products:
@@ -308,7 +308,7 @@ def _polar(report: Report, curves: tuple[PlottedCurve, ...], component: ids.Name
     return charts.polar(diagram, area=report.area)
 
 
-# --- the names of all that in templates ---------------------------------------------------------------
+# --- names of all views in templates ------------------------------------------------------------------
 
 VALUES: Mapping[str, Callable[[Report], Any]] = {
     "after_lines": after_lines,

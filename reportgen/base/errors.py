@@ -144,7 +144,7 @@ class AssignmentError(ReportgenError):
 
 
 class TemplateError(ReportgenError):
-    """A template of words is at fault; the message names its file and line."""
+    """A template has a fault; the message names its file and line."""
 
     exit_code = 1
 
@@ -161,7 +161,7 @@ class DocumentError(ReportgenError):
 
 
 class SheetError(ReportgenError):
-    """A plate has no place on drawing sheets of the size asked for."""
+    """A plate does not fit drawing sheets of the requested size."""
 
     exit_code = 1
 

@@ -87,7 +87,7 @@ def also(language: Language) -> str:
 
 
 def _of_topics(language: Language) -> tuple[Path, ...]:
-    """Return the files of words of all topics; those of reference where the language has none."""
+    """Return the files of words of all topics; those of the reference language where the language has none."""
     files = (told_in(language, topic_file(topic)) for topic in topics())
     return tuple(file for file in files if file.is_file())
 
@@ -135,7 +135,7 @@ def _common(path: Path, _: int) -> Mapping[str, Any]:
     return table
 
 
-# --- a file to begin with ---------------------------------------------------------------------------
+# --- starter files ----------------------------------------------------------------------------------
 
 COLUMN = 32
 """Column at which remarks begin, if there is room."""

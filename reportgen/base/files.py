@@ -166,7 +166,7 @@ def reported(about: Path | None = None) -> Iterator[None]:
         raise OutputError(f"{place}: {error.strerror or error}" if place else str(error)) from error
 
 
-# --- files to be read ---------------------------------------------------------------------------------
+# --- reading files ------------------------------------------------------------------------------------
 
 
 class NotRegularError(OSError):
@@ -195,7 +195,7 @@ def leads_out(path: Path, *folders: Path) -> bool:
         return True
 
 
-# --- what stands already ----------------------------------------------------------------------------
+# --- existing files ---------------------------------------------------------------------------------
 
 
 def standing(folder: Path, kind: str, below: str = "") -> set[Path]:
@@ -309,7 +309,7 @@ def held(folder: Path) -> Iterator[bool]:
         os.close(handle)
 
 
-# --- what is worth keeping from one run to the next, in the user's cache folder -------------------
+# --- the cache: data kept from one run to the next, in the user's cache folder --------------------
 # The cache only saves time: all of it may be deleted at any moment, several processes may write it together, and if it
 # cannot be used (a read-only home, a full disk, somebody else's folder), everything is computed again.
 

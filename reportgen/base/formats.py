@@ -157,7 +157,7 @@ def usual(product: str) -> tuple[str, ...]:
 
 
 def chosen(product: str, wanted: Iterable[str]) -> tuple[Format, ...]:
-    """Return the rows of some formats of a product, in the order asked for; raises `KeyError` for an unknown one."""
+    """Return the rows of some formats of a product, in the requested order; raises `KeyError` for an unknown one."""
     known = {row.name: row for row in rows(product)}
     return tuple(known[name] for name in wanted)
 

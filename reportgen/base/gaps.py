@@ -15,7 +15,7 @@ FILLS = (str, Real)
 NO_LETTER = "\0"
 """Letter that marks a placeholder whose place is searched for; it occurs in no word."""
 _ENTRY = re.compile(r"\{[^{}]*[.\[!]")
-"""A gap that asks for more than a value."""
+"""Pattern of a placeholder that requests more than a plain value."""
 
 
 def gaps(template: str) -> set[str]:
@@ -54,7 +54,7 @@ def place_of(text: str, words: Any) -> Mark | None:
 
 
 class _Filling(Formatter):
-    """Fills the gaps of words with texts and numbers; a name after a point is that of an entry of a mapping."""
+    """Formatter that fills placeholders with texts and numbers; a name after a point is an entry of a mapping."""
 
     def get_field(self, field_name: str, args: Sequence[Any], kwargs: Mapping[str, Any]) -> tuple[Any, str]:
         first, *entries = field_name.split(".")

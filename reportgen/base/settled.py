@@ -48,7 +48,7 @@ def significant(value: float, figures: int) -> float:
 
 
 def first_greatest(values: ArrayLike) -> int:
-    """Return the index of the first of the values that are equal to the greatest but for rounding; ignore nan.
+    """Return the index of the first value that equals the greatest up to rounding; ignore nan.
 
     Raises `ValueError` if there is no value.
     """
@@ -62,5 +62,5 @@ def first_greatest(values: ArrayLike) -> int:
 
 
 def first_least(values: ArrayLike) -> int:
-    """Return the index of the first of the values that are equal to the least but for rounding; ignore nan."""
+    """Return the index of the first value that equals the least up to rounding; ignore nan."""
     return first_greatest(-np.asarray(values, dtype=np.float64))

@@ -129,7 +129,7 @@ def as_list(text: str) -> SequenceNode:
     raise EditError("not_list", text=text if len(text) <= SHOWN else text[:SHOWN] + "…")
 
 
-# --- what stands where --------------------------------------------------------------------------------
+# --- places in the text -------------------------------------------------------------------------------
 
 
 def _read(text: str) -> Source:
@@ -307,7 +307,7 @@ def _without_in_flow(text: str, above: MappingNode | SequenceNode, step: str | i
     return text[: above.span[0] + 1] + text[above.span[1] - 1 :]
 
 
-# --- what was meant ---------------------------------------------------------------------------------------
+# --- checking the result ----------------------------------------------------------------------------------
 
 
 def _get(content: Any, where: Where) -> Any:

@@ -77,7 +77,7 @@ def _escaped(letter: str) -> str:
 
 
 def _block(table: MappingNode, original: MappingNode, lines: Sequence[str], depth: int) -> str:
-    """Return a table in block form: entries that are the very ones of the source by their lines, others anew."""
+    """Return a table in block form: unchanged entries of the source by their lines, others written new."""
     spans = _spans(original, lines)
     text = ""
     for key, value in table.entries:
@@ -118,7 +118,7 @@ def _spans(table: MappingNode, lines: Sequence[str]) -> dict[str, Sequence[str]]
 
 
 def _with_comment(entry: str, span: Sequence[str], value: Node) -> str:
-    """Return an entry written anew, with the comment of its old line and the lines of comment after it."""
+    """Return a new text of an entry, with the comment of its old line and the comment lines after it."""
     after = []
     for line in reversed(span[1:]):
         if line.strip() and not line.lstrip().startswith("#"):

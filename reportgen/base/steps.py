@@ -6,7 +6,7 @@ import os
 import sys
 
 ASKED = "REPORTGEN_STEPS"
-"""The variable of the environment that asks for steps."""
+"""Environment variable that requests progress events."""
 MARK = "\x1e"
 """A line of the error stream that begins so names a step."""
 

@@ -13,7 +13,7 @@ Language = str
 """Name of a folder that is a language; code that reads one from outside checks it against `languages`."""
 DEFAULT_LANGUAGE: Language = "vi"
 REFERENCE: Language = "en"
-"""The language of words that another one does not have."""
+"""Reference language, whose words replace those missing in another language."""
 LANGUAGE_FILE = "language.yaml"
 """By this file a folder of templates is a language."""
 

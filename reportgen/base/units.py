@@ -77,7 +77,7 @@ PLAIN: Mapping[str, tuple[float, Dimension]] = {
     "N m s": (1.0, _DAMPING),
     "kW": (1e3, _POWER),
 }
-"""SI factor and dimension of the commonest spellings: those of all units that files are asked for among them."""
+"""SI factor and dimension of the commonest spellings, including those of all units that files use."""
 
 SPELLED: Mapping[str, str] = {
     "độ": "deg",

@@ -218,7 +218,7 @@ def _below(mark: Mark, above: int) -> Mark:
 
 
 def _over(below: Mapping[str, Any], above: Mapping[str, Any], place: Path, where: Where = ()) -> Mapping[str, Any]:
-    """Return both tables in one; where both have a word, the one `above`, whose words also come first.
+    """Merge both tables; words in `above` override those in `below` and come first.
 
     Raises `TemplateError` with a place in the file `above` where its words have another form.
     """

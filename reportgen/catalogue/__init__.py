@@ -252,7 +252,7 @@ def schema(language: Language | None = None) -> dict[str, Any]:
     return schema_of(map(kind, kinds()), lambda name: field_words(name, spoken_in))
 
 
-# --- a file to begin with ---------------------------------------------------------------------------
+# --- starter files ----------------------------------------------------------------------------------
 
 
 def sample(name: str, language: Language) -> str:

@@ -21,7 +21,7 @@ from reportgen.machine.motion import SINGULAR, Motion, cross, solve_motion, unit
 
 HALVINGS = 40
 SMALL_TRANSMISSION = 0.3
-"""Only where the sine of a group's angle of transmission falls below this is its least value sought."""
+"""Sine of a group's transmission angle below which its least value is refined."""
 ROUND_OF_CLEARANCE = 1e-12
 """A clearance this little below 0 is rounding."""
 ZOOMS, NODES = 4, 41

@@ -160,8 +160,7 @@ def on_link(points: Mapping[int, set[str]], link: int, name: str | None, at: Whe
 
 
 def faults(load: PlainLoad, points: Mapping[int, set[str]], end: float, at: Where) -> Iterator[Finding]:
-    """Yield faults unless a load is on a link and a point that are there, of `points` by link, and given as loads of
-    its sort are.
+    """Yield faults unless a load is on an existing link and point (`points` by link), with the values of its type.
 
     The driver goes from 0 to `end` (rad or m).
     """
@@ -287,7 +286,7 @@ def against(size: float, rate: Callable[[Motion], Floats], motion_at: MotionAt, 
     return resistance if turns else Resistance(size, rate, resistance.reversals)
 
 
-# --- what words name ------------------------------------------------------------------------------
+# --- values for templates -------------------------------------------------------------------------
 
 
 @view("phrase", "table")

@@ -219,7 +219,7 @@ def _coupler_point(q: Sheet, point: LinkPoint, turn: int) -> None:
     q.set_out("coupler_acceleration", *components(q, "a", name, a_x, a_y))
 
 
-# --- what the words show --------------------------------------------------------------------------
+# --- equations for templates ----------------------------------------------------------------------
 
 
 def equations(turn: int, accelerates: float) -> dict[str, tuple[Chain, ...]]:

@@ -81,7 +81,7 @@ class GivenSheet(Sheet):
                 section.enter_speed(topics, self.datum)
 
     def drawn(self, start: str, end: str, asked: Given | None, default: float = CRANK_DRAWN) -> None:
-        """Enter the crank's drawn length: as asked for, else `default` (m on paper)."""
+        """Enter the crank's drawn length: as requested, else `default` (m on paper)."""
         self.give(ids.drawn(start, end), asked.si if asked else default, drawn_length(start, end))
 
     def drawn_by(self, scale: float, start: str, end: str, crank: Ref) -> None:

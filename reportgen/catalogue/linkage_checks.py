@@ -214,7 +214,7 @@ def _declared(given: file.Parameters) -> Iterator[Finding]:
 def _assembly(given: file.Parameters, positions: Positions) -> Iterator[Finding]:
     """Report the first group that does not follow the driver; else blocks that leave their slots, sliders of tables.
 
-    At single instants the crank need not get round, unless a load goes by the stroke of a slider.
+    At single instants the crank need not make a whole turn, unless a load depends on the stroke of a slider.
     """
     made = given.linkage
     members = {

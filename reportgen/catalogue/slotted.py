@@ -328,7 +328,7 @@ RAM_COMPARED = (
 """Plan quantities and the closed formulas that must give the same sizes."""
 
 
-# --- the equations they are solved from -------------------------------------------------------------
+# --- the equations in symbols -----------------------------------------------------------------------
 
 
 def lever_equations(turn: int, r: Symbol, d: Symbol, accelerates: float) -> dict[str, tuple[Chain, ...]]:

@@ -211,7 +211,7 @@ class EnteredTopics:
 
 
 def entered(opening: Opening) -> EnteredTopics:
-    """Enter the data of all topics that the file asks for; a topic without a subject is left out."""
+    """Enter the data of all topics in the file; a topic without a subject is left out."""
     made: dict[str, TopicData] = {}
     for name in opening.given.asked():
         provided = {key: value for data in made.values() for key, value in data.provided.items()}
@@ -223,7 +223,7 @@ def entered(opening: Opening) -> EnteredTopics:
 
 
 def on_whole_turns(topic: str) -> Callable[[type[TopicParameters]], tuple[Check, ...]]:
-    """Return the checks of a topic that asks for whole turns of a crank at a speed that is constant in the mean."""
+    """Return the checks of a topic that requires whole turns of a crank at a speed that is constant in the mean."""
 
     def checks(parameters: type[TopicParameters]) -> tuple[Check, ...]:
         def turns(draft: Draft) -> Iterator[Finding]:

@@ -216,10 +216,10 @@ def _close(
     laid: Expression | None = None,
     from_between: bool = False,
 ) -> Polygon:
-    """Lay the known forces, close the plan at n, and read every reaction from it.
+    """Lay off the known forces, close the plan at n, and read every reaction from it.
 
-    `first` and `second` are the directions in which n is sought: from the last known vertex (or from b), and
-    from e; `laid` instead is a force laid on from b.
+    `first` and `second` are the directions towards n: from the last known vertex (or from b), and from e; `laid`
+    instead is a force laid off from b.
     """
     path = ForceChain(g.q)
     if tangents[1]:

@@ -277,7 +277,7 @@ def branch(number: Operand, *branches: Operand) -> Call:
     return call("branch", number, *branches)
 
 
-# --- sums and products without what is nothing ------------------------------------------------------
+# --- sums and products without zeros ----------------------------------------------------------------
 
 NOTHING, ONE, MINUS_ONE = map(Number, (0.0, 1.0, -1.0))
 
@@ -357,7 +357,7 @@ def is_zero(angle: Expression) -> bool:
     return isinstance(angle, Number) and angle.value == 0
 
 
-# --- constructions: what is drawn and measured, with points and vectors as complex numbers ----------------
+# --- constructions: drawing and measuring, with points and vectors as complex numbers ---------------------
 
 
 def meet(p: Operand, u: Operand, q: Operand, w: Operand) -> Call:

@@ -280,7 +280,7 @@ rule = Name("rule.{id}")  # value of an integral by a rule for the positions
 reading = Name("read.{id}")  # off a curve
 rest = Name("rest.{id}")  # of that integral
 
-# --- names that are no ids: of the forces of a plan and of the corners of a plan of accelerations
+# --- names other than ids: of the forces of a plan and of the corners of a plan of accelerations
 
 reaction_force = Name("R{joint}[.{part}]")
 relative_corner = Name("{part}.{pair}")

@@ -156,8 +156,8 @@ class Ledger:
         return Number(abs(number.value), number.decimals, number.unit) if size else number
 
     def result(self, id: str, position: int | None = None) -> Number:
-        """Return the number of a quantity where it is a result: lines may go on from more decimals than its kind
-        has.
+        """Return the number of a quantity as a result: with the decimals of its kind, even if lines continue with
+        more.
         """
         number, usual = self.number(id, position), self.families[id].how.decimals
         carried = usual is not None and number.decimals is not None and number.decimals > usual

@@ -140,7 +140,7 @@ class Note:
 
 @dataclass(frozen=True, slots=True)
 class Parenthesis:
-    """A parenthesis of a sum that goes on over several lines; `tall` beside terms higher than a line."""
+    """A parenthesis of a sum that continues over several lines; `tall` beside terms higher than a line."""
 
     of: Literal["(", ")"]
     tall: bool

@@ -367,7 +367,7 @@ _PRINTED = {"t": "τ"}
 _NO_ROW = VocabularyRow(Name(""))
 
 
-# --- what a kind of work has for itself ------------------------------------------------------------
+# --- ids of a single kind of work ------------------------------------------------------------------
 # The ids of a kind begin with one word, as cam.r0. They are in the kind's package with their ROWS and KINDS, in a
 # module named after that word, `cam_ids.py`. It is imported when such an id is met, in any process.
 

@@ -125,7 +125,7 @@ class FrictionCase(DesignCase):
             yield enlargeable(plate)
 
 
-# --- each of them -----------------------------------------------------------------------------------
+# --- the exercises ----------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)

@@ -44,7 +44,7 @@ def table_rows(position: Mapping[str, Any]) -> dict[str, dict[str, float]]:
     }
 
 
-# --- what cannot be -------------------------------------------------------------------------------
+# --- checks ---------------------------------------------------------------------------------------
 
 
 def of_incline(given: Incline) -> Iterator[Finding]:

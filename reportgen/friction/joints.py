@@ -157,7 +157,7 @@ def _on_both(joint: Joint, force: Complexes, at: Complexes, couple: Floats) -> t
 def solve_with_friction(
     friction: Friction, linkage: Linkage, motion: Motion, loads: Sequence[Load], frictionless: Forces | None = None
 ) -> FrictionForces:
-    """Balance every link under `loads` and the friction of its joints, which goes by the reactions.
+    """Balance every link under `loads` and the friction of its joints, which depends on the reactions.
 
     Positions at which the mechanism locks have nan: no reactions agree with the friction that they cause.
     """

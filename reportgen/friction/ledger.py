@@ -141,7 +141,7 @@ def _balanced(q: Sheet, linkage: Linkage) -> tuple[str, str, Ref]:
 
 
 def _rounds(solved: FrictionForces, worked: Sequence[int]) -> int:
-    """Return the first round whose torque prints as the last does at the positions asked for."""
+    """Return the first round whose torque prints like that of the last round at the worked positions."""
     torques = np.array([forces.torque for forces in solved.rounds])
     shown = torques[:, [k - 1 for k in worked]] if worked else torques
     shown = shown[:, np.isfinite(shown).all(axis=0)]
@@ -151,7 +151,7 @@ def _rounds(solved: FrictionForces, worked: Sequence[int]) -> int:
     return min(int(stands.argmax()), MOST_ROUNDS)
 
 
-# --- how fast the links of a joint move against each other ------------------------------------------
+# --- relative motion of the links of a joint --------------------------------------------------------
 
 
 def _rate(q: Sheet, machine: Machine, each: RubbingJoint) -> Ref | None:

@@ -70,15 +70,15 @@ class Dyad:
                                                   turned by `slide_angle` from the guide
     ==== ============ ============== ============ ==============================================
 
-    `start` and `end` name a point that already moves or stands (a revolute joint there), or give a
-    `Guide` on ground or on a link already placed.  `sign` (+1, -1) is the stored orientation:
-    RRR: Q to the left (+1) or right of the way from P to T; RRP: Q the farther (+1) or nearer of the
-    two meeting points along the guide's direction; RPR: link j's axis points from T to the foot of P
-    (+1) or away from it (-1); PRP and RPP assemble one way only and ignore it.
+    `start` and `end` name a fixed or already placed point (a revolute joint there), or give a `Guide` on ground or
+    on a link already placed. `sign` (+1, -1) is the stored orientation. RRR: Q to the left (+1) or right of the way
+    from P to T. RRP: Q the farther (+1) or nearer of the two meeting points along the guide's direction. RPR: link
+    j's axis points from T to the foot of P (+1) or away from it (-1). PRP and RPP assemble one way only and ignore
+    it.
 
-    Frames.  RRR: i at P towards Q, j at T towards Q.  RRP: i at P towards Q, j at Q with the guide's
-    angle.  RPR: i at P and j at T, both with the angle of the line on j.  PRP: i and j at Q, each with
-    its own guide's angle.  RPP: i at P, j at Q, both with the guide's angle.
+    Frames. RRR: i at P towards Q, j at T towards Q. RRP: i at P towards Q, j at Q with the guide's angle. RPR: i at
+    P and j at T, both with the angle of the line on j. PRP: i and j at Q, each with its own guide's angle. RPP: i
+    at P, j at Q, both with the guide's angle.
     """
 
     kind: DyadKind

@@ -228,7 +228,7 @@ def _extreme(machine: Machine, angles: np.ndarray, torque: np.ndarray, sense: in
     return float(angles[best] if machine.span else angles[best] % (machine.turns * FULL_TURN)), float(torque[best])
 
 
-# --- what a machine of the catalogue turns its parameters into ------------------------------------
+# --- result of a catalogue module: a machine ------------------------------------------------------
 # Plain data that the rest of the package reads.
 # A module of the catalogue makes a `Machine`; later code does not depend on the kind.
 
@@ -256,10 +256,10 @@ def no_formulas(q: Sheet) -> None:
 
 @dataclass(frozen=True, slots=True)
 class ClosedFormulas:
-    """The closed formulas of a machine: `write` enters them on the sheet once the plans are there.
+    """The closed formulas of a machine: `write` enters them on the sheet after the plans.
 
-    `compared` are pairs of a plan's quantity and its closed formula, compared in the report; `equations` those that the
-    words of the analytic method show, by name.
+    `compared` are pairs of a plan's quantity and its closed formula, compared in the report; `equations` are those
+    that templates of the analytic method show, by name.
     """
 
     write: Callable[[Sheet], None] = no_formulas
@@ -303,7 +303,7 @@ class Machine:
     beside: tuple[str, ...] = ()
     """The names of the loads that topics bring."""
     results: dict[str, object] = field(default_factory=dict, init=False, repr=False, compare=False)
-    """The results of topics that others have asked for; they are computed once."""
+    """Results of topics that others have requested; each is computed once."""
     places: tuple[float, ...] = ()
     """Cycle angles of the positions of one turn; empty: evenly spaced from 0."""
     labels: tuple[str, ...] = ()
@@ -317,7 +317,7 @@ class Machine:
     them.
     """
     essential: tuple[str, ...] = ()
-    """Sections that the task of the kind asks for, so that a short report has them, too."""
+    """Sections that the task of the kind requires, so that a short report has them, too."""
     facts: Mapping[str, Any] = field(default_factory=dict)
     """Values besides quantities that the templates of its kind may name."""
 

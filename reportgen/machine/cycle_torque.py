@@ -20,7 +20,9 @@ class CycleTorque:
     coefficients: Floats
 
     def torque(self, angle: Floats) -> Floats:
-        """Return the torque (N·m) at cycle angles [N], which may go on beyond the cycle; at an edge, just behind it."""
+        """Return the torque (N·m) at cycle angles [N], which may lie beyond the cycle; at an edge, the value just
+        behind it.
+        """
         within = np.mod(angle, self.edges[-1])
         part = np.clip(np.searchsorted(self.edges, within + SAME_ANGLE, side="right") - 1, 0, len(self.edges) - 2)
         low, high = self.edges[part], self.edges[part + 1]

@@ -42,8 +42,8 @@ class Load:
 
 
 def weights(linkage: Linkage, motion: Motion) -> tuple[Load, ...]:
-    """Return the weights m·g at the mass centres, named "G" and the link's number; massless links have none, nor
-    is there any without gravity.
+    """Return the weights m·g at the mass centres, named "G" and the link's number; empty without gravity. Links
+    without mass are skipped.
     """
     still = np.zeros_like(motion.driver)
     return tuple(

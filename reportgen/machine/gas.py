@@ -37,7 +37,7 @@ HALVINGS = 60
 DRAWN_IN_A_STROKE = 91
 """Points of a stroke's line that is drawn from a table over the angle, two degrees apart."""
 NODE = 1e-9
-"""A place this near to a node, relative to its size, is there."""
+"""A place closer than this to a node, relative to its size, counts as at the node."""
 SETTLED = 1e-9
 """A last step (rad) whose square is far below rounding."""
 

@@ -422,9 +422,10 @@ def opposing(size: float, rate: Callable[[Floats], Floats]) -> Opposing:
 
 
 def halved(low: Floats, high: Floats, before: Callable[[Floats], Flags], times: int) -> tuple[Floats, Floats]:
-    """Return the intervals [N] from `low` to `high` halved so often, each towards where `before` ends to be true.
+    """Halve the intervals [N] from `low` to `high` at least `times` times, each towards the place where `before`
+    becomes False.
 
-    `before` is asked of many places [N, K] at once, since the motion at one takes as long as at fifty.
+    `before` is called with many places [N, K] together, since the motion at one takes as long as at fifty.
     """
     shares = np.linspace(0.0, 1.0, 2**AT_ONCE + 1)
     each = np.arange(low.size)

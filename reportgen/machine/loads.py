@@ -91,7 +91,7 @@ def course(linkage: Linkage, link: int, motion_at: MotionAt, turns: int = 1, top
     )
 
 
-# --- what is loaded ---------------------------------------------------------------------------------
+# --- forces and torques -----------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)

@@ -21,8 +21,8 @@ from reportgen.machine import DRIVER, GROUND, Crank, Dyad, DyadKind, Guide, Link
 SINGULAR = 1e-5
 """Sine of the angle below which two directions count as parallel.
 
-A position found near such a place carries a relative error of about ε/sin² (ε = 2e-16): past this
-bound its rates would be wrong in the sixth digit, so none are given.
+A position found near such a place has a relative error of about ε/sin² (ε = 2e-16). Below this bound its rates
+would be wrong in the sixth digit, so they are nan.
 """
 
 TOUCHING = 1e-13
@@ -381,7 +381,7 @@ class _State:
             self._place(number, LinkMotion(_continuous(link.angle), link.omega, link.epsilon), origin)
 
     def motion(self, driver: Floats, kept: Places) -> Motion:
-        """Return the result at the positions asked for [N]; the substeps are dropped."""
+        """Return the result at the requested positions [N]; the substeps are dropped."""
         return Motion(
             driver=driver,
             rate=self.rate[kept],

@@ -118,7 +118,7 @@ class KlossDrive(Drive):
 
 @dataclass(frozen=True, slots=True)
 class TableDrive(Drive):
-    """Torques (N·m) at speeds (rad/s) that rise from 0, linear between; beyond the last as the last two go on."""
+    """Torques (N·m) at speeds (rad/s) that rise from 0, linear between them; extrapolated beyond the last one."""
 
     speeds: tuple[float, ...]
     torques: tuple[float, ...]

@@ -115,9 +115,9 @@ class ReducedMachine:
         return self.machine.turns * FULL_TURN
 
     def reduced(self, angle: Floats, sense: int = 1) -> tuple[Floats, Floats, Floats]:
-        """Return J, J′ and M_r at rising cycle angles [N]; they may go on beyond the cycle.
+        """Return J, J′ and M_r at rising cycle angles [N], which may lie beyond the cycle.
 
-        Friction acts against the `sense` in which the crank goes.
+        Friction acts against the `sense` in which the crank moves.
         """
         inertia, slope, torque = reduced(self.machine, angle)
         if self.loss is not None:

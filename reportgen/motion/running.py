@@ -52,12 +52,12 @@ NEAREST = 1.01
 
 
 class NoMotionError(Exception):
-    """A motion that is asked for does not come about.
+    """A requested motion is impossible.
 
     `code` is "stalls", "start-stalls", "does-not-start", "starts-nowhere", "starts-too-slowly", "does-not-stop",
-    "runs-away", "runs-down", "no-inertia" or "no-steady-motion"; `angle` (rad) the cycle angle there, `missing` the
-    torque (N·m) that is missing, `ranges` the angles (rad) from which the machine would start, `speed` (rad/s) that is
-    meant.
+    "runs-away", "runs-down", "no-inertia" or "no-steady-motion"; `angle` (rad) is the cycle angle there, `missing`
+    the torque (N·m) that is missing, `ranges` the angles (rad) from which the machine would start, `speed` (rad/s)
+    the speed in question.
     """
 
     def __init__(

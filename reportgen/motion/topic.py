@@ -191,7 +191,7 @@ class MotionSection(Part):
         )
 
 
-# --- on the sheet -------------------------------------------------------------------------------------
+# --- entries on the sheet -----------------------------------------------------------------------------
 
 
 def enter(opening: Opening) -> TopicData:
@@ -257,7 +257,7 @@ def _table(table: DriveTable, where: tuple[str, ...]) -> Iterator[Finding]:
 
 
 def failures(machine: Machine, worked: Sequence[int]) -> Iterator[Finding]:
-    """Find why the motion that is asked for does not come about, at the place that says so."""
+    """Yield the findings that explain why the requested motion is impossible, at the keys that request it."""
     if not (machine.linkage.inertias or machine.loads):
         yield Finding("motion-without-loads", ("parameters", "motion"), at="key")
         return

@@ -33,8 +33,8 @@ WheelState = Literal["", "wheel"]
 class TrueMotion:
     """The true motion of a machine: its steady motion `alone`, and `wheeled` with the flywheel if it has one.
 
-    `drive` as it acts on the crank, `mean` of the reduced torque (N·m), `wheel` J_d (kg·m²); `started`, `stopped` if
-    they are asked for.
+    `drive` as it acts on the crank, `mean` of the reduced torque (N·m), `wheel` J_d (kg·m²); `started`, `stopped`
+    if they are requested.
     """
 
     asked: MotionAsked
@@ -76,7 +76,7 @@ class TrueMotion:
 
 
 def true_motion(machine: Machine, asked: MotionAsked, regulated: RegulatedCycle | None) -> TrueMotion:
-    """Return the true motion that is asked of a machine, with the flywheel that regulates it.
+    """Return the requested true motion of a machine, with the flywheel that regulates it.
 
     Raises `NoMotionError`.
     """
@@ -105,7 +105,7 @@ def true_motion(machine: Machine, asked: MotionAsked, regulated: RegulatedCycle 
 
 
 def true_motion_of(machine: Machine) -> TrueMotion | None:
-    """Return the true motion of a machine with its flywheel, None if the file does not ask for it.
+    """Return the true motion of a machine with its flywheel, None if the file does not request it.
 
     Raises `NoMotionError`.
     """
@@ -114,7 +114,7 @@ def true_motion_of(machine: Machine) -> TrueMotion | None:
 
 
 def motion_in(analysis: Analysis) -> TrueMotion:
-    """Return the true motion of a machine whose file asks for it; it is computed once."""
+    """Return the true motion of a machine whose file requests it; it is computed once."""
     return analysis.derived(_motion)
 
 

@@ -30,7 +30,7 @@ MOST_CYCLES = 12
 """Ends of the cycles of a start that its table shows, the last among them."""
 
 
-# --- what the words name ------------------------------------------------------------------------------
+# --- values for templates -----------------------------------------------------------------------------
 
 
 def drive_form(report: Report) -> str:

@@ -135,7 +135,7 @@ def faults(parameters: TopicParameters, machine: Machine) -> Iterator[Finding]:
 
 
 def misplaced_ends(springs: Sequence[Spring], linkage: Linkage) -> Iterator[Finding]:
-    """Find springs whose ends are not on links and at points that are there, or whose sizes are of another sort."""
+    """Yield faults for springs whose ends are not on existing links and points, or whose sizes have the wrong type."""
     points = pins(linkage)
     for index, spring in enumerate(springs):
         yield from _faults(spring, linkage, points, ("parameters", "springs", index))
@@ -164,8 +164,8 @@ def failures(machine: Machine, worked: Sequence[int]) -> Iterator[Finding]:
 
 
 def _nearest(machine: Machine, law: SpringLaw, angle: float, step: float) -> tuple[float, float]:
-    """Return the cycle angle (rad) within a step of one given at which the ends of a spring are nearest, and how
-    near (m).
+    """Return the cycle angle (rad), within a step of the given one, at which the ends of a spring are closest, and
+    their distance (m).
     """
     for _ in range(CLOSER):
         places = np.linspace(angle - step, angle + step, 21)

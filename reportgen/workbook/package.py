@@ -248,7 +248,7 @@ def _local(name: str) -> str:
     return name.rpartition(" ")[2]
 
 
-# --- how much a part holds ------------------------------------------------------------------------
+# --- limits of a part -----------------------------------------------------------------------------
 # openpyxl builds the tree of a part and frees each row of a sheet and each shared string once it is read:
 # its memory grows with the largest of them and with everything outside of them.
 
@@ -307,7 +307,7 @@ def measure(package: Package, name: str) -> tuple[int, int]:
     return cells, formulas
 
 
-# --- what a table file holds ----------------------------------------------------------------------
+# --- content of a table file ----------------------------------------------------------------------
 # Pages of rows of cells; each cell knows its place.
 
 CellKind = Literal["empty", "text", "number", "boolean", "date", "error", "formula"]
