@@ -70,8 +70,7 @@ def read(
 
 
 def in_coursework(source: Source, path: Path, whole: Path, find: Callable[[str], Kind]) -> Source:
-    """Return the nodes of a part's file with the values taken from the machine of the coursework `whole`, and
-    faults.
+    """Return the nodes of a part's file with the values taken from the machine of the coursework `whole`, and faults.
 
     If the coursework does not name the file, the nodes are unchanged.
     """
@@ -83,9 +82,7 @@ def in_coursework(source: Source, path: Path, whole: Path, find: Callable[[str],
 
 
 def taking(source: Source, top: MappingNode, index: int, find: Callable[[str], Kind]) -> Source:
-    """Return a part with the values it takes from the coursework's nodes, valid or not: unreadable ones are left
-    out.
-    """
+    """Return a part with the values it takes from the coursework's nodes, valid or not: unreadable ones are left out."""
     table = at(top, (PARTS, index, "from"))
     taken: list[TakenDatum] = []
     factors: dict[str, float | None] = {}
@@ -127,9 +124,7 @@ def _named(top: Node | None, path: Path) -> Iterator[tuple[int, Path]]:
 
 
 def in_place(top: MappingNode, path: Path) -> tuple[MappingNode, dict[int, Source], list[Fault]]:
-    """Return a coursework's table with its parts in place of their files; these files by the part's number; the
-    faults.
-    """
+    """Return a coursework's table with its parts in place of their files; these files by the part's number; the faults."""
     whole: Node = top
     listed = at(top, (PARTS,))
     sources: dict[int, Source] = {}
@@ -202,9 +197,7 @@ def _completed(
     factors: Mapping[str, float | None],
     find: Callable[[str], Kind],
 ) -> tuple[Source, list[Fault]]:
-    """Return the part with the values it takes, multiplied by key, and with the driver's sense if it is on that
-    shaft.
-    """
+    """Return the part with the values it takes, multiplied by key, and with the driver's sense if it is on that shaft."""
     source, faults = _with_taken(source, top, index, taken, factors)
     if not faults and any((datum.key, datum.of, datum.times) == ON_SHAFT for datum in taken):
         return _with_direction(source, top, find)
@@ -255,9 +248,7 @@ def _with_direction(source: Source, top: MappingNode, find: Callable[[str], Kind
 
 
 def place_of(name: str) -> Where:
-    """Return the place of a quantity in the machine's file: among its parameters, or in the section that its name
-    says.
-    """
+    """Return the place of a quantity in the machine's file: among its parameters, or in the section that its name says."""
     steps = tuple(name.split("."))
     return steps if len(steps) > 1 else ("parameters", *steps)
 

@@ -139,9 +139,7 @@ WORDED = frozenset({"kind", "variant", "report", "sheet", "title", "file", "salt
 
 
 def doubtful(source: Source) -> Iterator[Fault]:
-    """Yield notes on keys without a value, and on numbers that may be meant as thousands, 1.400 N, with their
-    reading.
-    """
+    """Yield notes on keys without a value, and on numbers that may be meant as thousands, 1.400 N, with their reading."""
     yield from _doubtful(source.top)
 
 
@@ -228,8 +226,7 @@ def _given(kind: Kind, raw: Mapping[str, Any]) -> Kind:
 def _section(
     key: str, type_: Any, content: Any, whole: Callable[[], Mapping[str, tuple[Any, Any]]]
 ) -> tuple[Any, list[Finding]]:
-    """Return the section's value (None if it has none) and its faults; unknown keys alone do not invalidate the
-    value.
+    """Return the section's value (None if it has none) and its faults; unknown keys alone do not invalidate the value.
 
     `whole` returns the sections with all topics; an unknown key is compared with all their keys.
     """

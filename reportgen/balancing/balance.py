@@ -141,8 +141,7 @@ class CrankCurve:
         return float(np.sqrt(others + abs(self.mean + counterweight) ** 2))
 
     def farthest(self, centre: complex) -> tuple[float, Floats]:
-        """Return the greatest distance (kg·m) of the curve from a point, and all its places (rad) of greatest
-        distance.
+        """Return the greatest distance (kg·m) of the curve from a point, and all its places (rad) of greatest distance.
 
         Places within a thousandth of the greatest distance are included, each refined.
         """
@@ -206,8 +205,7 @@ class SmallestCircle:
 
 
 def round_points(points: Complexes) -> tuple[complex, float, tuple[int, ...]]:
-    """Return centre and radius of the smallest circle round points [N], and the two or three points that determine
-    it.
+    """Return centre and radius of the smallest circle round points [N], and the two or three points that determine it.
 
     The farthest point outside is added to the circle repeatedly. The circle grows each time, so the loop ends.
     """
@@ -239,9 +237,7 @@ def _round_few(points: Complexes) -> tuple[complex, float, tuple[int, ...]]:
 
 
 def through(points: Complexes) -> complex:
-    """Return the centre of the circle on two points as a diameter, or through three; nan where the three lie in a
-    line.
-    """
+    """Return the centre of the circle on two points as a diameter, or through three; nan where the three lie in a line."""
     if len(points) == 2:
         return complex(points.mean())
     first, second = points[1] - points[0], points[2] - points[0]

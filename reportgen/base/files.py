@@ -213,9 +213,7 @@ def overwritten(outputs: Iterable[Path], inputs: Iterable[Path]) -> Iterator[Fau
 
 
 def _identities(path: Path) -> list[str | tuple[int, int]]:
-    """Return keys that all names of one file share: its real path without case, and its device and inode if it
-    exists.
-    """
+    """Return keys that all names of one file share: its real path without case, and its device and inode if it exists."""
     real = unicodedata.normalize("NFC", os.path.realpath(path)).casefold()
     with suppress(OSError):
         about = path.stat()
@@ -366,8 +364,7 @@ def version() -> str:
 
 @cache
 def prune(folder_kept: Path) -> None:
-    """Remove the least recently used files from the folder, down to the `LARGEST` size, and those older than
-    `OLDEST`.
+    """Remove the least recently used files from the folder, down to the `LARGEST` size, and those older than `OLDEST`.
 
     It runs once in a process, when a file is added, since examining every file takes longer than reading a few.
     """

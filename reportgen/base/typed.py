@@ -1,5 +1,4 @@
-"""Normalise characters in numbers as people type and paste them: variants of minus, dot and blank, invisible
-letters.
+"""Normalise characters in numbers as people type and paste them: variants of minus, dot and blank, invisible letters.
 
 This table is used for everything that students hand in: sheets, CSV, Word reports, drawings, corrections.
 """

@@ -98,8 +98,7 @@ _QUANTITY = re.compile(rf"({NUMBER})\s*({UNIT})?")
 _RATIO = re.compile(rf"({NUMBER})\s*(?:/\s*({NUMBER}))?")
 _MARKED = re.compile(r"([+-]?)([0-9]+(?:[.,][0-9]+)+)(?![.,0-9])(.*)", re.DOTALL)
 _THOUSANDS = re.compile(r"[1-9][0-9]{0,2}[.,][0-9]{2}0")
-"""Pattern of numbers that a Vietnamese reader may mean as thousands, 1.400; 1.4 is written so only to three
-decimals.
+"""Pattern of numbers that a Vietnamese reader may mean as thousands, 1.400; 1.4 is written so only to three decimals.
 """
 _NOT_FINITE = re.compile(r"[+-]?\.?(?:inf|infinity|nan)\b.*", re.IGNORECASE | re.DOTALL)
 _JOINED = re.compile(r"(?<![A-Za-z])(k?N|kg)(?=[mc]?m)")
@@ -384,9 +383,7 @@ def nice_up(value: float, series: Sequence[float] = SERIES) -> float:
 
 
 def nice_down(value: float, series: Sequence[float] = SERIES) -> float:
-    """Return the largest s·10ⁿ, s of the series, not above `value`, in its unit; raises `ValueError` as `nice_up`
-    does.
-    """
+    """Return the largest s·10ⁿ, s of the series, not above `value`, in its unit; raises `ValueError` as `nice_up` does."""
     if not (value > 0 and math.isfinite(value)):
         raise ValueError("a scale is a positive number")
     decade = math.floor(math.log10(value))

@@ -71,8 +71,7 @@ class MotionRow:
 
 
 def facts(given: file.Parameters, loads: tuple[str, ...], acting: Container[str]) -> dict[str, Any]:
-    """Return the values that the kind's templates may name; `loads` are the ids of the loads in the order of the
-    file.
+    """Return the values that the kind's templates may name; `loads` are the ids of the loads in the order of the file.
 
     Only the loads in `acting` are included.
     """
@@ -130,9 +129,7 @@ def _quantities(given: file.Parameters, rows: tuple[GroupRow, ...]) -> Iterator[
 
 
 def _axes(given: file.Parameters) -> dict[int, tuple[str, str]]:
-    """Return the origin of each link's axes, and the joint they point to or what they are parallel to: "guide",
-    "slot".
-    """
+    """Return the origin of each link's axes, and the joint they point to or what they are parallel to: "guide", "slot"."""
     driver = given.driver
     axes = {1: (driver.centre, driver.pin) if isinstance(driver, file.CrankDriver) else (driver.pin, "guide")}
     for group in given.groups:

@@ -47,8 +47,7 @@ class Plain(TextSetter):
 
 
 def formula(node: Expression, language: Language) -> str:
-    """Return an expression in one line, with parentheses wherever it could be misread; a vector equation adds its
-    rows.
+    """Return an expression in one line, with parentheses wherever it could be misread; a vector equation adds its rows.
 
     Raises `TypesetterError` for a `Ref` that was not substituted.
     """

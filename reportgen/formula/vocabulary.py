@@ -466,8 +466,7 @@ def wording(id: str, shown: Symbol) -> tuple[str, dict[str, str]]:
 
 
 def words_of(table: Mapping[str, str], id: str, kind: str, shown: Symbol) -> Iterator[str]:
-    """Yield the texts that a table of `words.yaml` has for a quantity, nearest first: for its id, its family, its
-    kind.
+    """Yield the texts that a table of `words.yaml` has for a quantity, nearest first: for its id, its family, its kind.
 
     A key names one or several quantities, separated by commas. A kind behind a colon limits it to quantities of
     that kind (`balance:force`); `:force` alone matches all of them. If two keys name the same, the first counts.

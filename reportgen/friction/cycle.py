@@ -35,8 +35,7 @@ def turning_back(machine: Machine, joint: Joint) -> Iterator[float]:
 
 
 def mean_torque(machine: Machine) -> float:
-    """Return the mean of the balancing torque with friction (N·m) over the cycle; nan if the mechanism locks
-    anywhere.
+    """Return the mean of the balancing torque with friction (N·m) over the cycle; nan if the mechanism locks anywhere.
 
     Raises `ValueError` for a machine without friction.
     """

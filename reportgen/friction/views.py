@@ -190,9 +190,7 @@ def rounds(report: Report, key: str, caption: str, head: Sequence[str], k: int) 
 
 
 def dead_rows(report: Report) -> Iterator[Sequence[object]]:
-    """Yield each slider's dead centres, by the angle of the crank from position 1, and how far on either side it
-    locks.
-    """
+    """Yield each slider's dead centres, by the angle of the crank from position 1, and how far on either side it locks."""
     machine = report.machine
     for course in machine.sliders:
         for number, angle in enumerate(course.dead_centres[:2], 1):
@@ -336,8 +334,7 @@ def _detail(report: Report, k: int, carried: JointForce, scale: float) -> Scene:
 
 
 def _guide_detail(report: Report, carried: JointForce) -> Scene:
-    """Draw N across the guide and F along it against the sliding, in their ratio; the reaction leans by φ = arctan
-    F/N.
+    """Draw N across the guide and F along it against the sliding, in their ratio; the reaction leans by φ = arctan F/N.
 
     For a slider that tilts, draw the two forces on the ends of its face.
     """

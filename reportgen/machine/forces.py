@@ -137,8 +137,7 @@ class Reaction:
 
 @dataclass(frozen=True, slots=True)
 class Forces:
-    """Reactions "R12" (link 1 on link 2) and "R21" for every joint, and the torque or force that balances the
-    driver.
+    """Reactions "R12" (link 1 on link 2) and "R21" for every joint, and the torque or force that balances the driver.
 
     `torque` is the torque on the crank (N·m), or for a sliding driver the force along its guide (N).
     """

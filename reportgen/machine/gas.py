@@ -72,8 +72,7 @@ class Tabled:
 
 @dataclass(frozen=True, slots=True)
 class Bracket:
-    """Adjacent nodes of a table on both sides of the places `at`, with their pressures (Pa); all arrays have shape
-    [N].
+    """Adjacent nodes of a table on both sides of the places `at`, with their pressures (Pa); all arrays have shape [N].
 
     `kind` is the kind of quantity of the nodes: the "ratio" s/H, the "angle" of the cycle, or a "length", the way.
     In a table of loads the pressures are sizes of the load (N or N·m).

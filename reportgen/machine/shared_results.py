@@ -1,5 +1,4 @@
-"""Results that one topic of a machine provides and others use, such as the torque that friction takes from the
-crank.
+"""Results that one topic of a machine provides and others use, such as the torque that friction takes from the crank.
 
 A topic that provides results names them in its module `physics`. Other topics ask for a result by its name and need
 not know which topic provides it; if no topic does, they get None.

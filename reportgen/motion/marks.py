@@ -18,8 +18,7 @@ OF_CURVE = frozenset({"max", "min", "mean", "delta"})
 
 
 def errors_of_positions(ledger: Ledger) -> Mapping[str, np.ndarray]:
-    """Return the errors of values that depend on integrals of the true motion, if the rule over the positions is
-    used.
+    """Return the errors of values that depend on integrals of the true motion, if the rule over the positions is used.
 
     The bounds of the speed are those of its curve, wherever the positions lie.
     """

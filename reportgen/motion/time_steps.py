@@ -21,8 +21,7 @@ SETTLED = 1e-13
 """The rounds of a step end where ω moves by less than this share of its greatest value in the step."""
 MOST_ROUNDS = 30
 ACCURATE = 1e-9
-"""Largest contribution of the highest polynomials in a step to ω, as a share of it; the end of the step is far
-better.
+"""Largest contribution of the highest polynomials in a step to ω, as a share of it; the end of the step is far better.
 """
 LONGEST = 0.05
 """The way of the first step (rad)."""

@@ -1,6 +1,4 @@
-"""The springs section of a file: springs between a link and the frame, between two links, or about a pin of the
-frame.
-"""
+"""The springs section of a file: springs between a link and the frame, between two links, or about a pin of the frame."""
 
 from __future__ import annotations
 
@@ -142,8 +140,7 @@ def misplaced_ends(springs: Sequence[Spring], linkage: Linkage) -> Iterator[Find
 
 
 def failures(machine: Machine, worked: Sequence[int]) -> Iterator[Finding]:
-    """Report a spring whose ends meet on the way: its force would have no direction there, and jump to the other
-    side.
+    """Report a spring whose ends meet on the way: its force would have no direction there, and jump to the other side.
 
     A spring without a free length pulls with c times the vector between its ends, which is zero there.
     """
@@ -218,9 +215,7 @@ def _swinging(linkage: Linkage) -> dict[str, tuple[int, str]]:
 
 
 def _other_point(linkage: Linkage, spring: Spring) -> str | None:
-    """Return the point that gives the angle of the link about the spring's pin; None if the link does not turn
-    there.
-    """
+    """Return the point that gives the angle of the link about the spring's pin; None if the link does not turn there."""
     link, point = _swinging(linkage).get(spring.about or "", (0, ""))
     return point if link == spring.link else None
 
