@@ -140,7 +140,7 @@ class Drawing(Part):
 
 
 class SheetSection(Part):
-    """Texts of the drawing sheets that the report does not contain: their designation, or the code of the course in it."""
+    """Texts of drawing sheets that the report does not contain: their designation, or the code of the course in it."""
 
     designation: OneLine | None = None
     course: OneLine | None = None

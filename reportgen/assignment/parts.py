@@ -82,7 +82,7 @@ def in_coursework(source: Source, path: Path, whole: Path, find: Callable[[str],
 
 
 def taking(source: Source, top: MappingNode, index: int, find: Callable[[str], Kind]) -> Source:
-    """Return a part with the values it takes from the coursework's nodes, valid or not: unreadable ones are left out."""
+    """Return a part with the values it takes from the coursework's nodes, valid or not, without unreadable ones."""
     table = at(top, (PARTS, index, "from"))
     taken: list[TakenDatum] = []
     factors: dict[str, float | None] = {}
@@ -124,7 +124,7 @@ def _named(top: Node | None, path: Path) -> Iterator[tuple[int, Path]]:
 
 
 def in_place(top: MappingNode, path: Path) -> tuple[MappingNode, dict[int, Source], list[Fault]]:
-    """Return a coursework's table with its parts in place of their files; these files by the part's number; the faults."""
+    """Return a coursework's table with its parts in place of their files; these files by part number; the faults."""
     whole: Node = top
     listed = at(top, (PARTS,))
     sources: dict[int, Source] = {}
