@@ -197,7 +197,9 @@ def _completed(
     factors: Mapping[str, float | None],
     find: Callable[[str], Kind],
 ) -> tuple[Source, list[Fault]]:
-    """Return the part with the values it takes, multiplied by key, and with the driver's sense if it is on that shaft."""
+    """Return the part with the values it takes, multiplied by key, and with the driver's sense if it is on
+    that shaft.
+    """
     source, faults = _with_taken(source, top, index, taken, factors)
     if not faults and any((datum.key, datum.of, datum.times) == ON_SHAFT for datum in taken):
         return _with_direction(source, top, find)
@@ -248,7 +250,9 @@ def _with_direction(source: Source, top: MappingNode, find: Callable[[str], Kind
 
 
 def place_of(name: str) -> Where:
-    """Return the place of a quantity in the machine's file: among its parameters, or in the section that its name says."""
+    """Return the place of a quantity in the machine's file: among its parameters, or in the section that its
+    name says.
+    """
     steps = tuple(name.split("."))
     return steps if len(steps) > 1 else ("parameters", *steps)
 

@@ -139,7 +139,9 @@ WORDED = frozenset({"kind", "variant", "report", "sheet", "title", "file", "salt
 
 
 def doubtful(source: Source) -> Iterator[Fault]:
-    """Yield notes on keys without a value, and on numbers that may be meant as thousands, 1.400 N, with their reading."""
+    """Yield notes on keys without a value, and on numbers that may be meant as thousands, 1.400 N, with their
+    reading.
+    """
     yield from _doubtful(source.top)
 
 

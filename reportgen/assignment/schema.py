@@ -75,7 +75,9 @@ def schema_of(kinds: Iterable[Kind], words: Callable[[str], Mapping[str, FieldWo
 
 
 def _as_draft_07(part: Any) -> Any:
-    """Return a schema of draft 2020-12 in the words of draft-07; the models use but one that the drafts do not share."""
+    """Return a schema of draft 2020-12 in the words of draft-07; the models use but one that the drafts do not
+    share.
+    """
     match part:
         case dict():
             return {"definitions" if key == "$defs" else key: _as_draft_07(value) for key, value in part.items()}

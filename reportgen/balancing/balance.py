@@ -237,7 +237,9 @@ def _round_few(points: Complexes) -> tuple[complex, float, tuple[int, ...]]:
 
 
 def through(points: Complexes) -> complex:
-    """Return the centre of the circle on two points as a diameter, or through three; nan where the three lie in a line."""
+    """Return the centre of the circle on two points as a diameter, or through three; nan where the three lie
+    in a line.
+    """
     if len(points) == 2:
         return complex(points.mean())
     first, second = points[1] - points[0], points[2] - points[0]

@@ -1,4 +1,6 @@
-"""Page layer of the force on the frame: an arrow at the crank's centre with its trace, without and with counterweights."""
+"""Page layer of the force on the frame: an arrow at the crank's centre with its trace, without and with
+counterweights.
+"""
 
 from __future__ import annotations
 
@@ -90,7 +92,9 @@ def with_room(report: Report, motion: Motion, scale: float, box: tuple[complex, 
 
 
 def values(report: Report, motion: Motion) -> Iterator[tuple[Symbol, str, Floats]]:
-    """Yield the sizes of these forces and the moment on the frame: symbol, kind, values [N]; nothing if not requested."""
+    """Yield the sizes of these forces and the moment on the frame: symbol, kind, values [N]; nothing if not
+    requested.
+    """
     turn, ledger = balanced_in(report.analysis), report.ledger
     for _, id, force in forces(turn, motion):
         yield ledger.symbol(id), "force", np.abs(force)

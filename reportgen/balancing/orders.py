@@ -60,7 +60,9 @@ class Engine:
 
 
 def engine(linkage: Linkage) -> Engine | None:
-    """Return the engine that a linkage is, None unless all its cylinders are alike and in line with the crank's centre."""
+    """Return the engine that a linkage is, None unless all its cylinders are alike and in line with the
+    crank's centre.
+    """
     rods, cylinders, lengths = crank_rods(linkage), [], []
     if not isinstance(linkage.driver, Crank):
         return None

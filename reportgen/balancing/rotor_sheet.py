@@ -86,7 +86,9 @@ class RotorSheet:
     # --- plans
 
     def _enter_plans(self) -> None:
-        """Enter the plans: V_B closes the plan of V about plane A, where U_A has no moment; U_A closes the plan of U."""
+        """Enter the plans: V_B closes the plan of V about plane A, where U_A has no moment; U_A closes the
+        plan of U.
+        """
         q, U = self.q, dict(self.U)
         directions = dict(self.α)
         if RIGHT in self.given.planes_by_name:

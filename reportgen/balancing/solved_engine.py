@@ -58,11 +58,15 @@ class SolvedEngine(DesignCase):
         return self.given.n.si
 
     def forces(self, φ: ArrayLike) -> dict[int, NDArray[np.complex128]]:
-        """Return the force on the frame (N) of each order with the crank at φ, x + iy: Σ K Aₙ cos n(φ + θ − ψ) e^{iψ}."""
+        """Return the force on the frame (N) of each order with the crank at φ, x + iy: Σ K Aₙ cos n(φ + θ − ψ)
+        e^{iψ}.
+        """
         return self._by_order(φ, [1.0] * len(self.cylinders))
 
     def couples(self, φ: ArrayLike) -> dict[int, NDArray[np.complex128]]:
-        """Return the couple on the frame (N·m) of each order, in the plane of its forces: each of them times its arm c."""
+        """Return the couple on the frame (N·m) of each order, in the plane of its forces: each of them times
+        its arm c.
+        """
         return self._by_order(φ, self._arms)
 
     def rotating(self, φ: ArrayLike) -> NDArray[np.complex128]:

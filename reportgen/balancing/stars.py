@@ -1,4 +1,6 @@
-"""Drawing of the star of an order of an engine: a vector for each cylinder, all of one size, and their sum, to scale."""
+"""Drawing of the star of an order of an engine: a vector for each cylinder, all of one size, and their sum, to
+scale.
+"""
 
 from __future__ import annotations
 

@@ -124,7 +124,9 @@ class Problem:
 
 
 class ReportgenError(Exception):
-    """Base of all exceptions that this package raises on purpose; `exit_code` is the exit status of the command line."""
+    """Base of all exceptions that this package raises on purpose; `exit_code` is the exit status of the
+    command line.
+    """
 
     exit_code = 1
 

@@ -213,7 +213,9 @@ def overwritten(outputs: Iterable[Path], inputs: Iterable[Path]) -> Iterator[Fau
 
 
 def _identities(path: Path) -> list[str | tuple[int, int]]:
-    """Return keys that all names of one file share: its real path without case, and its device and inode if it exists."""
+    """Return keys that all names of one file share: its real path without case, and its device and inode if it
+    exists.
+    """
     real = unicodedata.normalize("NFC", os.path.realpath(path)).casefold()
     with suppress(OSError):
         about = path.stat()

@@ -356,7 +356,9 @@ def _rejoined(node: yaml.MappingNode) -> list[tuple[yaml.Node, yaml.Node]]:
 
 
 def _is_parted(before: yaml.Node, key: yaml.Node, value: yaml.Node) -> bool:
-    """Return True if a value and the key without a value after it are the parts before and behind a comma in a number."""
+    """Return True if a value and the key without a value after it are the parts before and behind a comma in a
+    number.
+    """
     ends = before.end_mark.index, key.start_mark.index, key.end_mark.index, value.end_mark.index
     numbers = all(isinstance(one, yaml.ScalarNode) and not one.style for one in (before, key))
     return (

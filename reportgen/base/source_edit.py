@@ -105,7 +105,9 @@ def with_key(text: str, where: Where, key: str, value: Scalar) -> str:
 
 
 def exchanged(text: str, where: Where, first: int) -> str:
-    """Return the text with the item `first` of the list at a place behind the one that follows it; raises `EditError`."""
+    """Return the text with the item `first` of the list at a place behind the one that follows it; raises
+    `EditError`.
+    """
     top = _top(text)
     listed = at(top, where)
     if not isinstance(listed, SequenceNode) or not 0 <= first < len(listed.items) - 1:
@@ -246,7 +248,9 @@ def _with_entry(text: str, table: MappingNode, key: str, value: Node) -> str:
 
 
 def _remarks(text: str, top: MappingNode, table: MappingNode) -> Iterator[tuple[int, re.Match[str]]]:
-    """Yield the remarks among the entries of a table and right behind them that look like entries, at its very column."""
+    """Yield the remarks among the entries of a table and right behind them that look like entries, at its very
+    column.
+    """
     depth = table.span[0] - _line_start(text, table.span[0])
     index = 0 if table is top else _line_start(text, table.span[0])
     while index < len(text):

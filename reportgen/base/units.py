@@ -383,7 +383,9 @@ def nice_up(value: float, series: Sequence[float] = SERIES) -> float:
 
 
 def nice_down(value: float, series: Sequence[float] = SERIES) -> float:
-    """Return the largest s·10ⁿ, s of the series, not above `value`, in its unit; raises `ValueError` as `nice_up` does."""
+    """Return the largest s·10ⁿ, s of the series, not above `value`, in its unit; raises `ValueError` as
+    `nice_up` does.
+    """
     if not (value > 0 and math.isfinite(value)):
         raise ValueError("a scale is a positive number")
     decade = math.floor(math.log10(value))

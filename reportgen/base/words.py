@@ -365,7 +365,9 @@ def close_or_known(key: str, known: Sequence[str]) -> dict[str, str]:
 
 
 def unknown(key: str, text: str, known: Sequence[str], language: Language | None) -> str:
-    """Return a text of the command line about an unknown name, with the known one it was probably meant to be, or all."""
+    """Return a text of the command line about an unknown name, with the known one it was probably meant to be,
+    or all.
+    """
     near = close_or_known(text, known)
     hint = messages(language or spoken())["hints"]["unknown-key" if "close" in near else "unknown-key-otherwise"]
     return f"{word(key, language, text=_shown(text))}: {hint.format(**near)}"

@@ -65,7 +65,9 @@ WHOLE_TURN = Way()
 def findings(
     linkage: Linkage, members: Mapping[tuple[int, int], Member], driven: Way = WHOLE_TURN
 ) -> Iterator[Finding]:
-    """Report the first group that the driver cannot carry through all its way: with its links and the driver's places."""
+    """Report the first group that the driver cannot carry through all its way: with its links and the driver's
+    places.
+    """
     places = np.linspace(driven.start, driven.end, STEPS + 1)
     motion = solve_motion(linkage, places, 1.0)
     size = _size(motion)
@@ -157,7 +159,9 @@ def room(linkage: Linkage, angles: Floats) -> tuple[float, float]:
 
 
 def too_large(linkage: Linkage, angles: Floats, drawn: float, where: Where) -> Iterator[Finding]:
-    """Report a mechanism that no sheet A0 holds at angles [N] of its crank, which is drawn `drawn` long (m on paper)."""
+    """Report a mechanism that no sheet A0 holds at angles [N] of its crank, which is drawn `drawn` long (m on
+    paper).
+    """
     assert isinstance(linkage.driver, Crank)
     scale = drawn / linkage.driver.length
     width, height = (size * scale for size in room(linkage, angles))
@@ -172,7 +176,9 @@ def too_large(linkage: Linkage, angles: Floats, drawn: float, where: Where) -> I
 
 
 def to_and_fro(linkage: Linkage, slider: int, motion_at: MotionAt, where: Where) -> Iterator[Finding]:
-    """Yield faults unless a slider that has dead centres goes once to and fro in a turn, so that it turns back twice."""
+    """Yield faults unless a slider that has dead centres goes once to and fro in a turn, so that it turns back
+    twice.
+    """
     count = len(turning_points(linkage, slider, motion_at))
     if count != 2:
         yield Finding("not-to-and-fro", where, {"text": str(slider), "count": str(count)})

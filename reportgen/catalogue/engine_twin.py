@@ -37,7 +37,9 @@ CRANK_DRAWN = 0.05
 
 
 class Parameters(Driven, masses=(2, 3, 4, 5), required=(2, 3), moments=(2, 4)):
-    """The stroke, the ratio λ = R/L, the cylinder, the speed, and masses; link 4 is like 2, and 5 like 3, unless given."""
+    """The stroke, the ratio λ = R/L, the cylinder, the speed, and masses; link 4 is like 2, and 5 like 3,
+    unless given.
+    """
 
     H: Length
     lambda_: RodRatio = Field(alias="lambda")

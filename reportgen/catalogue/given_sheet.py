@@ -127,7 +127,9 @@ class GivenSheet(Sheet):
             self.define(G, self.define(m, self[ids.mass(like)]) * self["g"])
 
     def moment(self, link: int, default: Operand | None) -> None:
-        """Enter J about the mass centre: as given, else its `default`, such as m l²/12; nothing if there is no default."""
+        """Enter J about the mass centre: as given, else its `default`, such as m l²/12; nothing if there is no
+        default.
+        """
         given = self.of_link("J", link)
         if given is not None:
             self.datum(ids.inertia(link), given)
@@ -227,7 +229,9 @@ def natural_lines(q: Sheet, crank: str) -> Callable[..., Ref]:
 
 
 def driver_acceleration(q: Sheet, turn: int) -> Expression:
-    """Return ε₁ as a term of formulas, positive in the sense of ω₁ (`turn`); `NOTHING` for a crank that turns evenly."""
+    """Return ε₁ as a term of formulas, positive in the sense of ω₁ (`turn`); `NOTHING` for a crank that turns
+    evenly.
+    """
     ε1 = q.find(ids.angular_acceleration(DRIVER))
     return NOTHING if ε1 is None else signed(turn * q.si(ids.signed("eps", DRIVER)), ε1)
 

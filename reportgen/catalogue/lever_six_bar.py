@@ -154,7 +154,9 @@ def _linkage(given: Parameters, q: GivenSheet) -> Linkage:
 
 
 def _has_swing(q: GivenSheet) -> bool:
-    """Return True if the links found swing the rocker as requested: both ends on one side of BD, seen from B under θ."""
+    """Return True if the links found swing the rocker as requested: both ends on one side of BD, seen from B
+    under θ.
+    """
     ψ1, ψ2, BD, CD = (q.si(id) for id in ("psi.1", "psi.2", "l.BD", "l.DC"))
     if not (0 < ψ2 < ψ1 < np.pi and q.si("l.BA") > 0):
         return False

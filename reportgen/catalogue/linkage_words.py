@@ -129,7 +129,9 @@ def _quantities(given: file.Parameters, rows: tuple[GroupRow, ...]) -> Iterator[
 
 
 def _axes(given: file.Parameters) -> dict[int, tuple[str, str]]:
-    """Return the origin of each link's axes, and the joint they point to or what they are parallel to: "guide", "slot"."""
+    """Return the origin of each link's axes, and the joint they point to or what they are parallel to:
+    "guide", "slot".
+    """
     driver = given.driver
     axes = {1: (driver.centre, driver.pin) if isinstance(driver, file.CrankDriver) else (driver.pin, "guide")}
     for group in given.groups:

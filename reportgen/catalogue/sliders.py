@@ -154,7 +154,9 @@ def second_cylinder(q: Sheet, turn: int, joint: str) -> None:
 
 
 def _joint_of_second_rod(q: Sheet, turn: int, joint: str) -> None:
-    """Enter ξ and η of the joint of the second rod: crank pin B with its rates, or D, whose rates are already entered."""
+    """Enter ξ and η of the joint of the second rod: crank pin B with its rates, or D, whose rates are already
+    entered.
+    """
     R, ω1, φ = q["R"], q["omega.1"], q["phi.3"]
     line = partial(q.define, scale=1.0)
     ξ: Expression = R * sin(φ)

@@ -117,7 +117,9 @@ class Ram:
         return -self.crank.half_swing
 
     def end(self, side: int) -> complex:
-        """Return the place of E (m) at the beginning (+1) or the end (−1) of the working stroke, from A on the drawing."""
+        """Return the place of E (m) at the beginning (+1) or the end (−1) of the working stroke, from A on the
+        drawing.
+        """
         theta = self.crank.half_swing
         rise = (self.height - self.lever * math.cos(theta)) / self.link
         along = side * self.lever * math.sin(theta) - self.link * math.sqrt(1 - rise**2)

@@ -288,7 +288,9 @@ def _moment(g: Group, digits: str, pin: str, loads: tuple[LoadOn, ...]) -> Expre
 
 
 def _offset(g: Group, digits: str) -> None:
-    """Enter the distance x = M/R from the pin to the line of a slide's reaction; nan where R = 0 leaves M to a couple."""
+    """Enter the distance x = M/R from the pin to the line of a slide's reaction; nan where R = 0 leaves M to a
+    couple.
+    """
     q, statics, size, moment = g.q, g.statics, g.q[ids.reaction(digits)], g.q.find(ids.reaction_couple(digits))
     values = q.value(size)
     written: Expression | None = None
@@ -306,7 +308,9 @@ DYADS: Mapping[DyadKind, Callable[[Group], Polygon]] = {"RRR": _rrr, "RRP": _rrp
 
 
 def driver(statics: Statics) -> Polygon:
-    """Return the force plan of the driver under the groups' reactions and its own loads: R01, and the balance (`M.eq`)."""
+    """Return the force plan of the driver under the groups' reactions and its own loads: R01, and the balance
+    (`M.eq`).
+    """
     machine = statics.scheme.linkage.driver
     own = tuple(sorted(statics.on(DRIVER), key=lambda load: load.origin is not Origin.reaction))
     if isinstance(machine, Crank):

@@ -387,7 +387,9 @@ def images(k: Kinematics, what: What, link: int, turn: Side | None) -> None:
 
 
 def _by_similarity(k: Kinematics, what: What, point: LinkPoint, turn: Side) -> None:
-    """Enter a point by the similarity theorem: the plan's figure is similar to the link's and turned in the same way."""
+    """Enter a point by the similarity theorem: the plan's figure is similar to the link's and turned in the
+    same way.
+    """
     q, base, tip = k.q, turn.base, turn.point
     first, last, new = "p" if turn.still else image(base), image(tip), image(point.name)
     along = k.image(what, tip) - k.image(what, base)

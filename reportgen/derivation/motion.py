@@ -384,7 +384,9 @@ def slide(
 
 
 def chosen_scale(trial: Kinematics, what: What, worked: Sequence[int]) -> float | None:
-    """Return the scale of all plans (SI), from a trial; None if the crank's gives the worked ones their size already."""
+    """Return the scale of all plans (SI), from a trial; None if the crank's gives the worked ones their size
+    already.
+    """
     q, μ = trial.q, trial.q.si(ids.scale(what))
     sizes = extents([np.zeros(1), *map(q.value, trial.vertices[what])], q.positions) * μ
     shown = sizes[:, [k - 1 for k in worked]] if worked else sizes

@@ -36,7 +36,9 @@ def extents(points: Iterable[np.ndarray], positions: int) -> np.ndarray:
 
 
 def fitting(sizes: np.ndarray, box: tuple[float, float]) -> float:
-    """Return the smallest round scale with which all plans of the `sizes` [2, K] (SI) fit the box (m); 0 without any."""
+    """Return the smallest round scale with which all plans of the `sizes` [2, K] (SI) fit the box (m); 0
+    without any.
+    """
     needed = float(np.max(sizes / np.array(box)[:, None], initial=0.0))
     return nice_up(needed / PER_MM) * PER_MM if needed > 0 else 0.0
 

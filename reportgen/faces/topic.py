@@ -30,7 +30,9 @@ class Face(Part):
 
 
 def faults(parameters: TopicParameters, machine: Machine) -> Iterator[Finding]:
-    """Yield faults unless a face belongs to a slider on a guide that does not drive, and its ends are in their order."""
+    """Yield faults unless a face belongs to a slider on a guide that does not drive, and its ends are in their
+    order.
+    """
     linkage, faces = machine.linkage, parameters.section("faces", dict) or {}
     sliders = carriers(linkage)
     for link, face in faces.items():

@@ -106,7 +106,9 @@ def amid(value: Value, least: Value, most: Value) -> Value:
 
 
 def beyond(value: Value, place: Value, least: Value, most: Value) -> Value:
-    """Return the value where the place, which a couple lacks, does not lie between `least` and `most`; nan elsewhere."""
+    """Return the value where the place, which a couple lacks, does not lie between `least` and `most`; nan
+    elsewhere.
+    """
     return np.where((place >= least) & (place <= most), np.nan, value)
 
 
@@ -161,7 +163,9 @@ def stepped(speed: Value, torque: Value, inertia: Value, steps: Value) -> Value:
 
 
 def heading(vector: Value) -> Value:
-    """Return a vector's direction from +x, in [0, 2π), one just below a full turn counted as 0; 0 for a negligible one."""
+    """Return a vector's direction from +x, in [0, 2π), one just below a full turn counted as 0; 0 for a
+    negligible one.
+    """
     return np.mod(np.where(nothing(vector), 0.0, np.angle(vector)) + BEHIND, 2 * np.pi) - BEHIND
 
 

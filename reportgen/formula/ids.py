@@ -89,7 +89,9 @@ class Name:
         return Name(_PLACE.sub(lambda place: words.get(place[1], place[0]), self.text))
 
     def of(self, words: Mapping[str, str]) -> str:
-        """Return the id with these words in its places, as `read` gives them: a word that is "" leaves its place out."""
+        """Return the id with these words in its places, as `read` gives them: a word that is "" leaves its
+        place out.
+        """
         return self(*(words[place] for place in _PLACE.findall(self.text) if words[place]))
 
     @cached_property

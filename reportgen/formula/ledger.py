@@ -156,7 +156,9 @@ class Ledger:
         return Number(abs(number.value), number.decimals, number.unit) if size else number
 
     def result(self, id: str, position: int | None = None) -> Number:
-        """Return the number of a quantity as a result: with the decimals of its kind, even if lines continue with more."""
+        """Return the number of a quantity as a result: with the decimals of its kind, even if lines continue
+        with more.
+        """
         number, usual = self.number(id, position), self.families[id].how.decimals
         carried = usual is not None and number.decimals is not None and number.decimals > usual
         return Number(number.shown, usual, number.unit) if carried else number
@@ -378,7 +380,9 @@ def follow(
 
 
 def standing_on(ledger: Ledger, id: str) -> tuple[str, ...]:
-    """Return all quantities that one depends on, nearest first: its `ancestors` and the sizes read from their vectors."""
+    """Return all quantities that one depends on, nearest first: its `ancestors` and the sizes read from their
+    vectors.
+    """
     read: dict[str, list[str]] = {}
     order = {name: index for index, name in enumerate(ledger.families)}
     for size, vector in ledger.vectors.items():

@@ -131,7 +131,9 @@ def _is_typed(family: Family) -> bool:
 
 
 def _named_again(family: Family) -> str:
-    """Return the id of the quantity that a line only names again or turns round (l = R, R₂₁ = −R₁₂); "" for any other."""
+    """Return the id of the quantity that a line only names again or turns round (l = R, R₂₁ = −R₁₂); "" for
+    any other.
+    """
     match family.line:
         case Ref(id) | Negative(Ref(id)) | Call("size", (Ref(id),)):
             return id

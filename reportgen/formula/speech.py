@@ -156,7 +156,9 @@ class Speech(Setter[str]):
         return said
 
     def _symbol(self, node: Symbol, detail: int) -> str:
-        """Return the letters, the index, primes and marks above in words; an accent over the whole symbol comes first."""
+        """Return the letters, the index, primes and marks above in words; an accent over the whole symbol
+        comes first.
+        """
         words = self.words
         letters, above = parted(node)
         said = self.letters(letters, detail)
@@ -245,7 +247,9 @@ def _filled(pattern: str, **parts: str) -> str:
 
 
 def _is_single(part: Part, bare: bool = False) -> bool:
-    """Return True if a part is one symbol, or one number without sign and unit; a `bare` symbol has nothing above it."""
+    """Return True if a part is one symbol, or one number without sign and unit; a `bare` symbol has nothing
+    above it.
+    """
     match part:
         case MathRow((inner,)) | Fence("", inner):
             return _is_single(inner, bare)

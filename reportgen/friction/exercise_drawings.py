@@ -28,7 +28,9 @@ ARC = 13.0
 def force(
     at: complex, angle: float, *name: Content, reaction: bool = False, pushes: bool = False, length: float = FORCE
 ) -> Canvas:
-    """Return a force along an angle (rad) from a place (mm), or up to it where it `pushes`; its name at the free end."""
+    """Return a force along an angle (rad) from a place (mm), or up to it where it `pushes`; its name at the
+    free end.
+    """
     along = length * polar(angle)
     start, tip = (at - along, at) if pushes else (at, at + along)
     arrow = Arrow(start, tip, style.REACTION if reaction else style.ACTIVE, style.HEAD)
@@ -167,7 +169,9 @@ def wedge_scheme(case: DesignCase) -> Scene:
 
 
 def wedge_plans(case: DesignCase, size: FigureSize = IN_REPORT) -> tuple[Scene, ...]:
-    """Return the triangles of the load (Q, R₃, R₁) and of the wedge (R₁, R₂, P) on their common side: driven, let back."""
+    """Return the triangles of the load (Q, R₃, R₁) and of the wedge (R₁, R₂, P) on their common side: driven,
+    let back.
+    """
     ledger = case.printed
     μ, per = scale_of(case, "wedge", size)
     Q, α = (ledger[f"friction.wedge.{name}"].at(1) for name in ("Q", "alpha"))

@@ -16,7 +16,9 @@ KINDS: Mapping[str, QuantityKind] = {
 
 
 def _rows(task: str, *rows: tuple[str, str, str, str, Chapter | None]) -> tuple[VocabularyRow, ...]:
-    """Return the vocabulary rows of a task from the end of each id, letter with index, superscript, kind and chapter."""
+    """Return the vocabulary rows of a task from the end of each id, letter with index, superscript, kind and
+    chapter.
+    """
     made = []
     for end, symbol, above, kind, chapter in rows:
         letter, _, below = symbol.partition("_")

@@ -105,7 +105,9 @@ def wedge_sheet(given: Wedge) -> Sheet:
 
 
 def screw_sheet(given: Screw) -> Sheet:
-    """Return the sheet of a screw: M = Q d₂/2 tan(γ + φ′) + M_c, the profile in φ′ = arctan(f/cos β), η = Q l/(2π M)."""
+    """Return the sheet of a screw: M = Q d₂/2 tan(γ + φ′) + M_c, the profile in φ′ = arctan(f/cos β), η = Q
+    l/(2π M).
+    """
     q = Sheet()
     with q.within(Chapter.data):
         Q, d = q.give("friction.screw.Q", given.Q.si), q.give("friction.screw.d", given.d.si)

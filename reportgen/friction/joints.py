@@ -205,7 +205,9 @@ def _exactly(
     equilibrium: Equilibrium,
     rubbing: Callable[[Sequence[Floats]], tuple[Load, ...]],
 ) -> Floats:
-    """Return the forces (N) that press the joints together [joints, N] by the exact equations, nan without a solution."""
+    """Return the forces (N) that press the joints together [joints, N] by the exact equations, nan without a
+    solution.
+    """
 
     def reactions(forces: Forces) -> list[Complexes]:
         return [each for joint in senses for each in reactions_that_press(friction, joint, motion, forces)]

@@ -116,7 +116,9 @@ def _leaning(force: Leaning, size: float, φ: Symbol) -> Canvas:
 
 
 def at_both_ends(named: Iterable[tuple[FaceForce, Symbol]], guide: complex, φ: Symbol, title: str) -> Scene:
-    """Return the two forces on a slider that tilts, at the ends of its face, which is drawn as long as they have room."""
+    """Return the two forces on a slider that tilts, at the ends of its face, which is drawn as long as they
+    have room.
+    """
     shown = list(named)
     places = np.array([force.at for force, _ in shown])
     middle, half = places.mean(), abs(places[1] - places[0]) / 2

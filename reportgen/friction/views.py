@@ -190,7 +190,9 @@ def rounds(report: Report, key: str, caption: str, head: Sequence[str], k: int) 
 
 
 def dead_rows(report: Report) -> Iterator[Sequence[object]]:
-    """Yield each slider's dead centres, by the angle of the crank from position 1, and how far on either side it locks."""
+    """Yield each slider's dead centres, by the angle of the crank from position 1, and how far on either side
+    it locks.
+    """
     machine = report.machine
     for course in machine.sliders:
         for number, angle in enumerate(course.dead_centres[:2], 1):

@@ -214,7 +214,9 @@ def summarise(machine: Machine) -> Summary:
 
 
 def _extreme(machine: Machine, angles: np.ndarray, torque: np.ndarray, sense: int) -> tuple[float, float]:
-    """Return the greatest (`sense` +1) or least (−1) torque and its cycle angle: the best of a grid, looked at closer."""
+    """Return the greatest (`sense` +1) or least (−1) torque and its cycle angle: the best of a grid, looked at
+    closer.
+    """
     for _ in range(2):
         best, step = int(np.nanargmax(sense * torque)), float(angles[1] - angles[0])
         angles = np.linspace(angles[best] - step, angles[best] + step, 81)

@@ -393,7 +393,9 @@ def by_stroke(fractions: tuple[float, ...], inward: tuple[float, ...], outward: 
 
 
 def by_angle(angles: tuple[float, ...], values: tuple[float, ...]) -> IndicatorTable:
-    """Return forces (N) over a turn from the top, 0…2π; the table's last value closes the turn or jumps to the first."""
+    """Return forces (N) over a turn from the top, 0…2π; the table's last value closes the turn or jumps to the
+    first.
+    """
     second = tuple(angle + FULL_TURN for angle in angles)
     if values[0] == values[-1]:
         return AngleIndicator((*angles, *second[1:]), (*values, *values[1:]))

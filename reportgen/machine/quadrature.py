@@ -1,4 +1,6 @@
-"""Integrals of piecewise smooth functions by Gauss–Legendre quadrature, and means with adaptive halving of the parts."""
+"""Integrals of piecewise smooth functions by Gauss–Legendre quadrature, and means with adaptive halving of the
+parts.
+"""
 
 from __future__ import annotations
 

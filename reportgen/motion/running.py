@@ -336,7 +336,9 @@ def steady(body: ReducedMachine, drive: Drive, speed: float, own: Sequence[float
 
 
 def _light(path: ReducedWay) -> NoMotionError | None:
-    """Return an error if a machine has hardly any inertia at some angle, where T does not determine a speed; else None."""
+    """Return an error if a machine has hardly any inertia at some angle, where T does not determine a speed;
+    else None.
+    """
     inside = path.inertia.ravel()
     if inside.min() > HARDLY * inside.max():
         return None

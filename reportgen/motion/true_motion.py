@@ -60,7 +60,9 @@ class TrueMotion:
         return self.asked.inertia + (self.wheel if state else 0.0)
 
     def demand(self, machine: Machine) -> DriveDemand:
-        """Return the requirements for the drive in the steady motion, with the flywheel if start and stop include it."""
+        """Return the requirements for the drive in the steady motion, with the flywheel if start and stop
+        include it.
+        """
         return DriveDemand.of(self.states[self.shown], machine.turns * FULL_TURN)
 
     def motors(self, machine: Machine) -> list[MotorChecks]:
@@ -150,7 +152,9 @@ def at_positions(machine: Machine, motion: SteadyMotion) -> np.ndarray:
 
 
 def at_true_speeds(analysis: Analysis, steady: SteadyMotion) -> Analysis:
-    """Return the same positions with the angular velocity and acceleration that the crank has there in steady motion."""
+    """Return the same positions with the angular velocity and acceleration that the crank has there in steady
+    motion.
+    """
     machine, at = analysis.machine, at_positions(analysis.machine, steady)
     rate, acceleration = machine.turn * steady.run.speed[at], machine.turn * steady.run.acceleration[at]
     motion = solve_motion(machine.linkage, machine.angles(analysis.cycle_angle), rate, acceleration)

@@ -34,7 +34,9 @@ MOST_CYCLES = 12
 
 
 def drive_form(report: Report) -> str:
-    """Return the form of the drive: "linear", a "load", "kloss", "table", a "constant" torque, or one that is "found"."""
+    """Return the form of the drive: "linear", a "load", "kloss", "table", a "constant" torque, or one that is
+    "found".
+    """
     motion = motion_in(report.analysis)
     if not isinstance(motion.drive, ConstantDrive):
         if "run.k" in report.ledger:
@@ -89,7 +91,9 @@ def verdict(report: Report) -> str:
 
 
 def _excess(report: Report) -> float:
-    """Return the share by which the true unevenness exceeds the permitted one, both as printed; negative if it is less."""
+    """Return the share by which the true unevenness exceeds the permitted one, both as printed; negative if it
+    is less.
+    """
     motion, permitted = motion_in(report.analysis), _permitted(report)
     assert permitted is not None, "a verdict names what is permitted"
     printed = report.ledger.number(run_ids.in_state("delta", list(motion.states)[-1]))
@@ -126,7 +130,9 @@ def stops(report: Report) -> bool:
 
 
 def drive_takes(report: Report) -> bool:
-    """Return True if the machine drives the machine coupled to its shaft, as an engine does, rather than being driven."""
+    """Return True if the machine drives the machine coupled to its shaft, as an engine does, rather than being
+    driven.
+    """
     return motion_in(report.analysis).alone.work < 0
 
 
@@ -254,14 +260,18 @@ def reduced_here(report: Report) -> bool:
 
 
 def inertia_form(report: Report) -> str:
-    """Return the form of the reduced moment of inertia: it "varies", is "even", or there is only the motor's, "none"."""
+    """Return the form of the reduced moment of inertia: it "varies", is "even", or there is only the motor's,
+    "none".
+    """
     if not report.has_reduced_inertia:
         return "none"
     return "varies" if inertia_slopes(report) else "even"
 
 
 def residuals(report: Report) -> dict[str, float]:
-    """Return the deviations of the drive from its characteristic, and of a steady cycle from its beginning, as shares."""
+    """Return the deviations of the drive from its characteristic, and of a steady cycle from its beginning, as
+    shares.
+    """
     motion, families = motion_in(report.analysis), report.case.ledger.families
     closing = [abs(steady.run.energy[-1] / steady.run.energy[0] - 1) for steady in motion.states.values()]
     readings = [

@@ -1,4 +1,6 @@
-"""The springs section of a file: springs between a link and the frame, between two links, or about a pin of the frame."""
+"""The springs section of a file: springs between a link and the frame, between two links, or about a pin of
+the frame.
+"""
 
 from __future__ import annotations
 
@@ -215,7 +217,9 @@ def _swinging(linkage: Linkage) -> dict[str, tuple[int, str]]:
 
 
 def _other_point(linkage: Linkage, spring: Spring) -> str | None:
-    """Return the point that gives the angle of the link about the spring's pin; None if the link does not turn there."""
+    """Return the point that gives the angle of the link about the spring's pin; None if the link does not turn
+    there.
+    """
     link, point = _swinging(linkage).get(spring.about or "", (0, ""))
     return point if link == spring.link else None
 

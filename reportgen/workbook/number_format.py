@@ -38,7 +38,9 @@ def displayed(value: float, number_format: str) -> str:
 
 
 def _first_section(number_format: str) -> str:
-    """Return the part of a format for numbers that are not negative, up to the first semicolon outside quotation marks."""
+    """Return the part of a format for numbers that are not negative, up to the first semicolon outside
+    quotation marks.
+    """
     match = re.match(r'(?:"[^"]*"|\\.|[^;"])*', number_format)
     return match[0] if match else ""
 

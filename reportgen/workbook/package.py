@@ -267,7 +267,9 @@ def measure(package: Package, name: str) -> tuple[int, int]:
     shared = False
 
     def start(tag: str, attributes: Attributes) -> None:
-        """Count an element; `depth` is 1 right inside a row or a string, 0 outside of all; `outside` is never released."""
+        """Count an element; `depth` is 1 right inside a row or a string, 0 outside of all; `outside` is never
+        released.
+        """
         nonlocal depth, held, outside, groups, cells, formulas, dependents, shared, length
         if depth:
             depth += 1

@@ -244,7 +244,9 @@ def _value(value: object, type: str, mark: CellMark) -> tuple[str | float | None
 
 
 def _date(value: object) -> str:
-    """Return a day as 2011-03-24, a moment as 2011-03-24T08:30:00, a time of day as 08:30:00, hours passed as 36:00:00."""
+    """Return a day as 2011-03-24, a moment as 2011-03-24T08:30:00, a time of day as 08:30:00, hours passed as
+    36:00:00.
+    """
     match value:
         case datetime.datetime() if value.time() == datetime.time():
             return value.date().isoformat()
