@@ -76,7 +76,7 @@ def _place(weight: Counterweight, motion: Motion) -> Complexes:
 
 
 def with_room(report: Report, motion: Motion, scale: float, box: tuple[complex, complex]) -> tuple[complex, complex]:
-    """Return the corners of a drawing (mm) that holds the counterweights, too."""
+    """Return the corners of a drawing (mm) that also includes the counterweights."""
     turn = balanced_in(report.analysis)
     places = [_place(weight, motion) * scale for weight in turn.weights]
     if not places:

@@ -146,7 +146,7 @@ def bearing(at: complex) -> Iterator[Item]:
 
 
 def mass_on_arm(axis: complex, at: complex, mass: PlacedMass) -> tuple[Item, ...]:
-    """Return a mass on the arm that holds it."""
+    """Draw a mass at the end of its arm."""
     disc = Circle(at, DISC, mass.pen, style.PAPER if mass.corrects else style.TINT)
     return Line(axis, at, CORRECTION if mass.corrects else ARM), disc
 

@@ -150,7 +150,7 @@ class TemplateError(ReportgenError):
 
 
 class DocumentError(ReportgenError):
-    """A finished tree does not hold together; `faults` are all that is wrong with it."""
+    """A finished tree is inconsistent; `faults` lists all problems."""
 
     def __init__(self, faults: list[str]) -> None:
         self.faults = tuple(faults)

@@ -150,9 +150,10 @@ def _as_of(path: Path, changed: int, size: int) -> Mapping[str, Any]:
 
 @lru_cache(maxsize=FILES)
 def _as_written(section: Passage, place: Path, of_others: bool) -> Mapping[str, Any]:
-    """Return the words that a section holds; those of others are read with care.
+    """Return the words of a section; text of others, such as schools, is parsed with the careful reader.
 
-    Raises `TemplateError` for a gap that is filled with more than a value, for a text too long, for a strange sign.
+    Raises `TemplateError` for a placeholder with more than a plain value, for a text that is too long, and for a
+    strange sign.
     """
     source = (read_text if of_others else read_own)(section.text, str(section.file))
     for scalar in scalars(source.top):

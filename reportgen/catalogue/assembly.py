@@ -159,7 +159,7 @@ def room(linkage: Linkage, angles: Floats) -> tuple[float, float]:
 
 
 def too_large(linkage: Linkage, angles: Floats, drawn: float, where: Where) -> Iterator[Finding]:
-    """Report a mechanism that no sheet A0 holds at angles [N] of its crank, which is drawn `drawn` long (m on
+    """Report a mechanism too large for a sheet A0 at angles [N] of its crank, drawn with the length `drawn` (m on
     paper).
     """
     assert isinstance(linkage.driver, Crank)

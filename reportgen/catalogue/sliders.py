@@ -118,8 +118,8 @@ def second_cylinder(q: Sheet, turn: int, joint: str) -> None:
     """Enter the closed formulas of piston E, whose rod 4 hangs on D on the main rod, at l_BD from the crank pin, or
     on B.
 
-    sin γ = h/l₄;  v_E = v⊥ tan γ − v∥;  a_E = a⊥ tan γ + v⊥²/(l₄ cos³γ) − a∥, towards the crank.  Uses `delta` and
-    what `centred_slider` enters; enters `beta.4`, `f.v.E`, `f.omega.4`, `f.a.E`, `f.eps.4`.
+    sin γ = h/l₄;  v_E = v⊥ tan γ − v∥;  a_E = a⊥ tan γ + v⊥²/(l₄ cos³γ) − a∥, towards the crank. Uses `delta` and
+    the entries of `centred_slider`; enters `beta.4`, `f.v.E`, `f.omega.4`, `f.a.E`, `f.eps.4`.
     """
     δ, l4 = q["delta"], q[ids.length(joint, "E")]
     line = partial(q.define, scale=1.0)

@@ -16,7 +16,7 @@ UNITS = {
     "N m/rad": "N·m/rad",
     "N m s": "N·m·s",
 }
-"""Units as they are printed, by what is typed."""
+"""Units as printed, by their typed spelling."""
 
 
 def as_typed(given: Given) -> Number:

@@ -114,7 +114,7 @@ class Group:
 
 
 def group(statics: Statics, dyad: Dyad) -> Polygon:
-    """Enter a group's reactions; `statics.loads` holds those of later groups on its links."""
+    """Enter a group's reactions; `statics.loads` contains those of later groups on its links."""
     i, j = dyad.links
     carriers = [end.link if isinstance(end, Guide) else statics.scheme.owner[end] for end in (dyad.start, dyad.end)]
     parts = Group(

@@ -406,7 +406,7 @@ def chosen_scale(trial: Kinematics, what: What, worked: Sequence[int]) -> float 
 NEAREST = 0.002
 """The shortest distance of a centre from the base (m on paper) that is measured: a shorter one has no exact length."""
 FARTHEST = 0.4
-"""No sheet holds a longer distance (m on paper)."""
+"""Longest distance (m on paper) that a sheet can show."""
 
 
 def links_in_plane_motion(scheme: Scheme) -> tuple[Side, ...]:

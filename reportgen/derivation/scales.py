@@ -1,6 +1,6 @@
 """Choose round scales of plans: worked plans fill their space, and the largest of all positions still fits a sheet.
 
-Sizes are widths and heights of plans in the unit of what they show, boxes are metres of paper.
+Sizes are widths and heights of plans in the unit of the represented quantity; boxes are in metres of paper.
 """
 
 from __future__ import annotations
@@ -67,10 +67,10 @@ def common_scale(sizes: np.ndarray, worked: Sequence[int], least: float) -> floa
 
 
 def own_scales(sizes: np.ndarray, least: float, read_at: Iterable[np.ndarray] = ()) -> np.ndarray:
-    """Return a scale for the plan of each position [N]: it is at least so long, or fits a page of text just so.
+    """Return a scale for the plan of each position [N]: the plan is at least so long, or just fits a page of text.
 
-    The largest of them therefore serves all plans together.  A position without forces takes that one.  Forces
-    `read_at` other scales are laid off at none that is finer: what a ruler left of them would be drawn larger.
+    So the largest of them serves all plans together. A position without forces takes that one. Forces `read_at`
+    other scales are not laid off at a finer one, which would enlarge the errors of reading.
     """
     known = np.isfinite(sizes).all(axis=0) & (sizes.max(axis=0) > UNLOADED * np.nanmax(sizes, initial=0.0))
     scales = [

@@ -32,8 +32,9 @@ class Anchor:
 
 @dataclass(frozen=True, slots=True)
 class Coil:
-    """A spring by its number, from one end to the other; one that is `wound` lies about its first end,
-    a pin of the frame, and holds the line to the second."""
+    """A spring by its number, from one end to the other; a `wound` one is coiled about its first end, a pin of the
+    frame, and acts on the line to its second end.
+    """
 
     number: int
     ends: tuple[Anchor, Anchor]

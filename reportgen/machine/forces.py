@@ -273,7 +273,7 @@ class _Group:
 
 
 def _unknowns(joint: Joint, motion: Motion, length: float) -> tuple[_Wrench, _Wrench]:
-    """Return the two unit wrenches that a joint can hold, on its second link."""
+    """Return the two unit wrenches that a joint can transmit, on its second link."""
     at = motion.points[joint.point].p
     still = np.zeros_like(at)
     if joint.kind == "R":

@@ -61,6 +61,6 @@ PHYSICS = HookModule("physics", PhysicsHooks)
 LOST_TORQUE: SharedResult[CycleTorque] = SharedResult("torque lost in the joints")
 """The torque that friction takes from the driver over the cycle."""
 FACES: SharedResult[Mapping[int, Faces]] = SharedResult("faces of sliders")
-"""The faces along which guides hold wide sliders, by their links."""
+"""Faces along which wide sliders touch their guides, by their links."""
 REGULATED_CYCLE: SharedResult[RegulatedCycle] = SharedResult("regulated cycle")
 """The cycle whose speed a further moment of inertia keeps within bounds."""

@@ -261,7 +261,7 @@ _PLACE = frozenset({"r", "spans"})
 def measure(package: Package, name: str) -> tuple[int, int]:
     """Return the numbers of cells (elements right inside rows) and of formulas in a part.
 
-    Raises `RefusedError` if it is damaged or has more in it than can be held.
+    Raises `RefusedError` if it is damaged or needs more memory than the limit.
     """
     depth = held = outside = groups = cells = formulas = dependents = length = longest = 0
     shared = False
@@ -361,7 +361,7 @@ class SheetCell:
 
 @dataclass(frozen=True, slots=True)
 class Page:
-    """A sheet, or a whole CSV file: rows from the first on, each as long as its last cell that holds something."""
+    """A sheet, or a whole CSV file: rows from the first on, each up to its last cell with content."""
 
     name: str
     rows: tuple[tuple[SheetCell, ...], ...]

@@ -316,7 +316,7 @@ def _read_csv(data: bytes, file: str, name: str) -> Page:
 
 
 def _csv_rows(text: str, file: str) -> Iterator[tuple[SheetCell, ...]]:
-    """Yield the cells of each line; a quoted cell may hold separators and line ends."""
+    """Yield the cells of each line; a quoted cell may contain separators and line ends."""
     stated = _STATED.match(text)
     separator = stated[1] if stated else _separator(text)
     plain = rf"([^{re.escape(separator)}\r\n]*+)"
