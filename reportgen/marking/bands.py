@@ -1,12 +1,11 @@
-"""Tolerance bands: how far off a value may be that was drawn by hand, or worked out with three figures.
+"""Tolerance bands: how far a value may be off if it was measured on a drawing or computed with three figures.
 
-Bands are errors of drawing and of rounding, carried through the ledger.  Each error is a small change of one
-quantity; the ledger evaluates all of them at once, [errors, positions], and gives how far every later
-quantity moves.  An error that may lie anywhere within ±e has the standard deviation e/√3; independent ones
-add by their squares, and the band reaches to three of their sum's deviations.  A quantity's own error,
-which nothing evens out, is added whole:
+Bands are errors of drawing and of rounding, propagated through the ledger. Each error is a small change of one
+quantity. The ledger evaluates all errors at once, [errors, positions], and returns how far each later quantity moves.
+An error spread evenly over ±e has the standard deviation e/√3. Independent errors add by their squares, and the band
+covers three standard deviations of their sum. A quantity's own error is added in full, because nothing averages it out:
 
-    band = e_own + 3 √(Σᵢ (∂f/∂xᵢ eᵢ/√3)²)
+band = e_own + 3 √(Σᵢ (∂f/∂xᵢ eᵢ/√3)²)
 """
 
 from __future__ import annotations
@@ -22,41 +21,41 @@ from reportgen.formula.sheet import DUST, ZERO, Family
 from reportgen.marking.topic_marks import MARKS
 
 PAPER_ERROR = 0.5e-3
-"""How far off a drawn point may lie (m on paper), at each end of a measured length."""
+"""Largest error (m on paper) of a drawn point, at each end of a measured length."""
 
 DIGITS = 3
-"""Significant figures that a value is computed with."""
+"""Number of significant figures that a value is computed with."""
 
 WHOLE_DEGREE = np.pi / 180
 
 REACH = 3 / np.sqrt(3)
-"""Three standard deviations of errors that are spread evenly over ±1."""
+"""Three standard deviations of an error that is spread evenly over ±1."""
 
 ON_DRAWING = frozenset({"abs", "re", "im"})
-"""What a length on the drawing of the mechanism is of: of a vector its size or a component."""
+"""Functions that define a length on the drawing of the mechanism: the size or a component of a vector."""
 
 DIAGRAM = 0.1
-"""How high an indicator diagram is plotted (m on paper)."""
+"""Height (m on paper) at which an indicator diagram is plotted."""
 
 SMALL = 0.05
-"""The share of a pressure that reading it from such a diagram may be off by."""
+"""Largest error of a pressure read from such a diagram, as a share of the pressure."""
 
 SHARE = 1e-4
-"""A change of this share of an error stands for its slope."""
+"""Share of an error that is used as the step when its slope is computed."""
 
 
 def drawn_bands(
     ledger: Ledger, error: float = PAPER_ERROR, scales: Mapping[str, np.ndarray] | None = None
 ) -> dict[str, np.ndarray]:
-    """Half widths (SI) [N] when every length on paper is off by `error` (m) at each of its ends.
+    """Return the half widths (SI) [N] of the bands if each end of every length on paper is off by `error` (m).
 
-    `scales` are those of plans drawn at others than the report's, as multiples of these, by id: a larger drawing is
-    read more finely.
-    What is read or worked out from the drawing is also written down with so many figures only.
+    `scales` gives, by id, the scales of plans drawn larger or smaller than in the report, as multiples of the report's
+    scales: a larger drawing is read more finely. Values read or computed from the drawing are also rounded to a limited
+    number of figures.
     """
     bands = _carried_through(ledger, measuring_errors(ledger, error, scales))
     for id, band in bands.items():
-        # A direction is written down in whole degrees.
+        # A direction is written in whole degrees.
         last = WHOLE_DEGREE / 2 if is_direction(id) else half_unit(ledger[id].values, DIGITS)
         greatest = np.nanmax(np.abs(ledger[id].values), initial=0.0)
         bands[id] = band + np.where(band > ZERO * greatest, last, 0.0)
@@ -64,9 +63,9 @@ def drawn_bands(
 
 
 def computed_bands(ledger: Ledger, digits: int = DIGITS) -> dict[str, np.ndarray]:
-    """Half widths (SI) [N] when every value that is not given is rounded to `digits` significant figures.
+    """Return the half widths (SI) [N] of the bands if every value that is not given is rounded to `digits` figures.
 
-    What stands on integrals over the cycle is worked out by the trapezoid rule.
+    Values that depend on integrals over the cycle are computed by the trapezoid rule.
     """
     errors = {
         id: half_unit(family.values, digits)
@@ -80,9 +79,10 @@ def computed_bands(ledger: Ledger, digits: int = DIGITS) -> dict[str, np.ndarray
 def measuring_errors(
     ledger: Ledger, error: float = PAPER_ERROR, scales: Mapping[str, np.ndarray] | None = None
 ) -> dict[str, np.ndarray]:
-    """The own errors (SI) of what is measured: two ends of a length; of a direction, two ends over its length.
+    """Return the own errors (SI) of measured quantities.
 
-    Other angles are measured between lines as long as the drawn crank.
+    A length has the error of its two ends; a direction has that error divided by its length. Other angles are measured
+    between lines as long as the drawn crank.
     """
     errors: dict[str, np.ndarray] = {}
     drawn_at = scales or {}
@@ -103,21 +103,22 @@ def measuring_errors(
         elif family.kind == "angle":
             errors[id] = np.full(len(family.values), 2 * error * drawn_at.get("mu.l", 1.0) / crank)
         elif family.kind == "length" and isinstance(family.definition, Call) and family.definition.name in ON_DRAWING:
-            # Measured on the drawing of the mechanism, as a slider's way is, or a coordinate.
+            # Measured on the drawing of the mechanism, for example a slider's displacement or a coordinate.
             scale = ledger["mu.l"].values * drawn_at.get("mu.l", 1.0)
             errors[id] = np.full(len(family.values), 2 * error * scale)
     for link, slope in _pressure_slopes(ledger).items():
         pressure = np.abs(ledger[ids.pressure(link)].values)
-        # Read from a diagram that the student has plotted; what is small stands in the table.
+        # The student reads this from a diagram that he has plotted; small values are in the table.
         height = np.minimum(error / DIAGRAM * np.nanmax(pressure), SMALL * pressure)
         errors[ids.pressure(link)] = slope * 2 * error * ledger["mu.l"].values * drawn_at.get("mu.l", 1.0) + height
     return errors
 
 
 def plans_read(ledger: Ledger) -> dict[str, frozenset[str]]:
-    """The ids of the scales of the plans, and of the mechanism's drawing, that each quantity is read from.
+    """Return, for each quantity, the ids of the scales of the plans and of the mechanism's drawing that it is read
+    from.
 
-    That is what is measured there, and all that stands on it.
+    A quantity is read from a plan if it is measured there or depends on a measured one.
     """
     measured = measuring_errors(ledger)
     read: dict[str, list[str]] = {}
@@ -132,21 +133,25 @@ def plans_read(ledger: Ledger) -> dict[str, frozenset[str]]:
 
 
 def _measured_on(ledger: Ledger, id: str) -> str:
-    """The scale of the plan that something measured is read from, or of the drawing if it lies on no plan."""
+    """Return the scale of the plan that a measured quantity is read from, or that of the drawing if it is on no
+    plan.
+    """
     if is_direction(id):
         id = _on_paper(ledger, id).id
     return vocabulary.plan(id) or "mu.l"
 
 
 def _may_be_measured(family: Family) -> bool:
-    """Whether a length from a plan's pole, worked out by similarity from another, can be read from the plan as well."""
+    """Return True if a length from a plan's pole, computed by similarity, can also be measured on the plan."""
     plan, lengths = vocabulary.plan(family.id), ids.segment.read(family.id)
     from_pole = lengths is not None and lengths["start"] == ids.POLE
     return bool(from_pole and family.definition and any(vocabulary.plan(id) == plan for id in refs(family.definition)))
 
 
 def _pressure_slopes(ledger: Ledger) -> dict[str, np.ndarray]:
-    """How steeply the pressure on each piston changes over its way [N], from the flatter side of each position."""
+    """Return the slope of the pressure on each piston over its displacement [N], from the flatter side of each
+    position.
+    """
     slopes: dict[str, np.ndarray] = {}
     for id, family in ledger.families.items():
         names = ids.pressure.read(id)
@@ -162,24 +167,24 @@ def _pressure_slopes(ledger: Ledger) -> dict[str, np.ndarray]:
 
 
 def is_direction(id: str) -> bool:
-    """Whether a quantity is the direction of a vector."""
+    """Return True if a quantity is the direction of a vector."""
     return vocabulary.row(id).around
 
 
 def is_chosen_length(ledger: Ledger, family: Family) -> bool:
-    """Whether a length on paper was chosen, as that of the drawn crank is, itself or by a round scale."""
+    """Return True if a length on paper was chosen, like the drawn crank: either itself or by a round scale."""
     if family.kind != "segment":
         return False
     return family.definition is None or any(is_round_scale(ledger[id]) for id in refs(family.definition))
 
 
 def is_round_scale(family: Family) -> bool:
-    """Whether it is a scale that the crank is drawn to, which the scale of the drawing, `mu.l`, says again."""
+    """Return True for a scale that the crank is drawn to; the scale of the drawing, `mu.l`, repeats it."""
     return family.kind == "length scale" and family.id != "mu.l"
 
 
 def half_unit(values: np.ndarray, digits: int) -> np.ndarray:
-    """Half a unit of the last of `digits` significant figures; 0 for 0."""
+    """Return half a unit of the last of `digits` significant figures; 0 for 0."""
     sizes = np.abs(values)
     with np.errstate(all="ignore"):
         unit = 10.0 ** (np.floor(np.log10(sizes) + DUST) - digits + 1)
@@ -187,12 +192,12 @@ def half_unit(values: np.ndarray, digits: int) -> np.ndarray:
 
 
 def _or_nothing(values: np.ndarray) -> np.ndarray:
-    """The values, 0 for those that do not exist; numpy's own `nan_to_num` takes several times as long."""
+    """Return the values with NaN replaced by 0. numpy's own `nan_to_num` takes several times as long."""
     return np.where(np.isnan(values), 0.0, values)
 
 
 def _carried_through(ledger: Ledger, errors: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
-    """Half widths (SI) [N] of every printed quantity from own errors of some."""
+    """Return the half widths (SI) [N] of every printed quantity, from the own errors of some quantities."""
     rows = {id: row for row, id in enumerate(errors)}
     shown = [id for id, family in ledger.families.items() if not (family.hidden or family.is_plane)]
     if not rows:
@@ -220,23 +225,23 @@ def _carried_through(ledger: Ledger, errors: Mapping[str, np.ndarray]) -> dict[s
         # A single value depends on the errors at all positions.
         band = own + (inherited.max(keepdims=True) if len(own) == 1 else inherited)
         band = np.where(band > ZERO * family.scale, band, 0.0)
-        # Near a dead centre a very short vector may have any direction.
+        # Near a dead centre, a very short vector may have any direction.
         bands[id] = np.minimum(band, np.pi) if family.how.unit == "°" else band
     return bands
 
 
 def _is_drawn(direction: Family) -> bool:
-    """Whether a direction is that of a vector on paper, rather than one that its components give."""
+    """Return True if a direction is that of a vector on paper, False if it is computed from components."""
     return isinstance(direction.definition, Call) and isinstance(direction.definition.arguments[0], Ref)
 
 
 def _on_paper(ledger: Ledger, id: str) -> Family:
-    """The drawn length (m) of the vector whose direction `dir.…` is measured, or the vector itself on paper."""
+    """Return the drawn length (m) of the vector whose direction `dir.…` is measured, or the vector itself on paper."""
     definition = ledger[id].definition
     assert isinstance(definition, Call), f"{id} is no direction of a vector"
     (vector,) = definition.arguments
     assert isinstance(vector, Ref), f"{id} is no direction of a vector"
-    # The side of a force plan that is drawn for a force; on other plans the vector itself lies on paper.
+    # On a force plan, find the side drawn for the force; on other plans, the vector itself is on paper.
     measured = Call("abs", (vector,))
     sides = (family for family in ledger.families.values() if family.kind == "segment")
     return next((side for side in sides if side.of == vector.id or side.definition == measured), ledger[vector.id])
@@ -248,16 +253,19 @@ def _on_paper(ledger: Ledger, id: str) -> Family:
 # tolerance; where it is large, the quantity cannot be worked out from the positions and is not asked for.
 
 LARGE = 0.1
-"""The share of a quantity's largest value that the rule may miss it by."""
+"""Largest error of the rule, as a share of a quantity's largest value."""
 
 
 def trapezoid_errors(ledger: Ledger) -> Mapping[str, np.ndarray]:
-    """Return how far values by the positions alone lie from those of the ledger (SI), by id, as topics find them."""
+    """Return the distances (SI) of values found from the positions alone from those of the ledger, by id.
+
+    Each topic computes these errors for its own quantities.
+    """
     return {id: error for hooks in MARKS.among(topics()) for id, error in hooks.errors_of_positions(ledger).items()}
 
 
 def is_workable(ledger: Ledger, id: str, errors: Mapping[str, np.ndarray]) -> bool:
-    """Return True if a quantity can be found from the positions alone, where these make the `errors` (SI)."""
+    """Return True if a quantity can be computed from the positions alone, given the `errors` (SI) that this causes."""
     for hooks in MARKS.among(topics()):
         id = hooks.stands_on(ledger, id)
     return id not in errors or bool(np.nanmax(errors[id]) <= LARGE * np.nanmax(np.abs(ledger[id].values)))

@@ -1,4 +1,4 @@
-"""The class on a page for the instructor: marks, who has none and why, how good the questions were, first errors."""
+"""The page about a class for the instructor: marks, students without marks, question statistics and first errors."""
 
 from __future__ import annotations
 
@@ -26,17 +26,17 @@ from reportgen.marking.questions import Item, by_question, by_section
 from reportgen.marking.variant_marks import VariantGroup, groups
 
 CLASSES = 10
-"""Columns of the histogram."""
+"""Number of columns of the histogram."""
 MOST_BARS = 24
-"""Quantities with a bar of their own; there are fewer mistakes with names."""
+"""Largest number of quantities with their own bar; there are fewer named mistakes."""
 WIDTHS = (32.0, 50.0, 24.0, 14.0, 14.0, 12.0, 14.0)
 """Widths (mm) of the columns of marks."""
 SYMBOL, PART, SHARE, DISCRIMINATION = 22.0, 40.0, 18.0, 25.0
-"""Widths (mm) of the columns of questions; what they are has the rest."""
+"""Widths (mm) of the columns of questions; the descriptions take the remaining width."""
 VALUE = 34.0
 """Width (mm) of the column of a datum's values."""
 TICKS = 5
-"""Steps of an axis of marks."""
+"""Number of steps of an axis of marks."""
 
 PageWords = Mapping[str, Any]
 
@@ -48,7 +48,7 @@ def class_document(
     unmarked: Sequence[Unmarked] = (),
     policy: Policy | None = None,
 ) -> Document:
-    """The page of a class; `title` names the assignment, `unmarked` are those who have no marks."""
+    """Return the page of a class; `title` names the assignment, `unmarked` are the students without marks."""
     words, rules = load_words(search_path(language)), policy or Policy()
     page = words["class_page"]
     blocks: list[Block] = [
@@ -89,7 +89,7 @@ def _summary(
 def _marks(
     markings: Sequence[Marking], words: PageWords, language: Language, unmarked: Sequence[Unmarked], policy: Policy
 ) -> Table:
-    """A row for each student, in the order given."""
+    """Return the table of marks, with a row for each student in the given order."""
     names, page = words["grades"], words["class_page"]
     heads = (*(names[name] for name in ("id", "name", "class", "points", "out_of")), page["share"], names["mark"])
     rows = [
@@ -110,7 +110,7 @@ def _marks(
 def _people(
     title: str, heads: Sequence[str], rows: Sequence[tuple[str, str, str | Inlines]], words: PageWords
 ) -> Iterator[Table]:
-    """A table of students with something to be told of each; none without students."""
+    """Yield a table of students with a remark on each; yield nothing if there are no rows."""
     if rows:
         names = words["grades"]
         columns = (*(Column(width, "left") for width in WIDTHS[:2]), Column(TEXT_WIDTH - sum(WIDTHS[:2]), "left"))
@@ -118,13 +118,13 @@ def _people(
 
 
 def _unmarked(unmarked: Sequence[Unmarked], words: PageWords) -> Iterator[Block]:
-    """Who has no marks, and why: nothing came, or what came could not be marked."""
+    """Yield the table of students without marks, with the reason: no submission, or one that could not be marked."""
     rows = [(*who(one.key)[:2], state(one, words)) for one in sorted(unmarked, key=lambda one: not one.reasons)]
     yield from _people(words["class_page"]["unmarked"], (words["grades"]["state"],), rows, words)
 
 
 def _late(markings: Sequence[Marking], words: PageWords, language: Language, policy: Policy) -> Iterator[Block]:
-    """Who handed in late, by how many days, and what that took."""
+    """Yield the table of late submissions, with the days and the deduction."""
     page = words["class_page"]
     rows = [
         (
@@ -142,19 +142,19 @@ def _late(markings: Sequence[Marking], words: PageWords, language: Language, pol
 
 
 def _amended(markings: Sequence[Marking], words: PageWords) -> Iterator[Block]:
-    """What the instructor judged otherwise."""
+    """Yield the table of the instructor's corrections."""
     rows = [(*who(marking.key)[:2], amended(marking, one, words)) for marking in markings for one in marking.amendments]
     yield from _people(words["class_page"]["amended"], (words["grades"]["corrections"],), rows, words)
 
 
 def _open(markings: Sequence[Marking], words: PageWords) -> Iterator[Block]:
-    """Whose values were not read: they earn nothing until somebody settles them."""
+    """Yield the table of students with unread values. These earn no points until somebody settles them."""
     rows = [(*who(marking.key)[:2], text) for marking in markings if (text := open_cells(marking))]
     yield from _people(words["class_page"]["open"], (words["grades"]["unread"],), rows, words)
 
 
 def _spread(markings: Sequence[Marking], page: PageWords) -> Figure:
-    """How many students reached which share of the points; the highest class holds 100 %."""
+    """Return a histogram of the share of points reached; its last column includes 100 %."""
     counts = Counter(min(int(CLASSES * marking.share), CLASSES - 1) for marking in markings)
     edges = [100 * n / CLASSES for n in range(CLASSES + 1)]
     scene = histogram([counts[n] for n in range(CLASSES)], edges, page["x_share"], page["students"])
@@ -165,9 +165,9 @@ def _spread(markings: Sequence[Marking], page: PageWords) -> Figure:
 
 
 def _questions(markings: Sequence[Marking], words: PageWords, language: Language) -> Iterator[Block]:
-    """Facility and discrimination of each section and question, the hardest first.
+    """Yield facility and discrimination of each section and question, the hardest first.
 
-    Questions that all had right are only counted, and tell nothing apart.
+    Questions that all students answered correctly are only counted, because they do not discriminate.
     """
     page, names = words["class_page"], words["answer_sheet"]
     yield heading(page["questions_title"], 2)
@@ -216,14 +216,14 @@ def _questions(markings: Sequence[Marking], words: PageWords, language: Language
 
 
 def _statistics(item: Item, language: Language) -> tuple[str, str]:
-    """Facility in per cent and discrimination of an item."""
+    """Return the facility (per cent) and the discrimination of an item."""
     return write(100 * item.facility, 0, language), write(item.discrimination, 2, language)
 
 
 def _variants(
     compared: Sequence[VariantGroup], words: PageWords, language: Language, policy: Policy
 ) -> Iterator[Block]:
-    """The marks by variant and by the data that were drawn, and whether any differ by more than chance."""
+    """Yield the marks by variant and by the drawn data, and say whether any group differs by more than chance."""
     if not compared:
         return
     page = words["class_page"]
@@ -250,7 +250,7 @@ def _variants(
     yield Table(widths, (cells(heads),), tuple(map(cells, rows)), (Text(page["by_variant"]),))
     step = nice_up(policy.scale.highest / TICKS, (1, 2, 2.5, 5))
     ticks = [step * n for n in range(math.ceil(policy.scale.highest / step) + 1)]
-    # A picture has room for so many lines, each the same quantity or the next group.
+    # A figure has room for a limited number of lines.
     for start in range(0, len(compared), MOST_BARS):
         shown = compared[start : start + MOST_BARS]
         scene = intervals(
@@ -271,7 +271,7 @@ def _plain_name(group: VariantGroup, words: PageWords, language: Language) -> st
 
 
 def _errors(markings: Sequence[Marking], words: PageWords, language: Language) -> Iterator[Block]:
-    """First errors by quantity, then by the mistakes that were recognised."""
+    """Yield the first errors, counted by quantity and then by recognised mistake."""
     page = words["class_page"]
     yield heading(page["errors_title"], 2)
     firsts = [(marking.key, cell) for marking in markings for cell in marking.first_errors]

@@ -1,4 +1,7 @@
-"""What a student reads first, in a few lines of plain text: for a platform's field of comments, or to be pasted."""
+"""The summary that a student reads first, in a few lines of plain text.
+
+It fits the comment field of a learning platform, or can be pasted.
+"""
 
 from __future__ import annotations
 
@@ -16,14 +19,17 @@ from reportgen.marking.marks import Marked, Marking, Unmarked, points_of
 from reportgen.marking.policy import Policy
 
 FIRSTS = 5
-"""First mistakes that are told; the page of feedback has them all."""
+"""Largest number of first mistakes listed; the feedback page lists them all."""
 
 BLANKS = 10
-"""Quantities left empty that are named; the page of feedback has them all."""
+"""Largest number of blank quantities listed; the feedback page lists them all."""
 
 
 def comment(marking: Marking, policy: Policy) -> Iterator[str]:
-    """The lines: mark, lateness, first mistakes by name, points by chapter, the instructor's word; no answers."""
+    """Yield the lines: mark, lateness, first mistakes by name, points by chapter, the instructor's corrections.
+
+    The lines give no answers.
+    """
     return (plain((Text(line),), marking.key.language) for line in _lines(marking, policy))
 
 
@@ -55,7 +61,7 @@ def _lines(marking: Marking, policy: Policy) -> Iterator[str]:
 
 
 def _open(marking: Marking, said: Mapping[str, Any]) -> Iterator[str]:
-    """The values that were not read, and what becomes of them."""
+    """Yield the values that were not read, and say how they are treated."""
     if marking.open:
         yield said["open"].format(count=len(marking.open))
         yield from (f"– {open_text(marking, cell)}" for cell in marking.open[:FIRSTS])
@@ -64,7 +70,7 @@ def _open(marking: Marking, said: Mapping[str, Any]) -> Iterator[str]:
 
 
 def unmarked_comment(student: Unmarked) -> Iterator[str]:
-    """What a student reads of whose own files too little was read for a mark: what was read, and what was found."""
+    """Yield the lines for a student whose own files were read too incompletely for a mark: what was read and found."""
     key, submission = student.key, student.unsettled
     assert submission is not None, "only read work is unsettled"
     said = words_of(key)["comment"]
@@ -77,14 +83,14 @@ def unmarked_comment(student: Unmarked) -> Iterator[str]:
 
 
 def _named(cell: Marked, key: Key) -> str:
-    """A quantity with its position and what it is: v_BA (3), velocity of B about A."""
+    """Return a quantity with its position and description: v_BA (3), velocity of B about A."""
     row = key.row(cell.id)
     where = f"{symbol_text(row, key)} ({key.label(cell.position, cell.id)})" if cell.position else symbol_text(row, key)
     return ", ".join(filter(None, (where, row.what)))
 
 
 def _left_blank(marking: Marking, said: Mapping[str, Any]) -> Iterator[str]:
-    """What is asked for and was left empty, a quantity a line."""
+    """Yield the requested quantities that were left empty, one per line."""
     rows = blank_rows(marking)
     if rows:
         yield said["left_blank"]
@@ -97,7 +103,7 @@ def _left_blank(marking: Marking, said: Mapping[str, Any]) -> Iterator[str]:
 
 
 def _by_part(marking: Marking, words: Mapping[str, Any]) -> Iterator[str]:
-    """The points of each chapter that earns any, behind the title of its part."""
+    """Yield the points of each chapter that earns any, after the title of its part."""
     key = marking.key
     for (owner, part), of_part in groupby(marking.cells, lambda cell: (key.owner(cell.id), key.row(cell.id).part)):
         cells = list(of_part)

@@ -1,8 +1,8 @@
-"""Two positions that a student exchanged: each of all values stands where that of the other position belongs.
+"""Detect that a student exchanged two positions: all values of each are in the column of the other.
 
-That is one mistake.  The values are judged as if they stood in their own places, and one of them is lost.  It is seen
-only where most values of both positions are wrong as they stand, and nearly all are right or follow exchanged; what is
-wrong then is wrong as on any sheet.
+This counts as one mistake. The values are judged as if they were in their own places, and one of them loses its points.
+The exchange is recognised only if most values of both positions are wrong as written, and nearly all are right or
+follow after the exchange is undone. Values that are then still wrong are treated as usual.
 """
 
 from __future__ import annotations
@@ -17,20 +17,22 @@ from reportgen.marking.scheme import MarkingScheme
 NAME = "positions-exchanged"
 
 FEWEST = 3
-"""So many values at least tell one position from the other."""
+"""Smallest number of values that must distinguish the two positions."""
 
 MOST, NEARLY_ALL = 0.5, 0.9
-"""More of the telling values have to be those of the other position; this share has to be right or follow exchanged."""
+"""Shares of the distinguishing values: more than `MOST` must be those of the other position, and at least `NEARLY_ALL`
+must be right or follow after the exchange.
+"""
 
 APART = 3.0
-"""A value tells two positions apart where the key's lie this many tolerances apart."""
+"""Number of tolerances by which the key's values must differ for a value to distinguish two positions."""
 
 
 @dataclass(frozen=True, slots=True)
 class Exchange:
-    """Two positions, the ids of the rows whose values were exchanged, and the places that tell one from the other.
+    """Two exchanged positions: the ids of the rows whose values were exchanged, and the distinguishing places.
 
-    Telling places are those at which a value stands, whose key's value at the other position is another one.
+    A distinguishing place has a value, and the key's value at the other position differs from its own.
     """
 
     positions: tuple[int, int]
@@ -38,14 +40,14 @@ class Exchange:
     telling: tuple[Place, ...]
 
     def other(self, place: Place) -> Place:
-        """Where the value of a place belongs."""
+        """Return the place where the value of a place belongs."""
         id, position = place
         if id not in self.rows or position not in self.positions:
             return place
         return id, sum(self.positions) - position
 
     def undone(self, submission: Submission) -> Submission:
-        """A submission with each value in its own place."""
+        """Return the submission with each value in its own place."""
         return replace(
             submission,
             values={self.other(place): one for place, one in submission.values.items()},
@@ -54,28 +56,32 @@ class Exchange:
         )
 
     def explains(self, cells: Cells) -> bool:
-        """Whether nearly all telling values are right or follow by the verdicts on the submission put right."""
+        """Return True if nearly all distinguishing values are right or follow, judged on the corrected submission."""
         met = sum(cells[place].verdict in (Verdict.right, Verdict.follows) for place in self.telling)
         return met >= NEARLY_ALL * len(self.telling)
 
     def charged(self, cells: Cells) -> Place | None:
-        """The place, of the submission put right, of the value that is lost: the first that earned its mark."""
+        """Return the place (of the corrected submission) of the value that loses its points: the first that
+        earned any.
+        """
         return next((place for place in self.telling if cells[place].points), None)
 
     def as_handed_in(self, cells: Cells) -> dict[Place, Marked]:
-        """The verdicts on a submission put right at the places where the values stand, one of them lost."""
+        """Return the verdicts on a corrected submission at the places where the values were written, one of
+        them wrong.
+        """
         placed = {at: replace(cell, position=at[1]) for place, cell in cells.items() for at in [self.other(place)]}
         lost = self.charged(cells)
         if lost is None:
             return placed
         at = self.other(lost)
-        # It is told beside what belongs where it stands.
+        # The feedback shows the expected value of the place where the value was written.
         beside, wrong = cells[at], replace(placed[at], verdict=Verdict.wrong, points=0.0, first=True, elsewhere=False)
         wrong = replace(wrong, expected=beside.expected, own=beside.own, band=beside.band)
         return placed | {at: replace(wrong, mistake=NAME, where=at[0], exchanged=lost[1])}
 
     def noticed(self, flags: Sequence[Notice]) -> tuple[Notice, ...]:
-        """What was noticed, with the places where the values stand."""
+        """Return the notices with the places where the values were written."""
 
         def placed(places: Sequence[Place]) -> tuple[Place, ...]:
             return tuple(map(self.other, places))
@@ -87,14 +93,14 @@ class Exchange:
 
 
 def possible_exchanges(scheme: MarkingScheme, submission: Submission, cells: Cells) -> Iterator[Exchange]:
-    """The pairs of positions of which each has mostly the other's values."""
+    """Yield the pairs of positions in which each has mostly the values of the other."""
     given: dict[int, list[Marked]] = {}
     for cell in cells.values():
         if cell.position and cell.given is not None:
             given.setdefault(cell.position, []).append(cell)
     off = [k for k, here in given.items() if sum(one.verdict is not Verdict.right for one in here) >= FEWEST]
     for pair in combinations(sorted(off), 2):
-        # What was measured on a drawing belongs to the plan that it was found on.
+        # A value measured on a drawing belongs to the plan that it was found on.
         rows = frozenset(
             row.id
             for row in scheme.key.asked
@@ -114,11 +120,11 @@ def possible_exchanges(scheme: MarkingScheme, submission: Submission, cells: Cel
 
 
 def _tells(scheme: MarkingScheme, cell: Marked, other: Marked) -> bool:
-    """Whether the key's values of two positions lie apart."""
+    """Return True if the key's values of two positions differ clearly."""
     return bool(scheme.distance(cell.id, cell.expected, other.expected) >= APART * max(cell.band, other.band))
 
 
 def _is_of(scheme: MarkingScheme, cell: Marked, other: Marked) -> bool:
-    """Whether a value is that of another position."""
+    """Return True if a value is that of another position."""
     assert cell.given is not None
     return bool(scheme.distance(cell.id, cell.given, other.expected) <= other.band)

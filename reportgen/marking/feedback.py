@@ -1,4 +1,4 @@
-"""A marked sheet in words: the student's own workbook with colours and comments, and a page of feedback."""
+"""The feedback on a marked sheet: the student's own workbook with colours and comments, and a page of text."""
 
 from __future__ import annotations
 
@@ -37,20 +37,22 @@ STYLES: Mapping[Verdict, CellStyle] = {
     Verdict.unread: "doubt",
 }
 FIRST: CellStyle = "bad"
-"""The look of the first wrong value of a chain."""
+"""Style of the first wrong value of a chain."""
 
 POINTS, COUNT = 15.0, 16.5
 """Widths (mm) of columns of points and of counts."""
 
 LEAST, MOST = 1e-6, 1e9
-"""A student's value between these is written out, any other with a power of ten."""
+"""Range in which a student's value is written out; outside it, it is written with a power of ten."""
 
 
 # --- the workbook ---------------------------------------------------------------------------------
 
 
 def feedback_book(marking: Marking, show_answers: bool = True) -> Book:
-    """The marked sheet as a workbook: the layout of the answer sheet, points behind each row and their sum below."""
+    """Return the marked sheet as a workbook: the answer sheet's layout, with points after each row and their total
+    below.
+    """
     key, words = marking.key, words_of(marking.key)
     feedback = words["feedback"]
     marked = {(cell.id, cell.position): cell for cell in marking.cells}
@@ -61,7 +63,7 @@ def feedback_book(marking: Marking, show_answers: bool = True) -> Book:
             return _marked(marking, words, marked[place], show_answers)
         if position not in row.positions:
             return given_entry(row, position)
-        # A value that is not marked stands as it was typed.
+        # A value that is not marked is shown as it was typed.
         answer = marking.submission.values.get(place)
         return Entry(answer.value if answer else None)
 
@@ -94,19 +96,19 @@ def feedback_book(marking: Marking, show_answers: bool = True) -> Book:
 
 
 def _marked(marking: Marking, words: Mapping[str, Any], cell: Marked, show_answers: bool) -> Entry:
-    """A judged cell: the student's value on the colour of its verdict."""
+    """Return the entry of a judged cell: the student's value on the colour of its verdict."""
     comment = cell_comment(cell, marking, words, show_answers)
     return Entry(cell.written, FIRST if cell.first else STYLES[cell.verdict], comment)
 
 
 def _points(judged: Sequence[Marked], style: CellStyle = "") -> tuple[Entry, Entry]:
-    """Points earned and points to be earned."""
+    """Return two entries: the points earned and the points available."""
     earned, worth = points_of(judged)
     return (Entry(round(earned, 2), style), Entry(round(worth, 2), style))
 
 
 def _legend(words: Mapping[str, Any], unread: bool) -> BookSheet:
-    """What the colours mean; where nothing is `unread`, no sheet has such a cell."""
+    """Return the page that explains the colours; it omits the colour of unread cells unless there are `unread` ones."""
     notes, verdicts = words["verdict_notes"], words["verdicts"]
     styles = [(verdict.value, style) for verdict, style in STYLES.items() if unread or verdict is not Verdict.unread]
     styles.insert(2, ("first", FIRST))
@@ -120,9 +122,9 @@ def _legend(words: Mapping[str, Any], unread: bool) -> BookSheet:
 
 
 def feedback_document(marking: Marking, title: str, policy: Policy | None = None) -> Document:
-    """The feedback on one submission, in the language of its assignment; `title` is the machine's name.
+    """Return the feedback on one submission, in the language of its assignment; `title` is the machine's name.
 
-    It holds nothing of any other student.
+    It contains no data of other students.
     """
     key, words = marking.key, words_of(marking.key)
     feedback, rules = words["feedback"], policy or Policy()
@@ -152,13 +154,13 @@ def feedback_document(marking: Marking, title: str, policy: Policy | None = None
 
 
 def _section(title: str, blocks: Iterable[Block]) -> tuple[Block, ...]:
-    """A section with its heading; no heading without a block."""
+    """Return a section with its heading, or () if it has no blocks."""
     inner = tuple(blocks)
     return (heading(title, 2), *inner) if inner else ()
 
 
 def _firsts(marking: Marking, words: Mapping[str, Any], show_answers: bool) -> Iterator[Block]:
-    """The first error of each chain, in the order of the sheet."""
+    """Yield the first error of each chain, in the order of the sheet."""
     firsts = [cell for cell in marking.first_errors if cell.given is not None]
     if not firsts:
         if not any(cell.given is not None for cell in marking.cells):
@@ -172,7 +174,9 @@ def _firsts(marking: Marking, words: Mapping[str, Any], show_answers: bool) -> I
 
 
 def _first(cell: Marked, key: Key, words: Mapping[str, Any], show_answers: bool) -> Inlines:
-    """One error: what, where, the value given, perhaps the one expected; then the mistake in words."""
+    """Return one error as text: quantity, position, given value, expected value (if shown), and the mistake in
+    words.
+    """
     feedback, row = words["feedback"], key.row(cell.id)
     assert cell.written is not None
     number = _expected(row, cell)
@@ -190,7 +194,9 @@ def _first(cell: Marked, key: Key, words: Mapping[str, Any], show_answers: bool)
 
 
 def _expected(row: KeyRow, cell: Marked) -> Number:
-    """The value expected, with the decimals of its tolerance, or those of the report where these are fewer."""
+    """Return the expected value with the decimals of its tolerance, or with the report's decimals if these are
+    fewer.
+    """
     width = band(row, cell.on_sheet.band)
     if not width:
         return shown_number(row, cell.on_sheet.expected)
@@ -199,12 +205,14 @@ def _expected(row: KeyRow, cell: Marked) -> Number:
 
 
 def _followed(marking: Marking) -> list[Marked]:
-    """The values that differ from the key but earned their points, as they follow from the student's own."""
+    """Return the values that differ from the key but earned points because they follow from the student's own
+    values.
+    """
     return [cell for cell in marking.cells if cell.verdict is Verdict.follows and not cell.mistake]
 
 
 def _approximated(marking: Marking, words: Mapping[str, Any]) -> Iterator[Block]:
-    """The values by an accepted approximation, each with its name."""
+    """Yield the values computed by an accepted approximation, each with its name."""
     chosen = [cell for cell in marking.cells if cell.verdict is Verdict.follows and cell.mistake]
     if chosen:
         lines = (mistake_inlines(cell, marking.key, words) for cell in chosen)
@@ -212,7 +220,9 @@ def _approximated(marking: Marking, words: Mapping[str, Any]) -> Iterator[Block]
 
 
 def _listed_cells(marking: Marking, words: Mapping[str, Any], chosen: Sequence[Marked], lead: str) -> Iterator[Block]:
-    """A paragraph that names some values, quantity by quantity, behind a lead."""
+    """Yield a paragraph that lists the chosen values by quantity, after a lead; yield nothing if there are no
+    values.
+    """
     key = marking.key
     if not chosen:
         return
@@ -235,13 +245,13 @@ def blank_rows(marking: Marking) -> dict[str, list[Marked]]:
 
 
 def blank_positions(marking: Marking, blank: Sequence[Marked]) -> str:
-    """Return the labels of the positions at which a row is empty, "" if it is empty altogether."""
+    """Return the labels of the positions at which a row is empty, or "" if the whole row is empty."""
     asked = sum(cell.id == blank[0].id for cell in marking.cells)
     return ", ".join(marking.key.label(cell.position, cell.id) for cell in blank) if len(blank) < asked else ""
 
 
 def _left_blank(marking: Marking, words: Mapping[str, Any]) -> Iterator[Block]:
-    """Every quantity that is asked for and was left empty, with its positions where only some of them were."""
+    """Yield each requested quantity that was left empty, with its positions if only some of them are empty."""
     lines = []
     for id, blank in blank_rows(marking).items():
         row, labels = marking.key.row(id), blank_positions(marking, blank)
@@ -254,13 +264,13 @@ def _left_blank(marking: Marking, words: Mapping[str, Any]) -> Iterator[Block]:
 
 
 def _amended(marking: Marking, words: Mapping[str, Any]) -> Iterator[Block]:
-    """The instructor's word, a line each."""
+    """Yield the instructor's corrections, one per line."""
     if marking.amendments:
         yield tree.List(tuple((Paragraph(amended(marking, one, words)),) for one in marking.amendments))
 
 
 def _unread(marking: Marking, words: Mapping[str, Any]) -> Iterator[Block]:
-    """The values that were not read, behind what becomes of them."""
+    """Yield the values that were not read, after a sentence that says how they are treated."""
     submission = marking.submission
     lines = [*_listed((*submission.problems.values(), *submission.unread.values()))]
     if lines:
@@ -269,7 +279,7 @@ def _unread(marking: Marking, words: Mapping[str, Any]) -> Iterator[Block]:
 
 
 def _listed(problems: Iterable[Problem]) -> Iterator[Block]:
-    """Faults of single cells, each with its place in the student's own file."""
+    """Yield the problems of single cells, each with its location in the student's own file."""
     in_order = sorted(problems, key=lambda problem: problem.mark)
     if in_order:
         texts = (f"{str(one.mark).removeprefix(f'{one.mark.file}:')}: {one.message}." for one in in_order)
@@ -277,7 +287,7 @@ def _listed(problems: Iterable[Problem]) -> Iterator[Block]:
 
 
 def _by_part(marking: Marking, words: Mapping[str, Any]) -> Table:
-    """Counts of verdicts and points, a part a row, and their sums."""
+    """Return a table of verdict counts and points, with a row for each part and a total."""
     key, feedback = marking.key, words["feedback"]
     verdicts = [verdict for verdict in Verdict if any(cell.verdict is verdict for cell in marking.cells)]
     heads = (feedback["part"], *(str(words["verdicts"][v]) for v in verdicts), feedback["points"], feedback["out_of"])
@@ -306,14 +316,14 @@ def _counted(
 
 
 def amended(marking: Marking, amendment: Amendment, words: Mapping[str, Any]) -> Inlines:
-    """What the instructor judged otherwise, what it earns now, and the reason."""
+    """Return the text of an instructor's correction: the cells, the points that they earn now, and the reason."""
     points, out_of = (points_text(value, marking.key.language) for value in marking.points_at(amendment.places))
     what = tree.Emph(amendment.what) if len(amendment.what) > 1 else amendment.what[0]
     return sentence(words["feedback"]["amended_line"], what=what, points=points, out_of=out_of, reason=amendment.reason)
 
 
 def lateness(marking: Marking, policy: Policy, words: Mapping[str, Any]) -> Iterator[str]:
-    """By how many days it is late, what that takes off the mark, and the mark that is left; nothing in time."""
+    """Yield a line with the days of delay, the deduction and the remaining mark; yield nothing if it is in time."""
     if marking.days_late:
         language = marking.key.language
         yield words["feedback"]["late"].format(
@@ -328,29 +338,29 @@ def lateness(marking: Marking, policy: Policy, words: Mapping[str, Any]) -> Iter
 
 
 def points_text(points: float, language: Language) -> str:
-    """Points to at most two decimals."""
+    """Return points with at most two decimals."""
     return write(rounded(points, 2), None, language)
 
 
 def _given_value(row: KeyRow, value: float) -> Inline:
-    """A student's value with its unit, to six figures; what is noise beside the values of the key is 0."""
+    """Return a student's value with its unit, to six figures; a value negligible beside the key's values is 0."""
     if abs(value) < ZERO * np.nanmax(np.abs(row.values), initial=0.0):
         value = 0.0
     return tree.Value(Number(significant(value, 6 if LEAST < abs(value) < MOST else 4), None, row.unit))
 
 
 def mistake_inlines(cell: Marked, key: Key, words: Mapping[str, Any]) -> Inlines:
-    """What went wrong, in a sentence; a general one where no mistake was recognised."""
+    """Return a sentence about the mistake; a general one if no mistake was recognised."""
     if not cell.mistake:
         return (Text(words["feedback"]["unnamed"]),)
-    # The key may have no row of the quantity in which it was made.
+    # The key may have no row for the quantity in which the mistake was made.
     row = key.find(cell.where) or key.row(cell.id)
     named = words_of(key.part(cell.id))["mistakes"] if key.parts else words["mistakes"]
     return sentence(named[cell.mistake], symbol=InlineMath(row.symbol), **cell.exchanged_labels(key))
 
 
 def cell_comment(cell: Marked, marking: Marking, words: Mapping[str, Any], show_answers: bool) -> str:
-    """The comment on a cell that is not right; "" where there is nothing to say."""
+    """Return the comment on a cell that is not right; "" if there is nothing to say."""
     key, place = marking.key, (cell.id, cell.position)
     notes = words["verdict_notes"]
     if cell.corrected:
@@ -371,6 +381,6 @@ def cell_comment(cell: Marked, marking: Marking, words: Mapping[str, Any], show_
             band=write(width, band_decimals(width), key.language),
             unit=row.unit,
         )
-        # Without a unit a space is left before the full stop.
+        # If there is no unit, a space is left before the full stop.
         lines.append(expected.replace(" .", "."))
     return "\n".join(lines)

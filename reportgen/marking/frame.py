@@ -1,6 +1,6 @@
-"""The frame of a report: the headings of the work, its formulas in symbols, and a blank for each result.
+"""The frame of a report: its headings, its formulas in symbols, and a named blank for each result.
 
-Whoever fills it in hands in a report in which every number names its quantity and position.
+In a report written into this frame, every number can be assigned to its quantity and position.
 """
 
 from __future__ import annotations
@@ -19,31 +19,31 @@ from reportgen.marking.marks import Place
 from reportgen.marking.paper import fields, heading, paper, paragraph, student_rows
 
 LONGEST = 40
-"""Characters of a bookmark."""
+"""Largest number of characters in a bookmark's name."""
 
 
 def blank_name(key: Key, place: Place) -> str:
-    """What the blank of a place is named: v.B@2, by the label of its position."""
+    """Return the name of the blank at a place, with the label of its position: v.B@2."""
     id, position = place
     return f"{id}@{key.label(position, id)}" if position else id
 
 
 def bookmark_name(name: str) -> str:
-    """The same as a bookmark can have it: letters, figures and dashes below, at most forty of them."""
+    """Return the name in the form allowed for bookmarks: letters, digits and underscores, at most 40 characters."""
     bare = f"rg_{re.sub('[^A-Za-z0-9]', '_', name)}"
-    # What differs by what is left out, differs by this.
+    # The hash keeps names different that differ only in removed characters.
     return f"{bare[: LONGEST - 7]}_{sha256(name.encode()).hexdigest()[:6]}"
 
 
 def blanks(key: Key) -> dict[str, Place]:
-    """The places of a key by the names of their blanks, and by those of their bookmarks."""
+    """Return the places of a key by the names of their blanks and of their bookmarks."""
     places = [(row.id, k) for row in key.asked for k in row.positions]
     names = {blank_name(key, place): place for place in places}
     return names | {bookmark_name(name): place for name, place in names.items()}
 
 
 def frame_of(case: Case, key: Key) -> Document:
-    """The frame for all that a key asks for, in the language of the case."""
+    """Return the frame for everything that a key asks for, in the language of the case."""
     words = words_of(key)["frame"]
     student = [block for pair in student_rows(key) for block in fields([pair])]
     blocks = (heading(words["title"]), *student, paragraph(words["note"]), *_works(case, key))
@@ -52,7 +52,7 @@ def frame_of(case: Case, key: Key) -> Document:
 
 
 def _works(case: Case, key: Key) -> Iterator[Block]:
-    """The parts of a coursework one after the other, or the one work."""
+    """Yield the parts of a coursework in order, or the single work."""
     if not key.parts:
         yield from _work(case, key, key, {row.id: row.id for row in key.rows})
         return
@@ -63,7 +63,7 @@ def _works(case: Case, key: Key) -> Iterator[Block]:
 
 
 def _work(case: Case, page: Key, whole: Key, own: Mapping[str, str]) -> Iterator[Block]:
-    """Single values by chapters, then each position with its chapters."""
+    """Yield the single values by chapter, then each position with its chapters."""
     names = words_of(page)["parts"]
     positions = sorted({k for row in page.asked for k in row.positions})
     for position in positions:
@@ -77,7 +77,7 @@ def _work(case: Case, page: Key, whole: Key, own: Mapping[str, str]) -> Iterator
 
 
 def _line(case: Case, whole: Key, row: KeyRow, position: int, own: Mapping[str, str]) -> Paragraph:
-    """What it is, its formula in symbols where all that stands in it has a row, and the blank with its unit."""
+    """Return a line: description, formula in symbols if all its inputs have rows, and the blank with its unit."""
     ledger = case.ledger
     known = set(own.values())
     definition = ledger[own[row.id]].definition if own[row.id] in ledger else None

@@ -21,19 +21,21 @@ from reportgen.marking.policy import Policy
 CellValue = str | float | None
 
 DECIMALS = 3
-"""Of shares and statistics in a table."""
+"""Number of decimals of shares and statistics in a table."""
 
 
 def grade_rows(
     markings: Sequence[Marking], language: Language, unmarked: Sequence[Unmarked] = (), policy: Policy | None = None
 ) -> tuple[tuple[CellValue, ...], ...]:
-    """Head and rows of `grades.csv`: who, points, the mark, points by part, all first errors, warnings, flags, remarks,
-    what was handed in, how late and for how much off the mark, the instructor's corrections.  Where reports or drawings
-    were read in place of sheets, two more columns say how much of each was read and how many values are open.  A column
-    lists the values that were not read, and earn nothing until somebody settles them; where feedback could not be
-    written, the last one says of which file and why.
+    """Return the head and the rows of `grades.csv`.
 
-    The points of those who are `unmarked` stay empty.
+    The columns are: student, points, mark, points by part, all first errors, warnings, flags, remarks, the submission,
+    its lateness and deduction, and the instructor's corrections. If reports or drawings were read in place of sheets,
+    two more columns give the share that was read and the number of open values. A column lists the values that were not
+    read; they earn no points until somebody settles them. If feedback could not be written, the last column gives the
+    file and the reason.
+
+    The points of `unmarked` students are empty.
     """
     rules = policy or Policy()
     words = load_words(search_path(language))
@@ -106,18 +108,18 @@ def grade_rows(
 
 
 def open_cells(marking: Marking) -> str:
-    """The values of a sheet that were not read, each with what stands there: v_B (3): 1.2.3."""
+    """Return the values of a sheet that were not read, each with the text of its cell: v_B (3): 1.2.3."""
     return "; ".join(open_text(marking, cell) for cell in marking.open)
 
 
 def open_text(marking: Marking, cell: Marked) -> str:
-    """A value that was not read, and why: v_B (3): “1.2.3” is no number."""
+    """Return a value that was not read, with the reason: v_B (3): “1.2.3” is no number."""
     problem = marking.submission.problem((cell.id, cell.position))
     return f"{cell_text(marking.key, cell.id, cell.position)}: {problem.message}"
 
 
 def _open_places(student: Unmarked) -> str:
-    """The same of work that has no marks yet."""
+    """Return the same for a submission without a mark yet."""
     if student.unsettled is None:
         return ""
     places = {**student.unsettled.problems, **student.unsettled.unread}
@@ -125,14 +127,14 @@ def _open_places(student: Unmarked) -> str:
 
 
 def _read(submission: Submission | None) -> tuple[CellValue, CellValue]:
-    """How much of a student's own files was read, in per cent, and how many values are to be settled."""
+    """Return the share of a student's own files that was read (per cent), and the number of values to settle."""
     if submission is None or not submission.own_files:
         return None, None
     return round(100 * submission.share_read, 1), float(len(submission.unread))
 
 
 def state(student: Unmarked, words: Mapping[str, Any]) -> str:
-    """Why a student has no marks: nothing was handed in, or what was could not be marked."""
+    """Return the reason why a student has no mark: no submission, or one that could not be marked."""
     states = words["states"]
     if student.unsettled is not None and student.unsettled.is_unrecognised:
         return str(states["unrecognised"])
@@ -143,34 +145,34 @@ def state(student: Unmarked, words: Mapping[str, Any]) -> str:
 
 
 def person(key: Key) -> str:
-    """An assignment and whose it is: K225520103001 Nguyễn Văn An."""
+    """Return an assignment's id and its student: K225520103001 Nguyễn Văn An."""
     return " ".join(filter(None, (key.id, key.student.get("name", ""))))
 
 
 def _error_text(key: Key, cell: Marked, language: Language) -> str:
-    """A first error and its name: v_BA (3): scale forgotten."""
+    """Return a first error with the name of its mistake: v_BA (3): scale forgotten."""
     return f"{_cell_text(key, cell)}: {mistake_name(key, cell, language)}"
 
 
 def mistake_name(key: Key, cell: Marked, language: Language) -> str:
-    """What the mistake behind a cell is called where its kind of work is marked."""
+    """Return the name of the mistake behind a cell, in the words of its kind of work."""
     return str(_words(search_path(language, key.part(cell.id).kind))["mistake_names"][cell.mistake or "none"])
 
 
 def section_name(key: Key, row: KeyRow, language: Language) -> str:
-    """The section of a quantity, behind the title of its part."""
+    """Return the section of a quantity, after the title of its part."""
     section = str(_words(search_path(language, key.part(row.id).kind))["parts"][row.part])
     return ": ".join(filter(None, (key.title_of(key.owner(row.id)), section)))
 
 
 @lru_cache(maxsize=8)
 def _words(places: tuple[Path, ...]) -> Mapping[str, Any]:
-    """The words of a kind of work, put together once for all cells of a class."""
+    """Return the words of a kind of work, cached for all cells of a class."""
     return load_words(places)
 
 
 def who(key: Key) -> tuple[str, str, str]:
-    """Id (or else the assignment's), name and class of a student, as far as they are known."""
+    """Return id (or else the assignment's id), name and class of a student, as far as they are known."""
     student = key.student
     return (student.get("id", key.id), student.get("name", ""), student.get("class", ""))
 
@@ -188,17 +190,19 @@ def _cell_text(key: Key, cell: Marked) -> str:
 
 
 def cell_text(key: Key, id: str, position: int) -> str:
-    """A quantity and its position in one line: v_BA (3)."""
+    """Return a quantity and its position in one line: v_BA (3)."""
     symbol = symbol_text(key.row(id), key)
     return f"{symbol} ({key.label(position, id)})" if position else symbol
 
 
 SHOWN = 4
-"""Places that are listed of a flag."""
+"""Largest number of places listed for a flag."""
 
 
 def _flags(marking: Marking, words: Mapping[str, Any], people: Mapping[str, str]) -> str:
-    """Every flag in full: its kind, whose values, where, the chance of an honest sheet, cells it cost."""
+    """Return every flag in full: kind, other student, places, probability on an honest sheet, cells whose marks it
+    took.
+    """
     texts: list[str] = []
     for flag in marking.flags:
         cells = [cell for cell in marking.cells if (cell.id, cell.position) in {*flag.places[:SHOWN]}]

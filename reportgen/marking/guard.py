@@ -1,12 +1,13 @@
-"""Sheets that are not the student's own work: what speaks for it is told, and little is taken.
+"""Detect sheets that are probably not the student's own work, report the evidence, and deduct marks only if certain.
 
-Five things are looked for: one number throughout, rows or columns that do not vary, other data than the
-assignment's, and values of a classmate.  Each is a `Notice` with its places and its reason.  Marks are taken only for
-what is beyond doubt, and only if the policy says so: what follows from a wrong value is otherwise the student's.
+Five patterns are searched for: one number throughout, rows or columns that do not vary, data of another assignment, and
+values of a classmate. Each result is a `Notice` with its places and its reason. Marks are deducted only for what is
+certain, and only if the policy allows it.
 
-Copying shows in values that are the student's alone: too far from the key and from what the own values give to come
-from rounding.  An honest one meets a classmate's figures now and then; how many do so by chance is a binomial tail,
-multiplied by the classmates, chapters and positions that were compared, and only what is rarer than `CHANCE` is told.
+Copying shows in personal values: they differ from the key and from what the student's own values give by more than
+rounding. Honest values sometimes equal a classmate's. The number of such matches by chance follows a binomial tail,
+multiplied by the numbers of classmates, chapters and positions compared. A run is reported only if it is rarer than
+`CHANCE`.
 """
 
 from __future__ import annotations
@@ -30,53 +31,54 @@ from reportgen.marking.scheme import MarkingScheme
 from reportgen.marking.working import Working, last_half_unit
 
 FOREIGN_SHARE = 0.8
-"""The share of a sheet's, a column's or a chapter's values that are not its own."""
+"""Share of a sheet's, a column's or a chapter's values that must be foreign for a notice."""
 
 ALL = 0.95
-"""The share that is a whole, but for a slip or two."""
+"""Share that counts as all values, allowing for a slip or two."""
 
 FEWEST = 4
-"""Fewer values may agree by chance."""
+"""Smallest number of matching values; fewer may agree by chance."""
 
 FEWEST_ROWS = 8
-"""Rows that show whether two columns are one."""
+"""Smallest number of rows that can show that two columns are equal."""
 
 APART = 3.0
-"""Two values differ for certain where they lie this many tolerances apart."""
+"""Number of tolerances by which two values must differ to be certainly different."""
 
 OTHER_DATA = 3
-"""So many given data taken wrongly make other data; one or two are misread."""
+"""Number of misread given data from which the sheet counts as one with other data; one or two are misread."""
 
 NAMED = 2
-"""So many of them at least are known by the datum that explains them."""
+"""Smallest number of these that are identified by the datum that explains them."""
 
 INVENTED = 5
-"""So many wrong values that are worked out from given data alone, of whatever kind, are other data too."""
+"""Number of wrong values computed from given data alone, of any kind, that also counts as other data."""
 
 CHANCE = 3e-4
-"""The chance that an honest sheet is told to hold a classmate's values; the suite tests it to 1 in 1000."""
+"""Largest probability that an honest sheet is reported as copied; the test suite checks it to 1 in 1000."""
 
 NEAR, FAR = 0.3, 0.02
-"""The chance that a value meets a classmate's in all figures: one right but for the drawing; one wrong.
+"""Probabilities that a value equals a classmate's in all figures: for a value that is right within the drawing's
+tolerance, and for a wrong value.
 
-A length of 0.1 mm read to ± 0.3 mm meets another reading of it in one case of four.  A wrong value may have any of
-some hundred numbers of three figures near by.
+A length of 0.1 mm read to ± 0.3 mm equals another reading of it in one case of four. A wrong value may be any of about
+a hundred three-figure numbers nearby.
 """
 
 LAST = 1.5
-"""So many units of the last figure may come from rounding."""
+"""Number of units of the last figure that rounding can explain."""
 
 DEGREE = 1.0
-"""A direction is read to whole degrees (°)."""
+"""Step (°) to which a direction is read."""
 
 STEPS = (1.0, 0.5)
 TENTH = 0.1
-"""Lengths on paper are read to whole or half millimetres or, where they show that, to tenths (mm)."""
+"""Step (mm) to which lengths on paper are read if they show it; otherwise they are read to 1 mm or 0.5 mm."""
 
 
 @dataclass(frozen=True)
 class Classmate:
-    """Another student's assignment, and the sheet that was handed in for it."""
+    """Another student's assignment, and the sheet submitted for it."""
 
     key: Key
     submission: Submission | None = None
@@ -85,7 +87,7 @@ class Classmate:
 def guard(
     scheme: MarkingScheme, cells: Cells, classmates: Sequence[Classmate]
 ) -> tuple[dict[Place, Marked], tuple[Notice, ...]]:
-    """The cells without what the policy takes, and everything that was found."""
+    """Return the cells after the policy's deductions, and all notices."""
     result, flags = dict(cells), []
     for search in (_one_number, _same_columns, _constant_rows):
         flags += list(search(scheme, cells))
@@ -106,7 +108,7 @@ def guard(
 
 
 def unseen_text(cells: Iterable[Marked], submission: Submission) -> tuple[Notice, ...]:
-    """Values that a report holds in text that nobody sees: they are not read, and so earn nothing."""
+    """Return a notice of values in hidden text of a report. These values are not read and earn no points."""
     places = tuple(place for cell in cells if (place := (cell.id, cell.position)) in submission.unseen)
     return (Notice("unseen", places),) if places else ()
 
@@ -119,7 +121,7 @@ def _filled(cells: Cells) -> list[Place]:
 
 
 def _one_number(scheme: MarkingScheme, cells: Cells) -> Iterator[Notice]:
-    """Nearly all cells hold one number, which most of them should not."""
+    """Yield a notice if nearly all cells have the same number and most of them should not."""
     filled = _filled(cells)
     number, _ = Counter(cells[place].written for place in filled).most_common(1)[0] if filled else (None, 0)
     same = tuple(place for place in filled if cells[place].written == number)
@@ -129,7 +131,7 @@ def _one_number(scheme: MarkingScheme, cells: Cells) -> Iterator[Notice]:
 
 
 def _constant_rows(scheme: MarkingScheme, cells: Cells) -> Iterator[Notice]:
-    """Rows of one number throughout where the key varies by more than its bands."""
+    """Yield a notice for each row with the same number throughout if the key varies by more than its bands."""
     rows: dict[str, list[Place]] = {}
     for place in _filled(cells):
         rows.setdefault(place[0], []).append(place)
@@ -141,7 +143,9 @@ def _constant_rows(scheme: MarkingScheme, cells: Cells) -> Iterator[Notice]:
 
 
 def _same_columns(scheme: MarkingScheme, cells: Cells) -> Iterator[Notice]:
-    """A position whose values are those of another one, figure for figure, where the key tells them apart."""
+    """Yield a notice for each position whose values equal those of another one digit for digit though the key's
+    differ.
+    """
     positions = sorted({position for _, position in _filled(cells) if position})
     copies: set[int] = set()
     for first, second in combinations(positions, 2):
@@ -152,13 +156,13 @@ def _same_columns(scheme: MarkingScheme, cells: Cells) -> Iterator[Notice]:
         right = {k: sum(cells[id, k].verdict is Verdict.right for id in same) for k in (first, second)}
         copy = first if first in copies or (second not in copies and right[first] < right[second]) else second
         copies.add(copy)
-        # What is right in spite of it stays.
+        # Values that are right all the same keep their points.
         spoiled = tuple(place for place in cells if place[1] == copy and cells[place].verdict is Verdict.follows)
         yield Notice("columns", tuple((id, copy) for id in same), spoiled, other="", count=len(telling))
 
 
 def _differ(cells: Cells, first: Place, second: Place) -> bool:
-    """Whether both hold a value, and the key's lie apart."""
+    """Return True if both places have a value and their values in the key differ clearly."""
     if second not in cells or cells[first].written is None or cells[second].written is None:
         return False
     band = max(cells[first].on_sheet.band, cells[second].on_sheet.band)
@@ -166,13 +170,13 @@ def _differ(cells: Cells, first: Place, second: Place) -> bool:
 
 
 def _other_data(scheme: MarkingScheme, cells: Cells, classmates: Sequence[Classmate]) -> Iterator[Notice]:
-    """Values that belong to other data than the assignment's: what follows from them is work on another one.
+    """Yield a notice if the values belong to other data than the assignment's, so that what follows is other work.
 
-    Two data are enough where the whole sheet is right for a classmate's assignment, from which it has them.
+    Two data are enough if the whole sheet is right for a classmate's assignment that has these data.
     """
     first = [place for place, cell in cells.items() if cell.first and cell.position == 0]
     named = [place for place in first if cells[place].mistake == WRONG_DATUM]
-    # What is worked out from given data alone, wrongly and nobody knows how, may be of other data too.
+    # A wrong value computed from given data alone, without a known mistake, may also come from other data.
     alone = [place for place in first if not any(id in scheme.rows for id in scheme.before[place[0]])]
     unnamed = [place for place in alone if not cells[place].mistake]
     misread = {cells[place].where for place in named}
@@ -183,14 +187,14 @@ def _other_data(scheme: MarkingScheme, cells: Cells, classmates: Sequence[Classm
         causes = {*named, *unnamed}
         follows = (place for place, cell in cells.items() if cell.verdict is Verdict.follows)
         spoiled = (one for one in follows if scheme.stands_on(one, causes) or misread & {*scheme.before[one[0]]})
-        # In the order of the sheet, which is the same in every run.
+        # In the order of the sheet, so that every run gives the same result.
         yield Notice(
             "other-data", tuple(place for place in first if place in causes), tuple(spoiled), other=classmate_id
         )
 
 
 def _is_right_for(scheme: MarkingScheme, cells: Cells, classmate: Classmate) -> bool:
-    """Whether nearly all values that tell a classmate's assignment from the own one are right for the classmate's."""
+    """Return True if nearly all values that distinguish a classmate's assignment from this one are the classmate's."""
     telling = met = 0
     for cell in cells.values():
         row = _row(classmate, cell)
@@ -207,7 +211,7 @@ def _is_right_for(scheme: MarkingScheme, cells: Cells, classmate: Classmate) -> 
 
 
 def _copied(scheme: MarkingScheme, cells: Cells, classmates: Sequence[Classmate]) -> list[Notice]:
-    """Runs of values that a classmate's sheet or key has, by chapters, by positions and over the sheet."""
+    """Return notices of runs of values equal to a classmate's sheet or key, by chapter, by position and overall."""
     step = _read_to(scheme, cells)
     own = {
         place: cell for place, cell in cells.items() if cell.written is not None and _is_personal(scheme, cell, step)
@@ -238,7 +242,8 @@ def _copied(scheme: MarkingScheme, cells: Cells, classmates: Sequence[Classmate]
                 chance = min(chance, by_chance)
         if copied:
             flags.append(Notice("classmate", tuple(copied), other=classmate.key.id, chance=chance))
-    # Of several with the same values the nearest is named; a whole sheet is one whose values are nearly all met.
+    # If several classmates have the same values, the closest is named first. A sheet is copied whole if nearly all its
+    # values match.
     flags.sort(key=lambda flag: -len(flag.places))
     by_id = {one.key.id: one for one in others}
     filled = tuple(_filled(cells))
@@ -252,10 +257,11 @@ def _copied(scheme: MarkingScheme, cells: Cells, classmates: Sequence[Classmate]
 
 
 def _of_key(scheme: MarkingScheme, cells: Cells, own: Cells, classmate: Classmate) -> tuple[Place, ...]:
-    """The places that follow only from other values of the same classmate's key, if nearly all that is wrong is of it.
+    """Return the places that follow only from values of the same classmate's key, if nearly all wrong values are from
+    it.
 
-    Wrong values that no named mistake explains do not come from the student's own data, nor does what stands on them.
-    Who misread a datum has few of them: the rest follows from that.
+    Wrong values without a named mistake do not come from the student's own data, and neither do values that depend on
+    them. A student who misread a datum has few of them, because the rest follows from the misread datum.
     """
     unexplained = [place for place, cell in own.items() if cell.verdict is Verdict.wrong and not cell.mistake]
     meets = {place: met for place in unexplained if (met := _meets(scheme, cells[place], classmate)) is not None}
@@ -269,7 +275,7 @@ def _of_key(scheme: MarkingScheme, cells: Cells, own: Cells, classmate: Classmat
 
 
 def _is_whole(scheme: MarkingScheme, cells: Cells, classmate: Classmate) -> bool:
-    """Whether a sheet has nearly all values of a classmate's that would be wrong on it."""
+    """Return True if a sheet has nearly all those values of a classmate's that are wrong on it."""
     telling = [
         cell
         for place, cell in cells.items()
@@ -282,13 +288,13 @@ def _is_whole(scheme: MarkingScheme, cells: Cells, classmate: Classmate) -> bool
 
 
 def _is_source(scheme: MarkingScheme, right: Sequence[Marked], classmate: Classmate) -> bool:
-    """Whether it is the other sheet that has this one's values: those that are `right` here and wrong there.
+    """Return True if the other sheet was copied from this one: its values are `right` here and wrong there.
 
-    What depends on a scale says nothing: the classmate may have chosen another one than the key.
+    Values that depend on a scale are ignored, because the classmate may have chosen another scale than the key.
     """
     taken = 0
     for cell in right:
-        # Few values are equal, so that is asked first: there may be hundreds of classmates.
+        # Few values are equal, so this is checked first: there may be hundreds of classmates.
         if not _equal(cell, _theirs(classmate, (cell.id, cell.position))):
             continue
         row = _row(classmate, cell)
@@ -299,18 +305,18 @@ def _is_source(scheme: MarkingScheme, right: Sequence[Marked], classmate: Classm
 
 
 def _is_drawn(row: KeyRow) -> bool:
-    """Whether it is a scale or a length on paper."""
+    """Return True for a scale or a length on paper."""
     return row.role is Role.scale or bool(vocabulary.plan(row.id))
 
 
 def _row(classmate: Classmate, cell: Marked) -> KeyRow | None:
-    """The row of a classmate's key for a cell, if it has a value there."""
+    """Return the row of a classmate's key for a cell, or None if the key has no value there."""
     row = classmate.key.find(cell.id)
     return row if row is not None and row.has(cell.position) and cell.position <= len(row.values) else None
 
 
 def _apart(scheme: MarkingScheme, cell: Marked, first: float, second: float) -> float:
-    """How far two values of a cell lie apart, in printed units."""
+    """Return the distance between two values of a cell, in printed units."""
     unit = scheme.ledger[cell.id].how.scale
     return float(scheme.distance(cell.id, first * unit, second * unit)) / unit
 
@@ -325,7 +331,7 @@ def _equal(cell: Marked, value: float | None) -> bool:
 
 
 def _read_to(scheme: MarkingScheme, cells: Cells) -> float:
-    """The step (mm) to which the lengths on paper of a sheet are read."""
+    """Return the step (mm) to which the lengths on paper of a sheet are read."""
     lengths = [cell.written for cell in cells.values() if cell.written and scheme.ledger[cell.id].kind == "segment"]
     for step in STEPS:
         on_it = sum(abs(math.remainder(one, step)) <= 1e-9 * abs(one) for one in lengths)
@@ -335,10 +341,10 @@ def _read_to(scheme: MarkingScheme, cells: Cells) -> float:
 
 
 def _is_personal(scheme: MarkingScheme, cell: Marked, step: float) -> bool:
-    """Whether a value is neither the key's nor what the student's own give, as far as it is written down.
+    """Return True if a value is neither the key's nor what the student's own values give, to its written precision.
 
-    Two who read one length to `step` (mm) write the same, of a short one not even a second figure.  One that was
-    worked out rightly from a wrong one says nothing: so would anybody's with the same mistake.
+    Two students who read the same length to `step` (mm) write the same number; a short length has not even a second
+    figure. A value computed correctly from a wrong one proves nothing, because anybody with the same mistake gets it.
     """
     assert cell.written is not None
     if cell.verdict is Verdict.follows or (cell.mistake and cell.mistake != WRONG_DATUM) or cell.written == 0:
@@ -357,16 +363,16 @@ def _is_near(cell: Marked) -> bool:
 
 
 def _meets(scheme: MarkingScheme, cell: Marked, classmate: Classmate) -> bool | None:
-    """Whether a value is the classmate's; None where that says nothing."""
+    """Return True if a value is the classmate's, False if not, None if the comparison proves nothing."""
     row, theirs = _row(classmate, cell), _theirs(classmate, (cell.id, cell.position))
     if row is None:
         return None
     assert cell.written is not None
     value = float(row.values[row.at(cell.position)])
     if _is_near(cell):
-        # Two readings of one drawing.
+        # These are two readings of one drawing.
         return None if theirs is None else _equal(cell, theirs)
-    # A direction that is a little wrong has few whole degrees to be; any other value has a hundred.
+    # A slightly wrong direction has few whole degrees to choose from; any other value has about a hundred numbers.
     far = APART if is_direction(cell.id) else 1.0
     if _apart(scheme, cell, value, cell.on_sheet.expected) < far * cell.on_sheet.band:
         return None
@@ -375,7 +381,7 @@ def _meets(scheme: MarkingScheme, cell: Marked, classmate: Classmate) -> bool | 
 
 
 def _tail(chances: Sequence[float], met: int) -> float:
-    """The chance that so many or more of independent events happen."""
+    """Return the probability that at least `met` of the independent events happen."""
     counts = np.array([1.0])
     for chance in chances:
         counts = np.convolve(counts, (1 - chance, chance))
@@ -389,15 +395,15 @@ def _tail(chances: Sequence[float], met: int) -> float:
 # closely, and so can what is measured on a force plan of which all forces do.
 
 ROOM = 2.0
-"""So many times the rounding of all that is written down may part a value from what the others give."""
+"""Largest multiple of the rounding of all written values by which a value may differ from the computed one."""
 
 
 CLOSES = 1.5
-"""So many times the error of a measured length may part it from the one with which the own forces close the plan."""
+"""Largest multiple of a length's measuring error by which it may differ from the length that closes the force plan."""
 
 
 def not_from_own(working: Working, cells: Cells) -> frozenset[Place]:
-    """The places of right values that differ from what the student's own values beside them give."""
+    """Return the places of right values that differ from what the student's own other values give."""
     return frozenset(
         place for place, cell in cells.items() if cell.verdict is Verdict.right and _differs(working, cell)
     )
@@ -424,7 +430,7 @@ def _differs(working: Working, cell: Marked) -> bool:
     if not inputs or any(share is None for share in rounding.values()) or not any(rounding.values()):
         return False
 
-    # The first row as the values stand on the sheet, each further one with another of them moved.
+    # The first row has the values as written; each further row changes one of them.
     moved = {name: share for name, share in rounding.items() if share}
     values = {name: np.full((len(moved) + 1, 1), value) for name, value in inputs.items()}
     for row, (name, share) in enumerate(moved.items(), start=1):
@@ -437,7 +443,9 @@ def _differs(working: Working, cell: Marked) -> bool:
 
 
 def _differs_on_plan(working: Working, cell: Marked) -> bool:
-    """Whether a length on a force plan is not that of the own forces, all of which stand on the sheet."""
+    """Return True if a length on a force plan disagrees with the student's own forces, all of which are on the
+    sheet.
+    """
     scheme, plan = working.scheme, vocabulary.plan(cell.id)
     if scheme.ledger[plan].kind != "force scale" or not _stands(working, plan, cell.position):
         return False
@@ -447,7 +455,7 @@ def _differs_on_plan(working: Working, cell: Marked) -> bool:
     if not all(_stands(working, id, cell.position) for id in laid):
         return False
     apart = abs(abs(cell.written) - abs(cell.on_sheet.own))
-    # What is rounded in the forces shows as well where the plan is large.
+    # On a large plan, the rounding of the forces is visible too.
     forces = (working.submission.values[id, scheme.place(scheme.rows[id], cell.position)].value for id in laid)
     scale = working.submission.values[plan, scheme.place(scheme.rows[plan], cell.position)].value
     rounding = sum(map(last_half_unit, forces)) / abs(scale) if scale else np.inf
@@ -456,13 +464,13 @@ def _differs_on_plan(working: Working, cell: Marked) -> bool:
 
 
 def _stands(working: Working, id: str, position: int) -> bool:
-    """Whether a value that is asked for was filled in."""
+    """Return True if a requested value was filled in."""
     row = working.scheme.rows.get(id)
     return row is not None and (id, working.scheme.place(row, position)) in working.submission.values
 
 
 def _rounding(working: Working, id: str, position: int) -> float | None:
-    """The share by which a value that was gone on from may be rounded: 0 if it was given; None if it is not known."""
+    """Return the relative rounding of a value that was used further: 0 for a given value, None if it is not known."""
     scheme = working.scheme
     row = scheme.key.find(id)
     if row is None or row.id not in scheme.rows:

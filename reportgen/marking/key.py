@@ -1,6 +1,6 @@
-"""The answer key: every quantity of a report at every position, with the bands within which it is right.
+"""The answer key: every quantity of a report at every position, with its tolerance bands.
 
-Its rows are the ledger's own families, so key, report and marker cannot disagree.
+Its rows are the families of the ledger, so that key, report and marker always agree.
 """
 
 from __future__ import annotations
@@ -39,27 +39,27 @@ from reportgen.marking.bands import (
 
 
 def words_of(key: Key) -> Mapping[str, Any]:
-    """The words of a key's language and machine."""
+    """Return the words of a key's language and machine."""
     return load_words(search_path(key.language, key.kind))
 
 
 def symbol_text(row: KeyRow, key: Key) -> str:
-    """A quantity's symbol in one line of plain text, e.g. v_BA."""
+    """Return a quantity's symbol in one line of plain text, for example v_BA."""
     return formula(row.symbol, key.language)
 
 
 def typed_unit(row: KeyRow) -> str:
-    """The unit in which a number without one is typed, by a name that readers of numbers know; "" of a pure number."""
+    """Return the unit assumed for a number typed without one, by its parser name; "" for a pure number."""
     return KINDS[row.kind].unit
 
 
 def shown_number(row: KeyRow, value: float) -> Number:
-    """A number in a row's place as the report would print it: to its decimals, or without the dust of floats."""
+    """Return a number as the report prints it in this row: to its decimals, or without floating-point noise."""
     return Number(value if row.decimals is not None else float(f"{value:.12g}"), row.decimals)
 
 
 def key_of(case: Case) -> Key:
-    """The key of a case, from its ledger, unrounded and as printed, over the positions of its span."""
+    """Return the key of a case from its ledger, both unrounded and as printed, over the positions of its span."""
     if isinstance(case, CaseOfParts):
         return case.joined_key([key_of(part) for part in case.parts.values()])
     ledger, printed, span = case.ledger, case.printed, case.span
@@ -75,7 +75,7 @@ def key_of(case: Case) -> Key:
         sense = case.sense(id)
         role = _role(ledger, family)
         part = Chapter.data if role is Role.given and len(values) == 1 else family.chapter
-        # What is read from a diagram can be worked out on paper, an integral over the cycle cannot.
+        # A value read from a diagram can be computed on paper; an integral over the cycle cannot.
         integral = family.definition is None or ids.rest(id) in ledger
         reached = part is not Chapter.cycle or complete
         workable = not family.residue and (len(values) > 1 or not integral) and is_workable(ledger, id, by_rule)
@@ -130,20 +130,22 @@ def _role(ledger: Ledger, family: Family) -> Role:
 
 
 def _values(ledger: Ledger, id: str) -> np.ndarray:
-    """The values of a quantity (SI) as a key has them: a direction and an arm by their size."""
+    """Return the values of a quantity (SI) as a key stores them; a direction and an arm are stored as absolute
+    values.
+    """
     family = ledger[id]
     values = np.array([family.at(k + 1).real for k in range(len(family.values))])
     if family.is_of_vector:
-        # A vector of no length has none.
+        # A vector of length zero has no direction.
         exists = [ledger[family.of].at(k + 1) != 0 for k in range(len(values))]
         values = np.where(exists, values, np.nan)
     return np.abs(values) if family.arm or family.is_direction else values
 
 
 def _asked_at(values: np.ndarray, worked: tuple[int, ...], count: int, chosen: bool) -> tuple[int, ...]:
-    """The worked positions; what repeats from turn to turn (all kinematics) is asked for in the first turn.
+    """Return the worked positions; values that repeat from turn to turn (all kinematics) are asked in the first turn.
 
-    What is `chosen` at each position, as a scale, may be another one though the report has the same.
+    A quantity `chosen` at each position, such as a scale, may differ between turns even if the report repeats it.
     """
     if len(values) == 1:
         return (0,)
@@ -154,19 +156,19 @@ def _asked_at(values: np.ndarray, worked: tuple[int, ...], count: int, chosen: b
 
 
 def _sense(family: Family, value: float, words: Mapping[str, str]) -> str:
-    """The sense of a rotation in words; "" for any other quantity."""
+    """Return the sense of a rotation in words; "" for any other quantity."""
     if not family.is_signed_rotation:
         return ""
     return words["none"] if value == 0 else words["anticlockwise"] if value > 0 else words["clockwise"]
 
 
 def formula_in_symbols(ledger: Ledger, id: str) -> Expression:
-    """What a quantity is defined as, in symbols."""
+    """Return the definition of a quantity in symbols."""
     return substitute(definition_of(ledger, id), lambda ref: ledger.symbol(ref.id))
 
 
 def is_open(values: np.ndarray, sense: str) -> bool:
-    """Whether the papers leave the sign of values [N] open: there are negative ones, and no words about them."""
+    """Return True if the papers leave the sign of values [N] open: some are negative and no words explain the sign."""
     return sense in OPEN or (not sense and bool(np.nanmin(values, initial=0.0) < 0))
 
 
@@ -175,7 +177,7 @@ def is_open(values: np.ndarray, sense: str) -> bool:
 # The key holds every quantity in any case; a choice only takes away cells to be filled in.
 
 NOT = "-"
-"""Before a pattern of what is left out."""
+"""Prefix of a pattern that excludes rows."""
 
 DEFAULT = (
     "*",
@@ -184,24 +186,24 @@ DEFAULT = (
     # Second ways to the same result.
     *("-formulas", "-l.*K[0-9]*", "-e.Pqt*", "-M.*.p", "-T.*", "-J.I", "-J.0", "-J.rest", "-psi.*"),
     *("-run.Mc*", "-run.slip*", "-run.step", "-run.mean*"),
-    # What is read off a force plan beside the size of a reaction.
+    # Values read from a force plan in addition to the size of a reaction.
     *("-dir.R*", "-R.*.n", "-x.*"),
-    # The parts of what balances a machine, and the rules that are only compared.
+    # The components of what balances a machine, and the rules that are only compared.
     *("-balance.[PMr].*", "-balance.rod.*", "-balance.*.x", "-balance.*.y", "-balance.*.[a-z]*[a-z]"),
     *("balance.F.?", "balance.F.dir", "balance.after.*"),
 )
-"""What is asked for unless a policy says otherwise: what a quantity comes to, not how it was drawn or checked."""
+"""Default selection unless a policy overrides it: the results, not how they were drawn or checked."""
 
 EVERYTHING = ("*",)
 
 
 @dataclass(frozen=True, slots=True)
 class Ask:
-    """A choice: sections and ids by patterns, of which the last that fits decides, "-" before those left out.
+    """A selection of sections and ids by patterns; the last matching pattern decides, and "-" excludes.
 
-    A choice that begins by leaving out takes from the `DEFAULT`.  `by_section` puts each section of the printed
-    sheet on pages of its own; `self_check` lets students compare it with their data.  `file` is the policy that gives
-    the patterns, where one does.
+    A selection that begins with an exclusion is applied to `DEFAULT`. `by_section` puts each section of the printed
+    sheet on separate pages. `self_check` lets students compare the sheet with their data. `file` is the policy that
+    defines the patterns, or None.
     """
 
     patterns: tuple[str, ...] = DEFAULT
@@ -214,7 +216,7 @@ class Ask:
         return ", ".join((*self.patterns, *by_section, *(() if self.self_check else ("no self-check",))))
 
     def wants(self, row: KeyRow) -> bool:
-        """Whether a row that can be asked for is."""
+        """Return True if the selection includes a row."""
         wanted = False
         for pattern in _whole(self.patterns):
             if _fits(pattern, row):
@@ -222,14 +224,14 @@ class Ask:
         return wanted
 
     def of(self, key: Key, also: Container[str] = ()) -> Key:
-        """The key with the cells that are chosen, and those of the rows whose ids are in `also`."""
+        """Return the key with the selected cells, and those of the rows whose ids are in `also`."""
         rows = (row if row.id in also or self.wants(row) else replace(row, positions=()) for row in key.rows)
         return replace(key, rows=tuple(rows))
 
     def on_paper(self, key: Key) -> Key:
-        """The same as a student is handed it: with the scales of all plans that something asked for is read from.
+        """Return the key as a student gets it: with the scales of all plans that a requested value is read from.
 
-        They may be left empty, and earn nothing; what was measured is judged with them.
+        These scales may be left empty and earn no points; measured values are judged with them.
         """
         chosen = self.of(key)
         plans = {plan for row in chosen.asked for plan in row.plans}
@@ -243,9 +245,9 @@ class Ask:
         return self.of(replace(key, rows=tuple(rows)), plans)
 
     def check(self, keys: Iterable[Key], language: Language | None = None) -> None:
-        """Raises `AssignmentError`, located in the policy, for patterns that fit nothing in any of the keys.
+        """Raise `AssignmentError`, located in the policy, for patterns that match nothing in any of the keys.
 
-        The keys are taken one after the other, no more of them than it needs.
+        The iterable of keys is consumed only as far as needed.
         """
         if self.file is None:
             return
@@ -266,13 +268,13 @@ class Ask:
 
 
 def _fits(pattern: str, row: KeyRow) -> bool:
-    """Whether a pattern, with or without `NOT`, is the section of a row or fits its id."""
+    """Return True if a pattern, without its `NOT`, is the section of a row or matches its id."""
     bare = pattern.removeprefix(NOT)
     return bare == row.part or (bare not in headed_chapters() and fnmatchcase(row.id, bare))
 
 
 def _about(pattern: str, known: Sequence[str]) -> dict[str, str]:
-    """What to say of a pattern that fits nothing: what it was probably meant to be, or the sections."""
+    """Return the arguments of the error about a pattern without a match: the closest known name, or the sections."""
     close = close_or_known(pattern.removeprefix(NOT), known)
     return {"text": pattern, **(close if "close" in close else {"known": ", ".join(headed_chapters())})}
 

@@ -1,4 +1,4 @@
-"""The key as files: a workbook laid out as the answer sheet, CSV, JSON, and a document to print."""
+"""Write the key as files: a workbook laid out as the answer sheet, CSV, JSON, and a document to print."""
 
 from __future__ import annotations
 
@@ -34,24 +34,24 @@ from reportgen.marking.sheet import Filling, grid, info_page, number_format, pag
 from reportgen.workbook import Book, BookSheet, Entry
 
 FORMAT = "reportgen-key/1"
-"""Of the JSON."""
+"""Format name in the JSON."""
 BAND_DIGITS = 2
-"""Significant figures of a band."""
+"""Number of significant figures of a band."""
 EXACT = 6
-"""Figures of a band that are right, found from small changes: it is first rounded to these."""
+"""Number of reliable figures of a band, which is computed from small changes; it is first rounded to these."""
 VALUE_DIGITS = 7
-"""Significant figures of the values of the JSON: more would differ from one processor to another."""
+"""Number of significant figures of the values in the JSON; further figures would depend on the processor."""
 VALUE, BAND, SENSE = 15.6, 16.2, 23.0
 """Widths (mm) of the columns of a quantity at each position."""
 SYMBOL, UNIT = 16.0, 22.0
 SINGLE, SINGLE_BAND = 24.0, 17.0
-"""Widths (mm) of the columns of single values; what they are has the rest."""
+"""Widths (mm) of the columns of single values; the descriptions take the remaining width."""
 FINER, FINEST = 3, 7
-"""Decimals of a band beyond those of its row; those of one whose row is exact."""
+"""Additional decimals of a band beyond those of its row, and the decimals of a band whose row is exact."""
 
 
 def band(row: KeyRow, width: float, figures: int = BAND_DIGITS) -> float | None:
-    """A band's half width (in the row's unit) to two significant figures; one negligible beside the row is 0."""
+    """Return a band's half width (in the row's unit) to two significant figures; 0 if negligible, None if NaN."""
     if width != width:
         return None
     return (
@@ -62,7 +62,7 @@ def band(row: KeyRow, width: float, figures: int = BAND_DIGITS) -> float | None:
 
 
 def band_decimals(width: float) -> int:
-    """Decimals that show two significant figures of a band, in the row's unit."""
+    """Return the number of decimals that shows two significant figures of a band, in the row's unit."""
     return max(significant_decimals(width, BAND_DIGITS), 0)
 
 
@@ -70,16 +70,16 @@ def band_decimals(width: float) -> int:
 
 
 def key_book(key: Key) -> Book:
-    """The key as a workbook: values as printed, both bands, directions in words, each a page.
+    """Return the key as a workbook with a page each for printed values, both bands, and directions in words.
 
-    The page of values is laid out as a filled answer sheet.
+    The page of values has the layout of a filled answer sheet.
     """
     sheets = [sheet for number, (title, part) in enumerate(key.pages) for sheet in _book_pages(part, number, title)]
     return Book((*sheets, info_page(key)), f"{words_of(key)['key']['title']} {key.id}")
 
 
 def _book_pages(key: Key, number: int, title: str) -> Iterator[BookSheet]:
-    """The pages of a key, or of a part of it, whose title they name behind the first."""
+    """Yield the pages of a key or of one of its parts; pages of later parts include the part's title."""
     words = words_of(key)["key"]
     positions = range(1, len(key.labels) + 1)
     turning = [row for row in key.rows if any(row.sense)]
@@ -99,13 +99,13 @@ def _book_pages(key: Key, number: int, title: str) -> Iterator[BookSheet]:
 
 
 def _value_entry(row: KeyRow, index: int) -> Entry:
-    """A number as the report prints it; an empty cell for one that does not exist."""
+    """Return a number as the report prints it, or an empty cell if it does not exist."""
     value = float(row.printed[index])
     return Entry(shown_number(row, value).shown, format=number_format(row)) if value == value else Entry()
 
 
 def key_rows(key: Key) -> tuple[tuple[str | float | None, ...], ...]:
-    """The key as rows of CSV: id, part, symbol, unit, position, value as printed, direction, both bands."""
+    """Return the key as rows of CSV: id, part, symbol, unit, position, printed value, direction, both bands."""
     words = words_of(key)
     sheet, names = words["answer_sheet"], words["key"]
     sections = {part.name: words_of(part.key)["parts"] for part in key.parts} or {"": words["parts"]}
@@ -131,10 +131,10 @@ def key_rows(key: Key) -> tuple[tuple[str | float | None, ...], ...]:
 
 
 def key_data(key: Key) -> dict[str, Any]:
-    """The key as a JSON object: values in the units of the report, null for what does not exist.
+    """Return the key as a JSON object: values in the units of the report, null for values that do not exist.
 
     `values` (to seven figures), `printed`, `drawn`, `computed` (half widths of the bands) and `sense` have an entry for
-    each of `positions`, or a single one; `asked` are the positions of the answer sheet by label, [""] for a single
+    each of `positions`, or a single one. `asked` are the labels of the positions on the answer sheet, [""] for a single
     value.
     """
     return {
@@ -175,19 +175,19 @@ def _part_data(part: PartOfKey) -> dict[str, Any]:
 
 
 def key_json(key: Key) -> str:
-    """The text of `key_data`."""
+    """Return the text of `key_data`."""
     return json.dumps(key_data(key), ensure_ascii=False, allow_nan=False, indent=1) + "\n"
 
 
 def _numbers(values: np.ndarray) -> list[float | None]:
-    """Values to some figures, 0 for what is nothing beside the greatest of them."""
+    """Return values rounded for JSON: 0 if negligible beside the largest one, None for NaN."""
     least = ZERO * float(np.max(np.abs(values), initial=0.0, where=np.isfinite(values)))
     shown = (0.0 if abs(value) < least else significant(float(value), VALUE_DIGITS) for value in values)
     return [value if value == value else None for value in shown]
 
 
 def _bands(row: KeyRow, widths: np.ndarray) -> list[float | None]:
-    """The half widths of bands, finer than the key prints them; those negligible beside the row are 0."""
+    """Return the half widths of bands with one more figure than the key prints; negligible ones are 0."""
     shown = (band(row, float(width), BAND_DIGITS + 1) for width in np.where(np.isnan(row.values), np.nan, widths))
     return list(shown)
 
@@ -196,7 +196,7 @@ def _bands(row: KeyRow, widths: np.ndarray) -> list[float | None]:
 
 
 def key_document(key: Key, title: str) -> Document:
-    """The key as a numbered document; `title` is the machine's name."""
+    """Return the key as a numbered document; `title` is the machine's name."""
     words = words_of(key)
     blocks: list[tree.Block] = [
         heading(words["key"]["title"]),
@@ -213,7 +213,9 @@ def key_document(key: Key, title: str) -> Document:
 
 
 def _why_wide(key: Key, text: str) -> Iterator[Paragraph]:
-    """Why the bands of what is integrated over the cycle are wide: on paper there are only the positions."""
+    """Yield a paragraph that explains the wide bands of integrals over the cycle: on paper there are only the
+    positions.
+    """
     rows = [row for row in key.rows if row.by_rule]
     unnamed = unnamed_rows(rows)
     if rows:
@@ -223,7 +225,9 @@ def _why_wide(key: Key, text: str) -> Iterator[Paragraph]:
 
 
 def _tables(key: Key, words: Mapping[str, Any], name: str, rows: Sequence[KeyRow]) -> Iterator[Table]:
-    """The tables of a part: single values in a list, then quantities beside one another by position."""
+    """Yield the tables of a part: a list of single values, then quantities side by side with a row for each
+    position.
+    """
     singles = [row for row in rows if row.single]
     if singles:
         yield _list(words, name, singles)
@@ -238,7 +242,7 @@ def _tables(key: Key, words: Mapping[str, Any], name: str, rows: Sequence[KeyRow
 
 
 def _list(words: Mapping[str, Any], name: str, rows: Sequence[KeyRow]) -> Table:
-    """Single values, a quantity a row."""
+    """Return a table of single values, one quantity per row."""
     heads, unnamed = words["table"], unnamed_rows(rows)
     senses = any(any(row.sense) for row in rows)
     symbol = symbol_width(unnamed, SYMBOL)
@@ -256,7 +260,7 @@ def _list(words: Mapping[str, Any], name: str, rows: Sequence[KeyRow]) -> Table:
 def _by_position(
     key: Key, words: Mapping[str, Any], name: str, rows: Sequence[KeyRow], unnamed: Container[str]
 ) -> Table:
-    """Quantities beside one another, positions below one another."""
+    """Return a table with quantities side by side and one position per row."""
     heads, senses = words["key"], any(any(row.sense) for row in rows)
     widths = (VALUE, BAND, BAND, *((SENSE,) if senses else ()))
     under = ("", heads["drawn"], heads["computed"], *((heads["sense"],) if senses else ()))
@@ -272,13 +276,15 @@ def _by_position(
 
 
 def _title(row: KeyRow, with_id: bool) -> Inlines:
-    """Symbol and unit of a quantity, perhaps with its id; below, what it is, without a formula that may be longer."""
+    """Return symbol, unit and optional id of a quantity, with its description below (without a formula, which may be
+    longer).
+    """
     text = (f", {row.unit}" if row.unit else "") + (f" ({row.id})" if with_id else "")
     return (InlineMath(row.symbol), *((Text(text),) if text else ()), tree.LineBreak(), Text(row.named))
 
 
 def _values(row: KeyRow, index: int, senses: bool) -> tuple[Number | str, ...]:
-    """A value, its two bands, and perhaps its direction in words."""
+    """Return a value, its two bands, and optionally its direction in words."""
     value = float(row.printed[index])
     widths = (float(row.drawn[index]), float(row.computed[index]))
     bands = (_band_number(row, width) if value == value else DASH for width in widths)
@@ -286,7 +292,7 @@ def _values(row: KeyRow, index: int, senses: bool) -> tuple[Number | str, ...]:
 
 
 def _band_number(row: KeyRow, width: float) -> Number | str:
-    """A band; far below the last figure of its row it is 0."""
+    """Return a band as a number; one far below the last figure of its row is 0."""
     shown = band(row, width)
     if shown is None:
         return DASH

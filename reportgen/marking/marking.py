@@ -1,9 +1,9 @@
-"""Every value of a sheet judged: right, following from the student's own earlier values, or wrong.
+"""Judge every value of a sheet: right, following from the student's own earlier values, or wrong.
 
-A wrong value costs its own mark once.  What stands on it is worked out again from the student's own
-values; where that is met, it earns its mark.  A wrong value with nothing wrong before it is the first
-of its chain, and the mistake behind it is sought by name.  A student who compares a sheet before handing
-it in is told where it first leaves the assignment, without marks or answers.
+A wrong value costs its own mark once. Values that depend on it are computed again from the student's own values, and
+earn their mark if they agree. A wrong value that depends on no wrong value is the first of its chain, and its mistake
+is searched for by name. A student who compares a sheet before submitting it learns where it first departs from the
+assignment, without marks or answers.
 """
 
 from __future__ import annotations
@@ -39,14 +39,14 @@ SEARCHES: tuple[Callable[[Working, Cells], dict[Place, Mistake]], ...] = (
     mistakes_of_working,
     misread_data,
 )
-"""What looks for names, one after the other."""
+"""Searches for named mistakes, in this order."""
 
 
 @np.errstate(all="ignore")
 def mark(scheme: MarkingScheme, submission: Submission, classmates: Sequence[Classmate] = ()) -> Marking:
-    """The verdicts on a submission; `classmates` are those that none of its values should come from.
+    """Return the verdicts on a submission; `classmates` are those whose values must not appear in it.
 
-    A sheet may hold any number, 0 or 10³⁰⁸: what comes to no number by it is the value of nothing.
+    A sheet may contain any number, 0 or 10³⁰⁸; if a computation with it gives no number, that matches no value.
     """
     if scheme.parts:
         sheets = sheets_of(scheme, submission, classmates)
@@ -68,9 +68,9 @@ def mark(scheme: MarkingScheme, submission: Submission, classmates: Sequence[Cla
 
 @np.errstate(all="ignore")
 def own_worlds(scheme: MarkingScheme, submission: Submission) -> tuple[Values, ...]:
-    """All values (SI) [N] as a student has them who went wrong: from what is written, and with the data misread.
+    """Return all values (SI) [N] that follow from the student's wrong entries, and again with the misread data.
 
-    None where nothing is wrong.  Of a coursework they are those of its machine.
+    Return () if nothing is wrong. For a coursework, these are the values of its machine.
     """
     if scheme.parts:
         machine = next(iter(sheets_of(scheme, submission, ())))
@@ -85,9 +85,9 @@ def own_worlds(scheme: MarkingScheme, submission: Submission) -> tuple[Values, .
 def _best_order(
     scheme: MarkingScheme, submission: Submission
 ) -> tuple[Working, dict[Place, Marked], list[Mistake], Exchange | None]:
-    """The best working, its verdicts and mistakes; of a submission with two positions exchanged, of the one put right.
+    """Return the best working, its verdicts and mistakes, and the exchange of two positions if there is one.
 
-    Then the places are those where the values belong.
+    With an exchange, they are those of the corrected submission, and the places are where the values belong.
     """
     best = _best_verdicts(scheme, submission)
     for exchange in possible_exchanges(scheme, submission, best[1]):
@@ -104,9 +104,9 @@ def _points(cells: Cells) -> float:
 
 
 def _best_verdicts(scheme: MarkingScheme, submission: Submission) -> tuple[Working, dict[Place, Marked], list[Mistake]]:
-    """The working that explains a submission best, its verdicts, and the mistakes that have a name.
+    """Return the working that explains a submission best, its verdicts, and the named mistakes.
 
-    A scale that may be left empty never costs marks: if the sheet earns more without it, it is left out.
+    An optional scale never costs marks: if the sheet earns more without it, it is left out.
     """
     working = best_working(scheme, submission, _fitting)
     cells, mistakes = _verdicts(working)
@@ -122,7 +122,7 @@ def _best_verdicts(scheme: MarkingScheme, submission: Submission) -> tuple[Worki
 
 
 def _verdicts(working: Working) -> tuple[dict[Place, Marked], list[Mistake]]:
-    """The verdicts on what is laid out, and the mistakes that have a name."""
+    """Return the verdicts on a working, and the named mistakes."""
     scheme = working.scheme
     possible = [working.own_values(blank_from_key=True), working.own_values(blank_from_key=False)]
     cells = _judged_cells(working, possible)
@@ -157,7 +157,7 @@ def _by_approximation(working: Working, cells: Cells) -> dict[Place, Marked]:
 
 
 def _accepted(working: Working, cell: Marked) -> Marked:
-    """Return a value by an approximation with its points, if the policy accepts it."""
+    """Return a value by an approximation with its points if the policy accepts it, otherwise unchanged."""
     policy = working.scheme.policy
     if not policy.approximations:
         return cell
@@ -165,10 +165,11 @@ def _accepted(working: Working, cell: Marked) -> Marked:
 
 
 def _judged_cells(working: Working, possible: Sequence[Values]) -> dict[Place, Marked]:
-    """The verdicts on all cells, each by itself; `possible` are values that follow from the student's own.
+    """Return the verdicts on all cells, each judged independently; `possible` are values that follow from the student's
+    own.
 
-    How much finer a large drawing is read is known of right values: behind a wrong one no tolerance is narrower than
-    the report's.
+    The finer tolerance of a large drawing applies only to values that depend on no wrong value. After a wrong one, no
+    tolerance is narrower than the report's.
     """
     scheme = working.scheme
     rows = [(row, position) for row in scheme.judged for position in row.positions]
@@ -182,14 +183,19 @@ def _judged_cells(working: Working, possible: Sequence[Values]) -> dict[Place, M
 
 
 def _fitting(working: Working) -> tuple[int, int]:
-    """How many of the given values are right or follow from the student's own, and how many are given."""
+    """Return the number of given values that are right or follow from the student's own, and the number of given
+    values.
+    """
     cells = _judged_cells(working, [working.own_values(blank_from_key=True)])
     met = sum(cell.verdict in (Verdict.right, Verdict.follows) for cell in cells.values())
     return met, met + sum(cell.verdict is Verdict.wrong for cell in cells.values())
 
 
 def _judged(working: Working, row: KeyRow, position: int, possible: Sequence[Values], bands: np.ndarray) -> Marked:
-    """The verdict on one cell by its tolerances (SI) [N] or [1]; `possible` are what follows from the student's own."""
+    """Return the verdict on one cell by its tolerances (SI) [N] or [1].
+
+    `possible` are the values that follow from the student's own.
+    """
     scheme, submission, place = working.scheme, working.submission, (row.id, position)
     family, index = scheme.ledger[row.id], row.at(position)
     unit, worth = float(working.unit(row.id)[index]), scheme.policy.worth(row.id)
@@ -199,7 +205,7 @@ def _judged(working: Working, row: KeyRow, position: int, possible: Sequence[Val
     following += working.also(row, position)
     drawn = submission.measured.get(place)
     if drawn is not None:
-        # What the drawing's own fit may be off by counts where that is more.
+        # The drawing's own fitting error counts if it is larger.
         band = max(band, drawn.error * family.how.scale)
         following.append(drawn.own * family.how.scale)
         unit = family.how.scale / (1.0 if is_direction(row.id) else drawn.times)
@@ -232,7 +238,9 @@ def _judged(working: Working, row: KeyRow, position: int, possible: Sequence[Val
 
 
 def _own(ledger: Ledger, values: Values, id: str, index: int) -> float:
-    """What a quantity comes to from the student's own values; a signed one has its size from before it."""
+    """Return the value of a quantity from the student's own values; a signed one takes its size from the row
+    before it.
+    """
     own = float(values[id][index].real)
     before = ledger.size_of(id)
     size = values.get(before) if before != id else None
@@ -240,9 +248,9 @@ def _own(ledger: Ledger, values: Values, id: str, index: int) -> float:
 
 
 def _follows(scheme: MarkingScheme, id: str, value: float, own: float, band: float) -> bool:
-    """Whether a student's value (SI) is what the earlier ones give.
+    """Return True if a student's value (SI) is the one that the earlier values give.
 
-    The band grows in proportion where that is larger than any right value.
+    The band grows in proportion if that value is larger than any right value.
     """
     size = scheme.size(id)
     if size and np.isfinite(own):
@@ -251,10 +259,10 @@ def _follows(scheme: MarkingScheme, id: str, value: float, own: float, band: flo
 
 
 def _charged_once(working: Working, cells: Cells, mistakes: Mapping[Place, Mistake]) -> dict[Place, Marked]:
-    """Of all wrong values that come from one mistake before the sheet, only the first costs its mark.
+    """Deduct one mark per mistake: later values that come from the same unseen mistake are not charged again.
 
-    Whoever took the stroke for the radius without writing the radius down went wrong once, though no
-    value on the sheet stands on another that shows it.
+    For example, a student who uses the stroke as the radius without writing the radius made one mistake, although no
+    value on the sheet depends on another one that shows it.
     """
     scheme, policy = working.scheme, working.scheme.policy
     order = {row.id: index for index, row in enumerate(scheme.judged)}
@@ -271,7 +279,7 @@ def _charged_once(working: Working, cells: Cells, mistakes: Mapping[Place, Mista
         caused = [place for place, one in mistakes.items() if (one.name, one.where) == (name, where)]
         charged: dict[int, Place] = {}
         for place in sorted(caused, key=lambda place: order[place[0]]):
-            # In a quantity with a value at each position, it is a mistake of its own at each of them.
+            # In a quantity with a value at each position, the mistake counts separately at each of them.
             charged.setdefault(0 if once else place[1], place)
         for place, cell in cells.items():
             if cell.verdict is not Verdict.wrong or place in charged.values() or place in changed:
@@ -289,23 +297,23 @@ def _charged_once(working: Working, cells: Cells, mistakes: Mapping[Place, Mista
 
 
 NEAREST = 4
-"""How many of the quantities that one is worked out from are named."""
+"""Largest number of inputs of a quantity that a hint names."""
 
 
 def compare(case: Case, sheet: Path, hint: bool = False) -> tuple[tuple[str, ...], bool]:
-    """Lines that say where a sheet leaves its assignment, and whether it agrees as far as it is filled in.
+    """Return lines that say where a sheet departs from its assignment, and True if it agrees as far as it is filled in.
 
     Raises `AssignmentError` if the sheet cannot be read.
     """
     scheme = marking_scheme(case, Policy(guard=False))
-    # What the file is called does not matter: whose sheet it is shows by its data.
+    # The file's name does not matter: the given data show whose sheet it is.
     submission = read_submission(sheet, lambda _: scheme.key, scheme.key.language, by_data=True)
     return compared(scheme, submission, hint)
 
 
 def compared(scheme: MarkingScheme, submission: Submission, hint: bool = False) -> tuple[tuple[str, ...], bool]:
-    """The same of what has been read: what has a row is asked for."""
-    # What the sheet has no row for is not missing, nor is a scale.
+    """Return the same for a submission that has been read; every row of the sheet counts as requested."""
+    # A quantity without a row on the sheet is not missing, nor is a scale.
     filled = {id for id, _ in (*submission.values, *submission.problems)}
     rows = {id for id in submission.rows if id in filled or scheme.key.row(id).role is not Role.scale}
     scheme = replace(scheme, key=Ask(()).of(scheme.key, rows))
@@ -316,7 +324,7 @@ def compared(scheme: MarkingScheme, submission: Submission, hint: bool = False) 
 
 
 def _lines(scheme: MarkingScheme, marking: Marking, hint: bool, agrees: bool) -> Iterator[str]:
-    """A line for each first divergence, with the cell it stands in; `hint` adds where to look, never the answer."""
+    """Yield a line for each first divergence, with its cell; `hint` adds where to look, never the answer."""
     words = words_of(marking.key)["compare"]
     yield from map(str, (*marking.submission.problems.values(), *marking.submission.notes))
     yield from _unread(marking)
@@ -338,7 +346,7 @@ def _lines(scheme: MarkingScheme, marking: Marking, hint: bool, agrees: bool) ->
 
 
 def _unread(marking: Marking) -> Iterator[str]:
-    """What stands in the student's own files and was not read, place by place, and how much was."""
+    """Yield the entries of the student's own files that were not read, place by place, and the share that was read."""
     submission, words = marking.submission, words_of(marking.key)["compare"]
     for (id, position), problem in submission.unread.items():
         symbol = symbol_text(marking.key.row(id), marking.key)
@@ -349,7 +357,7 @@ def _unread(marking: Marking) -> Iterator[str]:
 
 
 def _hint(scheme: MarkingScheme, marking: Marking, cell: Marked) -> str:
-    """The mistake by name; else what the value is worked out from, and whether it is too large."""
+    """Return the name of the mistake, or else the inputs of the value and whether it is too large."""
     words = words_of(marking.key)
     if cell.mistake:
         where = marking.key.find(cell.where)
@@ -364,7 +372,7 @@ def _hint(scheme: MarkingScheme, marking: Marking, cell: Marked) -> str:
 
 
 def _named(marking: Marking, cell: Marked) -> str:
-    """A quantity's symbol, with its position unless it is the same at all positions."""
+    """Return a quantity's symbol, with its position unless it is the same at all positions."""
     words, row = words_of(marking.key)["compare"], marking.key.row(cell.id)
     symbol = symbol_text(row, marking.key)
     if cell.position == 0:

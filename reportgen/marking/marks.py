@@ -1,4 +1,4 @@
-"""What marking reads and what it finds: a submission, and a verdict on each of its cells."""
+"""The input and the results of marking: a submission, and a verdict on each of its cells."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ Place = tuple[str, int]
 
 @dataclass(frozen=True, slots=True)
 class Answer:
-    """A student's value of one cell in the row's printed unit, and where it stands."""
+    """A student's value of one cell in the row's printed unit, with its location."""
 
     value: float
     text: str
@@ -25,10 +25,10 @@ class Answer:
 
 @dataclass(frozen=True, slots=True)
 class ReadOff:
-    """How a length or a direction was read off a drawing: `times` as large as the report draws it.
+    """The reading of a length or a direction from a drawing that is `times` as large as the report's.
 
-    A length is given as the report draws it; `error` is how far it may be off, `own` what the plan has that was found,
-    which may be that of the student's own values; both in the printed unit.
+    A length is given as the report draws it. `error` is its largest error. `own` is the value of the plan that was
+    found, which may be drawn from the student's own values. Both are in the printed unit.
     """
 
     times: float
@@ -40,12 +40,12 @@ class ReadOff:
 class Submission:
     """A filled answer sheet: its values by place; cells that could not be read are `problems`.
 
-    `notes` say what was found beside: rows and positions that the assignment does not ask for, values of
-    formulas, numbers that could be read in two ways.  `rows` are the ids of all its rows, filled in or not.
+    `notes` are other findings: rows and positions that the assignment does not ask for, values of formulas, numbers
+    with two possible readings. `rows` are the ids of all its rows, filled in or not.
 
-    Of the student's `own_files`, a report or a drawing in place of a sheet, `unread` is what stands there and was not
-    read beyond doubt: it is not wrong, and earns nothing until somebody settles it.  Of a drawing, `measured` says how
-    what it shows was read, and `drawn` are the places of which it has to show something.
+    If the student submitted `own_files` (a report or a drawing in place of a sheet), `unread` are the entries that
+    could not be read with certainty. They are not wrong, and earn no points until somebody settles them. For a drawing,
+    `measured` says how each value was read, and `drawn` are the places that the drawing must show.
     """
 
     assignment: str
@@ -59,15 +59,15 @@ class Submission:
     measured: Mapping[Place, ReadOff] = field(default_factory=dict)
     drawn: frozenset[Place] = frozenset()
     unseen: frozenset[Place] = frozenset()
-    """The places of which a report says something in text that nobody sees: it is not read."""
+    """Places that a report mentions only in hidden text, which is not read."""
     fingerprint: str = ""
-    """Of a sheet that was filled with what was read of such files: what it held when it was written."""
+    """For a sheet prefilled from such files: the fingerprint of its content when it was written."""
 
     @property
     def share_read(self) -> float:
-        """The share of what stands in the student's own files that was read, 0 where nothing was recognised.
+        """Share of the entries of the student's own files that was read; 0 if nothing was recognised.
 
-        Of a sheet it is 1.
+        For a sheet it is 1.
         """
         if not self.own_files:
             return 1.0
@@ -75,35 +75,37 @@ class Submission:
         return len(self.values) / count if count else 0.0
 
     def problem(self, place: Place) -> Problem:
-        """Why the value of a place was not read; raises `KeyError` where it was."""
+        """Return the reason why the value of a place was not read; raise `KeyError` if it was read."""
         return self.problems[place] if place in self.problems else self.unread[place]
 
     @property
     def is_unrecognised(self) -> bool:
-        """Whether nothing in the student's own files was recognised as a value."""
+        """True if no value was recognised in the student's own files."""
         return self.own_files and not self.values and not self.unread
 
 
 class Verdict(StrEnum):
     right = "right"
     follows = "follows"
-    """Wrong, but what the student's own earlier values give."""
+    """The value is wrong, but follows from the student's own earlier values."""
     wrong = "wrong"
     blank = "blank"
     unreadable = "unreadable"
     implausible = "implausible"
-    """It follows, or is right by chance, but its marks were taken for a reason that the marking lists."""
+    """The value follows, or is right by chance, but its points were deducted for a reason that the marking lists."""
     unread = "unread"
-    """It stands in the student's own file, but was not read beyond doubt: it earns nothing until it is settled."""
+    """The student's own file has an entry that could not be read with certainty; it earns no points until it is
+    settled.
+    """
 
 
 OPEN = frozenset({Verdict.unreadable, Verdict.unread})
-"""Something stands there, and nobody knows yet whether it is right."""
+"""Verdicts on entries of which nobody knows yet whether they are right."""
 
 
 @dataclass(frozen=True, slots=True)
 class OnSheet:
-    """What concerns one cell in the units of the sheet, lengths as they are drawn at the student's own scale."""
+    """The values of one cell in the units of the sheet; lengths are as drawn at the student's own scale."""
 
     given: float | None
     expected: float
@@ -111,22 +113,22 @@ class OnSheet:
     band: float
 
     def equals(self, value: float, band: float) -> bool:
-        """Whether a value was given that lies within a band of another."""
+        """Return True if the given value is within a band of another one."""
         return self.given is not None and abs(self.given - value) <= band
 
 
 @dataclass(frozen=True, slots=True)
 class Marked:
-    """The verdict on one cell; values in SI, lengths on paper at the report's scale.
+    """The verdict on one cell; values are in SI, lengths on paper at the report's scale.
 
-    `given` is the student's value, `expected` the key's, `own` what the student's earlier values give, `band` the
-    tolerance.
-    `first` says that it is wrong and stands on no wrong value.  `mistake` names what went wrong (a key of
-    `mistakes` in `words.yaml`), `where` the id of the quantity in which it was made.  `points` of `worth`
-    are earned.  `classmates` are ids of assignments whose sheet or key has this value in a run of such values.
-    `elsewhere` says that it is right, but is not what the student's own values beside it give.  `corrected` is the
-    reason of an instructor who judged it otherwise.  `exchanged` is the position with which its own was
-    exchanged, where that is the mistake.
+    `given` is the student's value, `expected` the key's, `own` the value that the student's earlier values give, `band`
+    the tolerance.
+
+    `first` is True if the value is wrong and depends on no wrong value. `mistake` names the mistake (a key of
+    `mistakes` in `words.yaml`), `where` is the id of the quantity in which it was made. The cell earned `points` of
+    `worth`. `classmates` are ids of assignments whose sheet or key has this value in a run of such values. `elsewhere`
+    is True if the value is right but differs from what the student's own other values give. `corrected` is the reason
+    of an instructor's correction. `exchanged` is the position that was exchanged with its own, if that is the mistake.
     """
 
     id: str
@@ -146,17 +148,17 @@ class Marked:
     corrected: str = ""
     exchanged: int = 0
     unit: float = 1.0
-    """What one unit of the sheet stands for."""
+    """Value (SI) of one unit of the sheet."""
     written: float | None = None
     """The number in the cell, in that unit."""
 
     @property
     def on_sheet(self) -> OnSheet:
-        """The values as a sheet has them: for those who read it, and for what is found on it without working out."""
+        """The values in the units of the sheet, for readers and for searches that work on the sheet alone."""
         return OnSheet(self.written, self.expected / self.unit, self.own / self.unit, self.band / self.unit)
 
     def exchanged_labels(self, key: Key) -> dict[str, str]:
-        """What the two exchanged positions are called, in order."""
+        """Return the labels of the two exchanged positions, in order."""
         first, second = sorted((self.position, self.exchanged))
         return {"first": key.label(first, self.id), "second": key.label(second, self.id)}
 
@@ -165,17 +167,18 @@ Cells = Mapping[Place, Marked]
 
 
 def points_of(cells: Iterable[Marked]) -> tuple[float, float]:
-    """The points that cells earned, and those that they are worth: also while nobody has settled what stands there."""
+    """Return the points that cells earned and the points that they are worth, also for cells that are not settled."""
     earned = [(cell.points, cell.worth) for cell in cells]
     return sum(points for points, _ in earned), sum(worth for _, worth in earned)
 
 
 @dataclass(frozen=True, slots=True)
 class Notice:
-    """Something that the lecturer should look at: a `kind` (a key of `warnings` in words) and the places that show it.
+    """A finding for the lecturer: a `kind` (a key of `warnings` in words) and the places that show it.
 
-    `spoiled` are places whose marks the policy may take for it, `taken` those where it did.  `other` is the assignment
-    that the values are of, `chance` that an honest sheet would show as much; `count` the values that were compared.
+    `spoiled` are places whose marks the policy may deduct for it, `taken` those where it did. `other` is the assignment
+    that the values come from, `chance` the probability that an honest sheet shows as much, `count` the number of values
+    compared.
     """
 
     kind: str
@@ -189,7 +192,7 @@ class Notice:
 
 @dataclass(frozen=True, slots=True)
 class Amendment:
-    """An instructor's word on some cells: what they are together, their places, and the reason."""
+    """An instructor's correction of some cells: their description, their places, and the reason."""
 
     what: Inlines
     places: frozenset[Place]
@@ -197,14 +200,14 @@ class Amendment:
 
 
 TAKEN = "taken"
-"""The warning beside the others where marks were taken."""
+"""Additional warning if marks were deducted."""
 
 
 @dataclass(frozen=True)
 class Marking:
-    """All verdicts on a submission, in the order of the key's rows, and what the lecturer should look at.
+    """All verdicts on a submission, in the order of the key's rows, and the findings for the lecturer.
 
-    `days_late` are the days begun since it was due.  `unwritten` says of which files nothing could be given back.
+    `days_late` are the days begun since it was due. `unwritten` lists the files for which no feedback could be written.
     """
 
     key: Key
@@ -216,22 +219,22 @@ class Marking:
     unwritten: tuple[str, ...] = ()
 
     def points_at(self, places: Container[Place]) -> tuple[float, float]:
-        """The points that the cells of some places earned, and those that they are worth."""
+        """Return the points that the cells of some places earned, and the points that they are worth."""
         return points_of(cell for cell in self.cells if (cell.id, cell.position) in places)
 
     @property
     def open(self) -> tuple[Marked, ...]:
-        """The values that were not read, and earn nothing until somebody settles them."""
+        """The values that were not read; they earn no points until somebody settles them."""
         return tuple(cell for cell in self.cells if cell.verdict in OPEN and not cell.corrected)
 
     @property
     def elsewhere(self) -> list[Marked]:
-        """The right values that are not from the student's own."""
+        """The right values that do not follow from the student's own values."""
         return [cell for cell in self.cells if cell.elsewhere]
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """Keys of `warnings` in words: each kind of flag once, and whether marks were taken."""
+        """Keys of `warnings` in words: each kind of flag once, and `TAKEN` if marks were deducted."""
         kinds = [flag.kind for flag in self.flags]
         return tuple(dict.fromkeys([*kinds, *([TAKEN] if any(flag.taken for flag in self.flags) else [])]))
 
@@ -245,7 +248,7 @@ class Marking:
 
     @property
     def share(self) -> float:
-        """The share of the points that was earned, 0 where there are none."""
+        """The share of the points that was earned; 0 if there are none."""
         return self.points / self.out_of if self.out_of else 0.0
 
     @property
@@ -256,9 +259,9 @@ class Marking:
 
 @dataclass(frozen=True, slots=True)
 class Unmarked:
-    """A student without marks: the reasons why what was handed in is not marked, none where nothing was.
+    """A student without marks, with the reasons; these are empty if nothing was submitted.
 
-    Of `unsettled` work less was read than the policy asks for.
+    `unsettled` is a submission of which a smaller share was read than the policy requires.
     """
 
     key: Key

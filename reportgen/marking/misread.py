@@ -1,8 +1,8 @@
-"""Given data taken wrongly, sought backwards from the values that stand on them.
+"""Infer which given datum the student misread, from the values that depend on it.
 
-Many values show the crank, a fixed point, a rod of a plan, the size of a load: what stands on such a datum is wrong at
-every position, in values of which none stands on another, and nearly all of them agree in what the datum was taken for.
-A few show a mass or the diameter; then it must be a number that somebody would have given.
+Many values show the crank, a fixed point, a rod of a plan or the size of a load: everything that depends on such a
+datum is wrong at every position. These values do not depend on each other, and nearly all of them agree on the misread
+value. Few values show a mass or a diameter; the misread value must then be a number that somebody would have given.
 """
 
 from __future__ import annotations
@@ -23,29 +23,29 @@ from reportgen.marking.working import ChangeValue, Working, last_half_unit
 
 FACTORS = np.geomspace(1 / 4, 4, 120)
 WIDE = np.geomspace(1 / 5, 5, 400)
-"""A datum that is taken wrongly lies within these of the right one."""
+"""Range of multiples of the right datum in which a misread one is searched for."""
 
 FEWEST = 3
-"""Fewer values may agree in a datum by chance."""
+"""Smallest number of values that must agree on a datum; fewer may agree by chance."""
 
 SAME_DATUM = 0.04
-"""Values of a datum that are nearer than this share are one: each is found from a drawing."""
+"""Relative difference below which two values of a datum count as one, because each is found from a drawing."""
 
 UNLIKE = 0.005
-"""A datum nearer than this share to the right one was not taken wrongly."""
+"""Relative difference from the right datum below which a datum does not count as misread."""
 
 NEAT = 2
-"""Significant figures of a datum that somebody would have given; a half of the last one where the right one has it."""
+"""Significant figures of a plausible given datum; half of the last one is allowed if the right datum has it."""
 
 APART = 3.0
-"""A right value that would be this many tolerances off with another datum shows that the datum was right."""
+"""Number of tolerances by which another datum must move a right value to prove that the datum was read correctly."""
 
 
 # --- behind many values ---------------------------------------------------------------------------
 
 
 def misread_by_many(working: Working, cells: Cells) -> dict[Place, Mistake]:
-    """The data behind first wrong values that have no name yet, where many agree in them."""
+    """Return the misread data behind first wrong values without a named mistake, if many values agree on them."""
     open_ones = [place for place, cell in cells.items() if cell.first and not cell.mistake]
     if len(open_ones) < FEWEST:
         return {}
@@ -54,7 +54,9 @@ def misread_by_many(working: Working, cells: Cells) -> dict[Place, Mistake]:
 
 
 def _worked_out(working: Working, places: Sequence[Place]) -> Iterator[Mistake]:
-    """Mistakes with a name in what is worked out before some of the places: one that explains as much goes first."""
+    """Yield named mistakes in unseen quantities before several of the places; at equal counts they precede misread
+    data.
+    """
     scheme = working.scheme
     before = Counter(id for place in places for id in scheme.before[place[0]])
     for id in scheme.ledger.families:
@@ -63,7 +65,7 @@ def _worked_out(working: Working, places: Sequence[Place]) -> Iterator[Mistake]:
 
 
 def _candidates(working: Working, places: Sequence[Place]) -> Iterator[Mistake]:
-    """Each datum that some of the places stand on, at the values in which most of them agree."""
+    """Yield each datum that several of the places depend on, with the values on which most of them agree."""
     for id in _data(working.scheme):
         behind = [place for place in places if id in working.scheme.before[place[0]]]
         if len(behind) < FEWEST:
@@ -74,7 +76,7 @@ def _candidates(working: Working, places: Sequence[Place]) -> Iterator[Mistake]:
         if not crossings or near.sum(axis=1).max() < FEWEST:
             continue
         together = near[near.sum(axis=1).argmax()]
-        # What is worked out shows it more closely than what is drawn.
+        # A single value shows the datum more precisely than one from a drawing.
         exact = [factor for (factor, single), one in zip(crossings, together, strict=True) if one and single]
         for factor in (*exact[:1], float(np.median(factors[together]))):
             if abs(factor - 1) > UNLIKE:
@@ -86,9 +88,9 @@ def _times(factor: float) -> ChangeValue:
 
 
 def _data(scheme: MarkingScheme) -> Iterator[str]:
-    """Given data, and loads of a given size, that are not asked for."""
+    """Yield the ids of given data, and of loads of a given size, that the sheet does not ask for."""
     for id, family in scheme.ledger.families.items():
-        # A ratio is given as 1/3.6, which the ledger works out.
+        # A ratio is given as 1/3.6, which the ledger evaluates.
         given = not scheme.ledger.inputs[id]
         unseen = not (family.hidden or family.is_plane or id in scheme.rows)
         if (
@@ -101,7 +103,9 @@ def _data(scheme: MarkingScheme) -> Iterator[str]:
 
 
 def _crossings(working: Working, id: str, places: Sequence[Place]) -> Iterator[tuple[float, bool]]:
-    """The multiples of a datum at which quantities pass through the student's values, and whether these are single."""
+    """Yield the multiples of a datum at which a quantity equals the student's value, and True if it is a single
+    value.
+    """
     scheme = working.scheme
     wanted = {name for place in places for name in (place[0], *scheme.before[place[0]])}
     worlds = follow(scheme.ledger, {id: FACTORS[:, None] * scheme.ledger[id].values}, only=wanted)
@@ -127,7 +131,7 @@ def _crossings(working: Working, id: str, places: Sequence[Place]) -> Iterator[t
 
 @dataclass(frozen=True, slots=True)
 class _Datum:
-    """A given quantity and the value (SI) that it seems to have been taken for."""
+    """A given quantity and the value (SI) that the student seems to have used for it."""
 
     id: str
     value: float
@@ -138,9 +142,9 @@ class _Datum:
 
 
 def misread_data(working: Working, cells: Cells) -> dict[Place, Mistake]:
-    """The misread data behind first wrong values that have no other name: of several the one that explains most.
+    """Return the misread data behind first wrong values without a name; of several, the one that explains most values.
 
-    Only what is the same at all positions is traced back: a length, a mass, the crank's speed.
+    Only quantities that are the same at all positions are traced back: a length, a mass, the crank's speed.
     """
     scheme = working.scheme
     left = [place for place, cell in cells.items() if cell.first and not cell.mistake and scheme.rows[place[0]].single]
@@ -157,13 +161,14 @@ def misread_data(working: Working, cells: Cells) -> dict[Place, Mistake]:
         equal = [one for one in candidates if len(explained[one]) == most]
         if not most:
             break
-        # What stands on wrong values as well tells two apart that explain these equally.
+        # Values that also depend on wrong values decide between two data that explain equally many.
         best = equal[0] if len(equal) == 1 else max(equal, key=lambda one: _following(working, cells, one))
         mistakes |= dict.fromkeys(explained[best], best.mistake)
         left = [place for place in left if place not in explained[best]]
         candidates.remove(best)
     for place in left:
-        # Elsewhere the datum was right, so it must be a slip in copying it: one figure, met in all figures.
+        # Other values show the right datum, so this is a copying slip: one figure differs, and the result matches
+        # fully.
         slip = next((one for one in possible[place] if _is_slip(working, cells[place], one)), None)
         if slip is not None:
             mistakes[place] = slip.mistake
@@ -171,7 +176,7 @@ def misread_data(working: Working, cells: Cells) -> dict[Place, Mistake]:
 
 
 def _following(working: Working, cells: Cells, datum: _Datum) -> int:
-    """How many of the wrong values follow from the student's own with this value of the datum."""
+    """Return the number of wrong values that follow from the student's own values with this value of the datum."""
     values, scheme = working.own_values(changes=datum.mistake.changes), working.scheme
     count = 0
     for cell in cells.values():
@@ -183,7 +188,7 @@ def _following(working: Working, cells: Cells, datum: _Datum) -> int:
 
 
 def _possible_data(working: Working, cell: Marked) -> Iterator[_Datum]:
-    """Neat values of each datum at which a quantity passes through the student's value."""
+    """Yield round values of each datum at which a quantity equals the student's value."""
     scheme = working.scheme
     for id in scheme.before[cell.id]:
         family = scheme.ledger[id]
@@ -202,7 +207,7 @@ def _possible_data(working: Working, cell: Marked) -> Iterator[_Datum]:
 
 
 def _explains(working: Working, cell: Marked, datum: _Datum) -> bool:
-    """Whether the quantity comes to the student's value, not the key's, with this value of the datum."""
+    """Return True if this value of the datum gives the student's value of the quantity, and not the key's."""
     scheme = working.scheme
     if datum.id not in scheme.before[cell.id]:
         return False
@@ -212,7 +217,7 @@ def _explains(working: Working, cell: Marked, datum: _Datum) -> bool:
 
 
 def _is_slip(working: Working, cell: Marked, datum: _Datum) -> bool:
-    """Whether a datum differs from the given one in its last figure by one, and gives the value as it is written."""
+    """Return True if the datum differs from the given one by one in its last figure and gives the value as written."""
     right = float(working.scheme.ledger[datum.id].values[0])
     last = 2 * float(half_unit(np.array([right]), NEAT)[0])
     with_it = float(_at(working.scheme, cell, datum.id, np.array([datum.value]))[0])
@@ -222,9 +227,9 @@ def _is_slip(working: Working, cell: Marked, datum: _Datum) -> bool:
 
 
 def _is_contradicted(scheme: MarkingScheme, cells: Cells, datum: _Datum) -> bool:
-    """Whether a value that is right, and stands on nothing wrong, would lie far off with this value of the datum.
+    """Return True if a right value that depends on nothing wrong would be far off with this value of the datum.
 
-    Lengths on paper prove nothing: they are read at the student's own scale.
+    Lengths on paper prove nothing, because they are read at the student's own scale.
     """
     values = follow(scheme.ledger, {datum.id: np.array([datum.value])})
     wrong = {place[0] for place, cell in cells.items() if cell.verdict is Verdict.wrong}
@@ -245,7 +250,7 @@ def _is_on_paper(scheme: MarkingScheme, id: str) -> bool:
 
 
 def _at(scheme: MarkingScheme, cell: Marked, id: str, values: np.ndarray) -> np.ndarray:
-    """A quantity (SI) over values of a datum [M]."""
+    """Return a quantity (SI) for several values of a datum [M]."""
     wanted = {*scheme.before[cell.id], cell.id}
     result = follow(scheme.ledger, {id: values[:, None]}, only=wanted)[cell.id].real
     return np.broadcast_to(result, (len(values), len(scheme.ledger[cell.id].values)))[:, _index(scheme, cell)]
@@ -260,18 +265,24 @@ def _index(scheme: MarkingScheme, cell: Marked) -> int:
 
 
 def _neat(scheme: MarkingScheme, id: str, value: float) -> float:
-    """The nearest number (SI) as round as the right one in the datum's printed unit; for 1/3.6 that of its inverse."""
+    """Return the nearest number (SI) as round as the right one in the datum's printed unit.
+
+    For a ratio such as 1/3.6, round its inverse.
+    """
     family = scheme.ledger[id]
-    # Lengths stand in metres in the ledger and in millimetres on the page: the same figures.
+    # The ledger has lengths in metres, the page in millimetres; the figures are the same.
     taken, right = (one / family.how.scale for one in (value, float(family.values[0])))
-    # A ratio that the ledger works out was given as 1/3.6.
+    # A ratio that the ledger evaluates was given as 1/3.6.
     if family.kind == "ratio" and taken < 1 and family.definition is not None:
         return family.how.scale / _rounded(1 / taken, 1 / right)
     return _rounded(taken, right) * family.how.scale
 
 
 def _rounded(value: float, like: float) -> float:
-    """A number to `NEAT` figures, to halves of the last one if `like` has more figures than these or begins with 1."""
+    """Return a number rounded to `NEAT` figures.
+
+    Round to halves of the last figure if `like` has more figures than these or begins with 1.
+    """
     begins_with_1 = f"{like:.0e}".startswith("1")
     parts = 1 if np.isclose(like, float(f"{like:.{NEAT - 1}e}"), rtol=1e-9) and not begins_with_1 else 2
     step = 10.0 ** (np.floor(np.log10(value)) - NEAT + 1) / parts
@@ -282,13 +293,15 @@ def _rounded(value: float, like: float) -> float:
 
 
 def redesigned(working: Working, mistake: Mistake) -> Iterator[Mapping[str, ChangeValue]]:
-    """What else changes with a datum taken wrongly by which a design is found: each way of going on from it."""
+    """Yield the further changes caused by a misread datum that determines a design: one mapping for each way to
+    continue.
+    """
     scheme, id = working.scheme, mistake.where
     design = scheme.misconceptions.designs.get(id) if mistake.name == WRONG_DATUM else None
     if design is None:
         return
     taken = float(mistake.changes[id](scheme.ledger[id].values, {})[0])
-    # What values of three figures show of it is not exact.
+    # A datum inferred from three-figure values is not exact.
     near = _neat(scheme, id, taken)
     value = near if abs(near / taken - 1) < UNLIKE else taken
     for others in design(value):
@@ -306,14 +319,14 @@ def _fixed(values: np.ndarray) -> ChangeValue:
 # sought in all values at once that are read there, and counts if it explains nearly all of them.
 
 FEWEST_READ = 2
-"""One value alone may have been read wrongly."""
+"""Smallest number of readings that must agree; one value alone may have been read wrongly."""
 
 AGREED = 0.7
-"""The share of the first wrong values behind a vector that a mistake in it explains."""
+"""Share of the first wrong values behind a vector that a mistake in it must explain."""
 
 
 def mistakes_of_plans(working: Working, cells: Cells) -> dict[Place, Mistake]:
-    """The vectors reversed or left out behind first wrong values that have no name yet."""
+    """Return the reversed or omitted vectors behind first wrong values that have no name yet."""
     open_ones = [place for place, cell in cells.items() if cell.first and not cell.mistake and place[1]]
     candidates = list(_vectors_laid(working.scheme))
     mistakes: dict[Place, Mistake] = {}
@@ -326,7 +339,10 @@ def mistakes_of_plans(working: Working, cells: Cells) -> dict[Place, Mistake]:
 def behind_many(
     working: Working, cells: Cells, places: Sequence[Place], candidates: Sequence[Mistake], fewest: int
 ) -> dict[Place, Mistake]:
-    """The mistakes that explain nearly all wrong values behind them, `fewest` at least, those of the most first."""
+    """Return the mistakes that explain nearly all wrong values behind them, `fewest` at least.
+
+    The mistakes that explain most values come first.
+    """
     scheme = working.scheme
     first = list(dict.fromkeys(id for id, _ in places))
     before = {id: {*scheme.before[id]} for id in first}
@@ -345,11 +361,11 @@ def behind_many(
 
 
 def _vectors_laid(scheme: MarkingScheme) -> Iterator[Mistake]:
-    """Each vector that is laid in a plan, and each load as a whole, left out or reversed."""
+    """Yield each vector of a plan, and each load as a whole, omitted or reversed."""
     ledger = scheme.ledger
     for id, family in ledger.families.items():
         if family.definition is not None and vocabulary.is_laid(id) and family.is_plane and not family.of:
-            # The vector of a force, or the length of aⁿ on paper, which a line says of aⁿ itself.
+            # This is the vector of a force, or the length of aⁿ on paper; a line of the report gives it for aⁿ itself.
             source = ledger[refs(family.definition)[0]]
             if source.of:
                 yield from _either("force-left-out", "force-reversed", source.of, id)
@@ -366,7 +382,9 @@ def _either(left_out: str, reversed_: str, where: str, id: str) -> Iterator[Mist
 
 
 def _met(working: Working, cells: Cells, place: Place, values: np.ndarray) -> np.ndarray:
-    """Which of the candidates' values [candidates, positions] a student's value is, and not the right one."""
+    """Return a mask of the candidates whose value [candidates, positions] matches the student's and is not the right
+    one.
+    """
     scheme, cell = working.scheme, cells[place]
     index = scheme.rows[place[0]].at(place[1])
     given, band = float(working.values[place[0]][index]), cell.band
@@ -380,7 +398,7 @@ def _met(working: Working, cells: Cells, place: Place, values: np.ndarray) -> np
 def _best(
     candidates: list[Mistake], left: list[Place], met: dict[Place, np.ndarray], before: dict[str, set[str]], fewest: int
 ) -> tuple[Mistake, list[Place]] | None:
-    """The mistake that explains most of the values that are left, if it explains nearly all that it moves."""
+    """Return the mistake that explains most of the remaining values, if it explains nearly all that it changes."""
     best: tuple[Mistake, list[Place]] | None = None
     for number, mistake in enumerate(candidates):
         behind = [place for place in left if mistake.changes.keys() & before[place[0]]]

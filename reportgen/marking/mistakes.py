@@ -1,7 +1,7 @@
-"""The mistakes of working that are known by name: each is a change of the ledger, which is evaluated with it.
+"""Named mistakes in calculations, each defined as a change of the ledger, which is evaluated with it.
 
-A `Mistake` says in which quantity it is made, which quantities of the ledger change with it, and what they
-become, given what they come to and all values before them (SI).
+A `Mistake` says in which quantity it is made, which quantities of the ledger change, and to which value. The new value
+is computed from the right value and all values before it (SI).
 """
 
 from __future__ import annotations
@@ -25,16 +25,16 @@ from reportgen.marking.scheme import MarkingScheme, Values
 from reportgen.marking.working import ChangeValue, Working
 
 WRONG_DATUM = "wrong-datum"
-"""The name of a given datum taken wrongly."""
+"""Name of the mistake of a misread given datum."""
 
 NO_CORIOLIS = "no-coriolis"
-"""The name of a Coriolis acceleration left out."""
+"""Name of the mistake of an omitted Coriolis acceleration."""
 
 OF_POSITION = frozenset({"counted-backwards", "shifted-forward", "shifted-back"})
-"""Mistakes about where a position lies: one value alone may meet another position's by chance."""
+"""Mistakes about the position; a single value may match another position's by chance."""
 
 DECIMAL_PLACES = (1, 2, 3, 4, 5)
-"""Decimals that a mark read as that of thousands takes along."""
+"""Numbers of decimals that are lost if a decimal mark is read as a thousands mark."""
 
 TRIGONOMETRIC = {"sin", "cos", "tan"}
 INVERSE = {"arcsin", "arccos", "arctan", "arctan2"}
@@ -42,7 +42,7 @@ INVERSE = {"arcsin", "arccos", "arctan", "arctan2"}
 
 @dataclass(frozen=True, slots=True)
 class Mistake:
-    """One mistake that can be made in one quantity.
+    """A mistake that can be made in one quantity.
 
     `name` is a key of `mistakes` in `words.yaml`, `where` the id of the quantity in which it is made.
     """
@@ -53,9 +53,9 @@ class Mistake:
 
 
 def mistakes_in(scheme: MarkingScheme, id: str, scales: Values) -> Iterator[Mistake]:
-    """All mistakes that can be made in working out one quantity; `scales` are the student's own, in SI.
+    """Yield all mistakes that can be made in computing one quantity; `scales` are the student's own, in SI.
 
-    What stands printed for every position (the crank's angle) can only be taken at another one.
+    A value printed for every position (the crank's angle) can only be taken from another position.
     """
     family = scheme.ledger[id]
     if family.exact and len(family.values) > 1:
@@ -65,7 +65,7 @@ def mistakes_in(scheme: MarkingScheme, id: str, scales: Values) -> Iterator[Mist
 
 
 def general_mistakes(scheme: MarkingScheme) -> Iterator[Mistake]:
-    """Mistakes about the positions as such, and a Coriolis acceleration that is left out."""
+    """Yield mistakes about the positions, and an omitted Coriolis acceleration."""
     ledger = scheme.ledger
     read = [id for id, family in ledger.families.items() if family.definition is None and len(family.values) > 1]
     if read:
@@ -84,7 +84,7 @@ def general_mistakes(scheme: MarkingScheme) -> Iterator[Mistake]:
 
 
 def _of_an_accelerated_driver(scheme: MarkingScheme) -> Iterator[Mistake]:
-    """aᵗ of the crank pin left out, J₁ε₁ forgotten."""
+    """Yield the mistakes of an accelerated driver: aᵗ of the crank pin omitted, J₁ε₁ forgotten."""
     if ids.signed("eps", DRIVER) not in scheme.ledger:
         return
     for id in scheme.ledger.families:
@@ -96,7 +96,7 @@ def _of_an_accelerated_driver(scheme: MarkingScheme) -> Iterator[Mistake]:
 
 
 def _changes_of(scheme: MarkingScheme, family: Family, scales: Values) -> Iterator[tuple[str, ChangeValue]]:
-    """What one quantity becomes with each mistake, by name."""
+    """Yield the changed values of one quantity for each mistake, by name."""
     id = family.id
     for known in (scheme.misconceptions.changed, scheme.misconceptions.approximations):
         yield from ((name, _with(other, {})) for name, other in known.get(id, ()))
@@ -138,11 +138,11 @@ def _in_a_definition(
 def _with_a_wrong_input(
     scheme: MarkingScheme, family: Family, definition: Expression, given: Family, scales: Values
 ) -> Iterator[tuple[str, ChangeValue]]:
-    """Mistakes about one input of a definition."""
+    """Yield the mistakes about one input of a definition."""
     ledger, id = scheme.ledger, given.id
 
     def as_printed(_: np.ndarray, values: Values) -> np.ndarray:
-        """The input's printed number taken for the result's."""
+        """Return the printed number of the input, used as the result's printed number."""
         return values[id] / given.how.scale * family.how.scale
 
     def instead(other: Callable[[Values], np.ndarray]) -> ChangeValue:
@@ -156,7 +156,7 @@ def _with_a_wrong_input(
         yield "diameter-for-radius", instead(lambda values: 2 * values[id])
     elif given.kind == "speed of rotation":
         yield "rpm-for-radians", as_printed
-        # 2πn without the 60.
+        # 2πn without division by 60.
         yield "minute-for-second", _times(60.0)
     elif id == "omega.1" and "n" in ledger:
         yield "rpm-for-radians", instead(lambda values: values["n"])
@@ -166,19 +166,19 @@ def _with_a_wrong_input(
         yield "weight-for-mass", instead(lambda values: values[weight])
     elif given.kind.endswith("scale") and not family.constructed and (power := _power(scheme, definition, id)):
         number = scales.get(id, given.values) / given.how.scale
-        # v = seg and v = μ²·seg instead of v = μ·seg.
+        # v = seg or v = μ²·seg in place of v = μ·seg.
         yield "scale-forgotten", _times(number**-power)
         yield "scale-twice", _times(number**power)
 
 
 def _weight(scheme: MarkingScheme, mass: Family) -> str:
-    """The weight of the link that a mass is of, "" if it has none."""
+    """Return the id of the weight of the link that a mass belongs to, or "" if there is none."""
     weights = (one for one in scheme.ledger.families.values() if one.kind == "weight")
     return next((one.id for one in weights if one.symbol.sub == mass.symbol.sub), "")
 
 
 def _power(scheme: MarkingScheme, definition: Expression, scale: str) -> int:
-    """The power (±1) in which a scale stands in a definition as a whole; 0 if it does not."""
+    """Return the power (±1) of a scale in a whole definition; 0 if the definition is not proportional to one."""
     values = {id: scheme.ledger[id].values for id in refs(definition)}
     with np.errstate(all="ignore"):
         once = np.atleast_1d(evaluate(definition, values))
@@ -206,7 +206,7 @@ def _degrees(id: str) -> Callable[[Values], np.ndarray]:
 
 
 def _with(definition: Expression, others: Mapping[str, Callable[[Values], np.ndarray]]) -> ChangeValue:
-    """The definition worked out with other values of some of its inputs."""
+    """Return the definition evaluated with other values of some of its inputs."""
 
     names = refs(definition)
 
@@ -222,7 +222,7 @@ def _calls(definition: Expression, names: set[str]) -> bool:
 
 
 def _other_signs(definition: Expression) -> Iterator[Expression]:
-    """The definition with the sign of one term turned, for every term of its sums."""
+    """Yield the definition with the sign of one term reversed, for every term of its sums."""
     for part in walk(definition):
         if isinstance(part, Sum) and len(part.terms) > 1:
             for index, term in enumerate(part.terms):
@@ -236,17 +236,16 @@ def _put(node: Expression, old: Expression, new: Expression) -> Expression:
 
 
 # --- the first wrong values by name ---------------------------------------------------------------
-# Slips of writing, mistakes of working; data taken wrongly have their own module.
-# Each search looks at the first wrong values that have no name yet; `marking.SEARCHES` is their order.
+# This section covers slips of writing and mistakes in calculations; misread data have their own module.
 
 FEW_FIGURES = 2
-"""Significant figures that are too few, but still show the value; one figure shows too little."""
+"""Number of significant figures that is too few, but still shows the value; one figure shows too little."""
 
 FEWEST_ANGLES = 4
-"""Fewer angles show no convention."""
+"""Smallest number of angles that can show a convention."""
 
 AGREED = 0.8
-"""The share of the angles not right that one convention explains."""
+"""Share of the angles that are not right that one convention must explain."""
 
 CONVENTIONS: tuple[tuple[str, float, float], ...] = (
     ("angle-clockwise", -1.0, 0.0),
@@ -254,13 +253,13 @@ CONVENTIONS: tuple[tuple[str, float, float], ...] = (
     ("angle-from-vertical", -1.0, 90.0),
     ("angle-from-vertical", 1.0, 90.0),
 )
-"""How angles are measured otherwise: name, factor and summand (°) of the angle asked for."""
+"""Other conventions for measuring angles: name, factor and summand (°) of the requested angle."""
 
 OWN_FIGURES = 0.1
-"""A value within the tolerance of nothing shows a mistake that gives it to this share of itself."""
+"""Share of itself to which a value that is zero within its tolerance must match a mistake's value."""
 
 OF_WRITING = frozenset({"thousands-mark", "sign-reversed"})
-"""Slips of writing down, which nobody makes in what is not written down; by chance one of hundreds would fit."""
+"""Slips of writing, which are impossible in a value that is not written; by chance one of hundreds would match."""
 
 
 # --- slips of writing -----------------------------------------------------------------------------
@@ -269,7 +268,7 @@ OF_WRITING = frozenset({"thousands-mark", "sign-reversed"})
 
 
 def slips_of_writing(working: Working, cells: Cells) -> dict[Place, Mistake]:
-    """The slips behind first wrong values, where they are known."""
+    """Return the known slips behind first wrong values."""
     scheme = working.scheme
     first = {place: cell for place, cell in cells.items() if cell.first}
     found = (
@@ -279,7 +278,7 @@ def slips_of_writing(working: Working, cells: Cells) -> dict[Place, Mistake]:
             for place, cell in first.items()
             if _has_too_few_figures(cell) and not _comes_of_a_misconception(working, place)
         ),
-        # A scale was taken from the task while the plan was drawn at another.
+        # The scale was copied from the task while the plan was drawn at another one.
         *(
             ("other-scale", place)
             for place, cell in first.items()
@@ -287,18 +286,18 @@ def slips_of_writing(working: Working, cells: Cells) -> dict[Place, Mistake]:
         ),
         *_by_another_convention(first, cells),
     )
-    # Nothing else comes from a slip of writing unseen, so it changes no other quantity.
+    # A slip of writing affects nothing unseen, so it changes no other quantity.
     return {place: Mistake(name, place[0], {}) for name, place in found}
 
 
 def _is_other_scale(scheme: MarkingScheme, cell: Marked) -> bool:
-    """Whether a scale is the task's, or chosen freely, but not that of the drawing."""
+    """Return True if a scale is the task's, or freely chosen, but not the one of the drawing."""
     usual = float(scheme.key.row(cell.id).values[0])
     return cell.on_sheet.equals(usual, cell.on_sheet.band) or scheme.ledger[cell.id].kind == "force scale"
 
 
 def _has_too_few_figures(cell: Marked) -> bool:
-    """Whether a value is right but for its figures."""
+    """Return True if a value is right except for the number of its figures."""
     sheet = cell.on_sheet
     given = sheet.given
     return (
@@ -312,7 +311,7 @@ def _has_too_few_figures(cell: Marked) -> bool:
 
 
 def _comes_of_a_misconception(working: Working, place: Place) -> bool:
-    """Whether a mistake known of the quantity gives the value to three figures: a_w = a of 200 mm is not rounded."""
+    """Return True if a known misconception gives the value to three figures: a_w = a of 200 mm is not rounded."""
     (id, position), scheme = place, working.scheme
     known = [Mistake(name, id, {id: _with(other, {})}) for name, other in scheme.misconceptions.changed.get(id, ())]
     index = scheme.rows[id].at(position)
@@ -321,10 +320,10 @@ def _comes_of_a_misconception(working: Working, place: Place) -> bool:
 
 
 def _misplaced(scheme: MarkingScheme, first: Cells, cells: Cells) -> Iterator[tuple[str, Place]]:
-    """Two values of one unit in each other's rows; a value beside its own cell, which was left empty."""
+    """Yield two values of one unit in each other's rows, and a value beside its own cell, which is empty."""
     for (one, mine), (other, theirs) in combinations(first.items(), 2):
         same = one[1] == other[1] and scheme.rows[one[0]].unit == scheme.rows[other[0]].unit
-        # Of two values that differ in sign alone, both signs were reversed.
+        # If two values differ only in sign, both signs were reversed.
         opposite = abs(mine.on_sheet.expected + theirs.on_sheet.expected) <= mine.on_sheet.band
         if same and not opposite and _belongs_to(mine, theirs) and _belongs_to(theirs, mine):
             yield "rows-swapped", one
@@ -336,13 +335,13 @@ def _misplaced(scheme: MarkingScheme, first: Cells, cells: Cells) -> Iterator[tu
 
 
 def _belongs_to(cell: Marked, other: Marked) -> bool:
-    """Whether a value is that of another cell, not of its own."""
+    """Return True if a value is that of another cell, not of its own."""
     own, theirs = cell.on_sheet, other.on_sheet
     return own.equals(theirs.expected, theirs.band) and abs(own.expected - theirs.expected) > theirs.band
 
 
 def _by_another_convention(first: Cells, cells: Cells) -> Iterable[tuple[str, Place]]:
-    """Directions that one other convention explains, if it explains most of those that are not right."""
+    """Return directions that one other convention explains, if it explains most of those that are not right."""
     angles = {place: cell for place, cell in cells.items() if is_direction(place[0]) and cell.given is not None}
     off = sum(cell.verdict is not Verdict.right for cell in angles.values())
     best: list[tuple[str, Place]] = []
@@ -367,12 +366,12 @@ def _is_measured(cell: Marked, factor: float, summand: float) -> bool:
 
 
 def mistakes_of_working(working: Working, cells: Cells) -> dict[Place, Mistake]:
-    """The mistakes behind the first wrong values that have no name yet, where they are known."""
+    """Return the known mistakes behind the first wrong values that have no name yet."""
     by_row: dict[str, list[int]] = {}
     for (id, position), cell in cells.items():
         if cell.first and not cell.mistake:
             by_row.setdefault(id, []).append(position)
-    # A student goes on from the rounded value written down, or from the one left in the calculator.
+    # A student continues with the rounded value written down, or with the one left in the calculator.
     right = {place for place, cell in cells.items() if cell.verdict is Verdict.right}
     gone_on_from = (working, working.unrounded(right)) if by_row else ()
     found = {
@@ -387,7 +386,7 @@ def mistakes_of_working(working: Working, cells: Cells) -> dict[Place, Mistake]:
 def _explained(
     gone_on_from: Sequence[Working], cells: Cells, id: str, positions: Sequence[int]
 ) -> Iterator[tuple[int, Mistake]]:
-    """The mistake at each of the positions at which a quantity is wrong, where one is found.
+    """Yield the mistake at each wrong position of a quantity, if one is found.
 
     The first working is the one handed in.
     """
@@ -402,14 +401,14 @@ def _explained(
     here = [cells[id, position] for position in positions]
     band, own, expected = (np.array([getattr(cell, name) for cell in here]) for name in ("band", "own", "expected"))
     values = np.concatenate([foreseen(one, [id], candidates)[id][:, index] for one in gone_on_from])
-    # Of each working all candidates follow one another: so do the values, and so do the names.
+    # The candidates of each working follow each other; their names are repeated in the same order.
     candidates = candidates * len(gone_on_from)
-    # What a mistake makes larger, it makes less certain in the same measure.
+    # A mistake that enlarges a value makes it less certain by the same factor.
     wider = np.maximum(1.0, np.abs(values) / np.maximum(np.abs(own), band))
     apart = scheme.distance(id, given, values)
     off = apart / (band * wider)
     shows = np.min([scheme.distance(id, one, values) for one in (own, expected)], axis=0) > band
-    # What is nearly nothing is so by many a mistake: it shows one only if it is met in its own figures.
+    # Many mistakes give nearly zero: a value near zero shows one only if it matches in its own figures.
     left_out = np.array([[mistake.name == NO_CORIOLIS] for mistake in candidates])
     met = (off <= 1) & shows & (left_out | (np.abs(given) > band) | (apart <= OWN_FIGURES * np.abs(values)))
     count = met.sum(axis=1)
@@ -422,7 +421,7 @@ def _explained(
 
 
 def _candidates(working: Working, id: str) -> Iterator[Mistake]:
-    """Mistakes in the quantity itself, then in unseen ones before it, nearest first, then general ones."""
+    """Yield mistakes in the quantity itself, then in unseen quantities before it (nearest first), then general ones."""
     scheme = working.scheme
     yield from mistakes_in(scheme, id, working.scales)
     size = scheme.ledger.size_of(id)
@@ -437,7 +436,7 @@ def _candidates(working: Working, id: str) -> Iterator[Mistake]:
 
 
 def unseen_mistakes(working: Working, id: str) -> Iterator[Mistake]:
-    """Mistakes in a quantity that the sheet does not show; a plan many times too large is never drawn."""
+    """Yield mistakes in a quantity that the sheet does not show; nobody draws a plan many times too large."""
     family = working.scheme.ledger[id]
     drawn = family.kind == "segment" or family.kind.endswith("scale")
     if not (working.shows(id) or family.hidden or family.is_plane or drawn):
@@ -445,7 +444,7 @@ def unseen_mistakes(working: Working, id: str) -> Iterator[Mistake]:
 
 
 def foreseen(working: Working, ids: Sequence[str], mistakes: Sequence[Mistake]) -> dict[str, np.ndarray]:
-    """What quantities come to (SI) by each mistake, from a student's own earlier values [mistakes, positions]."""
+    """Return the values (SI) of quantities with each mistake, from the student's own values [mistakes, positions]."""
     scheme = working.scheme
     ledger = scheme.ledger
     made: dict[str, list[tuple[int, ChangeValue]]] = {}
@@ -474,7 +473,7 @@ def foreseen(working: Working, ids: Sequence[str], mistakes: Sequence[Mistake]) 
 
 
 class _RowOf(Mapping[str, np.ndarray]):
-    """The values with one of several mistakes, of values that have a row for each."""
+    """The values for one of several mistakes, taken from arrays with a row for each mistake."""
 
     def __init__(self, values: Values, number: int) -> None:
         self.all, self.number = values, number

@@ -1,4 +1,4 @@
-"""Numbers as students write them: their decimal mark, their unit, what is blank."""
+"""Parse numbers as students write them: decimal mark, thousands, powers of ten, unit, blank cells."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ from reportgen.base.typed import DASHES, RAISED_MINUS, SPACES, plain_signs
 from reportgen.base.units import Dimension, Language, QuantityFault
 
 BLANKS = frozenset({"", "-", "–", "—", "−", "…", "...", "?", "/"})
-"""What a cell without an answer holds."""
+"""Texts of a cell without an answer."""
 LONGEST = 60
-"""Characters of a number."""
+"""Largest number of characters of a number."""
 
 _SPACES = re.compile(rf"[\s{SPACES}]+")
 _RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺", "0123456789-+")
@@ -34,12 +34,12 @@ _NUMBER = re.compile(
 
 
 def is_blank(text: str) -> bool:
-    """Whether a cell's text says that there is no answer."""
+    """Return True if a cell's text means that there is no answer."""
     return plain_signs(narrow(text)).strip() in BLANKS
 
 
 def decimal_mark(texts: Iterable[str], language: Language) -> tuple[DecimalMark, bool]:
-    """The decimal mark that a sheet's texts agree on, and whether they do; else that of the language."""
+    """Return the decimal mark that a sheet's texts agree on, and True if they agree; else the language's mark."""
     marks_used: set[DecimalMark] = set()
     for text in texts:
         match = _matched(text)
@@ -52,10 +52,10 @@ def decimal_mark(texts: Iterable[str], language: Language) -> tuple[DecimalMark,
 
 
 def read_number(text: str, unit: str, mark: DecimalMark, agreed: bool = False) -> tuple[float, bool]:
-    """A cell's number in `unit` ("" for a pure number), and whether it is doubtful.
+    """Return a cell's number in `unit` ("" for a pure number), and True if it is doubtful.
 
-    `mark` decides what 1.234 means where the text itself does not; that is doubtful unless the whole sheet
-    `agreed` on the mark.  Raises `QuantityFault` (not-a-number, not-finite, unexpected-, unknown-, wrong-unit).
+    `mark` decides the meaning of 1.234 if the text itself does not; that is doubtful unless the whole sheet `agreed` on
+    the mark. Raises `QuantityFault` (not-a-number, not-finite, unexpected-, unknown-, wrong-unit).
     """
     if angle := _MINUTES.fullmatch(_tidy(text)):
         sign, degrees, minutes, seconds = angle.groups(default="0")
@@ -79,7 +79,7 @@ def _matched(text: str) -> re.Match[str] | None:
 
 
 def _tidy(text: str) -> str:
-    """One kind of blank, minus and power of ten: 1,2·10³ becomes 1,2e3."""
+    """Return the text with one kind of blank, minus and power of ten: 1,2·10³ becomes 1,2e3."""
     result = _SPACES.sub(" ", plain_signs(narrow(text))).strip().lstrip("≈~= ")
     if result[:1] in {*DASHES, RAISED_MINUS}:
         result = f"-{result[1:]}"
@@ -89,7 +89,7 @@ def _tidy(text: str) -> str:
 
 
 def _plain(body: str, mark: DecimalMark, text: str) -> tuple[str, bool, bool]:
-    """The digits with a decimal point; whether thousands were parted; whether `mark` had to decide it."""
+    """Return the digits with a decimal point, True if thousands were separated, and True if `mark` had to decide it."""
     joined = body.replace(" ", "").replace("'", "")
     marks = re.findall("[.,]", joined)
     whole, *rest = re.split("[.,]", joined)
@@ -112,7 +112,7 @@ def _plain(body: str, mark: DecimalMark, text: str) -> tuple[str, bool, bool]:
 
 
 def _factor(given: str, unit: str, text: str) -> float:
-    """What one of the unit given is in the unit asked for."""
+    """Return the factor from the given unit to the requested unit."""
     if not unit:
         raise QuantityFault("unexpected-unit", text=text)
     try:
@@ -126,5 +126,5 @@ def _factor(given: str, unit: str, text: str) -> float:
 
 
 def _without_radian(dimension: Dimension) -> Dimension:
-    """1/s is commonly written for rad/s; nothing but a bare number would be left of an angle."""
+    """Return the dimension without radian, unless only a bare number is left: 1/s is commonly written for rad/s."""
     return tuple(power for power in dimension if power[0] != "radian") or dimension

@@ -1,4 +1,4 @@
-"""Papers beside the report: what they all have in common, and the task with its empty answer sheet."""
+"""Papers beside the report: their common building blocks, and the task with its empty answer sheet."""
 
 from __future__ import annotations
 
@@ -23,19 +23,19 @@ from reportgen.marking.sheet import asked_positions, info_rows, open_cells
 from reportgen.report.report import PLATES_UP_TO
 
 MOST_POSITIONS, MOST_FILLED = 8, 4
-"""Columns of positions beside one another: of what is given, and of what is to be filled in."""
+"""Largest numbers of position columns in a table: for given values, and for values to be filled in."""
 KNOWN_DIGITS = 5
-"""Figures of what is given at each position."""
+"""Number of figures of the values given at each position."""
 SYMBOL, UNIT, VALUE = 16.0, 22.0, 15.3
 """Widths (mm) of the columns of the answer sheet."""
 WIDEST = 30.0
-"""Width (mm) of a column to be filled in by hand, where there is room."""
+"""Largest width (mm) of a column that is filled in by hand."""
 LAST = 12
-"""So many rows of a sheet stand on its last page at least, which is never nearly empty."""
+"""Smallest number of rows on the last page of a sheet, so that it is never nearly empty."""
 LEAST_WHAT = 50.0
-"""Width (mm) that the words of a row need at least, if they have no longer formula."""
+"""Smallest width (mm) for the description of a row, unless a formula needs more."""
 TABLE_SIZE, PADDING = 10.0, 4.0
-"""Font size (points) of a table, and what its cells keep clear of their edges (mm)."""
+"""Font size (points) of a table, and the padding of its cells (mm)."""
 
 
 def paper(
@@ -46,7 +46,10 @@ def paper(
     owner: str = "",
     variant: str = "",
 ) -> Document:
-    """A numbered document without a cover; title left and variant right in its header, `owner` its author."""
+    """Return a numbered document without a cover.
+
+    Its header has the title on the left and the variant on the right; `owner` is its author.
+    """
     note = words["variant"].format(variant=variant) if variant else ""
     terms = words["document"]
     header, footer = (title, note), ("", terms["page"])
@@ -64,7 +67,7 @@ def paper(
 
 
 def fields(pairs: Iterable[tuple[str, str]]) -> Iterable[Block]:
-    """Labelled texts, a line each, as typed; without a text a dotted line to fill in."""
+    """Return labelled texts, one per line, as typed; an empty text becomes a dotted line to fill in."""
     lines: list[Text | tree.Strong | tree.LineBreak] = []
     empty: list[Block] = []
     for label, text in pairs:
@@ -76,17 +79,17 @@ def fields(pairs: Iterable[tuple[str, str]]) -> Iterable[Block]:
 
 
 def heading(title: str, level: int = 1) -> tree.Section:
-    """A heading without a number."""
+    """Return a heading without a number."""
     return tree.Section(level, (Text(title),), numbered=False)
 
 
 def paragraph(text: str) -> Paragraph:
-    """A paragraph of plain text."""
+    """Return a paragraph of plain text."""
     return Paragraph((Text(text),))
 
 
 def student_rows(key: Key) -> tuple[tuple[str, str], ...]:
-    """Whose paper it is: label and text of assignment, variant (if any), student."""
+    """Return label and text of the assignment, the variant (if any) and the student."""
     assignment, _, variant, *student = info_rows(key)
     return (assignment, *((variant,) if key.variant else ()), *student)
 
@@ -95,11 +98,11 @@ def student_rows(key: Key) -> tuple[tuple[str, str], ...]:
 
 
 DASH = "–"
-"""In the cell of what does not exist."""
+"""Text of a cell whose value does not exist."""
 
 
 def cells(contents: Iterable[str | Number | Inlines]) -> tuple[Cell, ...]:
-    """The cells of a row: texts as they stand, numbers, or anything else that a line holds."""
+    """Return the cells of a row from texts, numbers or other inline content."""
     return tuple(Cell(_inlines(content)) for content in contents)
 
 
@@ -110,17 +113,17 @@ def _inlines(content: str | Number | Inlines) -> Inlines:
 
 
 def symbol_inlines(row: KeyRow, with_id: bool) -> Inlines:
-    """A quantity's symbol, perhaps with its id below."""
+    """Return a quantity's symbol, optionally with its id below."""
     return (InlineMath(row.symbol), *((tree.LineBreak(), Text(row.id)) if with_id else ()))
 
 
 def symbol_width(unnamed: Iterable[str], least: float) -> float:
-    """The width (mm) of a column of symbols, with the ids of `unnamed` rows below them."""
+    """Return the width (mm) of a column of symbols, with the ids of `unnamed` rows below them."""
     return max((least, *(box(id, TABLE_SIZE).width + PADDING for id in unnamed)))
 
 
 def unnamed_rows(rows: Iterable[KeyRow]) -> frozenset[str]:
-    """Return the ids of rows that neither a symbol nor words of their own tell from another: only these print it."""
+    """Return the ids of rows that share both symbol and description with another row: only these print the id."""
     rows = tuple(rows)
     count = Counter((row.symbol, row.described) for row in rows)
     return frozenset(row.id for row in rows if count[row.symbol, row.described] > 1)
@@ -130,10 +133,10 @@ def unnamed_rows(rows: Iterable[KeyRow]) -> frozenset[str]:
 
 
 def task_of(case: Case, key: Key, by_section: bool = False, self_check: bool = True) -> Document:
-    """The task of a case, from the given data to the empty answer sheet of `key`; no answer is in it.
+    """Return the task of a case, from the given data to the empty answer sheet of `key`; it contains no answers.
 
-    `by_section` puts each section of the sheet on pages of its own, headed by whose it is; `self_check` says how to
-    check it.  Raises `TemplateError`.
+    `by_section` puts each section of the sheet on separate pages, headed by its student. `self_check` adds instructions
+    for checking the sheet. Raises `TemplateError`.
     """
     if isinstance(case, CaseOfParts):
         pages = zip(case.parts.values(), key.pages, strict=True)
@@ -148,21 +151,21 @@ def _task(case: LoadedAssignment, key: Key, by_section: bool, self_check: bool) 
     contents = (*title, *fields(student_rows(key)), *blocks)
     language = case.assignment.language
     document = paper(language, case.words, case.course, contents, student, key.variant)
-    # The course heads its pages; a program that opens or reads the file names it by its own title.
+    # The course is the page header; programs that open the file use its own title.
     named = next((tree.plain(block.title, language) for block in title if isinstance(block, tree.Section)), "")
     return replace(document, title=f"{named or case.course} – {key.id}")
 
 
 def given_of(case: Case, key: Key) -> Document:
-    """Return what the task of a case says before its answer sheet: given data, what is asked, the positions.
+    """Return the part of a task before its answer sheet: given data, what is asked, the positions.
 
-    It has the blocks of `task_of` without the title, the student and the sheet with its instructions.  Raises
+    It has the blocks of `task_of` without the title, the student and the sheet with its instructions. Raises
     `TemplateError`.
     """
     if isinstance(case, CaseOfParts):
         pages = zip(case.parts.values(), key.pages, strict=True)
         first, *others = [_bare(part, page) for part, (_, page) in pages]
-        # A handout replaces the title and the line below it that the paper of each further part begins with.
+        # A handout replaces the title and the line below it at the beginning of each further part.
         head = (heading(case.title), Paragraph(()))
         return case.joined_task([first, *(replace(one, blocks=(*head, *one.blocks)) for one in others)])
     return _bare(case, key)
@@ -177,13 +180,13 @@ def _given(case: LoadedAssignment, key: Key) -> Document:
     title, blocks = case.question(_asked_for(case, key, by_section=False, self_check=False))
     # The last two headings are those of the instructions and of the sheet.
     *_, instructions, _ = (index for index, block in enumerate(blocks) if isinstance(block, tree.Section))
-    # Below the title, as headings of level 2 are.
+    # Keep the blocks below the title, like headings of level 2.
     document = paper(case.assignment.language, case.words, case.course, (title[0], *blocks[:instructions]))
     return replace(document, blocks=document.blocks[1:])
 
 
 def _asked_for(case: Case, key: Key, by_section: bool, self_check: bool) -> AskedFor:
-    """What the answer sheet of a key asks for, and what is given at the positions of the plates or of the answers."""
+    """Return what the answer sheet of a key asks for, with the values given at the positions."""
     asked = asked_positions(key)
     known = range(1, len(case.span.labels) + 1) if case.span.count <= PLATES_UP_TO else asked
     return AskedFor(
@@ -197,12 +200,12 @@ def _asked_for(case: Case, key: Key, by_section: bool, self_check: bool) -> Aske
 
 
 def empty_sheet(key: Key, by_section: bool) -> tuple[Block, ...]:
-    """The answer sheet to fill in by hand; `by_section` with each section on pages of its own."""
+    """Return the answer sheet to fill in by hand; `by_section` puts each section on separate pages."""
     return tuple(_sections(key) if by_section else answer_tables(key))
 
 
 def _sections(key: Key) -> Iterator[Block]:
-    """The empty sheet with a page break before each section but the first, and whose it is on each."""
+    """Yield the empty sheet with a page break before each section but the first, and the student's name in each."""
     whose = " – ".join(filter(None, (key.id, key.student.get("name", ""), key.student.get("id", ""))))
     parts = [part for part in Chapter if any(row.part is part for row in key.asked)]
     for part in parts:
@@ -214,9 +217,9 @@ def _sections(key: Key) -> Iterator[Block]:
 
 
 def answer_tables(key: Key, only: Chapter | None = None) -> Iterator[Table]:
-    """The empty sheet as tables to fill in by hand, or `only` a part of it: one for as many positions as have room.
+    """Yield the empty sheet, or `only` one part of it, as tables to fill in by hand.
 
-    The first one has what is asked for once, in a cell across all positions.
+    Each table has as many positions as fit. The first one has the single values, in a cell across all positions.
     """
     rows = [row for row in key.rows if row.positions and only in (None, row.part)]
     positions = sorted({k for row in rows if not row.single for k in row.positions})
@@ -228,7 +231,7 @@ def answer_tables(key: Key, only: Chapter | None = None) -> Iterator[Table]:
 
 
 def _known_tables(key: Key, positions: Sequence[int]) -> Iterator[Table]:
-    """What is given at each position (the crank's angle, a load that follows the motion), in the sheet's columns."""
+    """Yield tables of the values given at each position (the crank's angle, a load that follows the motion)."""
     words = words_of(key)
     caption = (Text(str(words["answer_sheet"]["known"])),)
     rows = [row for row in key.rows if row.role is Role.given and not row.single and row.part is not Chapter.formulas]
@@ -240,19 +243,19 @@ def _known_tables(key: Key, positions: Sequence[int]) -> Iterator[Table]:
 
 
 def _known_number(row: KeyRow, position: int) -> Number:
-    """A given number short enough for a column: an angle may be one that follows from lengths."""
+    """Return a given number shortened for a column; an angle may have many figures if it is computed from lengths."""
     return Number(float(f"{row.printed[row.at(position)]:.{KNOWN_DIGITS}g}"), None)
 
 
 def _split(positions: Sequence[int], most: int) -> Iterator[Sequence[int]]:
-    """Positions in as few sets of nearly one size as have `most` at most."""
+    """Yield the positions in the smallest number of groups of nearly equal size with at most `most` members."""
     count = -(-len(positions) // most)
     for start in range(count):
         yield positions[start * len(positions) // count : (start + 1) * len(positions) // count]
 
 
 def _heads(key: Key, positions: Sequence[int]) -> tuple[str, ...]:
-    """The words over the columns of a table."""
+    """Return the headings of the columns of a table."""
     words = words_of(key)
     table, sheet = words["table"], words["answer_sheet"]
     labels = [key.label(k) for k in positions]
@@ -262,12 +265,12 @@ def _heads(key: Key, positions: Sequence[int]) -> tuple[str, ...]:
 
 
 def _answer_table(key: Key, rows: Sequence[KeyRow], positions: Sequence[int], headed: bool) -> Table:
-    """Quantities below one another, each with what it is in words, those of a part below its name if it is `headed`."""
+    """Return a table with one quantity and its description per row; if `headed`, each part begins with its name."""
     unnamed, open_at = unnamed_rows(rows), open_cells(key)
     count = max(len(positions), 1)
     symbol = symbol_width(unnamed, SYMBOL)
     rest = tree.TEXT_WIDTH - symbol - UNIT
-    # A formula is broken at its equals sign at most.
+    # A formula is broken only at its equals sign.
     formulas = (one.expression for row in rows for one in row.described if isinstance(one, InlineMath))
     least = max((LEAST_WHAT, *(box(formula, TABLE_SIZE).width + PADDING for formula in formulas)))
     value = min((rest - least) / count, WIDEST)

@@ -1,6 +1,6 @@
-"""A coursework marked part by part: each part is judged by its own ledger, and what is found is put together again.
+"""Mark a coursework part by part: judge each part by its own ledger, then join the results.
 
-In the coursework ids have the part's name in front; the part by itself knows the ids of its kind.
+In the coursework, ids are prefixed with the part's name; the part itself uses the ids of its kind.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from reportgen.marking.scheme import MarkingScheme
 
 @dataclass(frozen=True, slots=True)
 class PartSheet:
-    """What of a sheet is of one part: its scheme, its values, and those of the classmates, by its own ids."""
+    """The share of a sheet that belongs to one part: its scheme, values and classmates, by the part's own ids."""
 
     part: PartOfKey
     scheme: MarkingScheme
@@ -32,7 +32,7 @@ class PartSheet:
 
 
 def sheets_of(scheme: MarkingScheme, submission: Submission, classmates: Sequence[Classmate]) -> Iterator[PartSheet]:
-    """The parts of a coursework's sheet, in order, with their shares of the mark."""
+    """Yield the parts of a coursework's sheet in order, weighted with their shares of the mark."""
     pages = {part.name: page for part, (_, page) in zip(scheme.key.parts, scheme.key.pages, strict=True)}
     earned = {
         name: sum(scheme.policy.worth(row.id) * len(row.positions) for row in page.asked)
@@ -50,7 +50,7 @@ def sheets_of(scheme: MarkingScheme, submission: Submission, classmates: Sequenc
 
 
 def share(shares: Mapping[str, float], earned: Mapping[str, float], name: str) -> float:
-    """What the points of a part are multiplied by, so that it has its share of all points; 1 without shares."""
+    """Return the factor for a part's points that gives it its share of all points; 1 without shares."""
     if not shares or not earned[name]:
         return 1.0
     here = {one: shares.get(one, 0.0) for one in earned if earned[one]}
@@ -63,7 +63,7 @@ def _own_key(page: Key, part: PartOfKey) -> Key:
 
 
 def _own_submission(whole: Submission, key: Key, part: PartOfKey) -> Submission:
-    """What of a submission is of a part."""
+    """Return the entries of a submission that belong to a part."""
 
     def own(values: Mapping[Place, Any]) -> dict[Place, Any]:
         return {(part.own(id), k): one for (id, k), one in values.items() if key.owner(id) == part.name}
@@ -78,13 +78,13 @@ def _own_submission(whole: Submission, key: Key, part: PartOfKey) -> Submission:
         unread=own(whole.unread),
         measured=own(whole.measured),
         drawn=frozenset(own(dict.fromkeys(whole.drawn))),
-        # It is told of the whole report.
+        # Hidden text is reported for the whole report.
         unseen=frozenset(),
     )
 
 
 def _own_classmate(classmate: Classmate, name: str) -> Classmate | None:
-    """The same part of a classmate's work, if there is one."""
+    """Return the same part of a classmate's work, or None if there is none."""
     for part, (_, page) in zip(classmate.key.parts, classmate.key.pages, strict=False):
         if part.name == name:
             sheet = classmate.submission and _own_submission(classmate.submission, classmate.key, part)
@@ -93,7 +93,7 @@ def _own_classmate(classmate: Classmate, name: str) -> Classmate | None:
 
 
 def joined(scheme: MarkingScheme, submission: Submission, marked: Sequence[tuple[PartOfKey, Marking]]) -> Marking:
-    """One marking of the whole sheet."""
+    """Return one marking of the whole sheet."""
     cells = [_full_cell(cell, part) for part, marking in marked for cell in marking.cells]
     flags = [_full_notice(flag, part) for part, marking in marked for flag in marking.flags]
     return Marking(scheme.key, submission, tuple(cells), tuple(flags))
@@ -111,7 +111,7 @@ def _full_notice(flag: Notice, part: PartOfKey) -> Notice:
 
 
 def check_shares(policy: Policy, keys: Sequence[Key], language: Language | None) -> None:
-    """Raises `AssignmentError`, located in the policy, for shares of parts that no work has, and for forgotten ones."""
+    """Raise `AssignmentError`, located in the policy, for shares of unknown parts and for parts without a share."""
     if policy.file is None or not policy.parts:
         return
     names = dict.fromkeys(part.name for key in keys for part in key.parts)

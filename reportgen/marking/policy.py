@@ -1,4 +1,4 @@
-"""How strictly a class is marked: tolerances, points, what is asked, which flags cost marks, and the mark."""
+"""The marking policy of a class: tolerances, points, selection of questions, flags that cost marks, and the mark."""
 
 from __future__ import annotations
 
@@ -20,48 +20,48 @@ from reportgen.marking.bands import DIGITS, PAPER_ERROR
 from reportgen.marking.key import Ask
 
 TAKES = frozenset({"stock", "columns", "other-data", "classmate-key", "classmate-sheet"})
-"""Kinds of flags that cost marks unless the policy says otherwise: what is beyond doubt."""
+"""Kinds of flags that cost marks by default, because they are certain."""
 FLAGS_ONLY = frozenset({"constant", "classmate", "unseen"})
-"""Kinds that are told and cost nothing unless the policy says so."""
+"""Kinds of flags that are only reported by default."""
 
 
 @dataclass(frozen=True, slots=True)
 class Scale:
-    """How the mark of a sheet is told: the highest one, and the step to which marks are rounded."""
+    """The scale of marks: the highest mark, and the step to which marks are rounded."""
 
     highest: float = 10.0
     step: float = 0.1
 
     def mark(self, share: float) -> float:
-        """The mark for a share of the points; half a step is rounded up."""
-        # 1e-9: a share such as 0.85 is a little off as a float.
+        """Return the mark for a share of the points; half a step is rounded up."""
+        # 1e-9: a share such as 0.85 is slightly off as a float.
         return round(math.floor(share * self.highest / self.step + 0.5 + 1e-9) * self.step, 6)
 
 
 @dataclass(frozen=True, slots=True)
 class Lateness:
-    """What is taken off a mark for each day begun after the moment `due`, altogether `most` of it."""
+    """The deduction from a mark for each day begun after the moment `due`, at most `most` in total."""
 
     due: datetime.datetime
     per_day: float
     most: float = math.inf
 
     def days(self, handed_in: datetime.datetime) -> int:
-        """The days begun between the moment due and that of handing in, 0 in time."""
+        """Return the number of days begun after the due moment; 0 if handed in on time."""
         return max(math.ceil((handed_in - self.due) / datetime.timedelta(days=1)), 0)
 
 
 LEAST_READ = 0.8
 
 Twice = Literal["last", "first"]
-"""Which of two sheets of one student is marked."""
+"""Choice between two sheets of one student."""
 
 
 @dataclass(frozen=True, slots=True)
 class Policy:
-    """What the sheet asks for, tolerances (`paper` in m), points and the mark; `weights` by patterns of ids.
+    """The requested cells, tolerances (`paper` in m), points and the mark; `weights` by patterns of ids.
 
-    `take` says which kinds of flags cost marks, `overrule` gives the reason why a sheet keeps its marks in any case.
+    `take` says which kinds of flags cost marks. `overrule` gives, by sheet, the reason why it keeps its marks.
     """
 
     paper: float = PAPER_ERROR
@@ -77,31 +77,31 @@ class Policy:
     ask: Ask = field(default_factory=Ask)
     scale: Scale = field(default_factory=Scale)
     parts: Mapping[str, float] = field(default_factory=dict)
-    """The shares of the parts of a coursework, by name; without them each value counts alike."""
+    """Shares of the parts of a coursework, by name; without them, each value counts alike."""
     late: Lateness | None = None
     twice: Twice = "last"
     least_read: float = LEAST_READ
-    """Where a smaller share of what stands in a student's own files was read, there is no mark."""
+    """Smallest share of the student's own files that must be read; below it there is no mark."""
     approximations: bool = True
-    """Whether a value by a textbook's approximation earns its points; the feedback names it in any case."""
+    """True if a value by a textbook's approximation earns its points; the feedback names it in any case."""
     file: Path | None = None
 
     def deducted(self, share: float, days_late: int) -> float:
-        """What is taken off the mark for a share of the points that was handed in so many days late."""
+        """Return the deduction from the mark for a share of the points, handed in `days_late` days late."""
         if self.late is None:
             return 0.0
         return min(self.late.per_day * days_late, self.late.most, self.scale.mark(share))
 
     def mark(self, share: float, days_late: int = 0) -> float:
-        """The mark for a share of the points, less what is taken off it."""
+        """Return the mark for a share of the points, after deductions."""
         return round(self.scale.mark(share) - self.deducted(share, days_late), 6)
 
     def takes(self, kind: str, assignment: str) -> bool:
-        """Whether a kind of flag costs marks on the sheet of an assignment."""
+        """Return True if a kind of flag costs marks on the sheet of an assignment."""
         return assignment not in self.overrule and self.take.get(kind, kind in TAKES)
 
     def worth(self, id: str) -> float:
-        """The points that a quantity is worth at one position."""
+        """Return the points that a quantity is worth at one position."""
         return next((weight for pattern, weight in self.weights.items() if fnmatchcase(id, pattern)), 1.0)
 
 

@@ -1,8 +1,8 @@
-"""How good the questions were: facility and discrimination of each cell, question and section over a class.
+"""Item statistics of a class: facility and discrimination of each cell, question and section.
 
-The facility is the mean share of its points that the class earned; the discrimination is the correlation between a
-student's share of it and that of all the rest of the sheet (the corrected item-total correlation).
-Source: L. Crocker, J. Algina, Introduction to Classical and Modern Test Theory, 1986, ch. 14.
+The facility is the mean share of its points that the class earned. The discrimination is the correlation between a
+student's share of it and that of the rest of the sheet (the corrected item-total correlation). Source: L. Crocker, J.
+Algina, Introduction to Classical and Modern Test Theory, 1986, ch. 14.
 """
 
 from __future__ import annotations
@@ -21,14 +21,15 @@ from reportgen.marking.key import symbol_text
 from reportgen.marking.marks import Marked, Marking, Place, Verdict
 
 LEAST = 10
-"""Students from whom on a correlation tells anything: of fewer, one of 0.6 may be chance (1 in 20)."""
+"""Smallest number of students for a correlation: with fewer, 0.6 may be chance (1 in 20)."""
 
 
 @dataclass(frozen=True, slots=True)
 class Item:
-    """Cells of a class under one name: how many students were asked, the share of the points that they earned, the
-    correlation of that with the rest of the sheet (NaN for few students, and where one of the two does not vary), the
-    share left blank.
+    """Cells of a class under one name, with their statistics.
+
+    These are the number of students asked, the share of the points that they earned, its correlation with the rest of
+    the sheet (NaN for few students or if one of the two does not vary), and the share left blank.
     """
 
     key: Key
@@ -45,7 +46,7 @@ class Item:
 
 
 def judged(markings: Sequence[Marking], name: Callable[[Key, Marked], object]) -> list[Item]:
-    """An item for each name that the cells have, in the order of the sheets; what counts for no points is left out."""
+    """Return an item for each name of the cells, in the order of the sheets; cells worth no points are left out."""
     of_name: dict[object, list[tuple[Marking, list[Marked]]]] = {}
     for marking in markings:
         own: dict[object, list[Marked]] = {}
@@ -74,30 +75,30 @@ def _item(students: Sequence[tuple[Marking, Sequence[Marked]]]) -> Item:
 
 
 def _correlation(x: np.ndarray, y: np.ndarray) -> float:
-    """The correlation of two rows [N], NaN where one of them does not vary."""
-    # 1e-9: the dust of floats is no variation.
+    """Return the correlation of two rows [N]; NaN if one of them does not vary."""
+    # 1e-9: floating-point noise is not variation.
     if len(x) < LEAST or np.ptp(x) < 1e-9 or np.ptp(y) < 1e-9:
         return float("nan")
     return float(np.corrcoef(x, y)[0, 1])
 
 
 def by_section(markings: Sequence[Marking], language: Language) -> list[Item]:
-    """An item for each section, of each part of a coursework."""
+    """Return an item for each section, separately for the parts of a coursework."""
     return judged(markings, lambda key, cell: section_name(key, key.row(cell.id), language))
 
 
 def by_question(markings: Sequence[Marking]) -> list[Item]:
-    """An item for each quantity over its positions."""
+    """Return an item for each quantity over its positions."""
     return judged(markings, lambda key, cell: cell.id)
 
 
 def by_cell(markings: Sequence[Marking]) -> list[Item]:
-    """An item for each cell."""
+    """Return an item for each cell."""
     return judged(markings, lambda key, cell: (cell.id, cell.position))
 
 
 def question_rows(markings: Sequence[Marking], language: Language) -> tuple[tuple[CellValue, ...], ...]:
-    """Head and rows of `questions.csv`: sections, then questions, then cells."""
+    """Return the head and the rows of `questions.csv`: sections, then questions, then cells."""
     names = load_words(search_path(language))["question_columns"]
     rows: list[tuple[CellValue, ...]] = [tuple(names.values())]
     levels = (by_section(markings, language), by_question(markings), by_cell(markings))
@@ -119,5 +120,5 @@ def question_rows(markings: Sequence[Marking], language: Language) -> tuple[tupl
 
 
 def _number(value: float) -> float | None:
-    """To the decimals of a share; empty where there is none."""
+    """Return a number rounded to the decimals of a share, or None for NaN."""
     return None if np.isnan(value) else round(value, DECIMALS)

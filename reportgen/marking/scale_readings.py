@@ -1,8 +1,8 @@
-"""How a student came by the scale of a plan of which the sheet shows no length: a choice, or a result.
+"""Decide whether the scale of a plan without lengths on the sheet was chosen or computed.
 
-The crank's own plans have a scale that is worked out, μ_v = ω₁μ_l.  A number written down for it may be a free choice,
-at which the same velocities are drawn longer or shorter; or what the student's own wrong ω₁ came to, with which every
-velocity of the plan grows.  The number alone does not decide; the values that were read from the plan do.
+The crank's own plans have a computed scale, μ_v = ω₁μ_l. A number written for it may be a free choice, at which the
+same velocities are drawn longer or shorter. It may also be the result of the student's own wrong ω₁, with which every
+velocity of the plan grows. The number alone does not decide; the values read from the plan do.
 """
 
 from __future__ import annotations
@@ -20,13 +20,13 @@ from reportgen.marking.scheme import MarkingScheme, Values
 from reportgen.marking.working import CONFIRMED, ScaleReading, Working, lay_out
 
 Fitting = Callable[[Working], tuple[int, int]]
-"""How many values of a sheet a working explains, and how many there are."""
+"""Returns the number of values of a sheet that a working explains, and the number of values."""
 
 
 def best_working(scheme: MarkingScheme, submission: Submission, fitting: Fitting) -> Working:
-    """Return the working of a submission in which each open scale is read as most values of the sheet fit it.
+    """Return the working of a submission in which each open scale has the reading that explains most values.
 
-    The scales are read one after the other in the ledger's order, since μ_v and μ_a stand on μ_l.
+    The scales are read one after the other in the ledger's order, since μ_v and μ_a depend on μ_l.
     """
     scales = _open_scales(scheme, submission)
     if not scales:
@@ -103,7 +103,7 @@ def charged_for_scales(working: Working, cells: Cells) -> dict[Place, Marked]:
 class _Possible:
     """The values (SI) that open scales may have for a student.
 
-    `world` has all values (SI) [N] without the scales, `stated` the scales that are written down (SI).
+    `world` has all values (SI) [N] without the scales, `stated` the written scales (SI).
     """
 
     scheme: MarkingScheme
@@ -111,7 +111,9 @@ class _Possible:
     stated: Mapping[str, float]
 
     def readings(self, scale: str, taken: Mapping[str, ScaleReading]) -> list[ScaleReading]:
-        """What a scale comes to from the student's own values, by its formula or as v_A/pa; then the number itself."""
+        """Return the readings of a scale: from the student's own values by its formula or as v_A/pa, then the written
+        number.
+        """
         definition = self.scheme.ledger[scale].definition
         assert definition is not None, "an open scale is worked out"
         inputs = {id: np.array([taken[id].value]) if id in taken else self.world[id] for id in refs(definition)}
@@ -129,7 +131,7 @@ class _Possible:
         return readings
 
     def completed(self, taken: Mapping[str, ScaleReading], later: Sequence[str]) -> dict[str, ScaleReading]:
-        """The scales that are taken, and those after them as they follow from these."""
+        """Return the scales that are taken, and the later ones as they follow from these."""
         scales = dict(taken)
         for scale in later:
             scales[scale] = self.readings(scale, scales)[0]
@@ -137,7 +139,7 @@ class _Possible:
 
 
 def _open_scales(scheme: MarkingScheme, submission: Submission) -> list[str]:
-    """The scales that are worked out, and of whose plans the sheet shows no length, in the ledger's order."""
+    """Return the computed scales of plans without a length on the sheet, in the ledger's order."""
     shown = {vocabulary.plan(id) for id, _ in submission.values.keys() - submission.measured.keys()}
     scales = {
         row.id
@@ -148,6 +150,6 @@ def _open_scales(scheme: MarkingScheme, submission: Submission) -> list[str]:
 
 
 def _stated(scheme: MarkingScheme, submission: Submission, scales: Sequence[str]) -> dict[str, float]:
-    """The scales (SI) that are written down as a positive number."""
+    """Return the scales (SI) that are written as a positive number."""
     numbers = {id: submission.values[id, 0].value for id in scales if (id, 0) in submission.values}
     return {id: number * scheme.ledger[id].how.scale for id, number in numbers.items() if 0 < number < np.inf}

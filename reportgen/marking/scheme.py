@@ -1,4 +1,4 @@
-"""One assignment opened for marking: what is asked, how far off it may be, what stands on what."""
+"""One assignment prepared for marking: what is asked, the tolerances, and the dependencies between values."""
 
 from __future__ import annotations
 
@@ -21,27 +21,27 @@ Values = Mapping[str, np.ndarray]
 """Values (SI) by id, [N] or [1]."""
 
 ALMOST = 1e-12
-"""Room for rounding in a comparison with a band."""
+"""Relative allowance for rounding in a comparison with a band."""
 
 
 @dataclass(frozen=True)
 class MarkingScheme:
-    """An assignment opened for marking."""
+    """An assignment prepared for marking."""
 
     key: Key
     ledger: Ledger
     misconceptions: Misconceptions
     count: int
-    """Positions of one turn."""
+    """Number of positions of one turn."""
     policy: Policy
     parts: tuple[MarkingScheme, ...] = ()
-    """Those of the parts of a coursework, each by its own ids."""
+    """Schemes of the parts of a coursework, each by its own ids."""
 
     @cached_property
     def bands(self) -> dict[str, np.ndarray]:
         """The tolerances (SI) [N] of every row of the key.
 
-        They are the widest of drawing, rounding and a share of the quantity's maximum within a quarter turn.
+        Each is the widest of three: drawing, rounding, and a share of the quantity's maximum within a quarter turn.
         """
         return self.bands_at({})
 
@@ -50,7 +50,7 @@ class MarkingScheme:
         return computed_bands(self.ledger, self.policy.digits)
 
     def bands_at(self, scales: Values) -> dict[str, np.ndarray]:
-        """The tolerances (SI) [N] where plans are drawn at multiples of the report's scales."""
+        """Return the tolerances (SI) [N] if plans are drawn at multiples of the report's scales."""
         policy = self.policy
         drawn, computed = drawn_bands(self.ledger, policy.paper, scales), self._computed
         return {
@@ -60,16 +60,17 @@ class MarkingScheme:
         }
 
     def size(self, id: str) -> float:
-        """The largest value of a quantity over the turn (SI); of an angle, a full turn."""
+        """Return the largest value of a quantity over the turn (SI); for an angle, a full turn."""
         if is_direction(id):
             return 2 * np.pi
         values = np.abs(self.ledger[id].values)
         return float(values[np.isfinite(values)].max(initial=0.0))
 
     def _size_near(self, id: str) -> np.ndarray:
-        """The largest value of a quantity within a quarter turn of each position (SI) [N]; of an angle, a full turn.
+        """Return the largest value of a quantity within a quarter turn of each position (SI) [N]; for an angle, a full
+        turn.
 
-        So the pressure of combustion makes no room in the intake stroke.
+        So the pressure of combustion does not widen the tolerance in the intake stroke.
         """
         values = np.nan_to_num(np.abs(self.ledger[id].values))
         if is_direction(id) or len(values) == 1:
@@ -79,36 +80,40 @@ class MarkingScheme:
         return near
 
     def distance(self, id: str, values: np.ndarray | float, references: np.ndarray | float) -> np.ndarray:
-        """How far values (SI) lie apart: directions around the circle; what has no sense of its own by size."""
+        """Return the distance between values (SI): around the circle for directions, of absolute values if unsigned."""
         if self.is_unsigned(id):
             values, references = np.abs(values), np.abs(references)
         return np.asarray(vocabulary.distance(id, np.asarray(values), np.asarray(references)))
 
     def is_unsigned(self, id: str) -> bool:
-        """Whether the sign of a quantity is not judged: an arm's, or one of which the sheet leaves the sense open."""
+        """Return True if the sign of a quantity is not judged: an arm, or a quantity whose sense the sheet
+        leaves open.
+        """
         row = self.key.find(id)
         return self.ledger[id].arm or (row is not None and row.open_sense)
 
     @cached_property
     def rows(self) -> dict[str, KeyRow]:
-        """The rows that a sheet may fill in."""
+        """The rows that a sheet may fill in, by id."""
         return {row.id: row for row in self.key.asked}
 
     @cached_property
     def judged(self) -> tuple[KeyRow, ...]:
-        """The rows that earn marks, in the ledger's order; how long the crank is drawn is the student's own choice."""
+        """The rows that earn marks, in the ledger's order; the drawn length of the crank is the student's own
+        choice.
+        """
         order = {id: index for index, id in enumerate(self.ledger.families)}
         kept = (row for row in self.key.asked if row.kind != "segment" or row.role is not Role.scale)
         return tuple(sorted(kept, key=lambda row: order[row.id]))
 
     @cached_property
     def before(self) -> dict[str, tuple[str, ...]]:
-        """Every quantity that a judged one stands on, nearest first."""
+        """The quantities that each judged one depends on, nearest first."""
         return {row.id: standing_on(self.ledger, row.id) for row in self.judged}
 
     @cached_property
     def alike(self) -> dict[str, tuple[str, ...]]:
-        """Of each judged row those before it that have its values at all positions."""
+        """For each judged row, the earlier rows that have equal values at all positions."""
         alike: dict[str, tuple[str, ...]] = {}
         for number, row in enumerate(self.judged):
             own = self.ledger[row.id]
@@ -126,7 +131,7 @@ class MarkingScheme:
 
     @cached_property
     def makers(self) -> dict[str, tuple[str, str]]:
-        """Of each scale of a plan the size and the length that it was made from: v_A and pa of μ_v."""
+        """For each scale of a plan, the size and the length that define it: v_A and pa for μ_v."""
         ledger, makers = self.ledger, dict[str, tuple[str, str]]()
         single = [one for one in ledger.families.values() if len(one.values) == 1 and not (one.hidden or one.is_plane)]
         sizes = [one for one in single if one.kind in ("velocity", "acceleration")]
@@ -141,7 +146,9 @@ class MarkingScheme:
 
     @cached_property
     def sizes(self) -> dict[str, set[str]]:
-        """The quantities that each length of a plan stands for: μ times it, and the size of the vector laid as it."""
+        """For each length of a plan, the quantities that it represents: μ times it, and the size of the vector drawn as
+        it.
+        """
         sizes: dict[str, set[str]] = {id: set() for id in self.ledger.families if vocabulary.plan(id)}
         for id, family in self.ledger.families.items():
             if isinstance(family.definition, Product) and len(family.definition.factors) == 2:
@@ -154,7 +161,7 @@ class MarkingScheme:
         return sizes
 
     def stands_on(self, place: Place, places: Container[Place]) -> bool:
-        """Whether a value on the sheet stands on one at any of `places`."""
+        """Return True if a value on the sheet depends on one at any of `places`."""
         id, position = place
         rows = (self.rows[before] for before in self.before[id] if before in self.rows)
         return any((row.id, self.place(row, position)) in places for row in rows)
@@ -167,24 +174,24 @@ class MarkingScheme:
         }
 
     def repeats(self, row: KeyRow) -> bool:
-        """Whether a quantity is asked for in the first turn only, because all turns are the same."""
+        """Return True if a quantity is asked for in the first turn only, because all turns are the same."""
         return self._repeated[row.id]
 
     def place(self, row: KeyRow, position: int) -> int:
-        """The position at which the sheet asks for a quantity that one at `position` stands on."""
+        """Return the position of the sheet for a quantity that one at `position` depends on."""
         if row.single:
             return 0
         return (position - 1) % self.count + 1 if self.repeats(row) else position
 
 
 def marking_scheme(case: Case, policy: Policy | None = None) -> MarkingScheme:
-    """The marking scheme of an assignment, computed as its report is."""
+    """Return the marking scheme of an assignment, computed in the same way as its report."""
     parts = tuple(marking_scheme(part, policy) for part in case.parts.values())
     return MarkingScheme(key_of(case), case.ledger, case.misconceptions, case.span.count, policy or Policy(), parts)
 
 
 def makes_scale(ledger: Ledger, id: str, scale: str) -> bool:
-    """Whether a length on paper is the one that a scale was made from: the drawn crank, pa."""
+    """Return True if a length on paper is the one that defines a scale: the drawn crank, pa."""
     if scale == "mu.l":
         return is_chosen_length(ledger, ledger[id])
     definition = ledger[id].definition
@@ -192,10 +199,11 @@ def makes_scale(ledger: Ledger, id: str, scale: str) -> bool:
 
 
 def key_asked(policy: Policy, key: Key, submission: Submission) -> tuple[Key, frozenset[str]]:
-    """A key with the cells that a policy asks for and those that are filled in, and the ids of what is asked for.
+    """Return a key with the cells that a policy asks for and those that are filled in, and the ids of the requested
+    rows.
 
-    Of a drawing its lengths and directions are asked for, where it has to show them; a sheet that was written of own
-    files, and completed by hand, has no others.
+    For a drawing, its lengths and directions are requested where it must show them. A sheet prefilled from own files
+    and completed by hand has no other cells.
     """
     filled = (*submission.values, *submission.problems)
     drawn = frozenset(filled) if submission.fingerprint else submission.drawn

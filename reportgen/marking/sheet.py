@@ -1,7 +1,7 @@
-"""The answer sheet as a workbook, and the layout that it shares with the key and with the marked sheet.
+"""The answer sheet as a workbook: its layout, shared with the key and the marked sheet, and reading it back.
 
-The layout is found again by its words: a head row, then a row for each quantity, its id in the first column;
-a column for single values, then one for each position asked.
+The layout is recognised by its words: a head row, then a row for each quantity with its id in the first column. There
+is a column for single values, then one for each requested position.
 """
 
 from __future__ import annotations
@@ -32,24 +32,24 @@ from reportgen.marking.numbers import DecimalMark, decimal_mark, is_blank, read_
 from reportgen.workbook import Book, BookSheet, Entry, Page, SheetCell, read
 
 NAMES = 5
-"""Columns before those of the positions: id, symbol, what it is, unit, single value."""
+"""Number of columns before those of the positions: id, symbol, description, unit, single value."""
 HEAD = 3
-"""Rows down to the head of the columns: title, note, head."""
+"""Number of rows down to the head of the columns: title, note, head."""
 
 WHAT = 48.0
-"""Width (characters) of the column that says what a row is."""
+"""Width (characters) of the column of descriptions."""
 
 Filling = Callable[[KeyRow, int], Entry | None]
-"""What stands in the cell of a row at a position (0 for a single value); None where it has no cell."""
+"""Returns the entry of a row at a position (0 for a single value); None if the row has no cell there."""
 
 
 def asked_positions(key: Key) -> tuple[int, ...]:
-    """The positions that any row of the sheet is asked at, in their order."""
+    """Return the positions at which any row of the sheet is asked, in order."""
     return tuple(sorted({k for row in key.asked for k in row.positions if k}))
 
 
 def rows_shown(key: Key) -> tuple[KeyRow, ...]:
-    """The rows of the sheet: what is given, what is asked, scales; formulas show their data if they are asked for."""
+    """Return the rows of the sheet: given, asked and scales; given data of formulas only if formulas are asked for."""
     formulas = any(row.part is Chapter.formulas for row in key.asked)
     given = (row.id for row in key.rows if row.role is Role.given and (formulas or row.part is not Chapter.formulas))
     shown = frozenset(given)
@@ -57,16 +57,16 @@ def rows_shown(key: Key) -> tuple[KeyRow, ...]:
 
 
 def number_format(row: KeyRow) -> str:
-    """A spreadsheet's format with the report's decimals."""
+    """Return a spreadsheet number format with the report's decimals."""
     decimals = row.decimals
     return "General" if decimals is None else f"0.{'0' * decimals}" if decimals > 0 else "0"
 
 
 def open_cells(key: Key) -> Mapping[str, frozenset[int]]:
-    """The positions at which each row has a cell to fill in, by id.
+    """Return the positions at which each row has a cell to fill in, by id.
 
-    A cell is open also where the quantity does not exist (the direction of a velocity that is zero) but
-    others of its part are asked for, so that the sheet does not give it away.
+    A cell is also open if its quantity does not exist (the direction of a zero velocity) while others of its part are
+    asked for, so that the sheet does not reveal it.
     """
     of_part: dict[Chapter, set[int]] = {}
     for row in key.asked:
@@ -79,7 +79,7 @@ def open_cells(key: Key) -> Mapping[str, frozenset[int]]:
 
 
 def given_entry(row: KeyRow, position: int) -> Entry | None:
-    """A given value as the sheet shows it filled in; None where there is none."""
+    """Return a given value as the sheet shows it, or None if there is none."""
     if row.role is not Role.given or not row.has(position):
         return None
     value = float(row.printed[row.at(position)])
@@ -96,7 +96,7 @@ def grid(
     tail_head: Sequence[str] = (),
     tail: Callable[[KeyRow], Sequence[Entry]] | None = None,
 ) -> tuple[tuple[Entry, ...], ...]:
-    """The rows of a page in the sheet's layout; `tail` are further cells behind each row, under `tail_head`."""
+    """Return the rows of a page in the sheet's layout; `tail` gives further cells after each row, under `tail_head`."""
     words = words_of(key)
     sheet, parts = words["answer_sheet"], words["parts"]
     heads = (
@@ -120,17 +120,17 @@ def grid(
 
 
 def page(name: str, rows: Sequence[Sequence[Entry]], by_section: bool = False) -> BookSheet:
-    """A protected page in the sheet's layout, printed with each section on pages of its own if that is asked for."""
+    """Return a protected page in the sheet's layout; `by_section` prints each section on separate pages."""
     columns = len(rows[HEAD - 1])
     longest = max((len(str(row[0].value or "")) for row in rows[HEAD:]), default=0)
     widths = (max(longest + 1.0, 11.0), 11.0, WHAT, 13.0, *(12.0,) * (columns - NAMES + 1))
-    # A section begins with its name in bold, behind an empty id.
+    # A section begins with its name in bold, after an empty id.
     begins = [number for number, row in enumerate(rows[HEAD:], start=HEAD) if len(row) == 2 and row[1].style == "bold"]
     return BookSheet(name, rows, widths, (HEAD, NAMES - 1), protected=True, breaks=begins[1:] if by_section else ())
 
 
 def info_rows(key: Key) -> tuple[tuple[str, str], ...]:
-    """What names a sheet: label and text of assignment, machine, variant, student."""
+    """Return the identification of a sheet: label and text of assignment, machine, variant and student."""
     labels = words_of(key)["answer_sheet"]
     student = key.student
     return (
@@ -144,21 +144,21 @@ def info_rows(key: Key) -> tuple[tuple[str, str], ...]:
 
 
 def info_page(key: Key) -> BookSheet:
-    """The page that names assignment and student."""
+    """Return the page that names assignment and student."""
     rows = tuple((Entry(label, "bold"), Entry(text)) for label, text in info_rows(key))
     return BookSheet(words_of(key)["answer_sheet"]["info"], rows, (24.0, 44.0), protected=True)
 
 
 def named_pages(key: Key, name: str) -> Iterator[tuple[str, Key]]:
-    """The pages that a workbook has for a sheet called `name`: of a coursework one a part, with its title."""
+    """Yield the pages of a workbook's sheet called `name`; a coursework has one for each part, with its title."""
     for number, (title, part) in enumerate(key.pages):
         yield (title if number else name), part
 
 
 def answer_book(key: Key, by_section: bool = False, self_check: bool = True) -> Book:
-    """The empty sheet as a workbook: given values filled in, cells to fill in unlocked, the rest protected.
+    """Return the empty sheet as a workbook: given values filled in, cells to fill in unlocked, the rest protected.
 
-    It says how to check it if there is a `self_check`.
+    With `self_check`, its note explains how to check it.
     """
     sheet = words_of(key)["answer_sheet"]
     note = " ".join((sheet["note"], *((sheet["self_check"],) if self_check else ())))
@@ -186,9 +186,9 @@ def _answer_page(key: Key, name: str, note: str, by_section: bool) -> BookSheet:
 
 
 UNSETTLED = "?"
-"""In a cell of a reading: something stands in the student's file for it, and nobody has said yet what."""
+"""Text of a cell in a prefilled sheet: the student's file has an entry for it that nobody has settled yet."""
 HEAD_WITHIN = 60
-"""Rows among which the head of a sheet is looked for."""
+"""Number of rows among which the head of a sheet is searched for."""
 _UNREADABLE = {"date": "cell-date", "error": "cell-error", "boolean": "cell-boolean"}
 
 
@@ -199,13 +199,12 @@ def read_submission(
     pages: Sequence[Page] | None = None,
     by_data: bool = False,
 ) -> Submission:
-    """The answer sheet of a file, or of its `pages` where they have been read, by the key of its assignment.
+    """Return the answer sheet of a file, or of its `pages` if already read, using the key of its assignment.
 
-    The assignment is the one that its page of information names, or its title, or else the file's stem.
-    `key_of` finds a key by the name that the sheet gives, which may be any text, and raises `KeyError` if
-    there is none.  Raises `AssignmentError`, worded in `language`, if the file cannot be read, is no
-    answer sheet or belongs to another assignment or machine; `by_data` also where the given data that it shows are
-    not those of the assignment.
+    The assignment is named by its information page, or its title, or else the file's stem. `key_of` finds a key by that
+    name, which may be any text, and raises `KeyError` if there is none. Raises `AssignmentError`, worded in `language`,
+    if the file cannot be read, is not an answer sheet or belongs to another assignment or machine. With `by_data`, it
+    also raises if the given data of the sheet are not those of the assignment.
     """
     pages = read(path, language) if pages is None else pages
     sheets = _sheets(pages)
@@ -256,7 +255,7 @@ def read_submission(
 
 @cache
 def _words(name: str) -> frozenset[str]:
-    """A word of the answer sheet in every language."""
+    """Return a word of the answer sheet in every language."""
     sheets = (common_words(language)["answer_sheet"] for language in languages())
     return frozenset(str(words[name]).casefold() for words in sheets)
 
@@ -266,12 +265,14 @@ def _says(cell: SheetCell, name: str) -> bool:
 
 
 def _sheets(pages: Sequence[Page]) -> list[tuple[Page, int]]:
-    """The pages of answers with the indices of their head rows: the page so called first, then all that have a head."""
+    """Return the answer pages with the indices of their head rows: the page with that name first, then all with
+    a head.
+    """
     answers: dict[int, tuple[Page, int]] = {}
     called = [page for page in pages if page.name.strip().casefold() in _words("answers")]
     for page in (*called, *pages):
         for number, row in enumerate(page.rows[:HEAD_WITHIN]):
-            # The head names more than the id: a lone cell could be anything.
+            # The head has more than the id, because a lone cell could be anything.
             if any(_says(cell, "id") for cell in row) and any(_says(cell, "value") for cell in row):
                 answers.setdefault(id(page), (page, number))
                 break
@@ -279,7 +280,7 @@ def _sheets(pages: Sequence[Page]) -> list[tuple[Page, int]]:
 
 
 def _beside(pages: Sequence[Page], label: str) -> tuple[str, Mark] | None:
-    """What stands beside a label such as that of the assignment, if anything does."""
+    """Return the text beside a label such as that of the assignment, or None."""
     for page in pages:
         for row in page.rows:
             for label_cell, cell in pairwise(row):
@@ -289,7 +290,7 @@ def _beside(pages: Sequence[Page], label: str) -> tuple[str, Mark] | None:
 
 
 def _titled(rows: Sequence[Sequence[SheetCell]]) -> tuple[str, Mark] | None:
-    """The assignment that the title of the sheet ends with; it is all that is left of a page saved as CSV."""
+    """Return the assignment at the end of the sheet's title; a page saved as CSV names it nowhere else."""
     for cell in (cell for row in rows for cell in row):
         title, dash, name = cell.text.partition("–")
         if dash and title.strip().casefold() in _words("title") and name.strip():
@@ -298,7 +299,7 @@ def _titled(rows: Sequence[Sequence[SheetCell]]) -> tuple[str, Mark] | None:
 
 
 def _data_shown(key: Key, page: Page, head: int) -> Iterator[Fault | None]:
-    """A fault at its cell for each given value of a sheet that is not the assignment's, None for each that is."""
+    """Yield, for each given value of a sheet, a fault at its cell if it is not the assignment's, else None."""
     heads = page.rows[head]
     at, column = (next(n for n, cell in enumerate(heads) if _says(cell, name)) for name in ("id", "value"))
     given = {row.id: row for row in key.rows if row.role is Role.given and row.single}
@@ -308,7 +309,7 @@ def _data_shown(key: Key, page: Page, head: int) -> Iterator[Fault | None]:
         if row is None or entry is None or cells[column].blank:
             continue
         own = plain_signs(cells[column].text).strip().replace(",", ".")
-        # Data that the sheet shows are read back to the figures that it was written with.
+        # The shown data are compared to the figures that the sheet was written with.
         if re.fullmatch(units.NUMBER, own):
             about = {"symbol": symbol_text(row, key), "text": own, "wanted": f"{entry.value} {row.unit}".strip()}
             same = math.isclose(float(own), float(str(entry.value)), rel_tol=1e-9)
@@ -320,14 +321,14 @@ def _data_shown(key: Key, page: Page, head: int) -> Iterator[Fault | None]:
 
 @dataclass
 class _Reading:
-    """What is found in one sheet."""
+    """The results of reading one sheet."""
 
     key: Key
     language: Language | None
     values: dict[Place, Answer] = field(default_factory=dict)
     problems: dict[Place, Problem] = field(default_factory=dict)
     settled: bool = True
-    """Whether a question mark is no answer, as on any sheet but a reading that somebody is to complete."""
+    """True if a question mark counts as no answer, as on any sheet except a prefilled one to be completed."""
     unread: dict[Place, Problem] = field(default_factory=dict)
     notes: list[Problem] = field(default_factory=list)
     rows: set[str] = field(default_factory=set)
@@ -355,10 +356,10 @@ class _Reading:
                 self.value(place, cell, mark, agreed)
 
     def columns(self, head: Sequence[SheetCell], ids: Sequence[str]) -> dict[int, str]:
-        """Labels of positions ("" for single values) by the indices of their columns, where a row has such a position.
+        """Return the labels of positions ("" for single values) by column index, if a row has such a position.
 
-        `ids` are those of the page's rows.  Which position a label means is a matter of the row: parts of a coursework
-        have positions of their own, more or fewer than the machine.
+        `ids` are those of the page's rows. The position of a label depends on the row: parts of a coursework have their
+        own positions, more or fewer than the machine.
         """
         known = {label for id in ids or [""] for label in self.positions(id)}
         columns: dict[int, str] = {}
@@ -373,7 +374,7 @@ class _Reading:
         return columns
 
     def positions(self, id: str) -> Mapping[str, int]:
-        """The positions of a row's part by their labels, 0 by ""."""
+        """Return the positions of a row's part by their labels; "" has 0."""
         owner = self.key.owner(id)
         if owner not in self.labels:
             labels = (label.casefold() for label in self.key.part(id).labels)
@@ -383,7 +384,7 @@ class _Reading:
     def cells(
         self, rows: Iterable[tuple[str, Sequence[SheetCell]]], at: int, columns: Mapping[int, str]
     ) -> Iterator[tuple[Place, SheetCell]]:
-        """The cells with an answer, each with its place; what is not asked for is left out."""
+        """Yield the cells with an answer, each with its place; cells that are not requested are left out."""
         asked = {row.id: row for row in self.key.asked}
         known = {row.id for row in self.key.rows}
         for id, cells in rows:
@@ -397,11 +398,11 @@ class _Reading:
                 self.note(Fault("cell-unknown-row" if id else "cell-no-row", mark, {"text": id}))
 
     def is_empty(self, cell: SheetCell) -> bool:
-        """Whether a cell holds no answer, not even one that is to be settled."""
+        """Return True if a cell has no answer, not even one that is to be settled."""
         return _is_empty(cell) and (self.settled or cell.text.strip() != UNSETTLED)
 
     def value(self, place: Place, cell: SheetCell, mark: DecimalMark, agreed: bool) -> None:
-        """Read one cell: a number, or a problem at its place."""
+        """Read one cell: store a number, or a problem at its place."""
         row = self.key.row(place[0])
         if cell.text.strip() == UNSETTLED:
             self.unread[place] = as_problem(Fault("cell-unsettled", cell.mark), self.language)
@@ -437,7 +438,7 @@ class _Reading:
 
 
 def _nearest(ways: Sequence[float], right: float, otherwise: float) -> float:
-    """The way to read a number that is of the size of the right one, so that the doubt costs no mark."""
+    """Return the reading of a number whose size is closest to the right one, so that the doubt costs no marks."""
     if not right or not math.isfinite(right):
         return otherwise
     return min(ways, key=lambda way: abs(math.log(abs(way / right))) if way else math.inf)
@@ -448,7 +449,7 @@ def _is_empty(cell: SheetCell) -> bool:
 
 
 def _label(text: str) -> str | None:
-    """The label of a position in the head of a column, with the word for it or bare; None for another column."""
+    """Return the label of a position in a column heading, with or without the word for it; None for another column."""
     plain = plain_signs(text).strip().casefold()
     for word in _words("position") | _words("at"):
         match = re.fullmatch(re.escape(word).replace(r"\{label\}", "(.+)"), plain)

@@ -1,4 +1,4 @@
-"""What a topic adds to marking: errors of values that a student finds by a coarser rule than the key."""
+"""Marking hooks of topics: errors of values that a student finds by a coarser rule than the key."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ def _itself(ledger: Ledger, id: str) -> str:
 
 @dataclass(frozen=True)
 class MarkHooks:
-    """Values that a student finds from the positions alone, whereas the key integrates or reads a curve."""
+    """Hooks for values that a student finds from the positions alone, whereas the key integrates or reads a curve."""
 
     errors_of_positions: Callable[[Ledger], Mapping[str, np.ndarray]] = _no_errors
-    """Gives how far such values lie from those of the ledger (SI), by id."""
+    """Returns the distances (SI) of such values from those of the ledger, by id."""
     stands_on: Callable[[Ledger, str], str] = _itself
-    """Gives the id of the integral that a quantity is found from, else its own."""
+    """Returns the id of the integral that a quantity is computed from, else its own id."""
 
 
 MARKS = HookModule("marks", MarkHooks)

@@ -1,8 +1,7 @@
-"""Which variants were harder than others: the marks of a class, by the values of the data that were drawn.
+"""Compare the marks of a class by the values of the drawn data, to find variants that were harder than others.
 
-Students of one variant, or of one value of a datum, are a group.  It differs from the others if so many students drawn
-from the class by lot would have a mean as far from that of the class so seldom that all comparisons of the class
-together err once in 20 (a permutation test, with Bonferroni's bound): marks follow no normal law.
+Students of one variant, or with one value of a datum, are a group. A group is reported as different by a permutation
+test, because marks are not normally distributed. With Bonferroni's bound, the comparison of all groups errs once in 20.
 Source: R. A. Fisher, The Design of Experiments, 1935, § 21.
 """
 
@@ -25,20 +24,23 @@ from reportgen.marking.marks import Marking
 from reportgen.marking.policy import Policy
 
 LEAST = 2
-"""Students of a group at least: one alone has no spread."""
+"""Smallest number of students in a group; a single one has no spread."""
 MOST = 12
-"""Groups of a datum at most: more of them are too small to tell anything."""
+"""Largest number of groups of a datum; more are too small to show anything."""
 ERRING = 0.05
-"""How often chance alone may make some group of a class look different."""
+"""Probability with which chance alone may make some group of a class look different."""
 LOTS = 20_000
-"""Draws of a class by lot, the same each time: with 50 groups the least chance that counts is 1 in 1000, 20 draws."""
+"""Number of random permutations of a class, the same each time.
+
+With 50 groups, the smallest probability that counts is 1 in 1000, or 20 permutations.
+"""
 
 
 @dataclass(frozen=True, slots=True)
 class VariantGroup:
-    """Students whose data agree in one thing: what (None: the variant), its value, how many, mean and spread of marks.
+    """Students who share one value: its symbol (None: the variant), the value, their number, mean and spread of marks.
 
-    `chance` is that of a mean so far from the class's if the group is drawn by lot.
+    `chance` is the probability of a mean as far from the class's for a random group.
     """
 
     symbol: Symbol | None
@@ -51,7 +53,7 @@ class VariantGroup:
 
 
 def groups(markings: Sequence[Marking], policy: Policy, language: Language) -> list[VariantGroup]:
-    """The groups of a class, by variant and by each datum that was drawn; late hand-ins do not count here."""
+    """Return the groups of a class by variant and by each drawn datum; late submissions have no deduction here."""
     marks = {marking.key.id: policy.mark(marking.share) for marking in markings}
     means = _means_by_lot(list(marks.values()))
     compared: list[VariantGroup] = []
@@ -59,7 +61,7 @@ def groups(markings: Sequence[Marking], policy: Policy, language: Language) -> l
     for symbol, members in _divisions(markings, language):
         large = {value: ids for value, ids in members.items() if len(ids) >= LEAST}
         partition = frozenset(map(frozenset, members.values()))
-        # Data that were drawn together divide a class alike, and only the first of them is shown.
+        # Data that were drawn together divide a class in the same way; only the first of them is shown.
         if len(large) >= 2 and len(members) <= MOST and partition not in partitions:
             partitions.add(partition)
             for value, ids in large.items():
@@ -71,7 +73,7 @@ def groups(markings: Sequence[Marking], policy: Policy, language: Language) -> l
 def _divisions(
     markings: Sequence[Marking], language: Language
 ) -> Iterator[tuple[Symbol | None, Mapping[str, list[str]]]]:
-    """What divides the class: who has the same variant, then who has the same value of a datum."""
+    """Yield the divisions of the class: students by variant, then students by the value of each datum."""
     yield None, _sorted({marking.key.id: (0.0, marking.key.variant) for marking in markings if marking.key.variant})
     first = markings[0].key
     for row in (row for row in first.rows if row.role is Role.given and row.single):
@@ -86,7 +88,7 @@ def _divisions(
 
 
 def _sorted(of_student: Mapping[str, tuple[float, str]]) -> Mapping[str, list[str]]:
-    """The students of each value, the smallest value first."""
+    """Return the students of each value, the smallest value first."""
     members: dict[str, list[str]] = {}
     for id, (_, shown) in sorted(of_student.items(), key=lambda item: item[1]):
         members.setdefault(shown, []).append(id)
@@ -94,21 +96,21 @@ def _sorted(of_student: Mapping[str, tuple[float, str]]) -> Mapping[str, list[st
 
 
 def _means_by_lot(marks: Sequence[float]) -> np.ndarray:
-    """Means [LOTS, N] of the first 1 … N marks of a class that is put into an order by lot."""
+    """Return the means [LOTS, N] of the first 1 … N marks of random permutations of a class."""
     lots = np.random.default_rng(0).permuted(np.tile(marks, (LOTS, 1)), axis=1)
     return np.cumsum(lots, axis=1) / np.arange(1, len(marks) + 1)
 
 
 def _chance(own: Sequence[float], means: np.ndarray) -> float:
-    """How often a group of that size drawn by lot has a mean as far from that of the class."""
+    """Return the probability that a random group of that size has a mean as far from that of the class."""
     whole = means[0, -1]
-    # 1e-9: means of the same marks in another order differ by the dust of floats.
+    # 1e-9: means of the same marks in another order differ by floating-point noise.
     as_far = np.abs(means[:, len(own) - 1] - whole) >= abs(fmean(own) - whole) - 1e-9
     return float((1 + np.count_nonzero(as_far)) / (1 + LOTS))
 
 
 def variant_rows(compared: Sequence[VariantGroup], language: Language) -> tuple[tuple[CellValue, ...], ...]:
-    """Head and rows of `by-variant.csv`."""
+    """Return the head and the rows of `by-variant.csv`."""
     words = load_words(search_path(language))
     names, page = words["variant_columns"], words["class_page"]
     rows: list[tuple[CellValue, ...]] = [tuple(names.values())]

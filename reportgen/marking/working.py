@@ -1,4 +1,4 @@
-"""A student's values laid over the ledger of an assignment."""
+"""A student's values combined with the ledger of an assignment: what follows from the student's own entries."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ from reportgen.marking.marks import Place, Submission
 from reportgen.marking.scheme import MarkingScheme, Values, makes_scale
 
 ChangeValue = Callable[[np.ndarray, Values], np.ndarray]
-"""A quantity's value (SI) from what it comes to and all values before it."""
+"""Returns a quantity's value (SI) from its computed value and all values before it."""
 
 LEAST_FIGURES = 3
-"""Figures that a number has been written with, though noughts at its end do not show them."""
+"""Number of figures that a number was certainly written with, even if zeros at its end do not show them."""
 
 
 class ScaleReading(NamedTuple):
-    """The value (SI) of a plan's scale for a student, and whether it is what the own values give by its formula."""
+    """The value (SI) of a plan's scale for a student, and True if the student's own values give it by its formula."""
 
     value: float
     own: bool
@@ -33,11 +33,11 @@ class ScaleReading(NamedTuple):
 
 @dataclass(frozen=True)
 class Working:
-    """The values of a sheet in SI, [N] or [1], NaN where none is given, by id of the row.
+    """The values of a sheet in SI, [N] or [1], by id of the row; NaN if no value is given.
 
-    Lengths on paper are turned to the report's scales: the same vector, drawn at another μ.  `scales`
-    are those of the plans as they were drawn, by id, in SI; `drawn` are the multiples of the report's scales that the
-    tolerances follow, `bands` these.  `readings` say what scales come to of whose plans no length is on the sheet.
+    Lengths on paper are converted to the report's scales: the same vector, drawn at another μ. `scales` are those of
+    the plans as they were drawn, by id, in SI. `drawn` are the multiples of the report's scales that determine the
+    tolerances `bands`. `readings` are the values of scales of plans without lengths on the sheet.
     """
 
     scheme: MarkingScheme
@@ -49,7 +49,7 @@ class Working:
 
     @cached_property
     def _units(self) -> dict[str, np.ndarray]:
-        """What `unit` has been asked for."""
+        """Cache of `unit`."""
         return {}
 
     @cached_property
@@ -64,7 +64,9 @@ class Working:
         return self.scheme.bands_at(own_scales) if own_scales else self.scheme.bands
 
     def unit(self, id: str) -> np.ndarray:
-        """What one printed unit of a quantity stands for in `values` [N]: lengths as drawn at the student's scale."""
+        """Return the value in `values` [N] of one printed unit of a quantity; lengths are as drawn at the student's
+        scale.
+        """
         if id not in self._units:
             family = self.scheme.ledger[id]
             unit = family.how.scale * self.factors.get(vocabulary.plan(id), 1.0) / self.factors.get(id, 1.0)
@@ -74,17 +76,17 @@ class Working:
     def own_values(
         self, blank_from_key: bool = False, changes: Mapping[str, ChangeValue] | None = None
     ) -> dict[str, np.ndarray]:
-        """What every judged quantity comes to (SI) [N] from the student's own earlier values.
+        """Return the value of every judged quantity (SI) [N] that follows from the student's own earlier values.
 
-        A blank one on the way is replaced by the key's, or else follows like the rest.  `changes` are
-        made to quantities that the sheet does not show.
+        A blank value on the way is replaced by the key's, or else follows like the rest. `changes` are applied to
+        quantities that the sheet does not show.
         """
         followed = self._from_key if blank_from_key and not changes else self._followed(blank_from_key, changes or {})
         return followed[0]
 
     @cached_property
     def world(self) -> dict[str, np.ndarray]:
-        """All values (SI) [N] as a student has them: entered, or following from these; the key's where one is blank."""
+        """All values (SI) [N] of a student: entered ones and those that follow from them; the key's for blank ones."""
         return self._from_key[1]
 
     @cached_property
@@ -92,7 +94,7 @@ class Working:
         return self._followed(True, {})
 
     def world_with(self, changes: Mapping[str, ChangeValue]) -> dict[str, np.ndarray]:
-        """All values (SI) [N] as they are where changes were made to quantities that the sheet does not show."""
+        """Return all values (SI) [N] with changes of quantities that the sheet does not show."""
         return self._followed(True, changes)[1]
 
     def _followed(
@@ -114,11 +116,11 @@ class Working:
         return result, values
 
     def also(self, row: KeyRow, position: int) -> list[float]:
-        """What else a quantity may be (SI): another like it, or what another way of drawing gives.
+        """Return other accepted values of a quantity (SI): another equal quantity's, or that of another way of drawing.
 
-        Whoever takes a_C for a_A, or μ_a for a_A/πa′, is not wrong again where a_A was.  On the lever M = F h′ μ_l
-        where pa is the drawn crank, though the report has μ_v/ω₁ for a plan at another scale.  Whoever has y from the
-        own centre distance is as right as by the angle.
+        A student who uses a_C for a_A, or μ_a for a_A/πa′, is not wrong again where a_A was. On the lever, M = F h′ μ_l
+        if pa is the drawn crank, though the report has μ_v/ω₁ for a plan at another scale. A student who computes y
+        from the own centre distance is as right as with the angle.
         """
         ledger, index = self.scheme.ledger, row.at(position)
         accepted = [
@@ -135,12 +137,12 @@ class Working:
         ]
 
     def by_another_way(self, row: KeyRow, definition: Expression, index: int) -> float:
-        """What another definition of a quantity gives from the student's own values."""
+        """Return the value that another definition of a quantity gives from the student's own values."""
         values = np.atleast_1d(evaluate(definition, {id: self.world[id] for id in refs(definition)}))
         return float(np.broadcast_to(values, self.scheme.ledger[row.id].values.shape)[index].real)
 
     def _by_length_scale(self, row: KeyRow, index: int) -> list[float]:
-        """The moment of a load on the lever by its drawn arm and μ_l as it is written down."""
+        """Return the moment of a load on the lever by its drawn arm and the written μ_l."""
         names = ids.lever_moment.read(row.id)
         if names is None:
             return []
@@ -151,14 +153,14 @@ class Working:
         return [float((self.world[load] * drawn)[index].real) * self._stated("mu.l")] if load in self.world else []
 
     def _stated(self, scale: str) -> float:
-        """A scale (SI) as it is written down, right or not."""
+        """Return a scale (SI) as it is written, right or not."""
         return float(self.values[scale][0] * self.factors.get(scale, np.ones(1))[0])
 
     def _is_right(self, row: KeyRow, known: float, value: float) -> bool:
         return bool(np.isclose(known, value, rtol=1e-9))
 
     def unrounded(self, right: Container[Place]) -> Working:
-        """The same with the key's value at every place where the student's is right."""
+        """Return the same working with the key's value at every place where the student's value is right."""
         ledger = self.scheme.ledger
         values = dict(self.values)
         for row in self.scheme.judged:
@@ -169,18 +171,20 @@ class Working:
         return replace(self, values=values)
 
     def shows(self, id: str) -> bool:
-        """Whether the sheet has a value of a quantity at any position."""
+        """Return True if the sheet has a value of a quantity at any position."""
         return id in self.values or self.scheme.ledger.signed.get(id) in self.values
 
     @cached_property
     def entered_ids(self) -> tuple[str, ...]:
-        """Ids of the ledger that hold a value of the student's or are judged, sizes of signed rotations too."""
+        """Ids of the ledger that have a value of the student's or are judged, including sizes of signed rotations."""
         judged = [row.id for row in self.scheme.judged]
         sizes = map(self.scheme.ledger.size_of, judged)
         return tuple(dict.fromkeys([*judged, *sizes, *self.values, *self.readings]))
 
     def entered_values(self, id: str, computed: np.ndarray, blank: np.ndarray) -> np.ndarray:
-        """A student's values (SI) [N], `blank` where there are none; the computed sign where none is judged."""
+        """Return a student's values (SI) [N], `blank` where missing, with the computed sign if the sign is not
+        judged.
+        """
         if id in self.readings:
             reading = self.readings[id]
             return computed if reading.own else np.full(self.scheme.ledger[id].values.shape, reading.value)
@@ -197,7 +201,7 @@ class Working:
 
 @lru_cache(maxsize=65536)
 def last_half_unit(value: float) -> float:
-    """Half a unit of the last figure of a number as it was written, with three figures at least."""
+    """Return half a unit of the last figure of a number as it was written, with three figures at least."""
     written = f"{abs(value):.11e}".partition("e")[0].replace(".", "").rstrip("0")
     return float(half_unit(np.array([value]), max(LEAST_FIGURES, len(written)))[0])
 
@@ -205,11 +209,11 @@ def last_half_unit(value: float) -> float:
 def lay_out(
     scheme: MarkingScheme, submission: Submission, readings: Mapping[str, ScaleReading] | None = None
 ) -> Working:
-    """The working of a submission, with every plan read as it was drawn, or at the scales that `readings` say.
+    """Return the working of a submission, with every plan read as it was drawn, or at the scales in `readings`.
 
-    The scale of a plan is what its first length stands for (μ = v_A/pa), the one written down, or the
-    report's: the one that another confirms, or that makes most of the plan right.  A scale written down that
-    is not the plan's own is a wrong value like any other.
+    Candidates for the scale of a plan are the one that its first length gives (μ = v_A/pa), the written one, and the
+    report's. The chosen one is confirmed by another, or makes most of the plan right. A written scale that is not the
+    plan's own is a wrong value like any other.
     """
     sheet = replace(
         submission, values={at: one for at, one in submission.values.items() if at not in submission.measured}
@@ -228,11 +232,11 @@ def lay_out(
         factor, drawn[scale] = np.ones(len(usual)), np.ones(len(usual))
         reading = read_as.get(scale)
         for place in range(len(usual)):
-            # A scale for all positions is judged by all lengths, a position's own by those of its plan.
+            # A scale for all positions is judged by all lengths, a position's own scale by those of its plan.
             own = slice(None) if len(usual) == 1 else slice(place, place + 1)
             tried = [float(one) for one in (stated[place] / usual[place], 1.0)]
             if reading is not None:
-                # No length shows how large the plan is: the scale written down, over what it comes to, does.
+                # No length shows the size of the plan; the ratio of the written scale to its computed value does.
                 tried = [float(stated[place] / reading.value), 1.0]
             elif (scale_used := in_use(scheme, values, scale, own, float(stated[place]))) is not None:
                 tried.insert(0, float(scale_used / usual[place]))
@@ -241,7 +245,7 @@ def lay_out(
             plan_of_place = [id for id in plan if id != first]
             factor[place], shown = drawn_at(scheme, values, plan_of_place, tried, own)
             if any(np.isfinite(values[id][own]).any() for id in plan):
-                # Nobody gets wider tolerances by a scale that nothing was drawn at.
+                # A scale at which nothing was drawn must not widen the tolerances.
                 drawn[scale][place] = factor[place] if shown else min(factor[place], 1.0)
             elif 1 / FURTHEST <= factor[place] <= FURTHEST:
                 drawn[scale][place] = factor[place]
@@ -257,7 +261,7 @@ def lay_out(
 def _measured(
     scheme: MarkingScheme, submission: Submission, values: Values, drawn: dict[str, np.ndarray]
 ) -> dict[str, np.ndarray]:
-    """The values with what was measured on a drawing, which is at the report's scales; `drawn` follows that drawing."""
+    """Return the values measured on a drawing, which are at the report's scales; update `drawn` for that drawing."""
     of_drawing = replace(submission, values={at: submission.values[at] for at in submission.measured})
     columns: dict[str, np.ndarray] = {}
     for id in {id for id, _ in submission.measured}:
@@ -272,7 +276,7 @@ def _measured(
 
 
 def _column(scheme: MarkingScheme, row: KeyRow, submission: Submission) -> np.ndarray:
-    """A row's values in SI; those of the first turn hold for every turn where all turns are the same."""
+    """Return a row's values in SI; those of the first turn are used for every turn if all turns are the same."""
     column = np.full(len(row.values), np.nan)
     scale = scheme.ledger[row.id].how.scale
     for position in row.positions:
@@ -289,33 +293,33 @@ def _column(scheme: MarkingScheme, row: KeyRow, submission: Submission) -> np.nd
 # A length stands for a quantity at a scale that is the student's own choice; only sizes over lengths can be judged.
 
 FURTHEST = 5.0
-"""A scale that no length on the sheet shows is a slip in its unit if it differs more than this from the report's."""
+"""Factor from the report's scale beyond which a scale without lengths on the sheet is a slip in its unit."""
 
 LARGEST_SCALE = 1e6
-"""A student's own scale that differs more than this from the report's is no scale."""
+"""Factor from the report's scale beyond which a student's own scale is rejected."""
 
 MANY = 3
-"""So many forces over their lengths show the scale that a plan was drawn at."""
+"""Number of ratios of force to length that can show the scale of a plan."""
 
 READ_TO = 0.05e-3
 """Half of the last figure of a length on paper (m), which is read to a tenth of a millimetre."""
 
 CONFIRMED = 0.02
-"""Two scales nearer than this are one: a millimetre in the length of a drawn crank."""
+"""Relative difference below which two scales count as one: a millimetre in the length of a drawn crank."""
 
 
 def in_use(scheme: MarkingScheme, values: Values, scale: str, place: slice, stated: float) -> float | None:
-    """The scale (SI) that a plan was drawn at by what was read from it: most sizes over their lengths, if these agree.
+    """Return the scale (SI) that a plan was drawn at, from the ratios of sizes to their lengths, if most agree.
 
-    Only a scale that is chosen freely shows so; `place` is the part of the columns that is drawn at it.  Where they
-    agree with the one that is `stated`, few are enough: the plan of a crank has two lengths.
+    Only a freely chosen scale can be inferred in this way; `place` is the slice of the columns that is drawn at it. If
+    the ratios agree with the `stated` scale, few are enough: the plan of a crank has two lengths.
     """
     if scheme.ledger[scale].definition is not None or scale == "mu.l":
         return None
     ratios_read: list[np.ndarray] = []
     for length in (id for id in values if vocabulary.plan(id) == scale):
         for size in scheme.sizes[length] & values.keys():
-            # A short length may be rounded by more than scales differ.
+            # Rounding of a short length may exceed the difference between scales.
             rounding = READ_TO / np.abs(values[length])
             ratios_read.append(np.array([np.abs(values[size] / values[length]), rounding])[:, place])
     ratios, rounding = np.concatenate(ratios_read, axis=1) if ratios_read else np.zeros((2, 0))
@@ -333,14 +337,14 @@ def in_use(scheme: MarkingScheme, values: Values, scale: str, place: slice, stat
 def drawn_at(
     scheme: MarkingScheme, values: Values, plan: Sequence[str], tried: Sequence[float], place: slice
 ) -> tuple[float, bool]:
-    """The scale of a plan over the report's: of those `tried` the first that another confirms, else the best.
+    """Return the scale of a plan over the report's: the first of `tried` if another confirms it, else the best one.
 
-    Only the lengths of the plan at a `place` of their columns count.  The second is whether the scale is shown: by
-    another, or by half of the lengths.
+    Only the lengths of the plan at `place` of their columns count. The second value is True if the scale is shown: by
+    another one, or by half of the lengths.
     """
 
     def right(factor: float) -> int:
-        """How many lengths of the plan are right at that scale."""
+        """Return the number of lengths of the plan that are right at that scale."""
         return sum(
             int(
                 (np.abs(np.abs(values[id]) * factor - np.abs(scheme.ledger[id].values)) <= scheme.bands[id])[
