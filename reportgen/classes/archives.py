@@ -1,7 +1,7 @@
-"""Archives as a stranger sends them: judged, their names decoded, read in place member by member.
+"""Read zip archives from untrusted sources: check them, decode their names, and read members in memory.
 
-Nothing of an archive is written to disk.  An archive without the mark of UTF-8 does not say how its names are encoded:
-`decoded_names` finds out.
+Nothing of an archive is written to disk. An archive without the UTF-8 flag does not state the encoding of its names;
+`decoded_names` infers it.
 """
 
 from __future__ import annotations
@@ -26,24 +26,24 @@ from reportgen.workbook.writing import MOMENT
 ARCHIVE = ".zip"
 MOST_MEMBERS = 20_000
 MOST_BYTES = 2_000_000_000
-"""Of all members of an archive, unpacked; only its sheets are read, one at a time."""
+"""Largest total size of an archive's members, unpacked; only its sheets are read, one at a time."""
 LARGEST_INSIDE = 100_000_000
-"""Bytes of an archive within another one."""
+"""Largest size (bytes) of an archive inside another one."""
 ENCODINGS = ("utf-8", "cp437", "cp866", "cp1251", "gbk", "cp1258", "cp850", "cp1252")
-"""Of names, in the order in which they are tried: that of all systems of today, of the standard, of old programs."""
+"""Encodings of names, in the order in which they are tried: current systems, the zip standard, old programs."""
 _UTF_8 = 1 << 11
-"""The mark that a member's name is in UTF-8."""
+"""Flag of a member whose name is in UTF-8."""
 _UNICODE_PATH = 0x7075
-"""The extra field in which Info-ZIP writes the name in UTF-8."""
+"""Extra field in which Info-ZIP writes the name in UTF-8."""
 _DRIVES = frozenset("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz")
 
 CountStudents = Callable[[Sequence[str]], int]
-"""How many of some names are those of students."""
+"""Returns how many of the given names are those of students."""
 
 
 @dataclass(frozen=True, slots=True)
 class ArchiveMember:
-    """A file in an archive by its decoded name."""
+    """A file in an archive, with its decoded name."""
 
     name: str
     info: zipfile.ZipInfo
@@ -51,22 +51,22 @@ class ArchiveMember:
 
 @dataclass(frozen=True, slots=True)
 class Archive:
-    """An opened archive that has been found harmless."""
+    """An opened archive that passed the safety checks."""
 
     members: tuple[ArchiveMember, ...]
     file: zipfile.ZipFile
 
     def content(self, member: ArchiveMember, most: int) -> bytes:
-        """Return what a member holds, up to `most` bytes and one, which shows that there are more."""
+        """Return a member's content, at most `most` + 1 bytes; the extra byte shows that there are more."""
         with self.file.open(member.info) as stream:
             return stream.read(most + 1)
 
 
 @contextmanager
 def opened(path: Path, data: bytes | None, judge: CountStudents) -> Iterator[Archive]:
-    """Open an archive on disk, or one whose content `data` is; `path` names it.
+    """Open an archive on disk, or one whose content is `data`; `path` names it.
 
-    Raises `RefusedError` for one that is damaged, encrypted, unpacks to too much or has names that lead elsewhere; also
+    Raises `RefusedError` for one that is damaged, encrypted, unpacks to too much or has names that lead outside; also
     while its members are read.
     """
     mark = Mark(str(path))
@@ -85,7 +85,7 @@ def opened(path: Path, data: bytes | None, judge: CountStudents) -> Iterator[Arc
 
 
 def decoded_names(infos: Sequence[zipfile.ZipInfo], judge: CountStudents) -> list[str]:
-    """Return the names of members, by the encoding that gives most students; at a tie by the first."""
+    """Return the names of members in the encoding that gives most students; at a tie, in the first one."""
     known = [_stated(info) for info in infos]
     raw = {k: infos[k].orig_filename.encode("cp437", "replace") for k, name in enumerate(known) if name is None}
     if not any(not content.isascii() for content in raw.values()):
@@ -93,7 +93,7 @@ def decoded_names(infos: Sequence[zipfile.ZipInfo], judge: CountStudents) -> lis
     best: Mapping[int, str] = {}
     most = -1
     for encoding in ENCODINGS:
-        # No other encoding has the patterns of UTF-8, and cp437 reads all bytes.
+        # No other encoding has the patterns of UTF-8, and cp437 decodes all bytes.
         with suppress(UnicodeError):
             names = {k: content.decode(encoding) for k, content in raw.items()}
             count = judge(list(names.values()))
@@ -105,7 +105,7 @@ def decoded_names(infos: Sequence[zipfile.ZipInfo], judge: CountStudents) -> lis
 
 
 def _stated(info: zipfile.ZipInfo) -> str | None:
-    """The name of a member whose encoding the archive states."""
+    """Return the name of a member if the archive states its encoding, else None."""
     if info.flag_bits & _UTF_8:
         return info.filename
     extra = info.extra
@@ -119,7 +119,9 @@ def _stated(info: zipfile.ZipInfo) -> str | None:
 
 
 def _fault(members: Sequence[ArchiveMember], path: Path) -> Fault | None:
-    """Why an archive is not read: names that lead out of it, links, encryption, or more than a class hands in."""
+    """Return the reason to reject an archive, or None: names that lead outside, links, encryption, or too much
+    content.
+    """
     for member in members:
         info, mark = member.info, Mark(str(path / PurePosixPath(member.name).name))
         if not _is_harmless(member.name) or stat.S_ISLNK(info.external_attr >> 16):
@@ -144,7 +146,7 @@ def _fault(members: Sequence[ArchiveMember], path: Path) -> Fault | None:
 
 
 def _is_harmless(name: str) -> bool:
-    """Whether a member's name stays inside the folder that it is unpacked to, on any system."""
+    """Return True if a member's name stays inside the folder that it is unpacked to, on any system."""
     parts = PurePosixPath(name).parts
     strange = "\\" in name or any(unicodedata.category(letter) in ("Cc", "Cs") for letter in name)
     has_drive = name[1:2] == ":" and name[0] in _DRIVES
@@ -152,7 +154,7 @@ def _is_harmless(name: str) -> bool:
 
 
 def zipped(files: Mapping[str, bytes]) -> bytes:
-    """Files as an archive, the same files the same bytes."""
+    """Return files as an archive; the same files give the same bytes."""
     stream = io.BytesIO()
     with zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as archive:
         for name, content in sorted(files.items()):

@@ -1,6 +1,6 @@
-"""A whole class marked: filled sheets in, a marking for each of them, and for everybody else the reason why not.
+"""Mark a whole class: return a marking for each filled sheet, and the reason for each student without one.
 
-One sheet that cannot be read never stops the others; nobody's data goes into another's files.
+An unreadable sheet never stops the others, and no student's data are written into another's files.
 """
 
 from __future__ import annotations
@@ -40,17 +40,17 @@ from reportgen.marking.scheme import MarkingScheme, key_asked, marking_scheme
 
 @dataclass(frozen=True)
 class Classroom:
-    """The assignments of a class by the stem of their files, opened for marking (and kept) when they are needed."""
+    """The assignments of a class by the stem of their files, opened for marking on demand and cached."""
 
     files: Mapping[str, Path]
     policy: Policy
     language: Language | None
     people: Mapping[str, RosterEntry] = field(default_factory=dict)
-    """What a roster says of the students, by the stem of their files."""
+    """Roster entries of the students, by the stem of their files."""
     opened: dict[str, MarkingScheme] = field(default_factory=dict)
 
     def scheme(self, name: str) -> MarkingScheme:
-        """The marking scheme of an assignment.  Raises `KeyError` for a name that no file has."""
+        """Return the marking scheme of an assignment; raise `KeyError` for an unknown name."""
         stem = comparable(name)
         if stem not in self.opened:
             scheme = marking_scheme(open_case(self.files[stem], self.language), self.policy)
@@ -61,30 +61,30 @@ class Classroom:
         return self.opened[stem]
 
     def plans(self, key: Key, readings: Sequence[FileReading]) -> WantedPlans | None:
-        """The plans of an assignment, also by what was read of its student's report."""
+        """Return the plans of an assignment, including those by the values read from its student's report."""
         scheme, case = self.scheme(key.id), open_case(self.files[comparable(key.id)], None)
         read = submission(readings, self.language) if readings else None
         return wanted_plans(case, scheme.key, own_worlds(asked_of(scheme, read), read) if read else ())
 
     @cached_property
     def keys(self) -> tuple[Key, ...]:
-        """The keys of all assignments that are in order."""
+        """The keys of all valid assignments."""
         keys = []
         for name in self.files:
             try:
                 keys.append(self.scheme(name).key)
             except ReportgenError:
-                # Nobody's sheet can come from an assignment that cannot be worked out.
+                # No sheet can come from an assignment that cannot be computed.
                 continue
         return tuple(keys)
 
     def handed_out(self, key: Key) -> Key:
-        """What is asked for by the symbols of the papers, which are in the assignment's own language."""
+        """Return the requested cells with the symbols of the papers, which are in the assignment's own language."""
         own = key if self.language is None else key_of(open_case(self.files[comparable(key.id)], None))
         return self.policy.ask.of(own)
 
     def participant(self, key: Key, owner: Owner | None = None) -> Participant:
-        """What a platform may know the student of a key by."""
+        """Return the identification by which a platform may know the student of a key."""
         email = self.people[stem].card.get("email") if (stem := comparable(key.id)) in self.people else None
         ids = (key.student.get("id", key.id), email)
         return Participant(person(key), frozenset(id.casefold() for id in ids if id), owner.number if owner else "")
@@ -92,10 +92,10 @@ class Classroom:
 
 @dataclass(frozen=True, slots=True)
 class Graded:
-    """What marking a class gave: markings by assignment, all that is told, and who has no marks.
+    """The result of marking a class: markings by assignment, all problems, and the students without marks.
 
-    `owners` are those who handed the sheets in, by assignment, where they come from a learning platform; `known` is
-    what its table may know each student by.
+    `owners` are those who submitted the sheets, by assignment, if these come from a learning platform. `known` is what
+    the platform's table may know each student by.
     """
 
     markings: tuple[Marking, ...]
@@ -106,21 +106,21 @@ class Graded:
     own: Mapping[str, OwnWork] = field(default_factory=dict)
     """The students' own files that were read, by assignment."""
     kept: Mapping[str, tuple[Submission, Handed]] = field(default_factory=dict)
-    """What was written of them before and nobody has changed."""
+    """Prefilled sheets from an earlier run that nobody has changed."""
 
     @property
     def missing(self) -> tuple[Key, ...]:
-        """The keys of those who handed nothing in."""
+        """The keys of students who submitted nothing."""
         return tuple(one.key for one in self.unmarked if not one.reasons and one.unsettled is None)
 
     @property
     def refused(self) -> tuple[Key, ...]:
-        """The keys of those of whose files none could be marked."""
+        """The keys of students none of whose files could be marked."""
         return tuple(one.key for one in self.unmarked if one.reasons and one.unsettled is None)
 
     @property
     def unsettled(self) -> tuple[Unmarked, ...]:
-        """Those of whose own files too little was read for a mark."""
+        """Students whose own files were read too incompletely for a mark."""
         return tuple(one for one in self.unmarked if one.unsettled is not None)
 
 
@@ -134,11 +134,12 @@ def grade(
     gradebook: Gradebook | None = None,
     out: Path | None = None,
 ) -> Graded:
-    """Mark the sheets of files, folders and downloads of a platform, with names from a roster if there is one.
+    """Mark the sheets of files, folders and downloads of a platform, with names from an optional roster.
 
-    Who handed no sheet in has the own report and drawings read.  `corrections` hold over what is found; the `gradebook`
-    of the platform says when each was handed in; `out` may have readings that were completed by hand.  Raises
-    `AssignmentError` if `assignments` or `roster` is at fault, or the policy asks for what there is not.
+    For students without a sheet, read their own report and drawings. `corrections` override the results. The
+    `gradebook` of the platform gives the submission times. `out` may contain prefilled sheets that were completed by
+    hand. Raises `AssignmentError` if `assignments` or `roster` is invalid, or if the policy asks for something that
+    does not exist.
     """
     files = assignment_files(assignments, language)
     listed = read_roster(roster, language) if roster else Roster(())
@@ -159,13 +160,13 @@ def grade(
     works = own_works(own, keys, lambda file: _student_of(file, room, gradebook), looked_for, policy.twice, language)
     collected = with_own(collected, works, files, language)
     sheets = {name: sheet for name, (sheet, _) in collected.sheets.items()}
-    # Whose values a sheet has, shows beside all the others.
+    # Comparing a sheet with all others shows whose values it has.
     classmates = [Classmate(key, sheets.get(key.id)) for key in room.keys] if policy.guard else []
     markings: dict[str, Marking] = {}
     failed: dict[str, Refused] = {}
     unexpected: list[Problem] = []
     for name, (sheet, file) in collected.sheets.items():
-        # Where the comparison with others fails, which may be another's fault, the sheet is marked by itself.
+        # If the comparison fails, which may be caused by another's sheet, this sheet is marked alone.
         for compared in (classmates, []) if classmates else ([],):
             marking = isolated(partial(_marked, room.scheme(name), sheet, compared), file.path, language)
             if not isinstance(marking, list):
@@ -204,7 +205,7 @@ def grade(
 
 
 def _without_hidden_name(file: Handed, gradebook: Gradebook | None) -> Handed:
-    """A file whose owner's name says nothing if it is what the gradebook calls everybody: "Participant"."""
+    """Return a file with its owner's name removed if the gradebook uses that name for everybody: "Participant"."""
     if file.owner is None or gradebook is None or file.owner.name.casefold() not in gradebook.hidden_names:
         return file
     return replace(file, owner=replace(file.owner, name=""))
@@ -213,7 +214,7 @@ def _without_hidden_name(file: Handed, gradebook: Gradebook | None) -> Handed:
 def _handings(
     collected: Collected, known: Mapping[str, Participant], people: Mapping[str, RosterEntry]
 ) -> dict[str, Handing]:
-    """What is known of when each sheet was handed in."""
+    """Return the known submission data of each sheet."""
     handings: dict[str, Handing] = {}
     for name, (_, handed) in collected.sheets.items():
         entry = people.get(comparable(name))
@@ -223,7 +224,10 @@ def _handings(
 
 
 def _reasons(refused: Iterable[Refused], room: Classroom, gradebook: Gradebook | None) -> dict[str, tuple[str, ...]]:
-    """Why files of a student are not marked, by assignment; a file that is nobody's for certain is left out."""
+    """Return the reasons why files of a student are not marked, by assignment.
+
+    A file that cannot be assigned to one student is left out.
+    """
     reasons: dict[str, tuple[str, ...]] = {}
     for file in refused:
         if key := _student_of(file.handed, room, gradebook):
@@ -232,7 +236,7 @@ def _reasons(refused: Iterable[Refused], room: Classroom, gradebook: Gradebook |
 
 
 def _student_of(handed: Handed, room: Classroom, gradebook: Gradebook | None) -> Key | None:
-    """Whose a file is that cannot tell it itself: by whom the platform or the name of the file names."""
+    """Return the key of the student of a file that does not say it itself, by the platform's or the file's name."""
     if owner := handed.owner:
         names = gradebook.names(owner.number) if gradebook else frozenset()
         fitting = [key for key in room.keys if room.participant(key).ids & names]
@@ -245,12 +249,12 @@ def _student_of(handed: Handed, room: Classroom, gradebook: Gradebook | None) ->
 
 
 def _marked(scheme: MarkingScheme, sheet: Submission, classmates: Sequence[Classmate]) -> Marking:
-    """The marking of one student's sheet by what is asked of it."""
+    """Return the marking of one student's sheet for the cells that it is asked for."""
     return mark(asked_of(scheme, sheet), sheet, classmates)
 
 
 def asked_of(scheme: MarkingScheme, submission: Submission) -> MarkingScheme:
-    """The guide with the cells that the policy asks for; what else is filled in is judged but earns no marks."""
+    """Return the scheme with the cells that the policy asks for; other filled cells are judged but earn no marks."""
     policy = scheme.policy
     key, asked = key_asked(policy, scheme.key, submission)
     beyond = {row.id: 0.0 for row in key.asked if row.id not in asked}

@@ -1,4 +1,4 @@
-"""Which sheet is whose: what was handed in, read and laid to the students, one sheet each; the rest with its reason."""
+"""Assign the submitted files to students, one sheet for each, and give a reason for each file that is not used."""
 
 from __future__ import annotations
 
@@ -25,30 +25,30 @@ from reportgen.marking.sheet import read_submission
 
 @dataclass(frozen=True, slots=True)
 class Refused:
-    """A file that is not marked, and why."""
+    """A file that is not marked, with the reasons."""
 
     handed: Handed
     problems: tuple[Problem, ...]
 
     @property
     def reasons(self) -> tuple[str, ...]:
-        """The file's name and what is said of it, without the way to it."""
+        """The file's name and the message of each problem, without the file's path."""
         return tuple(f"{self.handed.path.name}: {one.message}" for one in self.problems)
 
 
 @dataclass(frozen=True, slots=True)
 class Collected:
-    """The sheets to be marked and who handed them in, by assignment; the files that are not, and all that is told."""
+    """The sheets to mark with their files, by assignment; the files that are not marked, and all problems."""
 
     sheets: Mapping[str, tuple[Submission, Handed]]
     refused: tuple[Refused, ...]
     problems: tuple[Problem, ...]
     readings: Mapping[str, tuple[Submission, Handed]] = field(default_factory=dict)
-    """Sheets that only say what was read of a student's own files before, and that nobody has changed since."""
+    """Prefilled sheets with values from a student's own files that nobody has changed since."""
 
     @property
     def owners(self) -> dict[str, Owner]:
-        """Who handed in, as a platform says it."""
+        """The platform's owner of each sheet, by assignment."""
         return {name: handed.owner for name, (_, handed) in self.sheets.items() if handed.owner}
 
 
@@ -59,7 +59,7 @@ def collect(
     twice: Twice,
     language: Language | None,
 ) -> Collected:
-    """The sheets of a class, file for each student; `files` are the assignments by `comparable` stem."""
+    """Return the sheets of a class, one for each student; `files` are the assignments by `comparable` stem."""
     of_assignment: dict[str, list[tuple[Submission, Handed]]] = {}
     refused: list[Refused] = []
     problems: list[Problem] = []
@@ -90,7 +90,7 @@ def collect(
 def _submission(
     file: Handed, pages: Pages | list[Problem], key_of: Callable[[str], Key], language: Language | None
 ) -> Submission:
-    """The sheet of a file, handed in by whoever it belongs to; raises `AssignmentError`."""
+    """Return the sheet of a file, submitted by its own student; raise `AssignmentError` otherwise."""
     if isinstance(pages, list):
         raise AssignmentError(pages)
     submission = read_submission(file.path, key_of, language, pages)
@@ -104,14 +104,14 @@ def _submission(
 def chosen_of(
     several: Sequence[Handed], assignment: str, name: str, known: Container[str], twice: Twice
 ) -> tuple[Handed, list[Fault]]:
-    """Which of several files of one assignment counts, and what is told of the others."""
+    """Return the file that counts among several of one assignment, and a fault for each of the others."""
     chosen, *others = _in_order(several, assignment, name, known, twice)
     about = ({"text": assignment, "first": _told_apart(chosen.path, left.path)} for left in others)
     return chosen, [Fault("sheet-twice", Mark(str(left.path)), text) for left, text in zip(others, about, strict=True)]
 
 
 def named_after(path: Path, known: Container[str]) -> str | None:
-    """The assignment that a sheet's file, its folder or the archive that it lies in is named after, `comparable`."""
+    """Return the `comparable` assignment after which a sheet's file, its folder or its archive is named, or None."""
     archives = (above.stem for above in path.parents if above.suffix.lower() == ARCHIVE)
     return next((name for name in map(comparable, (path.stem, path.parent.name, *archives)) if name in known), None)
 
@@ -119,11 +119,11 @@ def named_after(path: Path, known: Container[str]) -> str | None:
 def _in_order(
     several: Sequence[Handed], assignment: str, name: str, known: Container[str], twice: Twice
 ) -> list[Handed]:
-    """Sheets of one assignment, the file to be marked first.
+    """Return the sheets of one assignment, the one to be marked first.
 
-    A sheet that its student handed in by the platform's word, or that is named like the assignment, goes before those
-    that only claim to be of it; then the later one goes first, or the earlier one.  Of one moment the order of names is
-    that of counting: answers-2 before answers-10.
+    A sheet that the platform assigns to its student, or that is named like the assignment, precedes those that only
+    claim to belong to it. Then the later one is first, or the earlier one, as `twice` says. Equal times are ordered by
+    name with numeric parts: answers-2 before answers-10.
     """
 
     def is_own(file: Handed) -> bool:
@@ -135,10 +135,10 @@ def _in_order(
 
 
 def _counting(path: str) -> list[tuple[int, str]]:
-    """A path such that sorting counts its numbers."""
+    """Return a sort key of a path that compares its numbers by value."""
     return [(int(part), "") if part.isdecimal() else (-1, part) for part in re.split(r"(\d+)", path)]
 
 
 def _told_apart(chosen: Path, left: Path) -> str:
-    """The name of a file, with its folder where another one has the same."""
+    """Return the name of a file, with its folder if the other file has the same name."""
     return chosen.name if chosen.name != left.name else f"{chosen.parent.name}/{chosen.name}"

@@ -1,9 +1,10 @@
-"""What the instructor judges otherwise, as a table that is applied at each marking: `corrections.csv`.
+"""The instructor's corrections, a table that is applied at each marking: `corrections.csv`.
 
-A row names a student by id, e-mail or name; a quantity by id, pattern or symbol, a section, a part of a coursework, or
-nothing for the whole sheet; a position, or nothing for all; then `right`, `wrong`, or the points that it earns
-altogether; and the reason.  Who judged so, and when, may be added, and is shown with the reason.  With a `value` the
-row holds only for cells that have it.  Of two rows for one cell the later one holds; what no longer fits is told.
+A row names a student by id, e-mail or name. It names a quantity by id, pattern or symbol, a section, or a part of a
+coursework; an empty cell means the whole sheet. It names a position; an empty cell means all. Then it gives `right`,
+`wrong` or the total points, and the reason. The person and the date may be added and are shown with the reason. With a
+`value`, the row applies only to cells with that value. Of two rows for one cell the later one counts. Rows that no
+longer fit are reported.
 """
 
 from __future__ import annotations
@@ -32,14 +33,17 @@ from reportgen.marking.marks import Amendment, Marked, Marking, Verdict, points_
 from reportgen.workbook import read
 
 NEEDED = ("judgement", "reason")
-"""Columns that each row fills in, beside the student's."""
+"""Columns that each row must fill in, in addition to the student's."""
 SIGNED, DATED = "judged_by", "judged_on"
-"""Columns that may say who judged so, and when."""
+"""Optional columns for the person and the date of a correction."""
 
 
 @dataclass(frozen=True, slots=True)
 class Correction:
-    """A row: whose, what and where as typed; `judgement` is right, wrong or a number of points; `marks` its cells."""
+    """A row: student, quantity and position as typed.
+
+    `judgement` is right, wrong or a number of points; `marks` are the locations of its cells.
+    """
 
     who: str
     quantity: str
@@ -49,17 +53,17 @@ class Correction:
     value: str
     marks: Mapping[str, Mark]
     signed: tuple[str, ...] = ()
-    """Who judged so, and when, as typed."""
+    """The person and the date of the correction, as typed."""
 
     def reason_in(self, language: Language) -> str:
-        """The reason with who judged so, and when."""
+        """Return the reason with the person and the date."""
         if not self.signed:
             return self.reason
         return word("correction_signed", language, reason=self.reason, signed=", ".join(self.signed))
 
 
 def read_corrections(path: Path, language: Language | None = None) -> tuple[Correction, ...]:
-    """The rows of a table, CSV or XLSX.  Raises `AssignmentError` with all its faults, located."""
+    """Return the rows of a table, CSV or XLSX; raise `AssignmentError` with all its faults, located."""
     for page in read(path, language):
         head = heading_row(page, "reason")
         if head is None or page.hidden:
@@ -107,7 +111,7 @@ def _judgement(text: str) -> Verdict | float | None:
 
 @cache
 def _verdicts() -> Mapping[str, Verdict]:
-    """Right and wrong, by their words in every language."""
+    """Return right and wrong by their words in every language."""
     return {
         word: verdict
         for language in languages()
@@ -122,7 +126,7 @@ def _verdicts() -> Mapping[str, Verdict]:
 def applied(
     markings: Sequence[Marking], keys: Iterable[Key], corrections: Iterable[Correction], language: Language | None
 ) -> tuple[list[Marking], list[Problem]]:
-    """The markings with all corrections; what one no longer fits is a problem at its place, and it is left out."""
+    """Return the markings with all corrections; one that no longer fits is skipped and reported at its location."""
     by_id = {marking.key.id: marking for marking in markings}
     known = list(keys)
     problems: list[Problem] = []
@@ -148,14 +152,14 @@ def _verdicts_of(marking: Marking) -> list[tuple[Verdict, float]]:
 
 
 def _is_of(who: str, key: Key) -> bool:
-    """Whether an id, the stem of a file, an e-mail or a full name is that of the student of a key."""
+    """Return True if an id, the stem of a file, an e-mail or a full name is that of the student of a key."""
     id = key.student.get("id", key.id)
     names = {comparable(one) for one in (key.id, id, folder_name(id), key.student.get("email", "")) if one}
     return comparable(who) in names or folded(who) == folded(key.student.get("name", ""))
 
 
 def corrected(marking: Marking, correction: Correction) -> Marking | Fault:
-    """The marking with one correction, or why it does not fit the sheet."""
+    """Return the marking with one correction, or a fault that says why it does not fit the sheet."""
     named = _named(marking.key, correction.quantity)
     if named is None:
         names = [symbol_text(row, marking.key) for row in marking.key.asked] + [row.id for row in marking.key.asked]
@@ -192,7 +196,7 @@ def corrected(marking: Marking, correction: Correction) -> Marking | Fault:
 
 
 def _named(key: Key, text: str) -> tuple[Inlines, Callable[[str], bool]] | None:
-    """What the quantities that a text names are called, and which ids they have; None for what is nothing here."""
+    """Return the name of the quantities that a text means and a test for their ids; None if it matches nothing."""
     if not text:
         return (Text(words_of(key)["feedback"]["whole"]),), lambda id: True
     rows = [row for row in key.rows if text in (row.id, symbol_text(row, key))]
@@ -212,13 +216,13 @@ def _named(key: Key, text: str) -> tuple[Inlines, Callable[[str], bool]] | None:
 
 @cache
 def _titles(chapter: Chapter) -> frozenset[str]:
-    """What a section is called: its own name, and its title in every language."""
+    """Return the names of a section: its own name, and its title in every language."""
     tables = [common_words(language)["parts"] for language in languages()]
     return frozenset({str(chapter), *(folded(table[chapter]) for table in tables)})
 
 
 def _other_value(marking: Marking, cells: Iterable[Marked], value: str) -> str | None:
-    """What stands in a cell that does not have a value, as it was typed; None if all have it."""
+    """Return the text of the first cell that does not have a value, as typed; None if all have it."""
     for cell in cells:
         answer = marking.submission.values.get((cell.id, cell.position))
         if answer is None:
@@ -230,7 +234,7 @@ def _other_value(marking: Marking, cells: Iterable[Marked], value: str) -> str |
 
 
 def _judged(cell: Marked, judgement: Verdict | float, worth: float, reason: str) -> Marked:
-    """A cell as the instructor judges it; points for several cells are shared out by what each is worth."""
+    """Return a cell as the instructor judges it; points for several cells are shared in proportion to their worth."""
     if isinstance(judgement, Verdict):
         points = cell.worth if judgement is Verdict.right else 0.0
         verdict = judgement

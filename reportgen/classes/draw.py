@@ -1,19 +1,19 @@
-"""Which variant each student gets: from SHA-256 alone, the same on any machine and in any version.
+"""Draw each student's variant, from SHA-256 alone, so that the result is the same on any machine and in any version.
 
-The value of one parameter is choice number d mod n of its n choices in the order of the spec, where d is the
-SHA-256, read as one big-endian number, of the UTF-8 text
+The value of one parameter is choice number d mod n of its n choices in the order of the spec. d is the SHA-256, read as
+one big-endian number, of the UTF-8 text
 
-    reportgen-draw/1 ␀ ASSIGNMENT ␀ SALT ␀ STUDENT ␀ PARAMETER ␀ ATTEMPT
+reportgen-draw/1 ␀ ASSIGNMENT ␀ SALT ␀ STUDENT ␀ PARAMETER ␀ ATTEMPT
 
-in which ␀ is one NUL character and nothing stands around it; ASSIGNMENT is the stem of the spec's file, SALT its
-`salt` (without one its `variant`), STUDENT the id (NFC), PARAMETER the path ("parameters.H"; "variants" for the
-row of a table; "scan" see below) and ATTEMPT a decimal number from 0.
+in which ␀ is one NUL character without spaces around it. ASSIGNMENT is the stem of the spec's file, SALT its `salt` (or
+else its `variant`), STUDENT the id (NFC), and PARAMETER the path ("parameters.H"; "variants" for the row of a table;
+"scan" see below). ATTEMPT is a decimal number from 0.
 
-A combination that fails, or that another student has, is drawn again with the next attempt.  Students draw in the
-order of the roster, so a clash moves only the later of two, and whoever is added at the end moves nobody.  After
-`ATTEMPTS` the combinations are tried in order from number d mod (their number) on, PARAMETER "scan" and ATTEMPT 0:
-the first that nobody has is taken, else the first of those that fewest have.  So nobody shares before all usable
-combinations are taken (of more than `MOST_TRIED`, before that many have been tried), and then all are shared evenly.
+A combination that fails, or that another student has, is drawn again with the next attempt. Students draw in the order
+of the roster, so a clash changes only the later one, and a student added at the end changes nobody. After `ATTEMPTS`
+attempts the combinations are tried in order from number d mod (their number), with PARAMETER "scan" and ATTEMPT 0. The
+first unused one is taken, else the first of those used least. So nobody shares a variant before all usable combinations
+are taken (with more than `MOST_TRIED`, before that many have been tried). Then all are shared evenly.
 """
 
 from __future__ import annotations
@@ -39,14 +39,14 @@ MOST_REASONS = 3
 FORMAT = "reportgen-draw/1"
 
 FindFaults = Callable[[Settings], tuple[Fault, ...]]
-"""Finds what is wrong with the assignment of some values; nothing if it is usable."""
+"""Returns the faults of an assignment with some values; () if it is usable."""
 Combination = tuple[int, ...]
 Key = frozenset[tuple[str, str]]
 
 
 @dataclass(frozen=True, slots=True)
 class DrawnVariant:
-    """A student's values: of the combination drawn, and over them those of the roster."""
+    """A student's values: those of the drawn combination, overridden by those of the roster."""
 
     student: RosterEntry
     combination: Combination
@@ -54,14 +54,16 @@ class DrawnVariant:
 
 
 def pick(assignment: str, salt: str, student: str, parameter: str, attempt: int, count: int) -> int:
-    """The index, 0…`count` − 1, that a student draws."""
+    """Return the index, 0…`count` − 1, that a student draws."""
     text = "\0".join((FORMAT, assignment, salt, unicodedata.normalize("NFC", student), parameter, str(attempt)))
     return int.from_bytes(hashlib.sha256(text.encode()).digest(), "big") % count
 
 
 @dataclass(slots=True)
 class Draw:
-    """A draw under way: how often each variant is taken, how each was judged, and what makes the draw impossible."""
+    """A draw in progress: the number of uses of each variant, its faults, and the faults that make the draw
+    impossible.
+    """
 
     spec: Spec
     judge: FindFaults
@@ -73,10 +75,11 @@ class Draw:
     def each(
         self, roster: Roster, redrawn: Mapping[str, int] | None = None, anew: Collection[str] = ()
     ) -> Iterator[DrawnVariant]:
-        """The students' variants in the order of the roster; nobody's counts if there are `faults` in the end.
+        """Yield the students' variants in the order of the roster; if there are `faults` in the end, none of them
+        counts.
 
-        `redrawn` are the numbers, from 1, of variants that were drawn anew before, by `comparable` id.  Those to be
-        drawn `anew` get a variant that nobody has had; the first variants stay taken, so that the others keep theirs.
+        `redrawn` gives the numbers, from 1, of variants that were redrawn before, by `comparable` id. Students in
+        `anew` get a variant that they have not had. The first variants stay taken, so that the others keep theirs.
         """
         stated = {comparable(student.id): student for student in roster.students}
         kept: dict[str, Combination] = {}
@@ -97,7 +100,7 @@ class Draw:
                 yield self._drawn(variant.student, kept[id]) if id in kept else variant
 
     def _anew(self, first: DrawnVariant, current: Combination) -> Iterator[DrawnVariant]:
-        """Another variant of a student than the first and the current one, which others have as seldom as can be."""
+        """Yield another variant of a student than the first and the current one, used by as few others as possible."""
         student, spec = first.student, self.spec
         had = {self._key(student, first.combination), self._key(student, current)}
         further = (
@@ -123,7 +126,7 @@ class Draw:
         yield self._drawn(student, chosen)
 
     def _first(self, roster: Roster) -> Iterator[DrawnVariant]:
-        """What each student draws first, in the order of the roster."""
+        """Yield the first draw of each student, in the order of the roster."""
         for student in roster.students:
             variant = self._draw_for(student)
             if variant is not None:
@@ -132,14 +135,14 @@ class Draw:
             elif student.overrides:
                 self.faults += self._faults_of_roster(student)
             else:
-                # No combination is usable: no other student could get one either.
+                # No combination is usable, so no other student could get one either.
                 tried = {"count": str(min(self.spec.size, MOST_TRIED)), "size": str(self.spec.size)}
                 self.faults = [Fault("no-variant", self.spec.mark, tried), *self._reasons(student)]
                 return
 
     @property
     def usable(self) -> int | None:
-        """The number of usable variants where all of them are taken and some are shared, else None."""
+        """The number of usable variants if all of them are taken and some are shared, else None."""
         return len(self.taken) if any(count > 1 for count in self.taken.values()) else None
 
     def _draw_for(self, student: RosterEntry) -> DrawnVariant | None:
@@ -179,7 +182,7 @@ class Draw:
         return {**self.spec.settings(combination), **overridden}
 
     def _key(self, student: RosterEntry, combination: Combination) -> Key:
-        """That of a student without values of his or her own is found once a combination."""
+        """Return the key of a variant; for a student without overrides it is computed once per combination."""
         if student.overrides:
             return _key(self._settings(student, combination))
         if combination not in self.keys:
@@ -193,7 +196,7 @@ class Draw:
         return self.judged[key]
 
     def _reasons(self, student: RosterEntry) -> list[Fault]:
-        """Why the first combinations fail."""
+        """Return the reasons why the first combinations fail."""
         reasons: dict[tuple[str, str], Fault] = {}
         for combination in self._attempts(student):
             for fault in self._faults(student, combination):
@@ -203,7 +206,9 @@ class Draw:
         return list(reasons.values())[:MOST_REASONS]
 
     def _faults_of_roster(self, student: RosterEntry) -> list[Fault]:
-        """The reasons at the cells of the student's own values, or else the first reason at the first cell."""
+        """Return the reasons located at the student's own values, or else the first reason at the first of
+        these cells.
+        """
         cells = [value.mark for value in student.overrides.values()]
         reasons = self._reasons(student)
         own = [fault for fault in reasons if fault.mark in cells]
@@ -211,13 +216,13 @@ class Draw:
 
 
 def _key(settings: Settings) -> Key:
-    """What makes two variants the same: equal texts at equal places, but for what the cover says."""
+    """Return the identity of a variant: equal texts at equal places, ignoring the data of the cover."""
     drawn = ((where, value) for where, value in settings.items() if where[0] in (*DRAWN_SECTIONS, PARTS))
     return frozenset((path_text(where), value.text.strip()) for where, value in drawn)
 
 
 def shared(drawn: Iterable[DrawnVariant]) -> list[tuple[DrawnVariant, ...]]:
-    """Students with the same variant, together."""
+    """Return groups of students with the same variant."""
     groups: dict[Key, list[DrawnVariant]] = {}
     for variant in drawn:
         groups.setdefault(_key(variant.settings), []).append(variant)
@@ -225,7 +230,7 @@ def shared(drawn: Iterable[DrawnVariant]) -> list[tuple[DrawnVariant, ...]]:
 
 
 def judge_of(spec: Spec) -> FindFaults:
-    """Judges variants of a spec: each must pass `check`, turn fully and have finite results."""
+    """Return a function that checks variants of a spec: each must pass `check`, turn fully and have finite results."""
 
     def judge(settings: Settings) -> tuple[Fault, ...]:
         assignment, faults = catalogue.assess(spec.source(settings), spec.path)

@@ -1,6 +1,6 @@
-"""What `variants.csv` keeps of earlier draws: whose variant was drawn anew, and who has left the class.
+"""Earlier draws recorded in `variants.csv`: students whose variant was redrawn, and students who have left the class.
 
-Both are needed for good: the others keep their variants only while those that were drawn first count as taken.
+Both are needed permanently: the others keep their variants only while the first variants count as taken.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from reportgen.classes.roster import Roster, RosterEntry, comparable
 from reportgen.workbook import read
 
 REDRAWN, DROPPED = "redrawn", "dropped"
-"""Columns: the number of the combination that was drawn anew, from 1; a mark at who has left."""
+"""Columns: the number of the redrawn combination, from 1; a mark for students who have left."""
 MARKED = "x"
 
 
@@ -29,12 +29,12 @@ class EarlierDraw:
     dropped: frozenset[str] = frozenset()
 
     def with_dropped(self, wanted: Sequence[str], roster: Roster, language: Language) -> EarlierDraw:
-        """The same with further students who have left; raises `UnknownNameError` for one whom nobody knows."""
+        """Return the same with further students who have left; raise `UnknownNameError` for an unknown one."""
         known = dict(self.students) | {comparable(student.id): student for student in roster.students}
         return replace(self, dropped=self.dropped | set(_known(wanted, known, language)))
 
     def whole(self, roster: Roster) -> Roster:
-        """The roster with those who have left and stand in it no more, at their old places."""
+        """Return the roster including the students who have left and are no longer listed, at their old places."""
         present = [comparable(student.id) for student in roster.students]
         order = list(self.students)
         students: list[RosterEntry] = []
@@ -50,7 +50,7 @@ class EarlierDraw:
 
 
 def read_earlier(table: Path, language: Language | None) -> EarlierDraw:
-    """What an earlier table says; nothing without one.  Raises `AssignmentError` for one that cannot be read."""
+    """Return the data of an earlier table, empty if there is none; raise `AssignmentError` if it cannot be read."""
     if not table.exists():
         return EarlierDraw()
     rows = [row for page in read(table, language) for row in page.rows]
@@ -73,13 +73,13 @@ def read_earlier(table: Path, language: Language | None) -> EarlierDraw:
 
 
 def students_named(wanted: Sequence[str], roster: Roster, language: Language) -> frozenset[str]:
-    """The `comparable` ids of students of the roster; raises `UnknownNameError`."""
+    """Return the `comparable` ids of students of the roster; raise `UnknownNameError` for an unknown one."""
     known = {comparable(student.id): student for student in roster.students}
     return frozenset(_known(wanted, known, language))
 
 
 def _known(wanted: Sequence[str], known: Mapping[str, RosterEntry], language: Language) -> Collection[str]:
-    """The ids of students who are named by id, e-mail or name."""
+    """Return the ids of students given by id, e-mail or name; raise `UnknownNameError` for an unknown one."""
     found: list[str] = []
     for text in wanted:
         ids = [id for id, student in known.items() if id == comparable(text)]

@@ -1,10 +1,10 @@
-"""Marks filled into the table that a learning platform gave for it: Moodle's grading worksheet, Canvas's gradebook.
+"""Fill marks into a table exported by a learning platform: Moodle's grading worksheet or Canvas's gradebook.
 
-All else in the file stays byte for byte.  Moodle's grading worksheet has its headings in the teacher's language, so its
-columns are found by their place and content: the first one ends in each participant's number, and the grade stands
-before the column of the greatest grade, which is one number throughout; behind it come the dates of the submission and
-of the grade, and then the comment that the student reads.  Canvas's gradebook has English headings, a row
-"Points Possible", and a column `Title (id)` for each assignment.
+The rest of the file stays byte for byte. Moodle's worksheet has headings in the teacher's language, so its columns are
+found by position and content. The first column ends in each participant's number. The grade precedes the column of the
+maximum grade, which has the same number throughout. Then come the dates of the submission and of the grade, and the
+comment for the student. Canvas's gradebook has English headings, a row "Points Possible", and a column `Title (id)` for
+each assignment.
 """
 
 from __future__ import annotations
@@ -24,13 +24,13 @@ from reportgen.workbook import read
 from reportgen.workbook.reading import BOOKS, SEPARATORS
 
 OWN = '<p class="reportgen">'
-"""How what the program wrote into a comment begins: it is replaced where the table comes back."""
+"""Beginning of the program's own text in a comment; it is replaced when the table is filled in again."""
 _OWN = re.compile(rf"{OWN}.*?</p>", re.DOTALL)
 DECIMALS = 2
-"""Of a grade, where the table does not show how many it has."""
+"""Number of decimals of a grade if the table does not show it."""
 
 SUBMITTED, COMMENTS = "last modified (submission)", "feedback comments"
-"""How Moodle heads the date of the submission and the comments in English."""
+"""Moodle's English headings of the submission date and of the comments."""
 
 _NUMBER = re.compile(r"\d+(?:[.,]\d+)?")
 _PARTICIPANT = re.compile(r"\D+(\d+)")
@@ -39,7 +39,7 @@ _TITLE = re.compile(r"(.+?)\s*\((\d+)\)")
 
 @dataclass(frozen=True, slots=True)
 class Participant:
-    """A student by what a platform's table may know of him or her: ids, and the platform's number, "" if unknown."""
+    """A student's identification in a platform's table: ids, and the platform's number, "" if unknown."""
 
     who: str
     ids: frozenset[str]
@@ -57,7 +57,7 @@ class StudentResult:
 
 @dataclass(frozen=True, slots=True)
 class _Cell:
-    """A cell of the file's text: where it begins and ends, what it says, whether in quotation marks."""
+    """A cell of the file: its start and end in the text, its content, and whether it is quoted."""
 
     start: int
     end: int
@@ -67,9 +67,9 @@ class _Cell:
 
 @dataclass(frozen=True, slots=True)
 class _Row:
-    """A student of the table: the cell of the grade, the platform's number, what else the row says of the student.
+    """A student's row: the cell of the grade, the platform's number, and the other texts that identify the student.
 
-    `handed_in` says when, as the platform writes it, and `comment` is the cell that the student reads.
+    `handed_in` is the submission time as the platform writes it, `comment` the cell that the student reads.
     """
 
     grade: _Cell
@@ -81,9 +81,9 @@ class _Row:
 
 @dataclass(frozen=True, slots=True)
 class _Table:
-    """The table's students and the greatest grade, as the table writes it.
+    """The table's students and the maximum grade, as the table writes it.
 
-    `called` is the word before the number of each student, in small letters.
+    `called` is the word before the number of each student, in lower case.
     """
 
     rows: tuple[_Row, ...]
@@ -93,7 +93,7 @@ class _Table:
 
 @dataclass(frozen=True, slots=True)
 class Gradebook:
-    """A platform's table: its text between the `mark` of its encoding and the end, and where its grades go."""
+    """A platform's table: its text after the byte-order `mark`, its encoding, and the cells for its grades."""
 
     path: Path
     text: str
@@ -104,11 +104,11 @@ class Gradebook:
 
     @property
     def has_comments(self) -> bool:
-        """Whether it has a column of comments that the students read."""
+        """True if the table has a column of comments for the students."""
         return any(row.comment for row in self.table.rows)
 
     def filled(self, results: Sequence[StudentResult]) -> tuple[bytes, list[Fault]]:
-        """The file with the grades and comments, and faults for students that it has no row for."""
+        """Return the file with the grades and comments, and a fault for each student without a row."""
         changes: dict[_Cell, str] = {}
         faults: list[Fault] = []
         for result in results:
@@ -122,34 +122,34 @@ class Gradebook:
         return self.mark + _changed(self.text, changes, self.separator).encode(self.encoding), faults
 
     def handed_in(self, student: Participant) -> str:
-        """When a student handed in, as the platform writes it; "" where it does not say it."""
+        """Return the submission time of a student as the platform writes it, or "" if it is missing."""
         row = self._row_of(student)
         return row.handed_in if row else ""
 
     def names(self, number: str) -> frozenset[str]:
-        """What the row of a platform's number says of its student."""
+        """Return the texts that identify the student in the row of a platform's number."""
         return next((row.names for row in self.table.rows if number and row.number == number), frozenset())
 
     @property
     def hidden_names(self) -> frozenset[str]:
-        """What it calls the students of whom it knows a number alone, in small letters."""
+        """The word, in lower case, that the table uses for students whose names are hidden."""
         return frozenset({self.table.called}) - {""}
 
     def _row_of(self, student: Participant) -> _Row | None:
-        """The one row that is a student's: by the platform's number if it is known, else by id or e-mail."""
+        """Return the only row of a student: by the platform's number if it is known, else by id or e-mail."""
         rows = [row for row in self.table.rows if student.number and row.number == student.number]
         rows = rows or [row for row in self.table.rows if row.names & student.ids]
         return rows[0] if len(rows) == 1 else None
 
 
 def read_gradebook(path: Path, column: str = "", language: Language | None = None) -> Gradebook:
-    """A platform's table; `column` chooses one of Canvas's assignments by its heading, title or id.
+    """Return a platform's table; `column` selects one of Canvas's assignments by its heading, title or id.
 
     Raises `AssignmentError` if the file cannot be read or is neither of the two tables.
     """
     if path.suffix.lower() in BOOKS:
         raise as_error([Fault("gradebook-no-csv", Mark(str(path)))], language)
-    # What cannot be read as CSV is refused here, with its place.
+    # A file that cannot be read as CSV is rejected here, with the location.
     read(path, language)
     data = path.read_bytes()
     mark, encoding = encoding_of(data)
@@ -163,7 +163,7 @@ def read_gradebook(path: Path, column: str = "", language: Language | None = Non
 
 
 def _grade(share: float, highest: str) -> str:
-    """A grade with the decimal mark and the decimals of the greatest one."""
+    """Return a grade with the decimal mark and the number of decimals of the maximum grade."""
     whole, point, decimals = highest.partition("," if "," in highest else ".")
     value = share * float(f"{whole}.{decimals or 0}")
     shown = f"{value:.{len(decimals) if point else DECIMALS}f}"
@@ -171,7 +171,7 @@ def _grade(share: float, highest: str) -> str:
 
 
 def _commented(present: str, lines: Sequence[str]) -> str:
-    """A comment as a platform shows it, HTML in one line, behind what somebody else wrote there before."""
+    """Return a comment as the platform shows it, one line of HTML, after text that others wrote there before."""
     own = f"{OWN}{'<br>'.join(map(html.escape, lines))}</p>"
     return _OWN.sub("", present).rstrip() + own
 
@@ -184,23 +184,23 @@ def _names(texts: Sequence[str]) -> frozenset[str]:
 
 
 def _moodle(rows: Sequence[Sequence[_Cell]], path: Path) -> _Table | Fault:
-    """Moodle's grading worksheet: the grade is the column before that of the greatest grade."""
+    """Return Moodle's grading worksheet: the grade is the column before that of the maximum grade."""
     head, *body = rows or [()]
     full = [row for row in body if len(row) == len(head)]
     numbers = [match[1] if row and (match := _PARTICIPANT.fullmatch(row[0].text.strip())) else "" for row in full]
     if not full or len(full) < len(body) or not all(numbers) or len(set(numbers)) < len(numbers):
         return Fault("gradebook-unknown", Mark(str(path)))
     columns = [[row[k].text.strip() for row in full] for k in range(len(head))]
-    # A scale of words has no greatest grade, and Moodle takes no numbers for it.
+    # A scale of words has no maximum grade, and Moodle accepts no numbers for it.
     graded = [k for k in range(2, len(head)) if _is_greatest(columns[k], columns[k - 1])]
     if len(graded) != 1:
         return Fault("gradebook-no-column", Mark(str(path)))
     (greatest,) = graded
     heads = [" ".join(cell.text.casefold().split()) for cell in head]
     dated = [k for k in range(greatest + 1, len(head)) if _is_dated(columns[k])]
-    # One date alone may be that of the grade.
+    # A single date may be that of the grade.
     submitted = heads.index(SUBMITTED) if SUBMITTED in heads else dated[0] if len(dated) > 1 else None
-    # The comments stand behind the date of the grade.
+    # The comments follow the date of the grade.
     last = max(dated, default=len(head))
     comments = heads.index(COMMENTS) if COMMENTS in heads else last + 1 if last + 1 < len(head) else None
     return _Table(
@@ -220,12 +220,12 @@ def _moodle(rows: Sequence[Sequence[_Cell]], path: Path) -> _Table | Fault:
 
 
 def _is_dated(column: Sequence[str]) -> bool:
-    """Whether a column holds dates, or the stroke that stands for none, and nothing else."""
+    """Return True if a column has only dates, or the dash for a missing one."""
     return all(text in ("-", "–") or moment(text) for text in column)
 
 
 def _is_greatest(column: Sequence[str], before: Sequence[str]) -> bool:
-    """Whether a column is one number throughout, and the one before it empty or no greater."""
+    """Return True if a column is one number throughout, and the one before it is empty or not greater."""
     if len(set(column)) != 1 or not _NUMBER.fullmatch(column[0]):
         return False
     return all(not text or (_NUMBER.fullmatch(text) and _value(text) <= _value(column[0])) for text in before)
@@ -244,7 +244,7 @@ def _is_canvas(rows: Sequence[Sequence[_Cell]]) -> bool:
 
 
 def _canvas(rows: Sequence[Sequence[_Cell]], wanted: str, path: Path) -> _Table | Fault:
-    """Canvas's gradebook: one of its assignments, which `wanted` must name if there are several."""
+    """Return Canvas's gradebook for one of its assignments, which `wanted` must name if there are several."""
     head = [cell.text for cell in rows[0]]
     mark = Mark(str(path))
     points = next((row for row in rows[1:] if "Points Possible" in row[0].text), None)
@@ -282,7 +282,7 @@ def _separator(text: str) -> str:
 
 
 def _rows(text: str, separator: str) -> Iterator[list[_Cell]]:
-    """The cells of each line with their places; a quoted cell may hold separators and line ends."""
+    """Yield the cells of each line with their positions; a quoted cell may contain separators and line ends."""
     cell = re.compile(rf'"([^"]*+(?:""[^"]*+)*+)"|([^{re.escape(separator)}\r\n]*+)')
     at = 0
     row: list[_Cell] = []
@@ -305,7 +305,7 @@ def _rows(text: str, separator: str) -> Iterator[list[_Cell]]:
 
 
 def _changed(text: str, changes: Mapping[_Cell, str], separator: str) -> str:
-    """The text with other contents in some cells."""
+    """Return the text with new contents in some cells."""
     parts: list[str] = []
     at = 0
     for cell in sorted(changes, key=lambda cell: cell.start):

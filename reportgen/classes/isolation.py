@@ -1,7 +1,7 @@
-"""The boundary around one student's files: whatever they do, the marking of the class goes on.
+"""The boundary around one student's files: whatever fails there, the marking of the class continues.
 
-Every step that takes in what one student handed in runs through `isolated`.  A file that is refused, and any exception
-that nobody expected, become problems of that file.
+Every step that processes one student's submission runs through `isolated`. A rejected file and any unexpected exception
+become problems of that file.
 """
 
 from __future__ import annotations
@@ -19,10 +19,10 @@ Result = TypeVar("Result")
 
 
 def isolated(work: Callable[[], Result], path: Path, language: Language | None) -> Result | list[Problem]:
-    """Return what `work` makes of one student's file, or the problems that kept it from making anything.
+    """Return the result of `work` on one student's file, or the problems that prevented it.
 
-    Raises only what concerns the whole class: `OutputError` where nothing can be written, and `MemoryError`, for which
-    the process that reads the file has a limit.
+    Raises only errors that concern the whole class: `OutputError` if nothing can be written, and `MemoryError`, for
+    which the process that reads the file has a limit.
     """
     try:
         return work()
@@ -40,5 +40,5 @@ def isolated(work: Callable[[], Result], path: Path, language: Language | None) 
 
 
 def _failed(path: Path, text: str, language: Language | None) -> Problem:
-    """The problem of a file that something unforeseen happened to, in one line."""
+    """Return the one-line problem of a file for which something unexpected failed."""
     return as_problem(Fault("own-failed", Mark(str(path)), {"text": " ".join(text.split())}), language)

@@ -1,6 +1,6 @@
-"""How late each sheet was handed in: by the roster's own column, else by the platform's table.
+"""Days of delay of each sheet, from the roster's own column or else the platform's table.
 
-Whom neither gives a date for counts as in time, and is told of where the policy takes something off for lateness.
+A student without a date counts as on time. A warning reports this if the policy deducts marks for lateness.
 """
 
 from __future__ import annotations
@@ -18,12 +18,12 @@ from reportgen.classes.gradebooks import Gradebook, Participant
 from reportgen.marking.policy import Lateness
 
 NONE = frozenset({"", "-", "–"})
-"""What stands in place of a date that there is not."""
+"""Texts that mean a missing date."""
 
 
 @dataclass(frozen=True, slots=True)
 class Handing:
-    """What is known of when a sheet was handed in: the roster's word, and whether the platform calls it late."""
+    """Submission data of a sheet: the roster's date, and whether the platform calls it late."""
 
     student: Participant
     file: str
@@ -34,7 +34,7 @@ class Handing:
 def days_late(
     rule: Lateness, handings: Mapping[str, Handing], gradebook: Gradebook | None, language: Language | None
 ) -> tuple[dict[str, int], list[Problem]]:
-    """The days of each assignment by a rule of lateness, and dates that cannot be read or are missing."""
+    """Return the days of delay by assignment, and problems for unreadable or missing dates."""
     days: dict[str, int] = {}
     faults: list[Fault] = []
     undated: list[Handing] = []
@@ -56,7 +56,7 @@ def days_late(
 
 
 def _handed_in(handing: Handing, gradebook: Gradebook | None) -> datetime.datetime | Fault | None:
-    """When it was handed in, None where nobody says it; a fault for a date that cannot be read."""
+    """Return the submission time, None if there is none, or a fault for a date that cannot be read."""
     text = gradebook.handed_in(handing.student) if gradebook else ""
     said, mark = (handing.said.text, handing.said.mark) if handing.said else (text, None)
     if said.strip() in NONE:

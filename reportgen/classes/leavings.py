@@ -1,6 +1,6 @@
-"""What a killed batch leaves, tidied up by the process that its workers are forked from.
+"""Delete temporary files left by a killed batch run, from the process that its workers are forked from.
 
-That process ends when nobody is left who could ask it for another one: it outlives a run that was killed.
+That process outlives a killed run: it ends when no process is left that could ask it for a new worker.
 """
 
 from __future__ import annotations
@@ -17,21 +17,21 @@ from pathlib import Path
 from reportgen.base.files import sweep
 
 SOCKETS, OUT = "REPORTGEN_SOCKETS", "REPORTGEN_OUT"
-"""By these names in its environment it knows the folder of the sockets of all processes, and that of the results."""
+"""Environment variables with the folder of the sockets of all processes, and that of the results."""
 
 
 LONGEST = 103 - len("/pymp-12345678/listener-12345678")
-"""Bytes of the folder of temporary files within which a socket has a name: 103 on macOS, 107 on Linux."""
+"""Longest name (bytes) of the temporary folder in which socket names still fit: 103 on macOS, 107 on Linux."""
 SHORT = ("/tmp", "/var/tmp")
-"""Where the sockets go if that folder's own name is longer."""
+"""Folders for the sockets if that folder's own name is longer."""
 
 
 def sockets() -> str | None:
-    """The folder that multiprocessing makes for sockets; None if there is no place whose name is short enough."""
+    """Return the folder that multiprocessing makes for sockets; None if no place has a short enough name."""
     usual = tempfile.tempdir
     places = (tempfile.gettempdir(), *SHORT)
     try:
-        # A run that ends by itself removes it.
+        # A run that ends normally removes it.
         tempfile.tempdir = next(filter(_takes_sockets, places), None)
         return None if tempfile.tempdir is None else multiprocessing.util.get_temp_dir()
     finally:
@@ -43,12 +43,12 @@ def _takes_sockets(folder: str) -> bool:
 
 
 def environment(folder: str, out: Path | None) -> Mapping[str, str]:
-    """What the process has to know, for its environment, the `folder` of sockets among it."""
+    """Return the environment variables of the process, including the `folder` of sockets."""
     return {SOCKETS: folder, OUT: "" if out is None else os.path.abspath(out)}
 
 
 def _tidy_up() -> None:
-    """Remove the folders once the last worker has ended, which may be writing into one of them still."""
+    """Remove the folders after the last worker has ended, because it may still write into one of them."""
     with suppress(ChildProcessError):
         while True:
             os.wait()

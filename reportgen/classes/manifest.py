@@ -1,8 +1,8 @@
-"""What a batch has made, and of what: the file that lets a second run do only what is missing or changed.
+"""The record of a batch's products and their inputs, with which a second run makes only what is missing or changed.
 
-`manifest.json` is replaced as a whole, at the beginning and at the end of a run.  In between each result is one line
-more in a journal beside it, which the next run reads if this one was killed: a line costs the same for the first and
-the thousandth student, and a torn one costs no other.
+`manifest.json` is replaced as a whole at the beginning and at the end of a run. In between, each result is one line in
+a journal beside it, which the next run reads if this one was killed. So a line costs the same for the first and the
+thousandth student, and a torn line loses no other.
 """
 
 from __future__ import annotations
@@ -29,14 +29,14 @@ NAME = "manifest.json"
 JOURNAL = ".manifest.journal"
 FORMAT = "reportgen-batch/1"
 ASK = "ask"
-"""What the answer sheet asks for decides the bytes of a product too, where a policy says so."""
+"""Name of the input for the answer sheet's selection, if a policy gives one."""
 STANDARDS = "standards"
-"""So do the standards that a PDF keeps, where they are not the usual ones."""
+"""Name of the input for the standards of a PDF, if they are not the default."""
 
 
 @dataclass(frozen=True, slots=True)
 class ManifestEntry:
-    """One product of one student: what it was made of, and its files with their SHA-256, or what failed."""
+    """One product of one student: its inputs, and its files with their SHA-256, or the problems that made it fail."""
 
     student: str
     folder: str
@@ -46,7 +46,7 @@ class ManifestEntry:
     problems: tuple[str, ...] = ()
 
     def holds(self, job: Job, out: Path) -> bool:
-        """Whether the files are there and would be made of the same again; one that was edited is there, too."""
+        """Return True if the files exist and have the same inputs; an edited file counts as existing."""
         return (
             not self.problems
             and bool(self.files)
@@ -59,7 +59,7 @@ class ManifestEntry:
         return Made(self.made_of, self.files)
 
     def edited(self, out: Path) -> Iterator[Path]:
-        """The files that were changed since they were made, an answer sheet that is filled in."""
+        """Yield the files that were changed since they were made, for example a filled answer sheet."""
         return self.made.edited(out / self.folder)
 
 
@@ -67,23 +67,23 @@ _ENTRY = TypeAdapter(ManifestEntry)
 
 
 def entry_of(job: Job, outcome: Outcome) -> ManifestEntry:
-    """What the manifest keeps of an outcome: hashes and words, no times and no paths."""
+    """Return the manifest entry of an outcome: hashes and words, without times or paths."""
     hashes = {name: sha256(content).hexdigest() for name, content in outcome.files.items()}
     problems = tuple(map(str, outcome.problems))
     return ManifestEntry(job.student, job.folder, job.product, made_of(job), hashes, problems)
 
 
 def made_of(job: Job) -> dict[str, str | None]:
-    """What a job's product is made of, what the answer sheet asks for as `ASK`, what its PDF keeps as `STANDARDS`."""
+    """Return the inputs of a job's product, including `ASK` for the sheet's selection and `STANDARDS` for its PDF."""
     how = job.making
     more = {ASK: how.ask, STANDARDS: how.standards}
     return made_of_input(job.assignment, how.engine, how.language, how.templates, how.version, **more)
 
 
 def read_manifest(out: Path) -> dict[tuple[str, str], ManifestEntry]:
-    """The entries of a folder by student and product, with what a killed run left in its journal.
+    """Return the entries of a folder by student and product, including the journal of a killed run.
 
-    A file that cannot be understood counts as missing: its products are made again.
+    A file that cannot be parsed counts as missing: its products are made again.
     """
     lines = map(_parsed, _text(out / JOURNAL).split("\n"))
     entries = (_entry(line) for line in (*_lines(_parsed(_text(out / NAME))), *lines))
@@ -91,7 +91,7 @@ def read_manifest(out: Path) -> dict[tuple[str, str], ManifestEntry]:
 
 
 def write_manifest(out: Path, entries: Iterable[ManifestEntry]) -> Path:
-    """Replaces the manifest, sorted by student and product; then the journal has nothing to add."""
+    """Replace the manifest, sorted by student and product, and delete the journal."""
     students: dict[str, Any] = {}
     for entry in entries:
         of_student = students.setdefault(entry.student, {"folder": entry.folder, "products": {}})
@@ -106,7 +106,9 @@ def write_manifest(out: Path, entries: Iterable[ManifestEntry]) -> Path:
 
 @contextmanager
 def journal(out: Path) -> Iterator[Callable[[ManifestEntry], None]]:
-    """Records each entry as soon as its files stand; the next `write_manifest` removes the journal."""
+    """Yield a function that records each entry as soon as its files exist; the next `write_manifest` deletes the
+    journal.
+    """
     with (out / JOURNAL).open("a", encoding="utf-8", newline="\n") as stream:
 
         def record(entry: ManifestEntry) -> None:
@@ -124,7 +126,7 @@ def _plain(entry: ManifestEntry) -> dict[str, Any]:
 
 
 def _lines(content: dict[str, Any]) -> Iterator[dict[str, Any]]:
-    """The entries of a manifest as lines of a journal."""
+    """Yield the entries of a manifest in the form of journal lines."""
     students = content.get("students")
     if content.get("format") != FORMAT or not isinstance(students, dict):
         return
@@ -136,7 +138,7 @@ def _lines(content: dict[str, Any]) -> Iterator[dict[str, Any]]:
 
 
 def _entry(line: dict[str, Any]) -> ManifestEntry | None:
-    """The entry of a line, unless the line is not of the form that `journal` gives."""
+    """Return the entry of a line, or None if the line does not have the form that `journal` writes."""
     made = {key: line.get(key) for key in (*MADE_OF, *(name for name in (ASK, STANDARDS) if name in line))}
     try:
         entry = _ENTRY.validate_python({**line, "made_of": made})

@@ -1,4 +1,4 @@
-"""What comes of a marked class: files for each student, for the instructor and for the learning platform."""
+"""Output of a marked class: files for each student, for the instructor and for the learning platform."""
 
 from __future__ import annotations
 
@@ -54,14 +54,12 @@ def files_of(
     standards: Standards = STANDARDS,
     problems: list[Problem] | None = None,
 ) -> Iterator[tuple[Path, bytes]]:
-    """Every file of a graded class with its content: three for each student, and those of the instructor.
+    """Yield every file of a graded class with its content: three for each student, and those of the instructor.
 
-    Of a student's own files there are marked copies, too, and the sheet of what was read of them, but for one that was
-    completed below `out`.  What cannot be written for a student is left out, added to `problems` and reported in the
-    student's row of grades.csv.
-
-    What goes back to a learning platform is also put into `feedback.zip`, under the names by which it knows its
-    students.  A PDF of typst keeps the `standards`.
+    For a student's own files there are also marked copies, and a sheet prefilled with the values that were read, unless
+    one was completed below `out`. A file that cannot be written for a student is left out, added to `problems` and
+    reported in the student's row of grades.csv. Files for a learning platform are also put into `feedback.zip`, under
+    the names by which it knows its students. A PDF by typst conforms to the `standards`.
     """
     returned: dict[str, bytes] = {}
     markings: list[Marking] = []
@@ -105,12 +103,12 @@ def files_of(
 
 
 def _folder(key: Key) -> Path:
-    """The folder of a student as the batch names it, or the assignment's own stem."""
+    """Return the folder of a student as the batch names it, or else the assignment's stem."""
     return Path(folder_name(key.student["id"]) if "id" in key.student else key.id)
 
 
 def _own_files(graded: Graded) -> Iterator[tuple[Handed, FileReading, Marking]]:
-    """The own files of the students who are marked, in their order."""
+    """Yield the own files of the marked students, in their order."""
     for marking in graded.markings:
         if (work := graded.own.get(marking.key.id)) is not None:
             yield from ((file, reading, marking) for file, reading in work.files)
@@ -119,7 +117,7 @@ def _own_files(graded: Graded) -> Iterator[tuple[Handed, FileReading, Marking]]:
 def _copies(
     copied: Iterable[tuple[Handed, tuple[str, bytes] | list[Problem]]], language: Language | None
 ) -> tuple[dict[str, bytes], list[Problem]]:
-    """The marked copies of one student's files by their names, and what could not be written into."""
+    """Return the marked copies of one student's files by name, and the files that could not be annotated."""
     files: dict[str, bytes] = {}
     problems: list[Problem] = []
     numbers: Counter[str] = Counter()
@@ -134,7 +132,7 @@ def _copies(
 
 
 def _unwritten(problem: Problem, language: Language | None) -> Problem:
-    """The warning that a file is marked but not given back, with the reason."""
+    """Return the warning that a file is marked but no copy is returned, with the reason."""
     fault = Fault("own-not-written", problem.mark, {"text": problem.message})
     return replace(as_problem(fault, language, "warning"), hint=problem.hint)
 
@@ -142,7 +140,7 @@ def _unwritten(problem: Problem, language: Language | None) -> Problem:
 def _readings(
     graded: Graded, policy: Policy, out: Path | None, language: Language | None
 ) -> Iterator[tuple[Path, bytes]]:
-    """What was read of own files, as sheets to be completed; one that somebody has changed stays."""
+    """Yield prefilled sheets with the values read from own files; one that somebody has changed is kept."""
     read = [(marking.key, marking.submission) for marking in graded.markings]
     read += [(one.key, one.unsettled) for one in graded.unmarked if one.unsettled is not None]
     for key, submission in read:
@@ -158,7 +156,7 @@ def _readings(
 def _feedback(
     marking: Marking, policy: Policy, engine: Engine, standards: Standards, language: Language | None
 ) -> tuple[dict[str, bytes], list[Problem]]:
-    """The files of one student, the own sheet, a page, and a text to paste; and why one of them is missing."""
+    """Return the files of one student (sheet, page and text to paste), and problems for those that are missing."""
     key = marking.key
 
     def page() -> bytes:
@@ -195,10 +193,10 @@ def put(
     standards: Standards = STANDARDS,
     problems: list[Problem] | None = None,
 ) -> Iterator[Path]:
-    """Write every file of a graded class below `out`, those of a folder together, the page of the class last.
+    """Write every file of a graded class below `out`, those of a folder together, the class page last.
 
-    What could not be written for a single student is added to `problems`.  Raises `OutputError`, and `TypesetterError`
-    if the page of the class cannot be typeset.
+    A file that could not be written for a single student is added to `problems`. Raises `OutputError`, and
+    `TypesetterError` if the class page cannot be typeset.
     """
     with reported(out), scratch(out):
         made = files_of(graded, policy, engine, language, out, standards=standards, problems=problems)
@@ -208,12 +206,12 @@ def put(
 
 
 def put_one_pdf(graded: Graded, out: Path) -> Iterator[Path]:
-    """Write one PDF of all pages of feedback below `out`; raises `OutputError`, `TypesetterError`."""
+    """Write one PDF of all feedback pages below `out`; raise `OutputError` or `TypesetterError`."""
     yield from bind_feedback(out, [(str(_folder(one.key)), person(one.key)) for one in graded.markings])
 
 
 def filled_gradebook(path: Path, out: Path) -> Path:
-    """Where a platform's table goes when it is filled in: the file that was downloaded stays as it is."""
+    """Return the path of the filled-in platform table; the downloaded file is never overwritten."""
     taken = re.fullmatch(file_names("class"), path.name) or any(overwritten([out / path.name], [path]))
     return out / (f"filled-{path.name}" if taken else path.name)
 
@@ -223,7 +221,8 @@ def put_gradebook(
 ) -> tuple[Path, list[Problem]]:
     """Write a platform's table with marks and comments below `out`, under its own name.
 
-    Whom it has no row for is told, and whether it has no column for comments.  Raises `OutputError`.
+    Return its path and problems: students without a row, and a note if there is no column for comments. Raises
+    `OutputError`.
     """
     results = [
         StudentResult(
@@ -243,7 +242,7 @@ def put_gradebook(
 
 
 def summary(graded: Graded, language: Language | None) -> Iterator[str]:
-    """A line for each student marked, and how many handed nothing in or nothing that can be marked."""
+    """Yield a line for each marked student, and the numbers of missing and rejected submissions."""
     for marking in graded.markings:
         points, out_of = f"{marking.points:g}", f"{marking.out_of:g}"
         who, firsts = person(marking.key), len(marking.first_errors)
@@ -260,7 +259,7 @@ def summary(graded: Graded, language: Language | None) -> Iterator[str]:
 
 
 def _open(marking: Marking, language: Language | None) -> str:
-    """The values of a sheet that were not read; those of own files are counted with what is to be settled."""
+    """Return the values of a sheet that were not read; those of own files are counted as values to settle."""
     if not marking.submission.problems or not marking.open:
         return ""
     return word("graded_open", language, cells=open_cells(marking))

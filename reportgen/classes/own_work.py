@@ -1,7 +1,7 @@
-"""Whose a report or a drawing is that came without a sheet, and what was read of it.
+"""Assign reports and drawings without a sheet to their students, and read them.
 
-It says no assignment by itself.  Whose it is shows by its name or its folder's, by the platform that it comes from, or
-by the number of one student of the class, and no other, that stands in it.
+Such a file does not name its assignment. Its student is found by its name or folder, by the platform, or by the id of
+exactly one student of the class in its text.
 """
 
 from __future__ import annotations
@@ -30,22 +30,22 @@ from reportgen.marking.policy import Twice
 
 @dataclass(frozen=True, slots=True)
 class OwnWork:
-    """A student's own files, each with what was read of it."""
+    """A student's own files, each with what was read from it."""
 
     files: tuple[tuple[Handed, FileReading], ...]
 
     def submission(self, language: Language | None) -> Submission:
-        """What is marked where no sheet stands beside them."""
+        """Return the submission that is marked if there is no sheet."""
         return submission([reading for _, reading in self.files], language)
 
     def notes(self, language: Language | None) -> list[Problem]:
-        """What is to be said of each file as a whole."""
+        """Return the notes about each file as a whole."""
         return [as_problem(note, language, "note") for _, reading in self.files for note in reading.notes]
 
 
 @dataclass
 class OwnWorks:
-    """The own files of a class by assignment; the files that are not read, and all that is told."""
+    """The own files of a class by assignment; the files that are not read, and all problems."""
 
     works: dict[str, OwnWork] = field(default_factory=dict)
     refused: list[Refused] = field(default_factory=list)
@@ -58,9 +58,10 @@ class OwnWorks:
 
 @dataclass(frozen=True, slots=True)
 class LookedFor:
-    """What is looked for in the files of a student, by the key: what is `asked`, by the symbols of the own papers.
+    """Functions that return what to search for in a student's files, by the key.
 
-    Of a drawing it is the `plans`, also by the values of files that were read before.
+    `asked` gives the requested cells, with the symbols of the papers. `plans` gives the plans of a drawing, including
+    those by the values of files that were read before.
     """
 
     asked: Callable[[Key], Key]
@@ -75,9 +76,10 @@ def own_works(
     twice: Twice,
     language: Language | None,
 ) -> OwnWorks:
-    """The own files of a class laid to its students and read; `keys` are those of the assignments by comparable stem.
+    """Return the own files of a class, assigned to its students and read.
 
-    `student_of` says whose a file is by its name or its platform.
+    `keys` are those of the assignments by comparable stem; `student_of` returns a file's student by its name or its
+    platform.
     """
     gathered = OwnWorks()
     of_assignment: dict[str, list[Handed]] = {}
@@ -95,11 +97,11 @@ def own_works(
     read: dict[str, list[tuple[Handed, FileReading]]] = {}
 
     def before(assignment: str) -> list[FileReading]:
-        """What was read before of the same student."""
+        """Return the earlier readings of the same student."""
         return [reading for _, reading in read.get(assignment, ())]
 
     drawings = [file for file in chosen if file[1].path.suffix.lower() == DRAWING]
-    # A report says by which values its drawings may be found.
+    # Reports are read first, because their values help to find the plans in drawings.
     for several in ([file for file in chosen if file not in drawings], drawings):
         calls: list[tuple[Handed, Key, WantedPlans | None]] = []
         assignments: list[str] = []
@@ -125,7 +127,7 @@ def own_works(
 def _by_text(
     unknown: Sequence[Handed], keys: Mapping[str, Key], gathered: OwnWorks, language: Language | None
 ) -> Iterator[tuple[Handed, Key]]:
-    """Files whose text has the number of one student, or the name of one assignment."""
+    """Yield files whose text has the id of one student, or the name of one assignment."""
     if not unknown:
         return
     owners: dict[str, Key] = {}
@@ -151,7 +153,7 @@ def _chosen(
     twice: Twice,
     language: Language | None,
 ) -> Iterator[tuple[str, Handed]]:
-    """Of several reports of a student the one that counts; all drawings are of one work."""
+    """Yield the report that counts if a student has several; all drawings belong to one work."""
     for assignment, several in of_assignment.items():
         name = keys[comparable(assignment)].student.get("name", "")
         for ending, kind in kinds().items():
@@ -164,7 +166,7 @@ def _chosen(
 
 
 def without_own(handed: Iterable[Handed], own: list[Handed]) -> Iterator[Handed]:
-    """What may be sheets; the rest is put with the `own` files."""
+    """Yield the files that may be sheets; append the others to `own`."""
     for file in handed:
         if file.is_own:
             own.append(file)
@@ -173,10 +175,10 @@ def without_own(handed: Iterable[Handed], own: list[Handed]) -> Iterator[Handed]
 
 
 def with_own(collected: Collected, own: OwnWorks, known: Container[str], language: Language | None) -> Collected:
-    """What is marked: the sheets, and the own files of those who handed none in.
+    """Return the submissions to mark: the sheets, and the own files of students without one.
 
-    A reading that nobody has changed counts only where the files that it was read of are not there.  A sheet that is
-    named after another of the `known` assignments does not displace what its student handed in.
+    An unchanged prefilled sheet counts only if the files that it was read from are missing. A sheet named after another
+    one of the `known` assignments does not replace its student's own files.
     """
     sheets = dict(collected.sheets)
     told: list[Problem] = []
@@ -201,7 +203,7 @@ def with_own(collected: Collected, own: OwnWorks, known: Container[str], languag
 
 
 def completed(out: Path | None, given: Sequence[Path]) -> Iterator[Handed]:
-    """The readings that an earlier run has left where the results go, unless they are among the files given."""
+    """Yield the prefilled sheets that an earlier run left below `out`, unless they are among the given files."""
     among = {path.resolve() for path in given}
     for path in sorted(out.glob(f"*/{NAME}")) if out is not None else ():
         resolved = path.resolve()
@@ -210,5 +212,5 @@ def completed(out: Path | None, given: Sequence[Path]) -> Iterator[Handed]:
 
 
 def renewable(readings: Mapping[str, tuple[Submission, Handed]], target: Path) -> bool:
-    """Whether a reading may be written to a place: nothing stands there, or one that nobody has changed."""
+    """Return True if a prefilled sheet may be written to a path: it does not exist, or nobody has changed it."""
     return not target.exists() or any(file.path.resolve() == target.resolve() for _, file in readings.values())

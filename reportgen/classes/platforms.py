@@ -1,9 +1,8 @@
-"""What is handed in, sheets and own reports and drawings: files, folders, and what a learning platform gives for
-download, also as a zip.
+"""Find submissions (sheets, reports and drawings) in files, folders and downloads of a learning platform, also zipped.
 
-Moodle puts the files of a student into a folder `Name_4711_assignsubmission_file`, or before the names of the files;
-Canvas names each file `name_userid_attachmentid_file`.  What is given back to the student must carry the same
-beginning.  Moodle may hide names (`Participant_4711_assignsubmission_file`): then the number is all that is known.
+Moodle puts a student's files into a folder `Name_4711_assignsubmission_file`, or uses that as a prefix of their names.
+Canvas names each file `name_userid_attachmentid_file`. Files returned to the student must have the same prefix. Moodle
+may hide names (`Participant_4711_assignsubmission_file`); then only the number is known.
 """
 
 from __future__ import annotations
@@ -28,26 +27,26 @@ from reportgen.workbook.package import RefusedError
 from reportgen.workbook.reading import BOOKS, LARGEST
 
 SHEETS = BOOKS | {".csv"}
-"""Endings of files that may be meant as sheets; a fault is reported for those that cannot be read."""
+"""Suffixes of files that may be sheets; a fault is reported for those that cannot be read."""
 SUBMISSIONS = SHEETS | own_files.OWN
-"""Those of all files that are read: sheets, and a student's own report and drawings."""
+"""Suffixes of all files that are read: sheets, and a student's own report and drawings."""
 DEEPEST = 1
-"""Archives in an archive that was handed in are not opened, only those in a download of a class."""
+"""Deepest nesting of archives: those in a class download are opened, archives inside a submitted archive are not."""
 
 _MOODLE_FOLDER = re.compile(r"(?P<name>.+)_(?P<number>\d+)_assignsubmission_file_?")
 _MOODLE_FILE = re.compile(r"(?P<prefix>(?P<name>.+?)_(?P<number>\d+)_assignsubmission_file_).+")
 _CANVAS = re.compile(r"(?P<prefix>(?P<name>\w+?)(?P<late>_LATE)?_(?P<number>\d+)_\d+_).+")
 _LOST = "?_\ufffd"
-"""What programs write for letters of a name that their encoding does not have."""
+"""Characters that programs write in place of letters that their encoding lacks."""
 _CANVAS_BLIND = re.compile(r"(?P<prefix>(?P<late>LATE_)?anon_(?P<number>[A-Za-z0-9]+)_\d+_).+")
 
 
 @dataclass(frozen=True, slots=True)
 class Owner:
-    """Who handed a file in, as the platform says: a number of its own, a name ("" if it tells none).
+    """The submitter of a file according to the platform: its own number, and a name ("" if it is hidden).
 
-    `prefix` begins the names of the files that are given back: a folder, or the beginning of a file's name.  `late`
-    says that the platform calls it late, without a date.
+    `prefix` begins the names of returned files: a folder, or the beginning of a file's name. `late` is True if the
+    platform calls the file late, without a date.
     """
 
     number: str
@@ -56,7 +55,7 @@ class Owner:
     late: bool = field(default=False, compare=False)
 
     def may_be(self, name: str) -> bool:
-        """Whether it can be the student of that name, whatever the order of names, case and accents."""
+        """Return True if this can be the student of that name, ignoring the order of names, case and accents."""
         if not self.name or not name or self.is_hidden:
             return True
         own, given = _words(self.name), _words(name)
@@ -65,16 +64,16 @@ class Owner:
 
     @property
     def is_hidden(self) -> bool:
-        """Whether the platform hides the name and writes "Participant", also behind a group: "Group A-Participant"."""
+        """True if the platform writes "Participant" in place of the name, also after a group: "Group A-Participant"."""
         return folded(self.name.rpartition("-")[2]) in _hidden_names()
 
 
 @dataclass(frozen=True, slots=True)
 class Handed:
-    """A file that may be a sheet: `path` names it, `data` is its content where it comes from an archive.
+    """A file that may be a sheet: `path` names it, `data` is its content if it comes from an archive.
 
-    `when` is the year, month, day, hour, minute and second of its last change.  What was handed in without a sheet has
-    the `fault`.
+    `when` is the year, month, day, hour, minute and second of its last change. A submission without a sheet has the
+    `fault`.
     """
 
     path: Path
@@ -85,15 +84,15 @@ class Handed:
 
     @property
     def is_own(self) -> bool:
-        """Whether it is a report or a drawing in place of a sheet."""
+        """True if this is a report or a drawing in place of a sheet."""
         return self.fault is None and self.path.suffix.lower() in own_files.OWN
 
 
 def handed_in(paths: Sequence[Path], faults: list[Fault], names: Collection[str] = ()) -> Iterator[Handed]:
-    """The answer sheets among files, in folders and archives, one at a time; archives in hand-ins are opened, too.
+    """Yield the submissions among files, in folders and archives, one at a time; submitted archives are opened too.
 
-    `names` are those of the students, by which the names of an archive are decoded that does not say how.  Faults are
-    added for archives that are refused.
+    `names` are those of the students; they help to decode the names of an archive without a stated encoding. Faults are
+    added for rejected archives.
     """
     people = frozenset(map(_words_of, filter(None, names)))
     for path in paths:
@@ -122,7 +121,7 @@ def handed_in(paths: Sequence[Path], faults: list[Fault], names: Collection[str]
 
 
 def _noted(handed: Iterator[Handed], with_work: set[str]) -> Iterator[Handed]:
-    """What was handed in; the numbers of those who did are added to `with_work`."""
+    """Yield submissions, adding the numbers of their owners to `with_work`."""
     for file in handed:
         if file.owner:
             with_work.add(file.owner.number)
@@ -130,7 +129,7 @@ def _noted(handed: Iterator[Handed], with_work: set[str]) -> Iterator[Handed]:
 
 
 def _from_archive(archive: Handed, people: Collection[HeaderWords], depth: int) -> Iterator[Handed]:
-    """The sheets in an archive that a student handed in, or the fault for which it is not read."""
+    """Yield the sheets in a student's archive, or the fault for which it is not read."""
     try:
         if depth > DEEPEST:
             raise RefusedError("archive-nested", Mark(str(archive.path)))
@@ -142,7 +141,7 @@ def _from_archive(archive: Handed, people: Collection[HeaderWords], depth: int) 
 
 
 def _members(handed: Handed, people: Collection[HeaderWords], depth: int) -> Iterator[Handed]:
-    """The sheets among the members of an archive, all of whoever handed it in; raises `RefusedError`."""
+    """Yield the sheets among the members of an archive, all with its owner; raise `RefusedError`."""
 
     def judge(names: Sequence[str]) -> int:
         owners = {owner.name for name in names if (owner := owner_of(name))}
@@ -166,14 +165,14 @@ def _members(handed: Handed, people: Collection[HeaderWords], depth: int) -> Ite
 
 
 def changed(path: Path) -> tuple[int, ...]:
-    """When a file was last changed; who reads it tells of one that is not there."""
+    """Return the time of a file's last change, or () if it does not exist; reading it reports the fault."""
     with suppress(OSError):
         return time.localtime(path.stat().st_mtime)[:6]
     return ()
 
 
 def files_read(paths: Sequence[Path]) -> Iterator[Path]:
-    """The files that answer sheets are read from: those given, archives too, and what may be a sheet in a folder."""
+    """Yield the files that sheets are read from: those given, archives too, and possible sheets in folders."""
     for path in paths:
         if path.is_dir():
             yield from (one for one in path.rglob("*") if _is_sheet(one.as_posix()) or _is_archive(one.as_posix()))
@@ -182,7 +181,7 @@ def files_read(paths: Sequence[Path]) -> Iterator[Path]:
 
 
 def owner_of(name: str) -> Owner | None:
-    """Who handed in the file of this path, None if it does not come from a platform."""
+    """Return the submitter of the file at a path, or None if it does not come from a platform."""
     path = PurePosixPath(name)
     for part in path.parts[:-1]:
         if match := _MOODLE_FOLDER.fullmatch(part):
@@ -195,7 +194,7 @@ def owner_of(name: str) -> Owner | None:
 
 
 def _owners(names: Sequence[str]) -> dict[str, Owner | None]:
-    """Who handed in each file; a name that all have, or the word for a participant, hides names and says nothing."""
+    """Return the submitter of each file; a name shared by all, such as "Participant", is removed."""
     owners = {name: owner_of(name) for name in names}
     known = {(owner.number, owner.name) for owner in owners.values() if owner}
     if len({number for number, _ in known}) > 1 and len({name for _, name in known}) == 1:
@@ -204,23 +203,23 @@ def _owners(names: Sequence[str]) -> dict[str, Owner | None]:
 
 
 def _is_sheet(name: str) -> bool:
-    """Whether it may be a sheet: not what a spreadsheet or a system keeps beside its files."""
+    """Return True for a possible sheet, excluding files that a spreadsheet or a system keeps beside its own."""
     return PurePosixPath(name).suffix.lower() in SUBMISSIONS and not _is_hidden(name)
 
 
 def _is_hidden(name: str) -> bool:
-    """Whether a program or a system keeps it beside its own files."""
+    """Return True for a file that a program or a system keeps beside its own files."""
     path = PurePosixPath(name)
     return path.name.startswith((".", "~$")) or "__MACOSX" in path.parts
 
 
 def _is_archive(name: str) -> bool:
-    """Whether it is an archive that somebody handed in."""
+    """Return True for an archive that somebody submitted."""
     return PurePosixPath(name).suffix.lower() == ARCHIVE and not _is_hidden(name)
 
 
 def _without_sheet(place: Path, owners: dict[str, Owner | None], with_work: Collection[str]) -> Iterator[Handed]:
-    """Students who handed in something, but nothing that can be a sheet; `with_work` are the numbers of the others."""
+    """Yield students who submitted files, but no possible sheet; `with_work` are the numbers of the others."""
     seen: set[str] = set()
     for name, owner in owners.items():
         if owner and owner.number not in with_work and owner.number not in seen:
@@ -238,28 +237,28 @@ HeaderWords = tuple[str, ...]
 
 
 def _words_of(name: str) -> HeaderWords:
-    """The words of a name in one order, by which names are compared."""
+    """Return the words of a name in sorted order, for comparing names."""
     return tuple(sorted(_words(name)))
 
 
 @cache
 def _hidden_names() -> frozenset[str]:
-    """What a platform calls a student whose name it hides, in every language."""
+    """Return the words that platforms use for students with hidden names, in every language."""
     return frozenset(folded(name) for language in languages() for name in messages(language)["hidden_names"])
 
 
 def _words(name: str) -> set[str]:
-    """The words of a name without case and accents: {"nguyen", "van", "an"}."""
+    """Return the words of a name without case and accents: {"nguyen", "van", "an"}."""
     return set(re.findall(r"[^\W_]+", _bare(name)))
 
 
 def _bare(name: str) -> str:
-    """A name without case and accents."""
+    """Return a name without case and accents."""
     letters = unicodedata.normalize("NFD", name.casefold().replace("đ", "d"))
     return "".join(letter for letter in letters if not unicodedata.combining(letter))
 
 
 def _fits(damaged: str, name: str) -> bool:
-    """Whether a name with lost letters, "Nguy?n V?n An", can be that of a student."""
+    """Return True if a name with lost letters, "Nguy?n V?n An", can be that of a student."""
     pattern = "".join(".?" if letter in _LOST else re.escape(letter) for letter in _bare(damaged))
     return any(letter in damaged for letter in _LOST) and re.fullmatch(pattern, _bare(name)) is not None

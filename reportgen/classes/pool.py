@@ -1,11 +1,9 @@
-"""Jobs, and the processes of this machine that do them; they may die without harm to any job but their own.
+"""Jobs and the local processes that run them; a process that dies harms no job but its own.
 
-A job is one product of one student.  It holds all that decides its result, the bytes of the assignment
-file included, so that it can run in this process, in another, or on another machine, and so that its
-result need not be made twice.  Each has a process of its own, started by pebble: its outcome arrives on a
-pipe that it shares with nobody, and all its memory ends with it.
-
-What others hand in is read in processes too, each call within limits of time and memory.
+A job is one product of one student. It has everything that determines its result, including the bytes of the assignment
+file. So it can run in this process, in another, or on another machine, and its result need not be made twice. Each job
+has its own process, started by pebble: its outcome arrives on its own pipe, and all its memory is freed at its end.
+Submitted files are also read in processes, each call within limits of time and memory.
 """
 
 from __future__ import annotations
@@ -46,16 +44,16 @@ if TYPE_CHECKING:
 
 
 SYSTEM = 3
-"""Exit code of a failure that no change of the assignment can mend."""
+"""Exit code of a failure that no change of the assignment can fix."""
 
 
 @dataclass(frozen=True, slots=True)
 class Making:
-    """What a result depends on besides the assignment.
+    """The inputs of a result besides the assignment.
 
-    `version` is that of this package, `templates` a SHA-256 of all words and frames; `language` is
-    empty where each file's own is meant.  `ask` says what the answer sheet asks for, if a policy says so, `standards`
-    which ones its PDF keeps, if those are not the usual ones.
+    `version` is that of this package, `templates` a SHA-256 of all words and frames. `language` is None to use each
+    file's own. `ask` is the answer sheet's selection if a policy gives one, `standards` those of the PDF if they are
+    not the default.
     """
 
     version: str
@@ -68,7 +66,7 @@ class Making:
 
 @dataclass(frozen=True, slots=True)
 class Job:
-    """One product of one student: `content` is the assignment file, `file` its name, `folder` the results'."""
+    """One product of one student: `content` is the assignment file, `file` its name, `folder` that of the results."""
 
     student: str
     folder: str
@@ -78,19 +76,19 @@ class Job:
     content: bytes
     making: Making
     beside: Mapping[str, bytes] = field(default_factory=dict)
-    """A school's words and the files of the parts, by their ways from the assignment file."""
+    """A school's words and the files of the parts, by their paths relative to the assignment file."""
     scratch: Path | None = None
-    """Where its temporary files go; None: where the system has them, on other machines."""
+    """Folder for temporary files; None for the system's, on other machines."""
 
     @property
     def assignment(self) -> str:
-        """SHA-256 of the assignment file, and of what lies beside it."""
+        """SHA-256 of the assignment file and the files beside it."""
         return assignment_hash(self.content, self.beside)
 
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
-    """The files of a product by name; or, with an exit code other than 0, why there are none.
+    """The files of a product by name; or, with an exit code other than 0, the problems that prevented them.
 
     Marks of `problems` name the assignment file without its folder.
     """
@@ -101,19 +99,19 @@ class Outcome:
 
 
 def making(engine: Engine, language: Language | None, ask: str = "", standards: str = "") -> Making:
-    """How this installation would make a product now."""
+    """Return the inputs with which this installation would make a product now."""
     return Making(version(), templates_hash(), engine, language, ask, standards)
 
 
 def failed(problem: str) -> Outcome:
-    """The outcome of a job that failed for a reason outside the assignment."""
+    """Return the outcome of a job that failed for a reason outside the assignment."""
     return Outcome(problems=(problem,), exit_code=SYSTEM)
 
 
 def run_job(job: Job) -> Outcome:
-    """The outcome of a job; whatever goes wrong in it is an outcome, too.
+    """Run a job and return its outcome; any failure becomes an outcome too.
 
-    It is made in a folder of its own whose name is left out of what is said of failures.
+    It runs in its own folder, whose name is removed from messages of failures.
     """
     engine, language = job.making.engine, job.making.language
     scratch, before = "", tempfile.tempdir
@@ -132,7 +130,7 @@ def run_job(job: Job) -> Outcome:
                 Path(scratch, name).write_bytes(content)
             return Outcome(files=dict(job.maker(file, engine, language)))
     except AssignmentError as error:
-        # Its folder is gone: a mark names the file as the job has it.
+        # Its folder is gone, so a mark names the file as the job does.
         own = {str(Path(scratch, name)): name for name in job.beside}
         problems = tuple(problem.in_file(own.get(problem.mark.file, job.file)) for problem in error.problems)
         return Outcome(problems=problems, exit_code=error.exit_code)
@@ -141,7 +139,7 @@ def run_job(job: Job) -> Outcome:
     except OSError as error:
         return failed(word("system", language, text=error.strerror or error))
     except Exception as error:
-        # A fault of the program itself must not cost the others their results.
+        # A bug of the program must not cost the others their results.
         return failed(without_paths(unexpected(error, language)))
     finally:
         tempfile.tempdir = before
@@ -150,24 +148,24 @@ def run_job(job: Job) -> Outcome:
 Retried = Callable[[Job], None]
 Results = Generator[tuple[Job, Outcome], None, None]
 Pool = Callable[[Iterable[Job], Retried], Results]
-"""Yields jobs with their outcomes as they end; calls the function for each job that has to begin anew."""
+"""Yields jobs with their outcomes as they end; calls the function for each job that has to start again."""
 
 TRIES = 2
-"""A job whose process died is given to another one; after that it has failed."""
+"""Number of attempts: a job whose process died is tried again once, then it has failed."""
 LIMIT = 900.0
-"""Seconds after which a job counts as hung and its process is ended."""
+"""Seconds after which a job counts as hung and its process is killed."""
 PATIENCE = 10.0
-"""Seconds in which a process that was told to end may tidy up."""
+"""Seconds that a terminated process has to clean up."""
 NAME = "reportgen-job"
-"""The name of the processes, which distinguishes them from others."""
+"""Name of the job processes, which distinguishes them from others."""
 
 
 def local(workers: int, kinds: Iterable[str] = (), out: Path | None = None) -> Pool:
-    """A pool of so many processes at a time; the server that starts them begins to load at once.
+    """Return a pool of at most `workers` processes; the server that starts them begins to load immediately.
 
-    It prepares `kinds`, each as `kind:language`, for all of them, and tidies up in `out` if this process is killed.
+    It preloads `kinds`, each as `kind:language`, for all of them, and cleans up in `out` if this process is killed.
     """
-    # It understands `context` but is annotated with another name.
+    # It accepts `context` but is annotated with another name.
     process: Any = concurrent.process
     start: Callable[[Job], Future[Outcome]] = process(
         name=NAME, timeout=LIMIT, context=_context((*LOADED, READY), kinds, out)
@@ -196,7 +194,7 @@ def local(workers: int, kinds: Iterable[str] = (), out: Path | None = None) -> P
                         retried(job)
                     else:
                         results.append((job, failed(word("worker_died", job.making.language))))
-                # The next ones go on while results are written.
+                # Start the next ones before results are written.
                 fill()
                 yield from results
         finally:
@@ -206,8 +204,8 @@ def local(workers: int, kinds: Iterable[str] = (), out: Path | None = None) -> P
 
 
 def _dismiss(running: Iterable[Future[Outcome]]) -> None:
-    """Ends all processes; returns when there are none."""
-    # A future that is cancelled as its result arrives would make its thread print a traceback.
+    """End all processes; return when none is left."""
+    # A future that is cancelled while its result arrives would make its thread print a traceback.
     for end, seconds in ((BaseProcess.terminate, PATIENCE), (BaseProcess.kill, None)):
         for process in multiprocessing.active_children():
             if process.name == NAME:
@@ -233,16 +231,16 @@ LOADED = (
     "pylatex",
     "typst",
 )
-"""What the process that workers are forked from has loaded, so that each finds it loaded."""
+"""Modules that the fork server imports, so that each worker starts with them loaded."""
 READY = "reportgen.classes.ready"
-"""Loaded last there, it prepares the kinds that `KINDS` names in the environment."""
+"""Imported last there; it prepares the kinds that `KINDS` names in the environment."""
 KINDS = "REPORTGEN_KINDS"
 
 
 def _context(
     loaded: Sequence[str] = LOADED, kinds: Iterable[str] = (), out: Path | None = None
 ) -> ForkServerContext | SpawnContext:
-    """New processes come from a server that has imported everything already, where the system allows it."""
+    """Return a context in which new processes come from a preloaded server, if the system allows it."""
     folder = leavings.sockets() if "forkserver" in multiprocessing.get_all_start_methods() else None
     if folder is None:
         return multiprocessing.get_context("spawn")
@@ -250,7 +248,7 @@ def _context(
 
     context = multiprocessing.get_context("forkserver")
     context.set_forkserver_preload([leavings.__name__, *loaded])
-    # It lets Ctrl-C through again once it has started, which the server would do first.
+    # Once started, it restores Ctrl-C; the server would otherwise start it first.
     resource_tracker.ensure_running()
     surroundings = {**ONE_THREAD, KINDS: " ".join(kinds), **leavings.environment(folder, out)}
     before = {name: os.environ.get(name) for name in surroundings}
@@ -269,7 +267,9 @@ def _context(
 
 @contextmanager
 def _uninterrupted() -> Iterator[None]:
-    """Processes started inside never see Ctrl-C, which reaches all processes of a terminal: we end them."""
+    """Block Ctrl-C in processes started inside, because it reaches all processes of a terminal; the parent ends
+    them.
+    """
     if not hasattr(signal, "pthread_sigmask"):
         yield
         return
@@ -281,19 +281,19 @@ def _uninterrupted() -> Iterator[None]:
 
 
 def _work(job: Job) -> Outcome:
-    """The outcome, in a process that ends with it."""
-    # Ends by way of every `finally`, so that no scratch folder and no typesetter is left behind.
+    """Return the outcome, in a process that ends after it."""
+    # Exit through every `finally`, so that no scratch folder and no typesetter is left behind.
     signal.signal(signal.SIGTERM, lambda *_: sys.exit())
-    # There is a process for each core already.
+    # There is already a process for each core.
     os.environ["RAYON_NUM_THREADS"] = "1"
     warnings.simplefilter("always", OutputWarning)
     warnings.showwarning = lambda message, *_: print(f"reportgen: {job.folder}: {message}", file=sys.stderr, flush=True)
     outcome = run_job(job)
-    # Nothing is left to be tidied up.
+    # There is nothing left to clean up.
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     parent = parent_process()
     if parent is not None and not parent.is_alive():
-        # Nobody listens: the result could not be sent.
+        # The parent is gone, so the result could not be sent.
         os._exit(0)
     return outcome
 
@@ -301,7 +301,7 @@ def _work(job: Job) -> Outcome:
 # --- calls within limits --------------------------------------------------------------------------
 
 AHEAD = 4
-"""So many calls a process wait or run, so that none is idle while arguments are slow to come."""
+"""Number of waiting or running calls per process, so that none is idle while arguments arrive slowly."""
 Argument = TypeVar("Argument")
 Result = TypeVar("Result")
 
@@ -309,9 +309,9 @@ Result = TypeVar("Result")
 def each_within(
     limits: Limits, function: Callable[[Argument], Result], arguments: Iterable[Argument], preload: str
 ) -> Iterator[tuple[Argument, Result | None]]:
-    """Each argument with what `function` makes of it, in their order; None where the call passed its limits or died.
+    """Yield each argument with the result of `function`, in order; None if the call exceeded its limits or died.
 
-    A few calls run at a time, so that arguments are taken as they are needed.  `preload` is the module of `function`.
+    A few calls run at a time, and arguments are consumed as needed. `preload` is the module of `function`.
     """
     workers = os.cpu_count() or 1
     running: deque[tuple[Argument, Future[Any]]] = deque()
@@ -334,9 +334,9 @@ def each_within(
 
 
 def _begin(megabytes: int, language: Language) -> None:
-    """Limit the memory of this process, and let it speak the language of the process that reads its results.
+    """Limit the memory of this process, and set the language of the process that reads its results.
 
-    The server that it was forked from may have been started in another one.
+    The fork server may have been started in another language.
     """
     limit_memory(megabytes)
     speak(language)
@@ -354,34 +354,34 @@ def _outcome(call: tuple[Argument, Future[Any]]) -> tuple[Argument, Any]:
 # The only module that knows Dask.
 
 AHEAD_OF_EACH = 2
-"""Jobs that are handed out for each of the cluster's threads, so that none waits for the next one."""
+"""Number of jobs submitted for each of the cluster's threads, so that none waits for the next one."""
 ANSWER = 10
-"""Seconds in which a scheduler answers."""
+"""Seconds within which a scheduler must answer."""
 BEAT = 0.05
-"""Seconds between two looks at what is done."""
+"""Seconds between two polls of the futures."""
 WORKERLESS = 60
-"""Seconds without any worker after which nobody waits for one."""
+"""Seconds without any worker after which waiting is given up."""
 
 _one_at_a_time = threading.Lock()
 
 
 class ClusterError(ReportgenError):
-    """The scheduler cannot be used: Dask is not installed, nobody answers, or it has gone; exit code 3."""
+    """The scheduler cannot be used: Dask is not installed, it does not answer, or it has gone; exit code 3."""
 
     exit_code = SYSTEM
 
 
 class WorkersLostError(Exception):
-    """No worker has been left for a while."""
+    """There has been no worker for a while."""
 
 
 def cluster(address: str, language: Language | None) -> Pool:
-    """A pool of the workers that a Dask scheduler has; raises `ClusterError` without Dask.
+    """Return a pool of the workers of a Dask scheduler; raise `ClusterError` without Dask.
 
-    Jobs go out as bytes and files come back as bytes: workers need this package in the same version, but
-    no file of ours.  A worker may die; the scheduler gives its jobs to another one, at most
-    `distributed.scheduler.allowed-failures` times.  What had been given to all of those that died is tried
-    again by itself at the end, for it may only have stood in line behind the one that killed them.
+    Jobs and files are sent as bytes: workers need this package in the same version, but no access to local files. A
+    worker may die; the scheduler gives its jobs to another one, at most `distributed.scheduler.allowed-failures` times.
+    Jobs of workers that all died are tried again one at a time at the end, because they may only have been queued
+    behind the one that killed them.
     """
     try:
         import distributed
@@ -411,7 +411,9 @@ def cluster(address: str, language: Language | None) -> Pool:
 
 
 def _results(client: Any, jobs: Iterator[Job], suspect: Callable[[Job], None]) -> Results:
-    """Results as they come; only so many jobs are handed out that results never pile up on the workers."""
+    """Yield results as they arrive; the number of submitted jobs is limited, so that results never pile up on the
+    workers.
+    """
     handed_out: dict[Any, Job] = {}
 
     def hand_out() -> None:
@@ -431,10 +433,10 @@ def _results(client: Any, jobs: Iterator[Job], suspect: Callable[[Job], None]) -
 
 
 def _first_done(client: Any, futures: Sequence[Any]) -> set[Any]:
-    """Those of the futures that are done, one at least.
+    """Return the futures that are done, at least one.
 
-    Raises `WorkersLostError` when there has been no worker for `WORKERLESS` seconds: dead ones may come back, but
-    nobody waits for ever.
+    Raises `WorkersLostError` if there has been no worker for `WORKERLESS` seconds; dead workers may come back before
+    that.
     """
     seen = time.monotonic()
     while True:
@@ -449,7 +451,7 @@ def _first_done(client: Any, futures: Sequence[Any]) -> set[Any]:
 
 
 def _told(job: Job, future: Any) -> Outcome | None:
-    """The outcome of a job, which the cluster may then forget; None if its workers died.
+    """Return the outcome of a job, which the cluster may then forget; None if its workers died.
 
     Raises `OSError` or `FutureCancelledError` if the scheduler has gone.
     """
@@ -463,7 +465,7 @@ def _told(job: Job, future: Any) -> Outcome | None:
     except (FutureCancelledError, OSError):
         raise
     except Exception as error:
-        # A job raises nothing itself: the worker could not even receive it, as where it has another version.
+        # A job raises nothing itself: the worker could not even receive it, for example with another version.
         return failed(unexpected(error, job.making.language))
     finally:
         future.release()
@@ -471,11 +473,11 @@ def _told(job: Job, future: Any) -> Outcome | None:
 
 
 def _threads(client: Any) -> int:
-    """The threads of all workers there are now; workers may come and go."""
+    """Return the number of threads of all current workers; workers may come and go."""
     return sum(worker["nthreads"] for worker in client.scheduler_info(n_workers=-1)["workers"].values())
 
 
 def _run(job: Job) -> Outcome:
-    """The outcome, on a worker; a process has one folder for scratch files, so it does one job at a time."""
+    """Run a job on a worker; a process has one scratch folder, so it runs one job at a time."""
     with _one_at_a_time:
         return run_job(job)

@@ -1,9 +1,8 @@
-"""A class's variants as a bank of questions for a Moodle quiz: a cloze question each.
+"""Export a class's variants as a question bank for a Moodle quiz, with one cloze question for each variant.
 
-It shows what the task says before its answer sheet, and asks for the cells that a policy names.  A number is right
-within the wider of the key's two bands; where books differ in the sense, either sign is; a direction may be a whole
-turn on.
-Source: docs.moodle.org, Moodle XML format, and Embedded Answers (Cloze) question type.
+A question shows the task without its answer sheet, and asks for the cells that a policy selects. A number is right
+within the wider of the key's two bands. If textbooks differ in the sense, either sign is accepted; a direction may
+differ by a whole turn. Source: docs.moodle.org, Moodle XML format, and Embedded Answers (Cloze) question type.
 """
 
 from __future__ import annotations
@@ -33,20 +32,20 @@ from reportgen.page.html import Blocks
 from reportgen.writers import pictures
 
 DOTS = 110
-"""Of a picture, an inch: it is read on a screen."""
+"""Resolution of a picture (dots per inch), for reading on a screen."""
 TURN = 360.0
 FIGURES = 9
-"""Of a number: more than any band needs."""
+"""Number of figures of a value, more than any band needs."""
 _ANCHOR = re.compile(r' id="[^"]*"')
-"""A quiz shows several questions on a page, which may not share anchors."""
+"""Anchors, which are removed: several questions on a page may not share them."""
 SCALES = (1, 2, 4, 5, 10, 20, 100)
-"""By one of these weights become whole, as Moodle wants them."""
+"""Factors, one of which makes the weights whole numbers, as Moodle requires."""
 
 
 def question_bank(files: Iterable[Path], policy: Policy, category: str, language: Language | None = None) -> bytes:
-    """The questions of assignment files in Moodle's XML format, below a category.
+    """Return the questions of assignment files in Moodle's XML format, below a category.
 
-    Raises `AssignmentError` for a file at fault, and for a policy that asks for what there is not.
+    Raises `AssignmentError` for an invalid file, and for a policy that asks for something that does not exist.
     """
     parts = ['<?xml version="1.0" encoding="UTF-8"?>', "<quiz>", _category(category)]
     parts += [_question(file, policy, language) for file in files]
@@ -54,7 +53,7 @@ def question_bank(files: Iterable[Path], policy: Policy, category: str, language
 
 
 def _category(name: str) -> str:
-    # A slash parts a category from the one above it.
+    # A slash separates a category from the one above it.
     text = escape(f"$course$/top/{name.replace('/', '//')}")
     return f'<question type="category"><category><text>{text}</text></category></question>'
 
@@ -74,7 +73,7 @@ def _question(file: Path, policy: Policy, language: Language | None) -> str:
         f'<file name={quoteattr(name)} path="/" encoding="base64">{base64.b64encode(data).decode()}</file>'
         for name, data in blocks.pictures.items()
     )
-    # No section of character data may hold its own end.
+    # A CDATA section must not contain its own end.
     body = text.replace("]]>", "]]&gt;")
     return (
         f'<question type="cloze"><name><text>{escape(key.id)}</text></name>'
@@ -85,16 +84,18 @@ def _question(file: Path, policy: Policy, language: Language | None) -> str:
 
 
 class _QuestionBlocks(Blocks):
-    """Writes what a task gives as well-formed HTML without anchors; its figures are attached pictures."""
+    """Writer of a task as well-formed HTML without anchors; its figures are attached pictures."""
 
     def __init__(self, document: tree.Document, alt: str) -> None:
         super().__init__(document, Pens())
         self._blocks, self._alt = document.blocks, alt
         self.pictures: dict[str, bytes] = {}
-        """The pictures of the figures written so far, as PNG, by the names that the text has for them."""
+        """The figures written so far as PNG, by the names that the text uses."""
 
     def given(self) -> str:
-        """Return the blocks of the document; an element without content is closed, and no brace opens an answer."""
+        """Return the blocks of the document; empty elements are closed, and braces are escaped so that none opens an
+        answer.
+        """
         written = self.write(self._blocks)
         written = _ANCHOR.sub("", written).replace("<br>", "<br/>").replace("<wbr>", "<wbr/>")
         return written.replace("{", "&#123;").replace("}", "&#125;")
@@ -116,7 +117,7 @@ class _QuestionBlocks(Blocks):
 
 
 def _scales(key: Key, words: Mapping[str, Any], blocks: Blocks) -> str:
-    """Return the scales that the lengths asked for are drawn at, as a list."""
+    """Return the scales of the requested lengths, as a list."""
     scales = {row.id for row in key.rows if row.role is Role.scale and any(row.id in one.plans for one in key.asked)}
     rows = [row for row in key.rows if row.single and row.id in scales]
     items = "".join(f"<li>{_named(row, key)} = {_shown(row, blocks)}</li>" for row in rows)
@@ -134,7 +135,7 @@ def _shown(row: KeyRow, blocks: Blocks) -> str:
 
 
 def _cells(key: Key, policy: Policy) -> str:
-    """A table of the cells asked for, section by section; what counts nothing is left out."""
+    """Return a table of the requested cells by section; cells worth nothing are left out."""
     words = words_of(key)
     rows = [row for row in key.asked if row.role is Role.asked and policy.worth(row.id)]
     worths = [policy.worth(row.id) for row in rows]
@@ -158,7 +159,7 @@ def _is_whole(value: float) -> bool:
 
 
 def _answer(row: KeyRow, position: int, weight: int) -> str | None:
-    """A cell as a cloze answer, `{1:NUMERICAL:=4.71:0.05}`; None where the quantity does not exist."""
+    """Return a cell as a cloze answer, `{1:NUMERICAL:=4.71:0.05}`; None if the quantity does not exist."""
     index = row.at(position)
     value = float(row.values[index])
     if not np.isfinite(value):
@@ -174,5 +175,5 @@ def _answer(row: KeyRow, position: int, weight: int) -> str | None:
 
 
 def _number(value: float) -> str:
-    """A number as Moodle reads it: a decimal point, no power of ten."""
+    """Return a number as Moodle reads it: with a decimal point and without a power of ten."""
     return f"{Decimal(f'{value:.{FIGURES}g}'):f}"

@@ -1,7 +1,7 @@
-"""Sheets and own files read as they were handed in, and given back, each in a process of its own time and memory.
+"""Read sheets and own files and write marked copies, each in its own process with limits of time and memory.
 
-A file may be made so that reading it takes hours or all memory; that is the fault of whoever handed it in, and must
-not keep the others from their marks.
+A file may be made so that reading it takes hours or all memory. Only its own student is affected then; the others get
+their marks.
 """
 
 from __future__ import annotations
@@ -26,37 +26,39 @@ from reportgen.marking.policy import Policy
 from reportgen.workbook import Page, read
 
 LIMITS = Limits(seconds=60.0, megabytes=1000)
-"""For one sheet: the largest that is not refused anyhow takes about an eighth of them."""
+"""Limits for one sheet; the largest accepted one takes about an eighth of them."""
 
 Pages = tuple[Page, ...]
 Result = TypeVar("Result")
 _Work = Callable[[Language | None], Result]
-"""Reads or writes one file; its arguments are bound, so that it can go to another process."""
+"""Reads or writes one file; its arguments are bound, so that it can be sent to another process."""
 
 
 def read_sheets(handed: Iterable[Handed], language: Language | None) -> Iterator[tuple[Handed, Pages | list[Problem]]]:
-    """Each file with its pages, in their order, or with the faults for which it cannot be read."""
+    """Return each file with its pages, in order, or with the problems for which it cannot be read."""
     return _each(((sheet, partial(_read, sheet)) for sheet in handed), language)
 
 
 def read_own(
     handed: Iterable[tuple[Handed, Key, WantedPlans | None]], language: Language | None
 ) -> Iterator[tuple[Handed, FileReading | list[Problem]]]:
-    """Each student's own file, read for a key and its plans, or with the faults for which it cannot be read."""
+    """Return each student's own file, read for a key and its plans, or with the problems for which it cannot be
+    read.
+    """
     return _each(((file, partial(_read_own, file, key, plans)) for file, key, plans in handed), language)
 
 
 def names_in(
     handed: Iterable[Handed], names: frozenset[str], language: Language | None
 ) -> Iterator[tuple[Handed, frozenset[str] | list[Problem]]]:
-    """Each student's own file with those of some names that stand in it."""
+    """Return each student's own file with those of the given names that its text contains."""
     return _each(((file, partial(_names_in, file, names)) for file in handed), language)
 
 
 def marked_copies(
     marked: Iterable[tuple[Handed, FileReading, Marking]], policy: Policy, language: Language | None
 ) -> Iterator[tuple[Handed, tuple[str, bytes] | list[Problem]]]:
-    """Each student's own file with the name and content of its marked copy, or the faults for which there is none."""
+    """Return each own file with the name and content of its marked copy, or the problems for which there is none."""
     works = ((file, partial(_marked_copy, file, reading, marking, policy)) for file, reading, marking in marked)
     return _each(works, language)
 
@@ -64,14 +66,14 @@ def marked_copies(
 def _each(
     works: Iterable[tuple[Handed, _Work[Result]]], language: Language | None
 ) -> Iterator[tuple[Handed, Result | list[Problem]]]:
-    """Each file with what comes of it within the limits, or with its problems, in their order."""
+    """Yield each file with its result within the limits, or with its problems, in order."""
     calls = ((file, work, language) for file, work in works)
     for (file, _, _), result in each_within(LIMITS, _isolated, calls, __name__):
         yield file, [_beyond(file.path, language)] if result is None else result
 
 
 def _isolated(call: tuple[Handed, _Work[Result], Language | None]) -> Result | list[Problem]:
-    """What comes of a file, in the process that reads it."""
+    """Return the result for a file, in the process that reads it."""
     file, work, language = call
     return isolated(lambda: work(language), file.path, language)
 

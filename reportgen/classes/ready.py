@@ -1,7 +1,8 @@
-"""What all reports of a kind have in common, made ready once by the process that workers are forked from.
+"""Preload templates and symbol tables in the fork server, so that workers start warm.
 
-The parsed words, the compiled templates and the tables of symbols that the sample of a kind needs stay in the memory
-that each worker begins with.  No student's file and no school's template is worked out there: none may end it.
+The parsed words, the compiled templates and the symbol tables that the sample of a kind needs are in the memory with
+which each worker starts. The server processes no student's file and no school's template, because such a file could
+crash it.
 """
 
 from __future__ import annotations
@@ -19,16 +20,16 @@ from reportgen.catalogue import sample
 from reportgen.classes.pool import KINDS
 
 FEW = 4
-"""From so many students on it pays; so many files are asked for their kind."""
+"""Number of students from which preloading pays; as many files are searched for their kind."""
 COLLECTED = 1_000_000
-"""New objects between two searches for garbage: a report makes many that last, and hardly any cycles."""
+"""Number of new objects between two garbage collections: a report makes many lasting objects and hardly any cycles."""
 _KIND, _LANGUAGE = re.compile(r"(?m)^kind: *([\w-]+)"), re.compile(r"(?m)^  +language: *(\w+)")
 
 
 def kinds(given: Path, language: Language | None) -> frozenset[str]:
-    """Kinds and languages, as `kind:language`, of a spec or of the first assignment files of a folder.
+    """Return kinds and languages, as `kind:language`, of a spec or of the first assignment files of a folder.
 
-    `language` is that of all, if one is given.
+    `language` overrides that of the files if it is given.
     """
     pairs: set[str] = set()
     for file in sorted(given.rglob("*.yaml"))[:FEW] if given.is_dir() else (given,):
@@ -41,10 +42,7 @@ def kinds(given: Path, language: Language | None) -> frozenset[str]:
 
 
 def prepare(kind: str, language: Language) -> None:
-    """Work the sample of a kind out, up to its pages, and forget it.
-
-    Raises `KeyError` for no kind of this program.
-    """
+    """Compute the sample of a kind up to its pages, and discard it; raise `KeyError` for an unknown kind."""
     from reportgen import api
 
     with TemporaryDirectory(prefix="reportgen-") as folder:
@@ -56,7 +54,7 @@ def prepare(kind: str, language: Language) -> None:
 def _prepare_named() -> None:
     for named in os.environ[KINDS].split():
         kind, language = named.split(":")
-        # What cannot be prepared is done by each worker, which can tell of it.
+        # If preparing fails, each worker does it itself and can report the failure.
         with suppress(Exception):
             prepare(kind, language)
     gc.collect()

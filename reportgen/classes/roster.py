@@ -2,11 +2,10 @@
 
 Columns are id, name, class, section, email, handed_in (or their Vietnamese names, see `columns` of `messages.yaml`),
 and any path such as `parameters.H`, `positions.start` or `report.supervisor`, which sets that value for the student.
-Other columns are left alone, and so is a second one for the same thing (a class and a class of the course).  A name may
-stand in two columns, one for the family name and one for the given name, and is put together in their order.
-Headings may follow a title; empty rows are passed over.  A table of variants is read by the same headings.
-Without a column of ids the e-mails give them.  The participants' lists of Moodle and the gradebook of Canvas are
-rosters as they come.
+Other columns are ignored, and so is a second one for the same field (a class and a class of the course). A name may be
+in two columns, one for the family name and one for the given name, and is joined in their order. Headings may follow a
+title; empty rows are skipped. A table of variants is read by the same headings. Without a column of ids the e-mails
+give them. The participants' lists of Moodle and the gradebook of Canvas are valid rosters.
 """
 
 from __future__ import annotations
@@ -37,14 +36,14 @@ from reportgen.base.words import as_error, as_problem, close_or_known, messages
 from reportgen.workbook import Page, SheetCell, read
 
 FIRST_ROWS = 20
-"""How far down the headings are looked for, below a title."""
+"""Number of rows, below a title, among which the headings are searched for."""
 _WITH_UNIT = re.compile(rf"(.*?)\s*[(\[（]\s*({UNIT})\s*[)\]）]")
 _NUMBER = re.compile(NUMBER)
 
 
 @dataclass(frozen=True, slots=True)
 class RosterColumn:
-    """A heading: `name` is one of the known columns or what was typed, `unit` what stood in brackets after it."""
+    """A heading: `name` is a known column or the typed text, `unit` the text in brackets after it."""
 
     index: int
     name: str
@@ -54,9 +53,9 @@ class RosterColumn:
 
 @dataclass(frozen=True, slots=True)
 class Record:
-    """A row: what stands under each heading, empty cells left out; `mark` is its first cell.
+    """A row: the value under each heading, without empty cells; `mark` is its first cell.
 
-    `cells` are the places of all its cells, `refused` the columns where a cell shows no value.
+    `cells` are the locations of all its cells, `refused` the columns whose cell shows no value.
     """
 
     values: Mapping[str, Scalar]
@@ -67,7 +66,7 @@ class Record:
 
 @cache
 def _known_columns() -> Mapping[str, str]:
-    """The name of a column by any heading it may have, in every language, folded."""
+    """Return the name of a column by each of its folded headings in every language."""
     return {
         folded(heading): name
         for language in languages()
@@ -77,12 +76,12 @@ def _known_columns() -> Mapping[str, str]:
 
 
 def folded(text: str) -> str:
-    """A heading without what does not tell two headings apart: case, blanks, composition, marks at its end."""
+    """Return a heading normalised for comparison: case, blanks, composition and trailing marks are removed."""
     return chinese.joined(" ".join(unicodedata.normalize("NFC", text).casefold().split())).rstrip(" .:*：")
 
 
 def columns(row: Sequence[SheetCell]) -> list[RosterColumn]:
-    """The headings of a row; empty ones are left out."""
+    """Return the headings of a row, without empty ones."""
     headed = []
     for index, cell in enumerate(row):
         title = unicodedata.normalize("NFC", cell.text).strip()
@@ -95,15 +94,15 @@ def columns(row: Sequence[SheetCell]) -> list[RosterColumn]:
 
 
 def heading_row(page: Page, wanted: str) -> int | None:
-    """The index of the first row near the top that has a column `wanted`."""
+    """Return the index of the first row near the top that has a column `wanted`, or None."""
     rows = enumerate(page.rows[:FIRST_ROWS])
     return next((k for k, row in rows if any(column.name == wanted for column in columns(row))), None)
 
 
 def records(page: Page, headings: Sequence[RosterColumn], start: int, faults: list[Fault]) -> Iterator[Record]:
-    """The rows from index `start` on that hold something.
+    """Yield the non-empty rows from index `start`.
 
-    Faults are headings that stand for a column there is already, and cells that show no value.
+    Faults are added for repeated headings and for cells that show no value.
     """
     seen: set[str] = set()
     for column in headings:
@@ -132,7 +131,7 @@ def records(page: Page, headings: Sequence[RosterColumn], start: int, faults: li
 
 
 CANVAS_ID = "SIS User ID"
-"""How the gradebook of Canvas heads the number that the school gave a student."""
+"""Heading in Canvas's gradebook of the number that the school gave a student."""
 PERSONAL = ("name", "id", "class", "section", "email")
 NAME_PARTS = ("family", "given")
 HANDED_IN = "handed_in"
@@ -142,7 +141,7 @@ _PATH = re.compile(r"([A-Za-z_]+)((?:\.\w+)+)")
 
 LONGEST_NAME = 64
 KEPT_CHARACTERS = 32
-"""Characters of an id that is changed; the hash after them distinguishes it from all others."""
+"""Number of characters kept of a changed id; the hash after them distinguishes it from all others."""
 HASH_DIGITS = 12
 _ORDINARY = re.compile(rf"[A-Z0-9][A-Z0-9_-]{{0,{LONGEST_NAME - 1}}}")
 _LIKE_HASHED = re.compile(rf".*-[0-9A-F]{{{HASH_DIGITS}}}")
@@ -152,8 +151,8 @@ _LIKE_HASHED = re.compile(rf".*-[0-9A-F]{{{HASH_DIGITS}}}")
 class RosterEntry:
     """A row of the roster.
 
-    `card` is what it says of the student, by the keys of `report.student`; `overrides` are values with their
-    cells by path ("parameters.H"); `handed_in` is when the work was handed in, as typed.
+    `card` is its data of the student, by the keys of `report.student`. `overrides` are values with their cells by path
+    ("parameters.H"). `handed_in` is the submission time as typed.
     """
 
     card: Mapping[str, str]
@@ -183,7 +182,7 @@ class Roster:
     students: tuple[RosterEntry, ...]
     columns: tuple[RosterColumn, ...] = ()
     notes: tuple[Problem, ...] = ()
-    """Which rows are no students'."""
+    """Notes on rows that are not students."""
 
 
 Assigned = tuple[RosterEntry, Path | Problem]
@@ -191,7 +190,7 @@ Assigned = tuple[RosterEntry, Path | Problem]
 
 
 def read_roster(path: Path, language: Language | None = None) -> Roster:
-    """The class of a table file; raises `AssignmentError` with all its faults, in `language`."""
+    """Return the class of a table file; raise `AssignmentError` with all its faults, in `language`."""
     page, start = _page(read(path, language))
     faults: list[Fault] = []
     if start is None:
@@ -200,14 +199,14 @@ def read_roster(path: Path, language: Language | None = None) -> Roster:
     headed = columns(page.rows[start])
     of_canvas = any(cell.text.strip() == CANVAS_ID for cell in page.rows[start])
     if of_canvas:
-        # Its "ID" is the platform's own number.
+        # Canvas's column "ID" is the platform's own number.
         headed = [column for column in headed if column.name != "id" or page.rows[start][column.index].text != "ID"]
     headings = [_normal(column, faults) for column in headed]
     used = _used(headings)
     by_mail = not any(column.name == "id" for column in used)
     rows = [row for row in records(page, used, start + 1, faults) if row.values or row.refused]
     if of_canvas:
-        # Points possible, and a student for trying out, have no student number.
+        # The row of possible points and the test student have no student number.
         rows = [_in_spoken_order(row) for row in rows if "id" in row.values]
     if by_mail:
         rows = _identified(rows)
@@ -226,7 +225,9 @@ def read_roster(path: Path, language: Language | None = None) -> Roster:
 
 
 def _identified(rows: Sequence[Record]) -> list[Record]:
-    """The rows with ids: the local part of each e-mail, or the whole of it where two students have one local part."""
+    """Return the rows with ids: the local part of each e-mail, or the whole e-mail if two students share a
+    local part.
+    """
     mails = [row.values.get("email") for row in rows]
     counts = Counter(comparable(mail.text.partition("@")[0]) for mail in mails if mail is not None)
     identified: list[Record] = []
@@ -241,9 +242,9 @@ def _identified(rows: Sequence[Record]) -> list[Record]:
 
 
 def _students_rows(rows: Sequence[Record]) -> tuple[list[Record], list[Record]]:
-    """The rows of students, and those that have neither an id nor a name, or stand apart below the table.
+    """Return the rows of students, and the others: rows without id and name, or separate ones below the table.
 
-    Below the table, after an empty row, stand the date, who drew the list up, and signatures: names without ids.
+    Below the table, after an empty row, are the date, the author of the list and signatures: names without ids.
     """
     last = max((number for number, row in enumerate(rows) if "id" in row.values or row.refused), default=len(rows))
     apart = False
@@ -258,26 +259,26 @@ def _students_rows(rows: Sequence[Record]) -> tuple[list[Record], list[Record]]:
 
 
 def _said(row: Record) -> str:
-    """What stands in a row, as it may be quoted."""
+    """Return the content of a row for quoting."""
     return " ".join(value.text for value in row.values.values())
 
 
 def _in_spoken_order(row: Record) -> Record:
-    """A row of Canvas, which writes "An, Nguyễn Văn"."""
+    """Return a row of Canvas, which writes "An, Nguyễn Văn", with the name in spoken order."""
     name = row.values.get("name")
     if name is None or name.text.count(", ") != 1:
         return row
     last, _, first = name.text.partition(", ")
     spoken = chinese.full_name(first, last)
-    # A Chinese name begins with that of the family.
+    # A Chinese name begins with the family name.
     spoken = spoken if " " in spoken else f"{last}{first}"
     return replace(row, values={**row.values, "name": Scalar(spoken, name.mark)})
 
 
 def _page(pages: Sequence[Page]) -> tuple[Page, int | None]:
-    """The first visible sheet with a column of ids, else of e-mails, and the index of its headings.
+    """Return the first visible sheet with a column of ids, else of e-mails, and the index of its headings.
 
-    Without either, the first sheet that is not empty.
+    If there is neither, return the first non-empty sheet and None.
     """
     full = [page for page in pages if any(page.rows) and not page.hidden] or list(pages)
     for wanted in ("id", "email"):
@@ -289,7 +290,7 @@ def _page(pages: Sequence[Page]) -> tuple[Page, int | None]:
 
 
 def _used(headings: Sequence[RosterColumn]) -> list[RosterColumn]:
-    """The headings that count: all ids and paths, which must not be repeated, and the first of each other."""
+    """Return the headings that count: all ids and paths, which must not be repeated, and the first of each other."""
     used: list[RosterColumn] = []
     taken: set[str] = set()
     for column in headings:
@@ -301,7 +302,7 @@ def _used(headings: Sequence[RosterColumn]) -> list[RosterColumn]:
 
 
 def _normal(column: RosterColumn, faults: list[Fault]) -> RosterColumn:
-    """A column whose heading is a path, its section's name in small letters; a misspelt section is a fault."""
+    """Return a column whose heading is a path with its section in lower case; a misspelt section is a fault."""
     match = _PATH.fullmatch(column.name)
     if match is None:
         return column
@@ -314,7 +315,7 @@ def _normal(column: RosterColumn, faults: list[Fault]) -> RosterColumn:
 
 
 def _unfit(row: Record) -> Iterable[Fault]:
-    """Personal data that no assignment file could hold."""
+    """Yield faults of personal data that are not valid in an assignment file."""
     for name in (*PERSONAL, *NAME_PARTS):
         if name in row.values:
             try:
@@ -325,7 +326,7 @@ def _unfit(row: Record) -> Iterable[Fault]:
 
 
 def _id_faults(rows: Iterable[Record]) -> Iterable[Fault]:
-    """Ids that are missing, or that differ from an earlier one in case and composition at most."""
+    """Yield faults of ids that are missing, or that differ from an earlier one only in case and composition."""
     seen: dict[str, Mark] = {}
     for row in rows:
         id = row.values.get("id")
@@ -348,11 +349,11 @@ def _student(row: Record) -> RosterEntry:
 
 
 def folder_name(id: str) -> str:
-    """One path component that stands for an id and for no other, harmless on any system.
+    """Return a path component that represents an id uniquely and is safe on any system.
 
-    An id of capital letters, digits, - and _ stays as it is.  Any other is reduced to letters and digits and
-    gets "-" and the first 12 hexadecimal digits of the SHA-256 of its composed form (NFC, UTF-8); so does one
-    in small letters, since some systems do not distinguish them from capitals.
+    An id of capital letters, digits, - and _ is unchanged. Any other is reduced to letters and digits and gets "-" and
+    the first 12 hexadecimal digits of the SHA-256 of its composed form (NFC, UTF-8). This includes ids in lower case,
+    since some systems do not distinguish it from upper case.
     """
     composed = unicodedata.normalize("NFC", id)
     if _ORDINARY.fullmatch(composed) and not RESERVED.fullmatch(composed) and not _LIKE_HASHED.fullmatch(composed):
@@ -365,14 +366,14 @@ def folder_name(id: str) -> str:
 
 
 def comparable(name: str) -> str:
-    """An id or the stem of a file in the one spelling by which they are compared."""
+    """Return an id or the stem of a file in the normalised spelling for comparisons."""
     return unicodedata.normalize("NFC", unicodedata.normalize("NFC", name).casefold())
 
 
 def assignment_files(folder: Path, language: Language | None) -> dict[str, Path]:
-    """The assignment files in a folder and below by their `comparable` stems.
+    """Return the assignment files in a folder and below by their `comparable` stems.
 
-    Raises `AssignmentError` for two files of one stem and for a folder that does not exist.
+    Raises `AssignmentError` for two files with one stem and for a folder that does not exist.
     """
     if not folder.is_dir():
         raise as_error([Fault("no-folder", Mark(str(folder)))], language)
@@ -392,28 +393,30 @@ def assignment_files(folder: Path, language: Language | None) -> dict[str, Path]
 
 
 def beside(path: Path) -> list[Path]:
-    """The files that the parts of a coursework stand in; none of another assignment."""
+    """Return the files of a coursework's parts; [] for another assignment."""
     try:
-        # Most files have no parts, and are not read for it.
+        # Most files have no parts and need not be parsed.
         return parts.files(read_source(path), path) if b"parts:" in contents(path) else []
     except OSError:
-        # Whoever needs the file itself tells of it.
+        # The code that reads the file itself reports this error.
         return []
 
 
 def _is_frozen(path: Path) -> bool:
-    """Whether a file is a student's part by its name, whatever stands in it and in the student's own."""
+    """Return True if a file is a student's part by its name, whatever its content and that of the student's own
+    file.
+    """
     return "." in path.stem and parts.is_frozen(path, _heads())
 
 
 @cache
 def _heads() -> frozenset[str]:
-    """What the names of parts begin with."""
+    """Return the prefixes of the names of parts."""
     return frozenset(filter(None, (catalogue.kind(name).part for name in kinds())))
 
 
 def _may_be_part(path: Path) -> bool:
-    """Whether a file that another one names can be a part of it; a machine stays a student's own."""
+    """Return True if a file named by another one can be a part of it; a machine remains a student's own file."""
     name = at(read_source(path).top, ("kind",))
     return not isinstance(name, Scalar) or name.text not in kinds() or bool(catalogue.kind(name.text).part)
 
@@ -421,10 +424,10 @@ def _may_be_part(path: Path) -> bool:
 def match_files(
     students: Sequence[RosterEntry], folder: Path, language: Language | None
 ) -> tuple[list[Assigned], list[Path]]:
-    """Each student with the file in `folder` or below whose stem is the id, and the files of no student.
+    """Return each student with the file in `folder` or below whose stem is the id, and the files of no student.
 
-    A stem may spell the id as `folder_name` does or as the roster does, whatever its case.  Raises
-    `AssignmentError` as `assignment_files` does.
+    A stem may spell the id as `folder_name` does or as the roster does, ignoring case. Raises `AssignmentError` like
+    `assignment_files`.
     """
     files = assignment_files(folder, language)
     assigned: list[Assigned] = []

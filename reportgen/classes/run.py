@@ -1,4 +1,4 @@
-"""A batch: makes what is missing or changed, writes it as it comes, and can be killed at any moment."""
+"""Run a batch: make the products that are missing or changed and write each one when done; killing it is safe."""
 
 from __future__ import annotations
 
@@ -32,23 +32,23 @@ if TYPE_CHECKING:
 
 
 DRAWN = "assignments"
-"""The folder, among the results, of the assignment files that are drawn."""
+"""Folder, below the results, of the drawn assignment files."""
 NO_ROOM = frozenset({errno.ENOSPC, errno.EROFS, errno.EIO, getattr(errno, "EDQUOT", errno.ENOSPC)})
-"""Errors that every other student would meet, too."""
+"""Errors that would affect every other student too."""
 
 Event = Literal["kept", "retried", "done", "failed"]
-"""`kept`: made by an earlier run; `retried`: its worker died, another one begins anew."""
+"""`kept`: made by an earlier run; `retried`: its worker died and another one starts again."""
 Watch = Callable[[str, str, Event], None]
-"""Receives the student's folder, the product and what happened: no names, no content."""
+"""Receives the student's folder, the product and the event; no names, no content."""
 
 
 @dataclass(frozen=True, slots=True)
 class Order:
-    """What is asked for: assignments drawn from `spec` into `out`, or found in `assignments`; exactly one of both.
+    """The request of a batch: assignments drawn from `spec` into `out`, or found in `assignments`; exactly one of both.
 
-    `jobs` processes of this machine (0: one for each core), unless a scheduler's address `cluster` is given.
-    `ask` is what the answer sheets ask for, None for the default; the spec's table may lie below a `shared` folder.  A
-    PDF of typst keeps the `standards`.
+    `jobs` is the number of local processes (0: one for each core), unless `cluster` gives a scheduler's address. `ask`
+    is the selection of the answer sheets, None for the default. The spec's table may be below a `shared` folder. A PDF
+    by typst conforms to the `standards`.
     """
 
     roster: Path
@@ -67,7 +67,7 @@ class Order:
 
 @dataclass(frozen=True, slots=True)
 class Failure:
-    """A product that could not be made; marks name the file as it can be opened from here."""
+    """A product that could not be made; marks name the file by a path that can be opened from here."""
 
     student: str
     product: str
@@ -76,22 +76,22 @@ class Failure:
 
 @dataclass(slots=True)
 class Result:
-    """What a batch came to: counts of products, the failures by student, the exit code they mean.
+    """The result of a batch: counts of products, the failures by student, and the resulting exit code.
 
-    `notes` say in words which files and columns were not used, and which students of an earlier run are gone.
+    `notes` are messages about unused files and columns, and about students of an earlier run who are gone.
     """
 
     manifest: Path
     notes: list[str]
     students: list[tuple[str, str]] = field(default_factory=list)
-    """The folder of each student, in the order of the roster, and what he or she is called."""
+    """The folder of each student, in the order of the roster, and the student's title."""
     made: int = 0
     kept: int = 0
     failures: list[Failure] = field(default_factory=list)
     exit_code: int = 0
 
     def summary(self, language: Language | None) -> Iterator[str]:
-        """The batch's end in lines: notes, each problem once with all students it met, the counts."""
+        """Yield the summary lines: notes, each problem once with all affected students, the counts."""
         yield from self.notes
         if self.failures:
             yield word("batch_failed", language, count=len(self.failures))
@@ -100,18 +100,18 @@ class Result:
             for problem in failure.problems:
                 met.setdefault(problem, []).append(f"{failure.student} {failure.product}")
         for problem, products in met.items():
-            # A problem of a file says by its place whose it is.
+            # A located problem already names the student's file.
             yield f"{', '.join(products)}: {problem}" if isinstance(problem, str) else str(problem)
         yield word("batch_ended", language, made=self.made, kept=self.kept, failed=len(self.failures))
 
 
 def run_batch(order: Order, stream: TextIO, makers: Mapping[str, Maker] = MAKERS, pool: Pool | None = None) -> Result:
-    """Makes the ordered products of each student, into `out`/<folder>/, and `manifest.json`.
+    """Make the ordered products of each student, in `out`/<folder>/, and `manifest.json`.
 
-    What the manifest of an earlier run vouches for is kept; events go to `stream` as they happen; `pool` may
-    replace the order's.  A student's failure is part of the result.  Raises `AssignmentError` for a faulty
-    roster, spec or folder of assignments, `OutputError` where nothing can be written, `ClusterError`
-    where there is no cluster.
+    Products that the manifest of an earlier run confirms are kept. Events are written to `stream` as they happen;
+    `pool` may replace the order's. A student's failure is part of the result. Raises `AssignmentError` for an invalid
+    roster, spec or folder of assignments, `OutputError` if nothing can be written, `ClusterError` if the cluster is
+    unavailable.
     """
     roster = read_roster(order.roster, order.language)
     chosen = {
@@ -124,14 +124,14 @@ def run_batch(order: Order, stream: TextIO, makers: Mapping[str, Maker] = MAKERS
 
 
 def _special(order: Order, product: str) -> dict[str, Any]:
-    """What the maker of a product is told besides, where that is not the usual and matters."""
+    """Return the additional arguments of a product's maker that differ from the default and matter to it."""
     asked = {"ask": order.ask} if order.ask is not None and product in ASKING else {}
     kept = {"standards": order.standards} if product in TYPESET and order.standards != STANDARDS else {}
     return {**asked, **kept}
 
 
 def _how(order: Order, product: str) -> Making:
-    """How a product is made here, with what its maker is told in words for the manifest."""
+    """Return the inputs of a product on this machine, with its additional arguments as text for the manifest."""
     special = _special(order, product)
     ask = str(order.ask) if "ask" in special else ""
     return making(order.engine, order.language, ask, other_than_usual(special.get("standards", STANDARDS)))
@@ -175,10 +175,10 @@ def _run(
     with watching(len(assigned) * len(makers), stream, order.language or spoken()) as watch, journal(out) as record:
 
         def add(entry: ManifestEntry, problems: tuple[Problem | str, ...], exit_code: int) -> None:
-            """Each entry stands in the journal before its event is shown."""
+            """Add an entry; it is in the journal before its event is shown."""
             earlier = entries.get((entry.student, entry.product))
             if problems and earlier is not None and earlier.folder == entry.folder:
-                # What stands of an earlier run is known further on: it may be edited.
+                # Files of an earlier run stay recorded, because they may be edited.
                 entry = replace(entry, files=earlier.files)
             entries[entry.student, entry.product] = entry
             with reported(out):
@@ -193,7 +193,7 @@ def _run(
         for job in kept:
             watch(job.folder, job.product, "kept")
         for student, problem in refused:
-            # The manifest names no folders.
+            # The manifest contains no folders.
             text = str(problem.in_file(Path(problem.mark.file).name))
             for product in makers:
                 add(ManifestEntry(student.id, student.folder, product, problems=(text,)), (problem,), exit_code=1)
@@ -222,7 +222,7 @@ def _run(
 
 @contextmanager
 def watching(total: int, stream: TextIO, language: Language) -> Iterator[Watch]:
-    """Shows the events of `total` products on a stream: a bar on a terminal, else a line with tabs for each."""
+    """Show the events of `total` products on a stream: a bar on a terminal, else a tab-separated line for each."""
     if stream.isatty():
         with _bar(total, stream, language) as watch:
             yield watch
@@ -232,7 +232,7 @@ def watching(total: int, stream: TextIO, language: Language) -> Iterator[Watch]:
 
 @contextmanager
 def _bar(total: int, stream: TextIO, language: Language) -> Iterator[Watch]:
-    """A bar with count, rate, time left and the number of failures; what was kept lowers the total."""
+    """Show a bar with count, rate, remaining time and the number of failures; kept products reduce the total."""
     from rich.console import Console
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
@@ -265,7 +265,7 @@ def _rate(language: Language) -> ProgressColumn:
     from rich.text import Text
 
     class Rate(ProgressColumn):
-        """Products a minute."""
+        """Products per minute."""
 
         def render(self, task: Task) -> Text:
             speed = task.finished_speed or task.speed
@@ -279,7 +279,7 @@ def _rate(language: Language) -> ProgressColumn:
 
 
 def _assigned(order: Order, roster: Roster) -> tuple[list[Assigned], list[str]]:
-    """Each student with a file, and notes on files and columns that were not used."""
+    """Return each student with a file, and notes on files and columns that were not used."""
     if order.spec is not None:
         folder = order.out / DRAWN
         remove_unfinished(folder)
@@ -296,7 +296,7 @@ def _assigned(order: Order, roster: Roster) -> tuple[list[Assigned], list[str]]:
 
 
 def _read(file: Path | Problem, language: Language | None) -> tuple[str, bytes, Mapping[str, bytes]] | Problem:
-    """Name and content of an assignment file, its school's words, its parts; one that cannot be read stops no other."""
+    """Return an assignment file's name and content, and the files beside it; a problem if it cannot be read."""
     if isinstance(file, Problem):
         return file
     try:
@@ -310,7 +310,7 @@ def _pool(order: Order, students: int) -> Pool:
         from reportgen.classes.pool import cluster
 
         return cluster(order.cluster, order.language)
-    # As many as there are cores that this process may use.
+    # Default: as many as the cores that this process may use.
     cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
     given = (order.assignments or order.spec) if students >= ready.FEW else None
     return local(order.jobs or cores, ready.kinds(given, order.language) if given else (), order.out)
@@ -321,9 +321,9 @@ def _pool(order: Order, students: int) -> Pool:
 
 @contextmanager
 def locked(out: Path, language: Language | None) -> Iterator[None]:
-    """Makes the folder and keeps other batches away from it, without leaving a trace.
+    """Make the folder and lock it against other batches, without leaving a trace.
 
-    Raises `OutputError` if there is another one, or if there can be no such folder.
+    Raises `OutputError` if another batch uses it, or if the folder cannot be made.
     """
     with ExitStack() as lock:
         with reported():
@@ -336,10 +336,10 @@ def locked(out: Path, language: Language | None) -> Iterator[None]:
 
 
 def _put(job: Job, outcome: Outcome, out: Path, earlier: ManifestEntry | None) -> Outcome:
-    """The outcome once its files stand; if they cannot, and it is this student's matter alone, a failure.
+    """Write the files of an outcome and return it; return a failure if writing fails for this student alone.
 
-    Files that an earlier run made of the product and this one did not, a third sheet of two, go; what was edited since
-    stays.  Raises `OutputError` where every other student would meet the same.
+    Files that an earlier run made and this one did not, such as a third sheet of two, are deleted; edited files are
+    kept. Raises `OutputError` if every other student would be affected too.
     """
     if not outcome.files:
         return outcome
@@ -349,7 +349,7 @@ def _put(job: Job, outcome: Outcome, out: Path, earlier: ManifestEntry | None) -
         if earlier is None or earlier.folder != job.folder:
             put_set(made)
         else:
-            # What stands as it is made now has not been edited: a run was killed before it could note it.
+            # A file that equals the new one is not edited: a run was killed before it recorded the file.
             edited = {*earlier.edited(out)} & {*entry_of(job, outcome).edited(out)}
             put_set(
                 {path: made[path] for path in made.keys() - edited},

@@ -1,18 +1,22 @@
-"""A spec: an assignment file with a finite choice of values in place of some of them.
+"""A spec: an assignment file in which some values are replaced by finite choices.
 
-Beside the keys of an assignment file it may have
+In addition to the keys of an assignment file it may have
 
-- lists where one value is wanted: `n: [1800 rpm, 2000 rpm, 2200 rpm]`;
+- lists in place of one value: `n: [1800 rpm, 2000 rpm, 2200 rpm]`;
+
 - stepped ranges: `H: {from: 80 mm, to: 120 mm, step: 5 mm}`, ends included, units as typed in `from`;
-- `variants: table.csv` (or .xlsx, beside the spec, below it or below a folder that is shared): one row a
-  variant, columns named like the parameters (`H`, or `H (mm)` for bare numbers; `positions.start` for other
-  sections), and if wished a column `variant` with its name;
-- `parts`, each a spec of its own, beside this one or below it; what a student draws of it is frozen in a file of its
-  own, beside that of the machine;
+
+- `variants: table.csv` (or .xlsx, beside the spec, below it or below a shared folder): one variant per row, columns
+named like the parameters (`H`, or `H (mm)` for bare numbers; `positions.start` for other sections), and optionally a
+column `variant` with its name;
+
+- `parts`, each its own spec beside this one or below it; a student's draw of a part is written to its own file, beside
+that of the machine;
+
 - `salt: text`, which changes all draws; without it they depend on the key `variant` of the spec.
 
-Choices may stand at any depth of `parameters`, `positions`, `drawing` and `indicator`.  What the kind's own
-model wants as a list stays a list.  Every combination of the choices is a variant.
+Choices may be at any depth of `parameters`, `positions`, `drawing` and `indicator`. A list that the kind's own model
+expects remains a list. Every combination of the choices is a variant.
 """
 
 from __future__ import annotations
@@ -46,10 +50,10 @@ RANGE_KEYS = ("from", "to", "step")
 MOST_CHOICES = 10_000
 _LEADING_NUMBER = re.compile(rf"{NUMBER}\s*")
 _DUST = Decimal("1e-9")
-"""Shares of a step below which an end counts as met: what is left of a change of units."""
+"""Share of a step within which an end counts as reached, to allow for rounding in a change of units."""
 
 Settings = Mapping[Where, Scalar]
-"""Values with the place in the assignment where each stands."""
+"""Values by their places in the assignment."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,7 +66,7 @@ class Choice:
 
 @dataclass(frozen=True, slots=True)
 class DrawnParameter:
-    """What is drawn by itself: its path ("parameters.H", or "variants") and its choices."""
+    """An axis that is drawn independently: its path ("parameters.H", or "variants") and its choices."""
 
     name: str
     choices: tuple[Choice, ...]
@@ -70,7 +74,7 @@ class DrawnParameter:
 
 @dataclass(frozen=True, slots=True)
 class Spec:
-    """A spec in order: every choice can be read as what it stands for; not every combination need turn.
+    """A valid spec: every choice can be parsed as its type; not every combination need turn.
 
     `digest` is the SHA-256 of its text and its table.
     """
@@ -78,7 +82,7 @@ class Spec:
     path: Path
     text: str
     whole: MappingNode
-    """The file as it stands."""
+    """The file as written."""
     top: MappingNode
     """The same without the keys that only a spec has."""
     kind: Kind
@@ -87,7 +91,7 @@ class Spec:
     digest: str
     language: Language
     parts: Mapping[int, Source] = field(default_factory=dict)
-    """The specs of the parts that have files of their own, by number."""
+    """The specs of the parts that have their own files, by number."""
 
     @property
     def name(self) -> str:
@@ -95,20 +99,20 @@ class Spec:
 
     @property
     def files(self) -> tuple[Path, ...]:
-        """What it was read from: its own file, those of the parts and the table of variants."""
+        """The files that it was read from: its own file, those of the parts and the table of variants."""
         table = at(self.whole, ("variants",))
         own = (self.path, *(Path(part.file) for part in self.parts.values()))
         return (*own, self.path.parent / table.text) if isinstance(table, Scalar) else own
 
     @property
     def frozen(self) -> Mapping[int, str]:
-        """The names of the parts that have files of their own, by number."""
+        """The names of the parts that have their own files, by number."""
         names = parts.named(self.top, catalogue.kind)
         return {index: names[index] for index in self.parts}
 
     @property
     def mark(self) -> Mark:
-        """Where faults of whole combinations are shown: at the parameters."""
+        """The location of faults of whole combinations: the parameters."""
         section = self.top.find("parameters")
         return section[0].mark if section else self.top.mark
 
@@ -118,7 +122,7 @@ class Spec:
         return math.prod(len(axis.choices) for axis in self.axes)
 
     def combination(self, number: int) -> tuple[int, ...]:
-        """The indices of a combination numbered from 0, the last axis counting fastest."""
+        """Return the indices of a combination numbered from 0; the last axis varies fastest."""
         indices = []
         for axis in reversed(self.axes):
             number, index = divmod(number, len(axis.choices))
@@ -126,16 +130,16 @@ class Spec:
         return tuple(reversed(indices))
 
     def number(self, indices: Sequence[int]) -> int:
-        """The number of a combination, from 0."""
+        """Return the number of a combination, from 0."""
         number = 0
         for axis, index in zip(self.axes, indices, strict=True):
             number = number * len(axis.choices) + index
         return number
 
     def label(self, indices: Sequence[int]) -> str:
-        """What a variant is called: by its row if nothing else is drawn, else by its number, from 1.
+        """Return the name of a variant: that of its row if nothing else is drawn, else its number, from 1.
 
-        Where nothing is drawn at all, it keeps the spec's own name.
+        If nothing is drawn at all, it is the spec's own `variant`.
         """
         own = at(self.top, ("variant",))
         if not self.axes:
@@ -145,25 +149,25 @@ class Spec:
         return rows[0] if rows and len(self.axes) == 1 else "-".join([*rows, number])
 
     def settings(self, indices: Sequence[int]) -> Settings:
-        """The values of a combination."""
+        """Return the values of a combination."""
         merged: dict[Where, Scalar] = {}
         for axis, index in zip(self.axes, indices, strict=True):
             merged.update(axis.choices[index].settings)
         return merged
 
     def source(self, settings: Settings) -> Source:
-        """The assignment file with `settings` in place of the choices."""
+        """Return the assignment file with `settings` in place of the choices."""
         return Source(str(self.path), self.text, assembled(self.top, settings))
 
     def column_faults(self, overriding: Iterable[RosterColumn]) -> list[Fault]:
-        """Faults of a roster's headings that set what this kind of machine does not have."""
+        """Return faults of a roster's headings that set values which this kind of machine does not have."""
         return [fault for column in overriding for fault in _no_place(self.kind, self.top, column)]
 
 
 def read_spec(path: Path, language: Language | None = None, shared: Sequence[Path] = ()) -> Spec:
-    """The spec of a file, whose table lies below its folder or a `shared` one.
+    """Return the spec of a file, whose table is below its folder or a `shared` one.
 
-    Raises `AssignmentError` with all faults that its choices show by themselves.
+    Raises `AssignmentError` with all faults that its choices show independently.
     """
     source = read_source(path)
     language = language or language_of(source)
@@ -187,7 +191,7 @@ def read_spec(path: Path, language: Language | None = None, shared: Sequence[Pat
     if table is not None:
         file = path.parent / table.text
         if leads_out(file, path.parent, *shared):
-            # Nothing of it is read, so that nothing of it is told.
+            # The file is not read, so that no message reveals its content.
             outside = Fault("path-outside", table.mark, {"text": table.text, "hint": "path-shared"})
             raise as_error([*faults, outside], language)
         rows = _rows(file, kind, base, faults, language)
@@ -215,7 +219,7 @@ def read_spec(path: Path, language: Language | None = None, shared: Sequence[Pat
 
 
 def assembled(top: MappingNode, settings: Settings) -> MappingNode:
-    """The file with some values set."""
+    """Return the file with some values set."""
     node: Node = top
     for where, value in settings.items():
         node = put(node, where, value)
@@ -224,7 +228,7 @@ def assembled(top: MappingNode, settings: Settings) -> MappingNode:
 
 
 def place(kind: Kind, name: str) -> Where:
-    """The place that a heading names; a bare name is one of the parameters."""
+    """Return the place that a heading names; a bare name is a parameter."""
     steps = name.split(".")
     where: Where = () if steps[0] in DRAWN_SECTIONS or steps[0] == "report" else ("parameters",)
     for step in steps:
@@ -246,7 +250,7 @@ def _own_text(top: MappingNode, key: str, faults: list[Fault]) -> Scalar | None:
 
 
 def _axes_of_parts(base: MappingNode, faults: list[Fault]) -> Iterator[DrawnParameter]:
-    """What is drawn for the parts, by the name of the part and its path there."""
+    """Yield the axes of the parts, named by the part and the path in it."""
     for index, called in parts.named(base, catalogue.kind).items():
         item, name = at(base, (PARTS, index)), at(base, (PARTS, index, "kind"))
         assert isinstance(item, MappingNode), "a part is a table"
@@ -263,7 +267,7 @@ def _axes_of_parts(base: MappingNode, faults: list[Fault]) -> Iterator[DrawnPara
 
 
 def _axes(node: Node, where: Where, kind: Kind, faults: list[Fault]) -> Iterator[DrawnParameter]:
-    """Lists and ranges that stand where the model wants one value."""
+    """Yield the lists and ranges at places where the model expects one value."""
     forms = allowed_forms(kind, where)
     one_value = "scalar" in forms and bool(where) and where[0] in DRAWN_SECTIONS
     match node:
@@ -284,7 +288,7 @@ def _axis(where: Where, values: Sequence[Scalar]) -> DrawnParameter:
 
 
 def _listed(node: SequenceNode, faults: list[Fault]) -> tuple[Scalar, ...]:
-    """The choices of a list."""
+    """Return the choices of a list."""
     if not node.items:
         faults.append(Fault("too-few", node.mark, {"least": "1"}))
     if len(node.items) > MOST_CHOICES:
@@ -302,9 +306,9 @@ def _listed(node: SequenceNode, faults: list[Fault]) -> tuple[Scalar, ...]:
 
 
 def _stepped(node: MappingNode, faults: list[Fault]) -> tuple[Scalar, ...]:
-    """The choices of a range: from, from + step, …, up to `to` inclusive, in the unit of `from`.
+    """Return the choices of a range: from, from + step, …, up to `to` inclusive, in the unit of `from`.
 
-    Steps are added in decimal numbers, so that 0.1 steps give 0.3.  None if something is at fault.
+    Steps are added as decimal numbers, so that steps of 0.1 give 0.3. Return () if there is a fault.
     """
     ends = list(_ends(node, faults))
     if len(ends) < len(RANGE_KEYS):
@@ -332,7 +336,7 @@ def _stepped(node: MappingNode, faults: list[Fault]) -> tuple[Scalar, ...]:
 
 
 def _ends(node: MappingNode, faults: list[Fault]) -> Iterator[Scalar]:
-    """The scalars of from, to and step, as far as they are there; the rest are faults."""
+    """Yield the scalars of from, to and step that exist; add faults for the others."""
     for key, _ in node.entries:
         if key.text not in RANGE_KEYS:
             faults.append(Fault("unknown-key", key.mark, {"key": key.text, "known": ", ".join(RANGE_KEYS)}))
@@ -347,14 +351,14 @@ def _ends(node: MappingNode, faults: list[Fault]) -> Iterator[Scalar]:
 
 
 def _number(text: str, unit: str) -> Decimal:
-    """The number of an end in `unit`; raises `QuantityFault`."""
+    """Return the number of an end in `unit`; raise `QuantityFault`."""
     number = read_quantity(text, unit).si / read_unit(unit, unit) if unit else read_number(text)
-    # 12 digits are more than anyone types and fewer than rounding reaches.
+    # Nobody types more than 12 digits, and rounding does not reach them.
     return Decimal(f"{number:.12g}")
 
 
 def _typed(number: Decimal) -> str:
-    """A decimal number without exponent and trailing zeros."""
+    """Return a decimal number without exponent and trailing zeros."""
     text = format(number.normalize(), "f")
     return "0" if text in ("-0", "0") else text
 
@@ -363,7 +367,7 @@ def _typed(number: Decimal) -> str:
 
 
 def _rows(file: Path, kind: Kind, base: MappingNode, faults: list[Fault], language: Language) -> tuple[Choice, ...]:
-    """The rows of a table of variants; raises `AssignmentError` if it cannot be read at all."""
+    """Return the rows of a table of variants; raise `AssignmentError` if it cannot be read at all."""
     pages = read(file, language)
     page = next((page for page in pages if any(page.rows)), pages[0])
     start = next(index for index, row in enumerate(page.rows) if row)
@@ -385,7 +389,7 @@ def _rows(file: Path, kind: Kind, base: MappingNode, faults: list[Fault], langua
 
 
 def _no_place(kind: Kind, base: MappingNode, column: RosterColumn) -> Iterator[Fault]:
-    """The fault of a heading that names no place where a single value can stand, or an item no list has."""
+    """Yield the fault of a heading that names no place for a single value, or an item that no list has."""
     where = place(kind, column.name)
     items = [where[: k + 1] for k, step in enumerate(where) if isinstance(step, int)]
     if "scalar" not in allowed_forms(kind, where) or any(at(base, item) is None for item in items):
@@ -395,7 +399,7 @@ def _no_place(kind: Kind, base: MappingNode, column: RosterColumn) -> Iterator[F
 
 
 def _given_twice(base: MappingNode, axes: Iterable[DrawnParameter], rows: Iterable[Choice]) -> Iterator[Fault]:
-    """Values of the spec that a column of the table sets too."""
+    """Yield faults of values of the spec that a column of the table sets too."""
     drawn = {axis.name for axis in axes}
     for where in dict.fromkeys(where for row in rows for where in row.settings):
         node = at(base, where)
@@ -404,7 +408,7 @@ def _given_twice(base: MappingNode, axes: Iterable[DrawnParameter], rows: Iterab
 
 
 def _unreadable(spec: Spec) -> list[Fault]:
-    """Faults of single values: of the first combination, and of every other choice put into it."""
+    """Return faults of single values: of the first combination, and of every other choice put into it."""
     if not spec.axes:
         return misread(spec.top, spec.kind)
     if any(not axis.choices for axis in spec.axes):

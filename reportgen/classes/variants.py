@@ -1,9 +1,9 @@
-"""Spec and roster → an assignment file for each student, and a table of how equal the variants are.
+"""Make an assignment file for each student from spec and roster, and a table that compares the variants' difficulty.
 
-A student's file stays as it is once somebody has edited it.  Its head names the version, the spec with its
-SHA-256, the salt and the student; the head's last line is the SHA-256 of all that follows, and of the files of the
-student's parts behind it.  Files whose text still has that hash have not been edited since they were made; those of a
-student are made and kept together.
+A student's file is kept once somebody has edited it. Its head names the version, the spec with its SHA-256, the salt
+and the student. The head's last line is the SHA-256 of the following text and of the files of the student's parts.
+Files that still have that hash have not been edited since they were made. The files of a student are made and kept
+together.
 """
 
 from __future__ import annotations
@@ -46,29 +46,29 @@ _HASH = re.compile(r"#.*\b([0-9a-f]{64})")
 _HERE = Mark("")
 
 MOST_TIMES = 2.0
-"""A count is an outlier if it differs from the median by more than this factor."""
+"""Factor from the median beyond which a count is an outlier."""
 MOST_DEVIATIONS = 3.0
-"""A size is an outlier if it is further from the median than so many median absolute deviations …"""
+"""Number of median absolute deviations from the median beyond which a size is an outlier …"""
 LEAST_SHARE = 0.1
-"""… and than this share of the median: in a class of near equals there is no outlier."""
+"""… if it also exceeds this share of the median: a class of nearly equal variants has no outlier."""
 
 ONE_PROCESS = 200
-"""The figures of a smaller class are found before other processes have started."""
+"""Class size below which the figures are computed in this process, because starting others takes longer."""
 LIMITS = Limits(seconds=60.0, megabytes=1000)
-"""For the figures of one file."""
+"""Limits for computing the figures of one file."""
 
 ShowProgress = Callable[[Iterable[Any], int], Iterable[Any]]
-"""Passes on what it is given, of which there are so many, and shows how far it has come."""
+"""Passes on an iterable of known length and shows the progress."""
 
 FileState = Literal["new", "changed", "same", "kept"]
-"""Of a file: made, made anew, left since nothing changed, left since it was edited by hand."""
+"""State of a file: made, made again, unchanged, or kept because it was edited by hand."""
 
 
 @dataclass(frozen=True)
 class StudentFile:
-    """A student's assignment file: whose it is, where it belongs, what is to be done with it, what it says as drawn.
+    """A student's assignment file: its student, path, state, and its text as drawn.
 
-    `top` has the parts in place; `parts` are the files that those are frozen in.
+    `top` has the parts in place; `parts` are the files in which those are written.
     """
 
     drawn: DrawnVariant
@@ -80,28 +80,28 @@ class StudentFile:
 
     @cached_property
     def source(self) -> Source:
-        """The file as it stands once it is made, but for parts that are not made yet: these stand in place."""
+        """The file's content after it is made; parts that are not made yet are inline."""
         return read_source(self.path) if self.state == "kept" else Source(str(self.path), self.text, self.top)
 
     @property
     def whole(self) -> Node | None:
-        """All that it says, with the parts in place."""
+        """The whole content, with the parts in place."""
         top = self.source.top
         return parts.in_place(top, self.path)[0] if isinstance(top, MappingNode) else top
 
     @property
     def files(self) -> Mapping[Path, bytes]:
-        """What is to be written."""
+        """The files to write."""
         return {path: text.encode() for path, text in {self.path: self.text, **self.parts}.items()}
 
 
 class Effort(NamedTuple):
-    """What a variant asks for; the order is that of the columns of `variants.csv`.
+    """Figures for the effort of a variant, in the order of the columns of `variants.csv`.
 
-    `worked` counts the printed values that are derived at the positions, over all of these; `largest` is the greatest
+    `worked` counts the printed values that are derived at the positions, over all of these. `largest` is the largest
     balancing torque (N·m) or force (N) of the positions, `speed` that of the driver (rad/s or m/s), `positive` the
-    share of positions where the balance is positive (`largest` and `positive` are None without loads, `speed` without
-    a driver); `zeros` counts the values that are zero beside their scale.
+    share of positions with a positive balance. `largest` and `positive` are None without loads, `speed` without a
+    driver. `zeros` counts the values that are zero beside their scale.
     """
 
     worked: int
@@ -124,7 +124,7 @@ class Spread:
 
 @dataclass(frozen=True, slots=True)
 class Variants:
-    """What was made: the files in the order of the roster, remarks, and how equal the variants are, in words."""
+    """The result: the files in the order of the roster, remarks, and a summary of the variants' difficulty, as text."""
 
     files: tuple[StudentFile, ...]
     remarks: tuple[str, ...]
@@ -144,12 +144,12 @@ def make_variants(
 ) -> Variants:
     """Draw for the class of a roster and write each student's assignment file into `out`.
 
-    The spec's table may lie below a `shared` folder, too.  Files appear whole; one that was edited since it was made
-    is kept unless `force`.  A school's words that the spec names go with them.  Also writes `out`/variants.csv, which
-    is for the instructor alone.  Students to `redraw`, by id, e-mail or name, get another variant than
-    they have; those to `drop` lose theirs, and their files; it is kept for later runs in the table, and all others keep
-    their variants.  Raises `AssignmentError` with the faults of spec and roster, before anything is written, and
-    `UnknownNameError` for a student whom nobody knows.
+    The spec's table may also be below a `shared` folder. Files are written whole; one that was edited since it was made
+    is kept unless `force`. A school's words that the spec names are copied with them. Also write `out`/variants.csv,
+    which is for the instructor alone. Students to `redraw`, by id, e-mail or name, get another variant than before.
+    Those to `drop` lose theirs, and their files. The table records this for later runs, and all others keep their
+    variants. Raises `AssignmentError` with the faults of spec and roster, before anything is written, and
+    `UnknownNameError` for an unknown student.
     """
     spec = read_spec(spec_path, language, shared)
     listed = read_roster(roster_path, spec.language)
@@ -164,7 +164,7 @@ def make_variants(
     )
     outputs = (out / name for name in (*chain(*names), TABLE))
     _refuse(list(overwritten(outputs, (*spec.files, roster_path))), spec)
-    # What is drawn is judged where it will lie, with the words beside it.
+    # A draw is checked in its target folder, with the words beside it.
     for name, content in words_beside(spec_path).items():
         (out / name).parent.mkdir(parents=True, exist_ok=True)
         put_file(out / name, content)
@@ -179,7 +179,7 @@ def make_variants(
                 yield file
 
     count = len(roster.students) - len(earlier.dropped & {comparable(one.id) for one in roster.students})
-    # While some are drawn, other processes find the figures of those before.
+    # While some variants are drawn, other processes compute the figures of earlier ones.
     efforts = tuple(shown(_efforts(each(), count), count))
     _refuse(draw.faults, spec)
     out.mkdir(parents=True, exist_ok=True)
@@ -202,7 +202,7 @@ def make_variants(
 
 
 def _doubts(spec: Spec) -> Iterator[str]:
-    """The warnings of numbers in the spec and the files of its parts that may be meant as thousands."""
+    """Yield warnings about numbers in the spec and its parts that may be meant as thousands."""
     for file in spec.files:
         if file.suffix.lower() in (".yaml", ".yml"):
             yield from (str(as_problem(one, spec.language, "warning")) for one in doubtful(read_source(file)))
@@ -217,7 +217,7 @@ def _refuse(faults: Sequence[Fault], spec: Spec) -> None:
 
 
 def _student_file(spec: Spec, drawn: DrawnVariant, folder: Path, force: bool) -> StudentFile:
-    """The assignment file of a student in `folder`; one there that was edited is kept unless `force`."""
+    """Return the assignment file of a student in `folder`; an edited one there is kept unless `force`."""
     top = _table(spec, drawn)
     stem = drawn.student.folder
     named: Node = top
@@ -234,7 +234,7 @@ def _student_file(spec: Spec, drawn: DrawnVariant, folder: Path, force: bool) ->
 
 
 def _named_part(top: MappingNode, index: int, file: str) -> MappingNode:
-    """A part by its file, with what is said about it."""
+    """Return a part as a reference to its file, with the keys about the part."""
     item = at(top, (PARTS, index))
     assert isinstance(item, MappingNode), "a part is a table"
     about = (entry for entry in item.entries if entry[0].text in parts.ABOUT)
@@ -242,7 +242,7 @@ def _named_part(top: MappingNode, index: int, file: str) -> MappingNode:
 
 
 def _part_text(spec: Spec, drawn: DrawnVariant, top: MappingNode, index: int) -> str:
-    """The file of a part, headed by whose it is."""
+    """Return the file of a part, headed by its student."""
     item, source = at(top, (PARTS, index)), spec.parts[index]
     assert isinstance(item, MappingNode), "a part is a table"
     assert isinstance(source.top, MappingNode), "the spec of a part is a table"
@@ -260,7 +260,7 @@ def _state(path: Path, body: str, frozen: Mapping[Path, str], force: bool) -> Fi
         with suppress(FileNotFoundError):
             standing[part] = _present(part)
     stated = _HASH.fullmatch(head[-1]) if len(head) == HEAD_LINES else None
-    # A part that is gone is made again; as nobody can have edited it, it counts as it is to be made.
+    # A missing part is made again; nobody can have edited it, so it counts as new.
     untouched = stated is not None and stated[1] == _digest(present, *{**frozen, **standing}.values())
     if untouched and (present, standing) == (body, frozen):
         return "same"
@@ -272,12 +272,12 @@ def _present(path: Path) -> str:
 
 
 def _digest(*texts: str) -> str:
-    """The SHA-256 of texts one behind the other."""
+    """Return the SHA-256 of the concatenated texts."""
     return hashlib.sha256("".join(texts).encode()).hexdigest()
 
 
 def _head(spec: Spec, drawn: DrawnVariant, texts: Sequence[str]) -> str:
-    """Comments; what a user wrote is quoted, so that no line can end in it."""
+    """Return the head as comments; user text is quoted, so that no line can end in it."""
     origin = {"version": version(), "spec": quoted(spec.path.name), "digest": spec.digest, "salt": quoted(spec.salt)}
     lines = (
         word("variants_for", spec.language, id=quoted(drawn.student.id)),
@@ -288,7 +288,7 @@ def _head(spec: Spec, drawn: DrawnVariant, texts: Sequence[str]) -> str:
 
 
 def _table(spec: Spec, drawn: DrawnVariant) -> MappingNode:
-    """What the file says: the spec with the student's card and what was drawn."""
+    """Return the content of the file: the spec with the student's card and the drawn values."""
     card = MappingNode(tuple((_scalar(key), _scalar(text)) for key, text in drawn.student.card.items()), _HERE)
     top: Node = put(assembled(spec.top, drawn.settings), ("report", "student"), card)
     if at(top, ("report", "language")) is None:
@@ -296,7 +296,7 @@ def _table(spec: Spec, drawn: DrawnVariant) -> MappingNode:
     if spec.axes:
         top = put(top, ("variant",), _scalar(spec.label(drawn.combination)))
     assert isinstance(top, MappingNode), "keys are put into a table"
-    # The kind and the variant stand before all else.
+    # The kind and the variant come first.
     first = {"kind": 0, "variant": 1}
     entries = sorted(top.entries, key=lambda entry: first.get(entry[0].text, 2))
     return MappingNode(tuple(entries), top.mark)
@@ -310,7 +310,7 @@ def _scalar(text: str) -> Scalar:
 
 
 def _efforts(files: Iterable[StudentFile], count: int) -> Iterator[Effort | None]:
-    """The figures of each of so many files; None for one edited by hand that is at fault."""
+    """Yield the figures of each file; None for an invalid one that was edited by hand."""
     if count < ONE_PROCESS:
         yield from map(_effort_of, files)
     else:
@@ -318,14 +318,14 @@ def _efforts(files: Iterable[StudentFile], count: int) -> Iterator[Effort | None
 
 
 def _effort_of(file: StudentFile) -> Effort | None:
-    # What was drawn has been judged, what was edited by hand has not.
+    # Drawn files have been checked, files edited by hand have not.
     judge = catalogue.assess if file.state == "kept" else catalogue.understood
     assignment, _ = judge(file.source, file.path)
     return None if assignment is None else effort(assignment)
 
 
 def effort(assignment: Assignment) -> Effort:
-    """The figures of an assignment, from what is derived at each of its positions."""
+    """Return the figures of an assignment, from what is derived at each of its positions."""
     case = opened(assignment)
     balance = case.balance
     derived = [
@@ -342,7 +342,7 @@ def effort(assignment: Assignment) -> Effort:
 
 
 def compare(efforts: Sequence[Effort]) -> list[Spread]:
-    """Each figure's spread over the class; figures that no variant has are left out."""
+    """Return each figure's spread over the class; figures that no variant has are left out."""
     spreads = []
     for name, values in zip(Effort._fields, zip(*efforts, strict=True), strict=False):
         known = [value for value in values if value is not None]
@@ -354,7 +354,7 @@ def compare(efforts: Sequence[Effort]) -> list[Spread]:
 
 
 def _outliers(name: str, values: Sequence[float | None], middle: float) -> tuple[int, ...]:
-    """Indices of what is out of proportion: counts by a factor, sizes by median absolute deviations."""
+    """Return the indices of outliers: counts by a factor, sizes by median absolute deviations."""
     known = {k: value for k, value in enumerate(values) if value is not None}
     if name == "worked":
         least, most = middle / MOST_TIMES, middle * MOST_TIMES
@@ -365,7 +365,7 @@ def _outliers(name: str, values: Sequence[float | None], middle: float) -> tuple
 
 
 def _lines(spreads: Sequence[Spread], language: Language) -> list[str]:
-    """The spreads as lines of text: a figure, its least, median and greatest value."""
+    """Return the spreads as lines of text: a figure with its smallest, median and largest value."""
     rows = [["", *(word(name, language) for name in ("least", "median", "greatest"))]]
     rows += [[word(one.name, language), *map(_shown, (one.least, one.median, one.greatest))] for one in spreads]
     first, *others = (max(map(len, cells)) for cells in zip(*rows, strict=True))
@@ -376,7 +376,7 @@ def _lines(spreads: Sequence[Spread], language: Language) -> list[str]:
 
 
 def _shown(value: float) -> str:
-    """A figure with four digits, a count with all."""
+    """Return a figure with four digits, a count with all."""
     return f"{value:.0f}" if float(value).is_integer() and abs(value) < 1e9 else f"{value:.4g}"
 
 
@@ -384,7 +384,7 @@ def _shown(value: float) -> str:
 
 
 def _remarks(files: Sequence[StudentFile], efforts: Sequence[Effort | None], language: Language) -> Iterator[str]:
-    """What to say of the files that were kept."""
+    """Yield remarks about the files that were kept."""
     for file, effort in zip(files, efforts, strict=True):
         if file.state == "kept":
             yield word("variants_kept", language, path=file.path)
@@ -393,7 +393,7 @@ def _remarks(files: Sequence[StudentFile], efforts: Sequence[Effort | None], lan
 
 
 def _sharing(draw: Draw, files: Sequence[StudentFile], spec: Spec) -> Iterator[str]:
-    """Who has the same variant, if anybody has."""
+    """Yield the students with the same variant, if there are any."""
     groups = shared(file.drawn for file in files)
     if groups:
         yield word("variants_shared", spec.language, size=draw.usable, students=len(files))
@@ -403,7 +403,7 @@ def _sharing(draw: Draw, files: Sequence[StudentFile], spec: Spec) -> Iterator[s
 
 
 def _summary(efforts: Mapping[str, Effort], language: Language) -> Iterator[str]:
-    """How equal the variants are, by the figures of each student's file."""
+    """Yield a comparison of the variants, by the figures of each student's file."""
     if len(efforts) < 2:
         return
     spreads, students = compare(list(efforts.values())), list(efforts.items())
@@ -423,10 +423,10 @@ def _csv(
     redrawn: Collection[str],
     dropped: Collection[str],
 ) -> bytes:
-    """One row a student: id, name, file, variant, values drawn or set, as the file now has them, and its figures.
+    """Return a row per student: id, name, file, variant, drawn or set values as the file now has them, and figures.
 
-    The last columns have the number of a variant that was drawn anew, and a mark at who has left the class and has no
-    file; the rows stand in the order of the draw.
+    The last columns have the number of a redrawn variant, and a mark for a student who has left the class and has no
+    file. The rows are in the order of the draw.
     """
     present = [file for file in files if comparable(file.drawn.student.id) not in dropped]
     places: list[Where] = list(dict.fromkeys(where for file in present for where in file.drawn.settings))
