@@ -1,7 +1,7 @@
-"""What students hand in without an answer sheet, the Word report and the drawing: what was read of it, and what not.
+"""Read what students submit without an answer sheet: the Word report and the drawing.
 
-A reader gives a `FileReading` of one file, `submission` joins those of one student to what is marked.  What stands in a
-file but is not read beyond doubt is *unread*: it neither earns nor costs anything until somebody settles it.
+A reader returns a `FileReading` of one file; `submission` joins those of one student for marking. An entry of a file
+that cannot be read with certainty is *unread*: it neither earns nor costs points until somebody settles it.
 """
 
 from __future__ import annotations
@@ -17,19 +17,21 @@ from reportgen.base.words import as_problem
 from reportgen.marking.marks import Answer, Place, ReadOff, Submission
 
 FEWEST_FIGURES = 2
-"""Figures that a number has been written with at least."""
+"""Smallest number of figures that a number counts as written with."""
 SAME = 5e-3
-"""Two values of a place that differ by less are one: worked out from other roundings, as by a plan and by a formula.
-Marking takes no smaller share of a quantity for wrong."""
+"""Relative difference below which two values of a place count as one, because other roundings or methods give it.
+
+Marking tolerates at least this share of a quantity.
+"""
 _FIGURES = re.compile(r"[1-9]\d*(?:[.,]\d+)?|0?[.,]0*(\d+)")
 
 
 @dataclass(frozen=True)
 class FileReading:
-    """One file of a student by places: the values that were read, and the faults for which others were not.
+    """The reading of one file of a student: by place, the values that were read and the faults of those that were not.
 
-    A value is in the row's printed unit, and its mark says where in the file it stands.  `notes` tell of the file as a
-    whole: objects that nothing opened, a template that it names.
+    A value is in the row's printed unit, and its mark is its location in the file. `notes` concern the file as a whole:
+    objects that cannot be opened, a template that it names.
     """
 
     assignment: str
@@ -38,26 +40,26 @@ class FileReading:
     unread: Mapping[Place, Fault] = field(default_factory=dict)
     notes: tuple[Fault, ...] = ()
     measured: Mapping[Place, ReadOff] = field(default_factory=dict)
-    """How the values of a drawing were read."""
+    """The details of reading each value of a drawing."""
     drawn: frozenset[Place] = frozenset()
-    """The places of which a drawing has to show something."""
+    """The places that a drawing must show."""
     unseen: frozenset[Place] = frozenset()
-    """The places of which the file says something in text that nobody sees, which is not read."""
+    """The places that the file mentions only in hidden text, which is not read."""
     beside: Mapping[Place, Mark] = field(default_factory=dict)
-    """Where a drawing has a wrong vector, by its length, that nothing asks for."""
+    """Locations of wrong vectors in a drawing that nothing asks for, by the place of their length."""
 
     @property
     def share(self) -> float:
-        """The share of what stands in the file that was read, 1 where nothing stands there."""
+        """The share of the file's entries that was read; 1 if there are none."""
         count = len(self.values) + len(self.unread)
         return len(self.values) / count if count else 1.0
 
 
 def submission(readings: Sequence[FileReading], language: Language | None) -> Submission:
-    """The readings of one student's files as what is marked, faults worded in `language`.
+    """Return the readings of one student's files as one submission, with faults worded in `language`.
 
-    A place with two values, here and there, is unread; one that only a single file leaves unread has the other's.  What
-    is written counts before what is measured on a drawing, which is at another scale.
+    A place with different values in two files is unread. A place that is unread in only one file takes the other's
+    value. Written values take precedence over those measured on a drawing, which has another scale.
     """
     values: dict[Place, Answer] = {}
     unread: dict[Place, Fault] = {}
@@ -94,7 +96,7 @@ def submission(readings: Sequence[FileReading], language: Language | None) -> Su
 
 
 def agree(first: Answer, second: Answer) -> bool:
-    """Whether two values are one, written to more or fewer figures, 3.214 and 3.2, or come to in another way."""
+    """Return True if two values are equal within their figures (3.214 and 3.2) or the tolerance for another method."""
     coarse = min(figures(first.text), figures(second.text))
     size = max(abs(first.value), abs(second.value))
     half_unit = 0.5 * 10 ** (math.floor(math.log10(size)) + 1 - coarse) if size else 0.0
@@ -102,7 +104,7 @@ def agree(first: Answer, second: Answer) -> bool:
 
 
 def figures(text: str) -> int:
-    """How many figures the first number of a text is written with."""
+    """Return the number of figures of the first number in a text."""
     match = _FIGURES.search(text)
     count = sum(map(str.isdigit, match[1] or match[0])) if match else 0
     return max(count, FEWEST_FIGURES)

@@ -1,6 +1,6 @@
-"""Arrowheads among the lines of a drawing: two short strokes, or two sides of a triangle, about the end of a line.
+"""Detect arrowheads among the lines of a drawing: two short strokes or two sides of a triangle at the end of a line.
 
-However they were drawn, they say where a vector ends, and they are no vectors.
+Arrowheads show where a vector ends, and are not vectors themselves.
 """
 
 from __future__ import annotations
@@ -12,30 +12,30 @@ import numpy as np
 from reportgen.handin.line_set import Lines
 
 SLIMMEST, WIDEST = np.radians(3.0), np.radians(50.0)
-"""The angles that a stroke of an arrowhead may have with its line."""
+"""Smallest and largest angle between a stroke of an arrowhead and its line."""
 LONGEST = 16.0
-"""A stroke is no longer than so many errors of an end (8 mm): an arrowhead is small, and vectors may lie alike."""
+"""Largest length of a stroke in errors of an end (8 mm): arrowheads are small, and vectors may look alike."""
 SNAPPED = 0.1
-"""The strokes of an arrowhead, and the line that has it, end no farther from one another (mm)."""
+"""Largest distance (mm) between the ends of the strokes of an arrowhead and of its line."""
 ALIKE = 0.15
-"""The strokes of one arrowhead differ in length and angle by no more than this share."""
+"""Largest relative difference in length and angle between the strokes of one arrowhead."""
 
 
 @dataclass(frozen=True)
 class Arrowheads:
-    """Which lines [M] are strokes of arrowheads, and whether each end [M, 2] of a line has one."""
+    """Masks: True for each line [M] that is a stroke of an arrowhead, and for each end [M, 2] that has one."""
 
     strokes: np.ndarray
     heads: np.ndarray
 
 
 def arrowheads(lines: Lines) -> Arrowheads:
-    """The arrowheads of a drawing.  Lines that one side of a head alone belongs to stay lines."""
+    """Return the arrowheads of a drawing; a single-sided head remains a line."""
     count = len(lines.ends)
     strokes, heads = np.zeros(count, dtype=bool), np.zeros(2 * count, dtype=bool)
     line, stroke = lines.touching
     length, angle = np.abs(lines.ways), np.angle(lines.ways[stroke] / lines.ways[line])
-    # The strokes begin at the very end that they mark, as the program snaps to it.
+    # The strokes begin exactly at the end that they mark, because the program snaps to it.
     at_end = np.abs(lines.points[line] - lines.points[stroke]) <= lines.reach
     slim = (np.abs(angle) >= SLIMMEST) & (np.abs(angle) <= WIDEST)
     kept = np.flatnonzero(slim & at_end & (length[stroke] < np.minimum(length[line], LONGEST * lines.error)))
@@ -53,7 +53,7 @@ def arrowheads(lines: Lines) -> Arrowheads:
                 if alike and abs(angle[first] + angle[second]) <= ALIKE * abs(angle[first] - angle[second]) / 2:
                     off = abs(lines.points[end] - (lines.points[a] + lines.points[b]) / 2)
                     pairs.append((float(off), end, a, b))
-    # Of several ends about a tip it is of that which it was drawn at; a line that has one is no stroke of another one.
+    # If several ends meet at a tip, the head belongs to the closest. A line with a head is not a stroke of another one.
     headed: set[int] = set()
     tips: dict[tuple[int, int], float] = {}
     for off, end, a, b in sorted(pairs):

@@ -1,4 +1,4 @@
-"""A student's own files against their assignment, before they are handed in: read into a sheet, or compared."""
+"""Check a student's own files against their assignment before submission: read them into a sheet, or compare them."""
 
 from __future__ import annotations
 
@@ -27,9 +27,10 @@ from reportgen.marking.sheet import read_submission
 
 
 def read(case: Case, papers: Case, files: Sequence[Path], ask: Ask) -> tuple[Key, Submission]:
-    """What reports and drawings say of what is asked for, and its key; raises `AssignmentError` for what is refused.
+    """Return what reports and drawings say about the requested cells, with the key; raise `AssignmentError` if
+    rejected.
 
-    `papers` are the case in the language of the student's own papers, whose symbols are looked for.
+    `papers` are the case in the language of the student's own papers, whose symbols are searched for.
     """
     spoken, policy = case.assignment.language, Policy(ask=ask)
     refuse(files, spoken)
@@ -42,7 +43,7 @@ def read(case: Case, papers: Case, files: Sequence[Path], ask: Ask) -> tuple[Key
     readings = read_all([path for path in files if path not in drawings])
     if drawings:
         scheme = marking_scheme(case, policy)
-        # A report says by which values its drawings may be found.
+        # A report gives the values by which its drawings may be found.
         own = submission(readings, spoken) if readings else None
         worlds = own_worlds(replace(scheme, key=key_asked(policy, scheme.key, own)[0]), own) if own else ()
         readings += read_all(drawings, wanted_plans(papers, scheme.key, worlds))
@@ -51,7 +52,7 @@ def read(case: Case, papers: Case, files: Sequence[Path], ask: Ask) -> tuple[Key
 
 
 def refuse(files: Sequence[Path], language: Language) -> None:
-    """Raises `AssignmentError` for files of kinds that are not read."""
+    """Raise `AssignmentError` for files of kinds that are not read."""
     strangers = [path for path in files if path.suffix.lower() not in OWN]
     if strangers:
         faults = (not_read(path) or Fault("own-not-read", Mark(str(path))) for path in strangers)
@@ -59,13 +60,15 @@ def refuse(files: Sequence[Path], language: Language) -> None:
 
 
 def compare(case: Case, papers: Case, files: Sequence[Path], hint: bool = False) -> tuple[tuple[str, ...], bool]:
-    """Lines that say where a sheet, or else a report and drawings, leave their assignment, and whether they agree.
+    """Return lines that say where a sheet, or else a report and drawings, departs from the assignment; True if they
+    agree.
 
-    What was not read does not disagree, and is told.  Raises `AssignmentError` for what cannot be read.
+    An unread entry does not count as a disagreement, and is reported. Raises `AssignmentError` if a file cannot be
+    read.
     """
     sheets = [path for path in files if path.suffix.lower() not in OWN | NOT_READ]
     if sheets:
-        # Beside a sheet, the sheet counts; of several the last, as where they are handed in.
+        # A sheet takes precedence over other files; of several sheets the last counts, as for submissions.
         return compare_sheet(case, sheets[-1], hint)
     scheme = marking_scheme(case, Policy(guard=False))
     key, own = read(case, papers, files, Ask())
@@ -74,7 +77,7 @@ def compare(case: Case, papers: Case, files: Sequence[Path], hint: bool = False)
 
 
 def reading(key: Key, own: Submission, target: Path) -> bytes:
-    """The sheet of what was read, for `target`; raises `AssignmentError` where somebody has completed it there."""
+    """Return the prefilled sheet for `target`; raise `AssignmentError` if somebody has completed the one there."""
     spoken = key.language
     if target.exists():
         try:
@@ -88,7 +91,7 @@ def reading(key: Key, own: Submission, target: Path) -> bytes:
 
 
 def summary(own: Submission, language: Language | None) -> str:
-    """How much of a student's own files was read and how many values are open; nothing of a sheet."""
+    """Return the share of a student's own files that was read and the number of open values; "" for a sheet."""
     if not own.own_files:
         return ""
     said = word("graded_read", language, read=f"{100 * own.share_read:.0f}")

@@ -1,4 +1,4 @@
-"""A drawing that is handed in: read for an assignment, and given back with the right vectors in red."""
+"""Read a submitted drawing for an assignment, and return a copy with the right vectors in red."""
 
 from __future__ import annotations
 
@@ -27,9 +27,9 @@ AT_FAULT = frozenset({Verdict.wrong, Verdict.implausible})
 
 
 def wanted_plans(case: Case, key: Key, worlds: Sequence[Values] = ()) -> WantedPlans | None:
-    """The plans of an assignment, of whose key all cells count, also by a student's own values (SI); None without any.
+    """Return the plans of an assignment for all cells of its key, also with a student's own values (SI); None if none.
 
-    Of a coursework they are those of its machine, whose ids are its own.
+    For a coursework, these are the plans of its machine, whose ids have no prefix.
     """
     machines = [part for part in (case, *case.parts.values()) if isinstance(part, MachineAnalysis)]
     if not machines:
@@ -47,31 +47,31 @@ def wanted_plans(case: Case, key: Key, worlds: Sequence[Values] = ()) -> WantedP
 
 
 def _words() -> Iterator[str]:
-    """The word for “position” in every language."""
+    """Yield the word for “position” in every language."""
     for language in languages():
         yield spoken(str(common_words(language)["table"]["position"]))
 
 
 def read(path: Path, data: bytes, key: Key, plans: WantedPlans | None) -> FileReading:
-    """What a drawing shows of the plans; raises `RefusedError`."""
+    """Return the reading of the plans in a drawing; raise `RefusedError`."""
     return read_drawing(read_lines(data, str(path)), str(path), plans or WantedPlans(key, (), {}))
 
 
 def names(path: Path, data: bytes, known: Collection[str]) -> Collection[str]:
-    """Which of some names stand in a drawing as words; raises `RefusedError`."""
+    """Return the given names that occur in a drawing as words; raise `RefusedError`."""
     text = "\n".join(text.text for text in read_lines(data, str(path)).all_texts).casefold()
     return [name for name in known if name and re.search(rf"(?<!\w){re.escape(name.casefold())}(?!\w)", text)]
 
 
 def marked(path: Path, data: bytes, reading: FileReading, marking: Marking, policy: Policy) -> tuple[str, bytes]:
-    """The drawing with the right vector, and what is said of it, wherever one is wrong."""
+    """Return the drawing with the right vector and a comment wherever one is wrong."""
     words = words_of(marking.key)
     said: dict[DrawnMark, list[str]] = {}
     for cell in marking.cells:
         answer = reading.values.get((cell.id, cell.position))
         if answer is None or not isinstance(answer.mark, DrawnMark):
             continue
-        # Beside a sheet or a report, that one counts where it has the value, too.
+        # If a sheet or a report has the value too, that one counts.
         judged = (cell.id, cell.position) in marking.submission.measured
         if judged and (cell.verdict in AT_FAULT or (cell.corrected and not cell.points)):
             lines = said.setdefault(answer.mark, [])
@@ -93,7 +93,7 @@ def marked(path: Path, data: bytes, reading: FileReading, marking: Marking, poli
 
 
 def _told(cell: Marked, marking: Marking, comment: str) -> str:
-    """What is said of a value in a line: v_C (3): wrong …"""
+    """Return the comment on a value as one line: v_C (3): wrong …"""
     row = marking.key.row(cell.id)
     label = marking.key.label(cell.position, cell.id)
     return f"{symbol_text(row, marking.key)} ({label}): {' '.join(comment.splitlines())}"

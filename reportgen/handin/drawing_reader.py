@@ -1,6 +1,6 @@
-"""A drawing read: which plans it has, how long their vectors are over the scale that each is drawn to, and where to.
+"""Read a drawing: find its plans, and measure lengths and directions of their vectors at the scale of each.
 
-The plans are those of the key first, and in what these leave those of the student's own values.
+Plans of the key are searched for first, then plans of the student's own values among the remaining lines.
 """
 
 from __future__ import annotations
@@ -30,18 +30,18 @@ from reportgen.marking.scheme import Values
 from reportgen.workbook.package import RefusedError
 
 OFF = PAPER_ERROR * MM
-"""How far off a drawn end may lie in each direction (mm), as for whoever measures on paper."""
+"""Largest error (mm) of a drawn end in each direction, as for measuring on paper."""
 MOST_LINES = 20_000
-"""Lines among which plans are sought."""
+"""Largest number of lines in which plans are searched for."""
 USUAL = (1.0, 10.0, 1000.0, 25.4)
-"""Units that people draw in (mm), whatever the file says."""
+"""Units (mm) that people draw in, whatever the file says."""
 
 
 @dataclass(frozen=True)
 class DrawnMark(Mark):
-    """Where a vector begins in a drawing, in its own units of so many mm, and where it should end.
+    """The start of a vector in a drawing, in drawing units of `unit` mm, and its right end.
 
-    A `wrong` one does not end there.
+    `wrong` is True if the vector does not end there.
     """
 
     at: complex = 0j
@@ -49,27 +49,27 @@ class DrawnMark(Mark):
     unit: float = 1.0
     wrong: bool = False
     space: bytes = b""
-    """The block of the sheet of paper that it stands on, "" in model space."""
+    """Block of the paper sheet that it is on, "" in model space."""
 
     def __str__(self) -> str:
         return f"{self.file}:({self.at.real:.6g}, {self.at.imag:.6g})"
 
     @property
     def place(self) -> tuple[str, int, int, int]:
-        """In a drawing one reads from top to bottom."""
+        """Sort key: a drawing is read from top to bottom."""
         return (self.file, 0, round(-self.at.imag), round(self.at.real))
 
 
 @dataclass(frozen=True)
 class WantedPlans:
-    """What is looked for in a drawing: the plans of an assignment, from the key's values and from a student's own."""
+    """The plans of an assignment that are searched for in a drawing, from the key's values and from a student's own."""
 
     key: Key
     sketches: Sequence[PlanSketch]
     known: Values
     worlds: Sequence[Values] = ()
     words: frozenset[str] = frozenset()
-    """The words for “position”, plain and in small letters."""
+    """The words for “position”, plain and in lower case."""
 
     def shapes(self, values: Values) -> list[PlanShape]:
         return [shape for sketch in self.sketches for shape in sketch.shapes(values)]
@@ -80,9 +80,9 @@ class WantedPlans:
 
 
 def read_drawing(drawn: DrawnLines, file: str, wanted: WantedPlans) -> FileReading:
-    """What a drawing shows of the plans that are wanted, in model space and on its sheets of paper.
+    """Return the reading of the wanted plans in a drawing, in model space and on its paper sheets.
 
-    Raises `RefusedError` where it has more lines than any drawing of plans.
+    Raises `RefusedError` if it has more lines than any drawing of plans.
     """
     spaces = (drawn, *drawn.sheets)
     if sum(len(space.ends) for space in spaces) > MOST_LINES:
@@ -97,7 +97,7 @@ def read_drawing(drawn: DrawnLines, file: str, wanted: WantedPlans) -> FileReadi
 
 
 def _with_space(first: FileReading, second: FileReading) -> FileReading:
-    """Both readings as one; a place with two values that differ by more than they may be off is unread."""
+    """Return both readings as one; a place whose two values differ by more than their errors is unread."""
     both = first.values.keys() & second.values.keys()
     clash = {
         place
@@ -119,7 +119,7 @@ def _with_space(first: FileReading, second: FileReading) -> FileReading:
 
 
 def _read_space(drawn: DrawnLines, file: str, wanted: WantedPlans) -> FileReading:
-    """What one space of a drawing shows, in the unit that the file names or else in a usual one."""
+    """Return the reading of one space of a drawing, in the unit that the file names or else in a usual one."""
     searches: list[_Search] = []
     for unit in dict.fromkeys((*((drawn.unit,) if drawn.unit else ()), *USUAL)):
         searches.append(_Search.of(drawn, unit, wanted))
@@ -131,7 +131,7 @@ def _read_space(drawn: DrawnLines, file: str, wanted: WantedPlans) -> FileReadin
 
 @dataclass(frozen=True)
 class _Search:
-    """The lines of a drawing in mm, and the plans that were found among them."""
+    """The lines of a drawing in mm, and the plans found among them."""
 
     unit: float
     lines: Lines
@@ -153,9 +153,9 @@ class _Search:
 
 
 def _with_own(plans: FoundPlans, shapes: Sequence[PlanShape], lines: Lines, labels: Labels) -> FoundPlans:
-    """The same with plans of own values in place of those that were not found, or of which vectors are missing.
+    """Return the same with plans of own values in place of those that are missing or incomplete.
 
-    They are sought among the lines that no complete plan has.
+    They are searched for among the lines that no complete plan uses.
     """
     least = SEEN * lines.error
     before = {(fit.shape.scale, fit.shape.position): fit for fit in plans.plans}
@@ -200,7 +200,7 @@ class _Reading:
                 if line is None:
                     unread |= self.doubts(fit, number)
                     continue
-                # The longest vector says what scale the plan has, and so says nothing of its own length.
+                # The longest vector determines the plan's scale, so its own length is not judged.
                 own = self.place(vector.length, fit) if number != longest else None
                 if (id(fit), number) in wrong and not (own or self.place(vector.direction, fit)):
                     beside[vector.length, fit.shape.position] = self.mark(fit, number, line[0], wrong=True)
@@ -222,9 +222,9 @@ class _Reading:
         return FileReading(self.key.id, self.file, values, unread, measured=measured, drawn=drawn, beside=beside)
 
     def place(self, id: str, fit: Fit) -> Place | None:
-        """The place of a quantity at a plan's position, if the key has a cell for it there.
+        """Return the place of a quantity at a plan's position, or None if the key has no cell for it there.
 
-        What is the same at all positions is the drawn crank, to which the plans are scaled.
+        A quantity that is the same at all positions is the drawn crank, to which the plans are scaled.
         """
         row = self.key.find(id) if id else None
         if row is None or row.single or fit.shape.position not in row.positions:
@@ -232,12 +232,12 @@ class _Reading:
         return row.id, fit.shape.position
 
     def ends(self, fit: Fit, number: int) -> tuple[complex, complex]:
-        """Where the line of a vector begins and ends (mm), in the vector's sense."""
+        """Return the start and the end of a vector's line (mm), in the vector's sense."""
         first, second = self.search.lines.ends[fit.lines[number]]
         return (complex(second), complex(first)) if fit.turned[number] else (complex(first), complex(second))
 
     def doubts(self, fit: Fit, number: int) -> dict[Place, Fault]:
-        """Why a vector of a plan is not read; nothing of one that is too short, or need not be drawn."""
+        """Return faults for a vector that is not read; none if it is too short or optional."""
         vector = fit.shape.vectors[number]
         length = fit.scale * abs(fit.shape.ends[number] - fit.shape.starts[number])
         here = fit.lines[number] >= 0
@@ -247,25 +247,25 @@ class _Reading:
         return {place: fault for name in (vector.length, vector.direction) if (place := self.place(name, fit))}
 
     def mark(self, fit: Fit, number: int, start: complex | None = None, wrong: bool = False) -> DrawnMark:
-        """Where a vector begins, as drawn or as it should, and where it should end."""
+        """Return the start of a vector, as drawn or as it should be, with its right end."""
         unit, a = self.search.unit, complex(fit.at(fit.shape.starts[number])) if start is None else start
         along = fit.scale * complex(fit.shape.ends[number] - fit.shape.starts[number])
         return DrawnMark(self.file, at=a / unit, right=(a + along) / unit, unit=unit, wrong=wrong, space=self.space)
 
 
 def _length(fit: Fit, number: int, start: complex, end: complex) -> tuple[float, float, float]:
-    """A vector's length (mm) as the report draws it, how far off it may be, and what the plan has."""
+    """Return a vector's length (mm) at the report's scale, its largest error, and the plan's length."""
     return abs(end - start) / fit.scale, 2 * float(fit.reach[number]) / fit.scale, abs(_vector(fit, number))
 
 
 def _direction(fit: Fit, number: int, start: complex, end: complex) -> tuple[float, float, float]:
-    """A vector's direction (°) from the x axis, how far off it may be, and what the plan has."""
+    """Return a vector's direction (°) from the x axis, its largest error, and the plan's direction."""
     off = min(2 * float(fit.reach[number]) / abs(end - start), math.pi)
     return _angle(end - start), math.degrees(off), _angle(_vector(fit, number))
 
 
 def _vector(fit: Fit, number: int) -> complex:
-    """A vector of the plan (mm) as the report draws it."""
+    """Return a vector of the plan (mm) as the report draws it."""
     return complex(fit.shape.ends[number] - fit.shape.starts[number])
 
 

@@ -1,4 +1,4 @@
-"""The lines and texts of a drawing in its own units, blocks unfolded after they are counted.
+"""Lines and texts of a DXF drawing in its own units; blocks are expanded after their content is counted.
 
 An affine map of the plane is a z + b z̄ + c, with complex a, b, c.
 """
@@ -20,20 +20,20 @@ from reportgen.handin.dxf_tags import MOST, Entities, Entity, read_entities
 from reportgen.workbook.package import RefusedError
 
 UNITS = {1: 25.4, 2: 304.8, 4: 1.0, 5: 10.0, 6: 1000.0, 14: 100.0}
-"""Millimetres of the units that a drawing may name."""
+"""Millimetres per unit, by the unit codes of a drawing."""
 DEEPEST = 32
-"""So deep may blocks stand in one another."""
+"""Deepest nesting of blocks."""
 STRAIGHT = 1e-3
-"""Pieces of a polyline whose directions differ by no more (rad) are one line."""
+"""Largest angle (rad) between segments of a polyline that count as one line."""
 Line = tuple[complex, complex]
 
 BARB = 0.1
-"""The strokes of an arrowhead that an entity draws by itself, as a share of its line."""
+"""Length of the strokes of an arrowhead that an entity draws itself, as a share of its line."""
 
 
 @dataclass(frozen=True, slots=True)
 class DrawnText:
-    """A text and the place where it begins, or its middle, by how it is aligned; the height of its letters."""
+    """A text with its start or, depending on its alignment, its middle, and the height of its letters."""
 
     text: str
     at: complex
@@ -44,8 +44,8 @@ class DrawnText:
 class DrawnLines:
     """All straight lines [M, 2] in the model space of a drawing and its texts, in its own units.
 
-    `unit` is the one that the file names (mm), `notes` tell what was left alone, `sheets` are what stands on sheets of
-    paper, each with the name of its block as `space`.
+    `unit` is the one that the file names (mm). `notes` report ignored content. `sheets` are the contents of paper
+    sheets, each with the name of its block as `space`.
     """
 
     ends: np.ndarray
@@ -61,7 +61,7 @@ class DrawnLines:
 
 
 def read_lines(data: bytes, file: str) -> DrawnLines:
-    """The lines and texts of a DXF.  Raises `RefusedError`."""
+    """Return the lines and texts of a DXF; raise `RefusedError`."""
     contents = read_entities(data, file)
     encoding = encoding_of(contents.header)
     unfolding = _Unfolding(contents, encoding, file)
@@ -85,12 +85,12 @@ def read_lines(data: bytes, file: str) -> DrawnLines:
 
 
 def encoding_of(header: Mapping[bytes, bytes]) -> str:
-    """How the texts are written: UTF-8 since R2007, before by the code page that the header names."""
+    """Return the encoding of the texts: UTF-8 since R2007, before that the code page that the header names."""
     if header.get(b"$ACADVER", b"") >= b"AC1021":
         return "utf-8"
     page = header.get(b"$DWGCODEPAGE", b"").decode("ascii", "replace").upper().replace("ANSI_", "cp")
     try:
-        # Python also knows encodings that are not of texts, and some that refuse to replace what they cannot read.
+        # Python also knows encodings that are not for text, and some that cannot replace undecodable bytes.
         bytes(range(256)).decode(page or "cp1252", "replace")
         return codecs.lookup(page or "cp1252").name
     except (LookupError, UnicodeError, ValueError):
@@ -118,7 +118,7 @@ MIRROR = Affine(0.0, -1.0)
 
 @dataclass(frozen=True, slots=True)
 class Insertion:
-    """A block set in: its name, and the maps of its copies as they stand."""
+    """An inserted block: its name, and the maps of its copies."""
 
     name: bytes
     maps: tuple[Affine, ...]
@@ -126,7 +126,7 @@ class Insertion:
 
 @dataclass
 class Pieces:
-    """What stands in a block or in model space: lines [M, 2], texts, blocks set in."""
+    """The content of a block or of model space: lines [M, 2], texts, inserted blocks."""
 
     lines: np.ndarray
     texts: list[DrawnText] = field(default_factory=list)
@@ -142,27 +142,29 @@ class _Unfolding:
     counts: dict[bytes, int] = field(default_factory=dict)
     whole: dict[bytes, Pieces] = field(default_factory=dict)
     hidden: int = 0
-    """Entities that are not seen."""
+    """Number of invisible entities."""
 
     def pieces_of(self, entities: Sequence[Entity]) -> Pieces:
-        """What is seen of some entities."""
+        """Return the visible content of some entities."""
         seen = [entity for entity in entities if self.contents.is_seen(entity)]
         self.hidden += len(entities) - len(seen)
         return _pieces(seen, self.encoding)
 
     def check(self, several: Iterable[Pieces]) -> None:
-        """Count before anything is unfolded: a file of a few kB may have millions of lines in blocks of blocks."""
+        """Check the size before anything is expanded: a file of a few kB may have millions of lines in nested
+        blocks.
+        """
         if sum(self.count(pieces, ()) for pieces in several) > MOST:
             raise RefusedError("drawing-elements", Mark(self.file), most=f"{MOST}")
 
     def count(self, pieces: Pieces, within: tuple[bytes, ...]) -> int:
-        """Lines and texts with those of all blocks set in."""
+        """Return the number of lines and texts, including those of all inserted blocks."""
         if len(within) > DEEPEST:
             raise RefusedError("drawing-deep", Mark(self.file), most=f"{DEEPEST}")
         total = len(pieces.lines) + len(pieces.texts)
         for insertion in pieces.insertions:
             name = insertion.name
-            # A block that stands in itself can be drawn by no program.
+            # No program can draw a block that contains itself.
             if name in within or (inner := self.block(name)) is None:
                 continue
             if name not in self.counts:
@@ -180,7 +182,7 @@ class _Unfolding:
         return self.pieces[name]
 
     def unfolded(self, pieces: Pieces, within: tuple[bytes, ...] = ()) -> Pieces:
-        """The same with all that is set in."""
+        """Return the same with all inserted blocks expanded."""
         lines, texts = [pieces.lines], list(pieces.texts)
         for insertion in pieces.insertions:
             name = insertion.name
@@ -202,7 +204,7 @@ def _moved(pieces: Pieces, by: Affine) -> Pieces:
 
 
 def _after(outer: Affine, inner: Affine) -> Affine:
-    """The map that does the inner one first."""
+    """Return the composition that applies the inner map first."""
     a = outer.a * inner.a + outer.b * inner.b.conjugate()
     b = outer.a * inner.b + outer.b * inner.a.conjugate()
     return Affine(a, b, outer.a * inner.c + outer.b * inner.c.conjugate() + outer.c)
@@ -212,7 +214,7 @@ def _after(outer: Affine, inner: Affine) -> Affine:
 
 
 def _pieces(entities: list[Entity], encoding: str) -> Pieces:
-    """What entities draw; those of a polyline's corners follow it."""
+    """Return what entities draw; the vertices of a polyline follow it."""
     texts: list[DrawnText] = []
     insertions: list[Insertion] = []
     lines: list[Line] = []
@@ -260,7 +262,7 @@ def _pieces(entities: list[Entity], encoding: str) -> Pieces:
 
 @dataclass(frozen=True, slots=True)
 class _Corner:
-    """A corner of a polyline with the widths at both ends of the piece that begins there; whether it is an arc."""
+    """A vertex of a polyline, the widths at both ends of the segment that begins there, and True if it is an arc."""
 
     at: complex
     start_width: float = 0.0
@@ -277,16 +279,16 @@ def _bulge(entity: Entity) -> bool:
 
 
 def _plane(entity: Entity) -> Affine | None:
-    """The map of an entity's own plane; None if that is not seen from above."""
+    """Return the map of an entity's own plane; None if the plane is not seen from above."""
     x, y, z = entity.get(210), entity.get(220), entity.get(230, 1.0)
     if math.hypot(x, y) > STRAIGHT * abs(z):
         return None
-    # The ends of a line stand in the plane of the drawing, whatever its own is.
+    # The ends of a line are in the plane of the drawing, whatever its own plane is.
     return Affine() if z > 0 or entity.type in (b"LINE", b"LEADER", b"MLINE", b"SPLINE") else MIRROR
 
 
 def _corners(entity: Entity, place: int = 10) -> list[_Corner]:
-    """The corners of a polyline in one entity: its pairs come corner by corner, their codes from `place` on."""
+    """Return the vertices of a polyline in one entity, whose coordinate pairs have codes from `place`."""
     corners: list[_Corner] = []
     constant = entity.get(43) if entity.type == b"LWPOLYLINE" else 0.0
     x = None
@@ -306,7 +308,7 @@ def _corners(entity: Entity, place: int = 10) -> list[_Corner]:
 
 
 def _path(corners: list[_Corner], closed: bool) -> list[Line]:
-    """The straight lines of a polyline, pieces of one direction as one; a piece that tapers off draws an arrowhead."""
+    """Return the straight lines of a polyline, joined if collinear; a tapering segment draws an arrowhead."""
     ring = [*corners, *(corners[:1] if closed else ())]
     lines: list[Line] = []
     heads: list[Line] = []
@@ -330,34 +332,34 @@ def _path(corners: list[_Corner], closed: bool) -> list[Line]:
 
 
 def _straight(entity: Entity) -> list[Line]:
-    """The line that a spline is if all points that give its form lie on one, in their order."""
+    """Return a spline as a line if all points that define it lie on one, in order; else []."""
     points = [corner.at for corner in _corners(entity)]
     if not points and not any(code in (12, 13) for code, _ in entity.tags):
-        # Without directions at its ends it goes straight through points that lie on a line.
+        # Without end tangents, it is straight if its points lie on a line.
         points = [corner.at for corner in _corners(entity, 11)]
     if len(points) < 2 or entity.whole(70) & 1 or points[0] == points[-1]:
         return []
     way = points[-1] - points[0]
     along = [(point - points[0]) / way for point in points]
-    # A control point may stand twice.
+    # A control point may occur twice.
     in_order = all(second.real - first.real >= -STRAIGHT for first, second in pairwise(along))
     return [(points[0], points[-1])] if in_order and all(abs(one.imag) <= STRAIGHT for one in along) else []
 
 
 def _head(back: complex, tip: complex, width: float, whole: bool = False) -> list[Line]:
-    """The two strokes of an arrowhead, as long as its piece or only as its width."""
+    """Return the two strokes of an arrowhead, as long as its segment (`whole`) or 1.5 times its width."""
     along = (back - tip) / abs(back - tip) if back != tip else 0j
     base = back if whole else tip + 1.5 * width * along
     return [(tip, base + side * width / 2 * 1j * along) for side in (1, -1)]
 
 
 def _seen(entity: Entity, lines: list[Line]) -> list[Line]:
-    """Lines of an entity's own plane as they are seen."""
+    """Return lines of an entity's own plane as they are seen."""
     return [(-a.conjugate(), -b.conjugate()) for a, b in lines] if _plane(entity) is MIRROR else lines
 
 
 def _places(entity: Entity, plane: Affine) -> Iterator[Affine]:
-    """The maps of a block set in, of each copy of its rows and columns."""
+    """Yield the maps of an inserted block, for each copy in its rows and columns."""
     sx, sy = entity.get(41, 1.0), entity.get(42, 1.0)
     turn = cmath.rect(1.0, math.radians(entity.get(50)))
     rows, columns = max(entity.whole(71), 1), max(entity.whole(70), 1)

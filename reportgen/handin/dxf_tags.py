@@ -1,6 +1,6 @@
-"""A drawing in DXF as its entities: pairs of a code and a value, R12 to R2018, by the blocks that they are in.
+"""Parse a DXF drawing (R12 to R2018) into entities: pairs of a code and a value, grouped by their blocks.
 
-Only what may be a vector, an arrowhead or a label is kept.  Nothing that the file names is ever opened.
+Only entities that may be a vector, an arrowhead or a label are kept. Files that the drawing names are never opened.
 """
 
 from __future__ import annotations
@@ -13,22 +13,22 @@ from reportgen.base.errors import Mark
 from reportgen.workbook.package import RefusedError
 
 LARGEST = 50_000_000
-"""Bytes of a drawing."""
+"""Largest size (bytes) of a drawing."""
 MOST = 300_000
-"""Lines and texts of a drawing, its blocks unfolded."""
+"""Largest number of lines and texts of a drawing, with its blocks expanded."""
 KEPT = frozenset(
     b"LINE LWPOLYLINE POLYLINE VERTEX SEQEND MLINE SPLINE SOLID TRACE LEADER INSERT TEXT MTEXT ATTRIB".split()
 )
 """Entities that are read."""
 PICTURES = frozenset(b"IMAGE OLEFRAME OLE2FRAME PDFUNDERLAY DWFUNDERLAY DGNUNDERLAY".split())
-"""Entities that are left alone, and told."""
+"""Entities that are ignored, with a note."""
 BINARY = b"AutoCAD Binary DXF"
 DRAWING = b"AC10"
-"""What a DWG begins with."""
+"""First bytes of a DWG."""
 EXTERNAL = 4 | 8 | 16 | 32
-"""Flags of a block that stands for another file."""
+"""Flags of a block that refers to another file."""
 PAPER = b"*PAPER_SPACE"
-"""What the blocks of sheets begin with; the one of this very name is the sheet in use."""
+"""Prefix of the names of the blocks of paper sheets; the block with exactly this name is the active sheet."""
 _COMMENT = 999
 _INVISIBLE, _PAPER, _LAYER = 60, 67, 8
 _FROZEN = 1
@@ -38,28 +38,28 @@ Tags = list[tuple[int, bytes]]
 
 @dataclass(frozen=True, slots=True)
 class Entity:
-    """An entity: its type, its pairs in their order, and the line of the file where it begins."""
+    """An entity: its type, its pairs in order, and the line of the file where it begins."""
 
     type: bytes
     tags: Tags
     line: int
 
     def get(self, code: int, otherwise: float = 0.0) -> float:
-        """The first number of a code."""
+        """Return the first number with a code."""
         return next((float(value) for tag, value in self.tags if tag == code), otherwise)
 
     def whole(self, code: int) -> int:
-        """The first whole number of a code, 0 without one."""
+        """Return the first whole number with a code, 0 if there is none."""
         return int(self.get(code))
 
     def text(self, code: int) -> bytes:
-        """The first text of a code."""
+        """Return the first text with a code."""
         return next((value for tag, value in self.tags if tag == code), b"")
 
 
 @dataclass
 class Block:
-    """A block: its base point, and its entities; `external` ones stand for another file."""
+    """A block: its base point and its entities; an `external` one refers to another file."""
 
     base: complex = 0j
     external: bool = False
@@ -68,10 +68,10 @@ class Block:
 
 @dataclass
 class Entities:
-    """A drawing's header, its blocks by name, and what stands in its model space; `pictures` are counted.
+    """A drawing's header, its blocks by name, and the entities of its model space; `pictures` are counted.
 
-    Layers that are `off` hide what stands on them, but not the other layers of a block that is set in on them; `frozen`
-    ones hide that too.
+    Layers that are `off` hide their entities, except those on other layers inside a block inserted on them. `frozen`
+    layers hide these too.
     """
 
     header: dict[bytes, bytes] = field(default_factory=dict)
@@ -82,32 +82,32 @@ class Entities:
     frozen: set[bytes] = field(default_factory=set)
 
     def is_seen(self, entity: Entity) -> bool:
-        """Whether an entity is seen where it stands."""
+        """Return True if an entity is visible."""
         layer = entity.text(_LAYER).strip().upper()
         hidden = layer in self.frozen or (layer in self.off and entity.type != b"INSERT")
         return not (hidden or entity.whole(_INVISIBLE))
 
     @property
     def spaces(self) -> dict[bytes, list[Entity]]:
-        """What stands in model space, called "", and on sheets of paper, by the names of their blocks."""
+        """The entities of model space, named "", and of paper sheets, by the names of their blocks."""
         spaces: dict[bytes, list[Entity]] = {b"": [], PAPER: []}
         spaces |= {name: [*block.entities] for name, block in self.blocks.items() if name.startswith(PAPER)}
         space = b""
         for entity in self.entities:
-            # The corners of a polyline stand where it does.
+            # The vertices of a polyline are in the same space as the polyline.
             if entity.type not in (b"VERTEX", b"SEQEND"):
                 space = PAPER if entity.whole(_PAPER) else b""
             spaces[space].append(entity)
         return spaces
 
     def number(self, variable: bytes) -> int:
-        """Return a whole number of the header, 0 where it has none."""
+        """Return a whole number of the header, 0 if it has none."""
         value = self.header.get(variable, b"")
         return int(float(value)) if _is_number(value) else 0
 
 
 def read_entities(data: bytes, file: str) -> Entities:
-    """The entities of a drawing.  Raises `RefusedError` for what is no DXF, is damaged or too large."""
+    """Return the entities of a drawing; raise `RefusedError` if it is not a DXF, is damaged or too large."""
 
     def refuse(code: str, line: int = 1, **about: str) -> RefusedError:
         return RefusedError(code, Mark(file, line), **about)
@@ -168,14 +168,14 @@ def read_entities(data: bytes, file: str) -> Entities:
 
 @dataclass(slots=True)
 class _Layer:
-    """A record of the table of layers, as far as it has been read."""
+    """A record of the layer table, as far as it has been read."""
 
     contents: Entities
     is_layer: bool
     name: bytes = b""
 
     def pair(self, code: int, value: bytes) -> None:
-        """Note whether the layer is off, its colour being negative, or frozen."""
+        """Record that the layer is off (negative colour) or frozen."""
         if not self.is_layer:
             return
         if code == 2:
@@ -190,7 +190,7 @@ Refuse = Callable[..., RefusedError]
 
 
 def pairs(data: bytes, refuse: Refuse) -> Iterator[tuple[int, bytes, int, int]]:
-    """Codes and values, the line of each code and its byte, up to the end that the file names or has."""
+    """Yield codes and values, the line of each code and its byte, up to the EOF mark or the end of the file."""
     lines, line, offset = io.BytesIO(data), 1, 0
     for code_line in lines:
         value = lines.readline()
@@ -220,7 +220,7 @@ def _is_number(value: bytes) -> bool:
 
 
 def _of_block(contents: Entities, block: Block, code: int, value: bytes) -> None:
-    """What a pair says of the block that begins with it."""
+    """Store what a pair says about the block that begins with it."""
     if code == 2:
         contents.blocks.setdefault(value.upper(), block)
     elif code == 70:

@@ -1,4 +1,6 @@
-"""Files that are handed in in place of a sheet, by their endings: how each is read, and how it is given back."""
+"""Kinds of files that are submitted in place of a sheet, by suffix: how to read each, and how to return a
+marked copy.
+"""
 
 from __future__ import annotations
 
@@ -40,16 +42,16 @@ NOT_READ = frozenset(
         ".7z",
     }
 )
-"""Endings of what may well be somebody's work, and is not read."""
+"""Suffixes of files that may be a student's work but are not read."""
 LARGEST = 50_000_000
-"""Bytes of a file."""
+"""Largest size (bytes) of a file."""
 
 
 @dataclass(frozen=True, slots=True)
 class FileKind:
-    """A kind of file: how it is read for a key, which names stand in it, and how it is given back with a marking.
+    """A kind of file: functions that read it for a key, find names in it, and write a marked copy.
 
-    A student may have `several` that are all of one work; their copies have a {number} in their name.
+    A student may have `several` files of one work; their copies have a {number} in their name.
     """
 
     read: Callable[[Path, bytes, Key, WantedPlans | None], FileReading]
@@ -59,7 +61,7 @@ class FileKind:
 
 
 def kinds() -> Mapping[str, FileKind]:
-    """The kinds by their endings; what reads them is imported when one comes."""
+    """Return the kinds by suffix; their readers are imported on demand."""
     from reportgen.handin import drawing_file, word_report
 
     return {
@@ -69,13 +71,13 @@ def kinds() -> Mapping[str, FileKind]:
 
 
 DRAWING = ".dxf"
-"""The ending of drawings, which are read for the plans of an assignment."""
+"""Suffix of drawings, which are read for the plans of an assignment."""
 OWN = frozenset({".docx", DRAWING})
-"""The endings of `kinds`."""
+"""Suffixes of `kinds`."""
 
 
 def not_read(path: Path) -> Fault | None:
-    """What is told of a file that may well be somebody's work and is not read; None of any other."""
+    """Return the fault of a file that may be a student's work but is not read; None for any other."""
     ending = path.suffix.lower()
     if ending not in NOT_READ:
         return None
@@ -83,7 +85,7 @@ def not_read(path: Path) -> Fault | None:
 
 
 def content(path: Path, data: bytes | None, language: Language | None) -> bytes:
-    """The bytes of a file, no more than may be; raises `AssignmentError` where there are none to be had."""
+    """Return the bytes of a file, up to the size limit and one more; raise `AssignmentError` if it cannot be read."""
     if data is not None:
         return data
     try:
@@ -95,9 +97,9 @@ def content(path: Path, data: bytes | None, language: Language | None) -> bytes:
 def read_file(
     path: Path, data: bytes, key: Key, language: Language | None, plans: WantedPlans | None = None
 ) -> FileReading:
-    """What a file says of the quantities of a key, a drawing of its plans.
+    """Return what a file says about the quantities of a key, and a drawing about its plans.
 
-    Raises `AssignmentError` for one that is refused.
+    Raises `AssignmentError` if the file is rejected.
     """
     try:
         return kinds()[path.suffix.lower()].read(path, data, key, plans)
@@ -106,7 +108,7 @@ def read_file(
 
 
 def names_in(path: Path, data: bytes, names: Collection[str], language: Language | None) -> Collection[str]:
-    """Which of some names stand in a file; raises `AssignmentError` for one that is refused."""
+    """Return the given names that occur in a file; raise `AssignmentError` if the file is rejected."""
     try:
         return kinds()[path.suffix.lower()].names(path, data, names)
     except RefusedError as refused:
@@ -114,9 +116,9 @@ def names_in(path: Path, data: bytes, names: Collection[str], language: Language
 
 
 def marked_copy(path: Path, data: bytes, reading: FileReading, marking: Marking, policy: Policy) -> tuple[str, bytes]:
-    """Return the name and the content of a student's file with what was found written into it.
+    """Return the name and the content of a student's file with the results of marking written into it.
 
-    The name has a {number} where a student may have several of the kind.  Raises `RefusedError` where nothing can be
+    The name has a {number} if a student may have several files of the kind. Raises `RefusedError` if nothing can be
     written into the file.
     """
     return kinds()[path.suffix.lower()].marked(path, data, reading, marking, policy)

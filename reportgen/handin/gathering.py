@@ -1,4 +1,4 @@
-"""What is gathered of a file place by place: values, and faults where something stands that is not beyond doubt."""
+"""Collect the entries of a file by place: values, and faults for entries that are not certain."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from reportgen.handin.word_text import TextLine, WordMark
 from reportgen.marking.marks import Answer, Place
 
 SHOWN = 60
-"""Characters of a text that are quoted."""
+"""Largest number of characters of a quoted text."""
 
 
 @dataclass(slots=True)
@@ -32,19 +32,21 @@ class Gathering:
     symbols: Symbols
     values: dict[Place, Answer] = field(default_factory=dict)
     doubts: dict[Place, Fault] = field(default_factory=dict)
-    """The first of each place; it counts only where no value stands."""
+    """The first doubt of each place; it counts only if the place has no value."""
     clashes: dict[Place, Fault] = field(default_factory=dict)
-    """Places with two values, which have none."""
+    """Places with two different values, which count as unread."""
     positions: dict[str, Mapping[str, int]] = field(default_factory=dict)
     fixed: frozenset[Place] = frozenset()
-    """Places that blanks of a frame have filled."""
+    """Places filled by blanks of a frame."""
     notes: list[Fault] = field(default_factory=list)
 
     def rows_of(self, symbol: str) -> tuple[KeyRow, ...]:
         return self.symbols.rows_of(symbol)
 
     def position(self, row: KeyRow, label: str | None) -> int | None:
-        """The position of a row by its label; 0 for what is the same at all of them."""
+        """Return the position of a row by its label; 0 for a quantity that is the same at all positions; None if
+        unknown.
+        """
         if row.single:
             return 0
         owner = self.key.owner(row.id)
@@ -55,19 +57,19 @@ class Gathering:
         return position if position is None else _in_first_turn(row, position)
 
     def is_label(self, text: str) -> bool:
-        """Whether any part has a position of that name."""
+        """Return True if any part has a position with that label."""
         keys = [part.key for part in self.key.parts] or [self.key]
         return any(bare(text).casefold() == bare(label).casefold() for key in keys for label in key.labels)
 
     def doubt(self, row: KeyRow, position: int | None, code: str, mark: WordMark, text: str, **more: str) -> None:
-        """Something stands for a row, at a position or at any of them, and is not read."""
+        """Record an unread entry for a row, at a position or at any (None)."""
         for one in row.positions:
             if position is None or one == position:
                 shown = _tidy(text)
                 self.doubts.setdefault((row.id, one), Fault(code, mark, {"text": shown, **more}))
 
     def give(self, row: KeyRow, position: int, value: float, mark: WordMark, text: str) -> None:
-        """A value of a place; a place that has another one already is not read."""
+        """Record a value of a place; if the place already has a different one, it becomes unread."""
         place, answer = (row.id, position), Answer(value, _tidy(text), mark)
         if position not in row.positions or place in self.clashes or place in self.fixed:
             return
@@ -78,10 +80,10 @@ class Gathering:
             if figures(answer.text) > figures(first.text):
                 self.values[place] = answer
         elif _has_unit(answer) != _has_unit(first):
-            # A number without a unit may be of another quantity with the same letter.
+            # A number without a unit may belong to another quantity with the same letter.
             self.values[place] = answer if _has_unit(answer) else first
         elif not is_signed(row) and agree(replace(first, value=abs(first.value)), replace(answer, value=abs(value))):
-            # The size of a vector, and its coordinate on an axis that points the other way.
+            # One is the size of a vector, the other its coordinate on an axis in the opposite direction.
             self.values[place] = max(first, answer, key=lambda one: one.value)
         else:
             del self.values[place]
@@ -90,7 +92,7 @@ class Gathering:
     def number(
         self, row: KeyRow, position: int, number: str, unit: str, mark: WordMark, words: str, barred: bool = False
     ) -> None:
-        """Read a number for a place, with the sense that is said in words beside it."""
+        """Read a number for a place, with the sense given by the words beside it."""
         text = f"{number.strip()} {unit}".strip()
         try:
             value = read_value(number, unit, row, self.marks)
@@ -105,11 +107,11 @@ class Gathering:
             self.give(row, position, signed, mark, text)
 
     def _signed(self, row: KeyRow, position: int, value: float, words: str, barred: bool) -> float | None:
-        """A value with its sign: a rotation has the sense said beside it, and without any counts by its size.
+        """Return a value with its sign; a rotation has the sense given beside it, and without one only its size counts.
 
-        None where two senses are said, or a size is given of what has a sign.
+        Return None if two senses are given, or if a signed quantity is given as a size.
         """
-        # “Clockwise” stands in “anti-clockwise” as well.
+        # “Anti-clockwise” contains “clockwise”.
         turns = bool(CLOCKWISE.search(ANTICLOCKWISE.sub(" ", words))), bool(ANTICLOCKWISE.search(words))
         if row.size:
             if value < 0:
@@ -124,18 +126,18 @@ class Gathering:
         self.notes.append(Fault(code, mark, arguments))
 
     def reading(self) -> FileReading:
-        """All of it, values before doubts."""
+        """Return everything collected; values take precedence over doubts."""
         unread = {place: fault for place, fault in self.doubts.items() if place not in self.values}
         return FileReading(self.key.id, self.file, self.values, {**unread, **self.clashes}, tuple(self.notes))
 
     def mark(self, line: TextLine, index: int) -> WordMark:
-        """Where a letter of a line stands."""
+        """Return the location of a letter of a line."""
         node = line.nodes[min(max(index, 0), len(line.nodes) - 1)]
         return WordMark(self.file, line.number, index + 1, element=node.number)
 
 
 def _in_first_turn(row: KeyRow, position: int) -> int:
-    """A position of the second turn as that of the first, for what repeats from turn to turn and is asked in one."""
+    """Map a position of the second turn to the first, for a quantity that repeats and is asked for in one turn only."""
     turn = len(row.values) // 2
     if position in row.positions or position - turn not in row.positions or len(row.values) % 2:
         return position
@@ -144,16 +146,16 @@ def _in_first_turn(row: KeyRow, position: int) -> int:
 
 
 def is_signed(row: KeyRow) -> bool:
-    """Whether the sign of a quantity says anything: it has both, and the papers say which is which."""
+    """Return True if the sign of a quantity is significant: it has both signs, and the papers say which is which."""
     return not row.open_sense and bool(np.nanmin(row.values, initial=0.0) < 0)
 
 
 def _has_unit(answer: Answer) -> bool:
-    """Whether a value is written with a unit."""
+    """Return True if a value is written with a unit."""
     return bool(re.sub(NUMBER, "", answer.text, count=1).strip())
 
 
 def _tidy(text: str) -> str:
-    """A text as it may be quoted: in a line, without braces, cut."""
+    """Return a text for quoting: in one line, without braces, shortened."""
     plain = re.sub(r"\s+", " ", text.replace("{", "").replace("}", "")).strip()
     return plain if len(plain) <= SHOWN else f"{plain[: SHOWN - 1]}…"

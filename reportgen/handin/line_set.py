@@ -1,4 +1,4 @@
-"""The lines of a drawing among which plans are sought, and which of their ends may be one point."""
+"""The lines of a drawing in which plans are searched for, with an index of ends that may be the same point."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from functools import cached_property
 import numpy as np
 
 CROWD = 40
-"""Ends nearer to one than others; more are a hatching."""
+"""Largest number of ends near another one; more are a hatching."""
 MOST_PAIRS = 400_000
-"""Lines that share an end; more are no drawing of plans."""
+"""Largest number of pairs of lines that share an end; a drawing of plans has fewer."""
 
 
 @dataclass(frozen=True)
 class Lines:
-    """Lines [M, 2] (mm) of a drawing whose ends lie within ±`error` (mm) in each direction of where they should.
+    """Lines [M, 2] (mm) of a drawing whose ends are within ±`error` (mm) of their right places in each direction.
 
     `parts` are the pieces of each line by the numbers of drawn lines: its own number, or those of a run of pieces.
     """
@@ -32,12 +32,12 @@ class Lines:
 
     @cached_property
     def in_runs(self) -> np.ndarray:
-        """Whether each line [M] is a run of pieces."""
+        """Mask of the lines [M] that are runs of pieces."""
         return np.array([len(pieces) > 1 for pieces in self.pieces], dtype=bool)
 
     @cached_property
     def longer(self) -> tuple[tuple[frozenset[int], ...], ...]:
-        """The pieces of the runs that each line [M] is a fragment of."""
+        """For each line [M], the pieces of the runs that it is a fragment of."""
         runs = [self.pieces[n] for n in np.flatnonzero(self.in_runs)]
         by_piece: dict[int, list[frozenset[int]]] = {}
         for run in runs:
@@ -46,27 +46,27 @@ class Lines:
         return tuple(tuple(run for run in by_piece.get(min(own), ()) if own < run) for own in self.pieces)
 
     def without(self, taken: Collection[int]) -> np.ndarray:
-        """The numbers of the lines of which no piece is taken."""
+        """Return the numbers of the lines without a taken piece."""
         gone = frozenset(taken)
         return np.array([n for n, pieces in enumerate(self.pieces) if not pieces & gone], dtype=int)
 
     def only(self, index: np.ndarray) -> Lines:
-        """Some of the lines."""
+        """Return some of the lines."""
         return Lines(self.ends[index], self.error, tuple(self.pieces[n] for n in index))
 
     @property
     def reach(self) -> float:
-        """How far an end may lie off its place (mm)."""
+        """Largest distance (mm) of an end from its right place."""
         return float(np.sqrt(2) * self.error)
 
     @cached_property
     def points(self) -> np.ndarray:
-        """All ends [2 M]: those of the starts first."""
+        """All ends [2 M], the starts first."""
         return np.concatenate((self.ends[:, 0], self.ends[:, 1]))
 
     @cached_property
     def touching(self) -> tuple[np.ndarray, np.ndarray]:
-        """The numbers of all two ends, of two lines, that may be one, each pair in either order."""
+        """The numbers of all pairs of ends, of two lines, that may be the same point, each pair in both orders."""
         first, second = close_pairs(self.points, 2 * self.reach)
         several = np.flatnonzero(first % len(self.ends) != second % len(self.ends))[:MOST_PAIRS]
         first, second = first[several], second[several]
@@ -80,7 +80,9 @@ class Lines:
 
     @cached_property
     def pairs(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-        """Two lines each with a common end: the first angle, that end, both as vectors from it, by the angle."""
+        """Pairs of lines with a common end: the first one's angle, that end, and both as vectors from it, sorted by
+        angle.
+        """
         first, second = self.touching
         along, beside = self.ways[first], self.ways[second]
         at = (self.points[first] + self.points[second]) / 2
@@ -90,12 +92,12 @@ class Lines:
 
     @property
     def cell(self) -> float:
-        """The width of a cell (mm): what a first guess of scale and place may be off by."""
+        """The width of a cell (mm): the largest error of a first guess of scale and shift."""
         return 3 * self.reach
 
     @cached_property
     def cells(self) -> np.ndarray:
-        """The numbers of the cells of a grid that lines run between, or of cells beside these, sorted."""
+        """The sorted numbers of the pairs of grid cells that lines connect, and of pairs of neighbouring cells."""
         keys = np.concatenate([_between(self.ends[:, n], self.ends[:, 1 - n], self.cell) for n in (0, 1)])
         steps = np.array([-1, 0, 1], dtype=np.int64)
         for factor in _FACTORS:
@@ -103,7 +105,7 @@ class Lines:
         return np.unique(keys)
 
     def run_between(self, starts: np.ndarray, ends: np.ndarray) -> np.ndarray:
-        """Whether a line runs between places about these."""
+        """Return a mask of the pairs of places that a line approximately connects."""
         keys = _between(starts, ends, self.cell)
         if not len(self.cells):
             return np.zeros(keys.shape, dtype=bool)
@@ -113,11 +115,11 @@ class Lines:
 
 
 _FACTORS = tuple(np.int64(factor) for factor in (1, 0x1F123BB5, 0x2545F4914F6CDD1D, 0x369DEA0F31A53F85))
-"""What rows and columns of two cells are multiplied by: it is unlikely that two others have the same sum."""
+"""Factors for the rows and columns of two cells; two different pairs are unlikely to have the same sum."""
 
 
 def _between(starts: np.ndarray, ends: np.ndarray, cell: float) -> np.ndarray:
-    """A number for the cells that each line starts and ends in."""
+    """Return a number for the cells in which each line starts and ends."""
     numbers = (np.floor(part / cell).astype(np.int64) for part in (starts.real, starts.imag, ends.real, ends.imag))
     with np.errstate(over="ignore"):
         parts = [number * factor for number, factor in zip(numbers, _FACTORS, strict=True)]
@@ -130,14 +132,14 @@ def _key(x: int, y: int) -> int:
 
 
 def _keys(points: np.ndarray, cell: float) -> np.ndarray:
-    """The number of the cell that each point lies in."""
+    """Return the number of the cell of each point."""
     x, y = np.floor(points.real / cell), np.floor(points.imag / cell)
     keys: np.ndarray = (x.astype(np.int64) << 32) + y.astype(np.int64)
     return keys
 
 
 def close_pairs(points: np.ndarray, reach: float) -> tuple[np.ndarray, np.ndarray]:
-    """All two points nearer than `reach`, each pair once: sought in each cell of a grid and its next ones."""
+    """Return all pairs of points closer than `reach`, each once, found with a grid of cells."""
     keys = _keys(points, reach)
     order = np.argsort(keys, kind="stable")
     ranked = keys[order]

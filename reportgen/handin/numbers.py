@@ -1,4 +1,4 @@
-"""Numbers of a running text: their decimal mark, their unit, and what leaves a doubt."""
+"""Parse numbers in running text: their decimal mark, their unit, and cases of doubt."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ from reportgen.marking.numbers import DecimalMark, read_number
 
 _DECIMALS = re.compile(r"(?<![\d.,])\d+([.,])(\d+)(?![\d]|[.,]\d)")
 BOTH = 0.1
-"""From this share of its numbers on, a text is one that has both decimal marks."""
+"""Share of its numbers from which a text counts as using both decimal marks."""
 _PRODUCT = re.compile(r"\d\.\d+,\d|\d,\d+\.\d(?!0\s*\^)|\d\.\d+\.\d|\d,\d+,\d")
-"""5.122,95: thousands, or 5 times 122,95?"""
+"""5.122,95 may be thousands, or 5 times 122,95."""
 _THOUSANDS = re.compile(r"[-+–]?\s*\d{1,3}[.,]\d{3}(?!\d)")
 
 _POWER = r"(?:\s*[·.x×*]\s*10\s*(?:\^\s*\{?\(?\s*[-–⁻+]?\s*\d{1,3}\s*\)?\}?|[⁻⁺]?[⁰¹²³⁴⁵⁶⁷⁸⁹]+))"
@@ -40,16 +40,16 @@ _JOINED_UNIT = re.compile(r"\s*([/·*])\s*")
 
 @dataclass(frozen=True, slots=True)
 class Marks:
-    """The decimal mark of a text, and whether it has both."""
+    """The decimal mark of a text, and True if it uses both marks."""
 
     decimal: DecimalMark
     mixed: bool
 
 
 def marks_of(texts: Iterable[str], language: Language) -> Marks:
-    """The decimal mark by what leaves no doubt in a text: one that stands alone and not before three figures.
+    """Return the decimal mark from the unambiguous numbers of a text: a single mark that is not before three figures.
 
-    Numbers of sections, figures and equations say nothing; those behind “=”, before a unit or alone in a cell do.
+    Only numbers after “=”, before a unit or alone in a cell count, not those of sections, figures and equations.
     """
     counts: Counter[str] = Counter()
     for text in texts:
@@ -65,7 +65,9 @@ def marks_of(texts: Iterable[str], language: Language) -> Marks:
 
 
 def read_value(number: str, unit: str, row: KeyRow, marks: Marks) -> float:
-    """A number of a text in the row's unit; raises `QuantityFault`, for what leaves a doubt `product`."""
+    """Return a number of a text in the row's unit; raise `QuantityFault`, with the code `product` for a
+    doubtful one.
+    """
     text = number.strip()
     if _PRODUCT.search(text) or (_THOUSANDS.fullmatch(text) and _is_doubtful(text, marks)):
         raise QuantityFault("product", text=text)
@@ -78,14 +80,14 @@ def read_value(number: str, unit: str, row: KeyRow, marks: Marks) -> float:
 
 
 def _is_doubtful(text: str, marks: Marks) -> bool:
-    """Whether three figures behind a mark may be thousands; not in 0,125, nor where the mark is that of decimals."""
+    """Return True if three figures after a mark may be thousands; not in 0,125, nor if the mark is the decimal mark."""
     whole = re.match(r"[-+–]?\s*(\d+)([.,])", text)
     assert whole is not None
     return not whole[1].startswith("0") and (marks.mixed or whole[2] != marks.decimal)
 
 
 def plain_unit(unit: str) -> str:
-    """A unit as it is typed: m/s^{2} is m/s²."""
+    """Return a unit as it is typed: m/s^{2} becomes m/s²."""
     text = _BRACES.sub("", unit).strip().replace("º", "°").replace("độ", "°")
     text = re.sub(r"\^\s*\(?\s*([-–]?\d)\)?", r"^\1", text).replace("–", "-")
     return _JOINED_UNIT.sub(r"\1", text.replace("^2", "²").replace("^3", "³"))

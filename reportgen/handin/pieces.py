@@ -1,8 +1,8 @@
-"""The lines of a drawing as somebody meant them: a line drawn twice counts once, and a line in pieces is one line.
+"""Reconstruct the intended lines of a drawing: duplicate lines count once, and a broken line is one line.
 
-CAD programs break a line where another one crosses it, and leave it in pieces of one direction.  Whether such pieces
-are one vector or several, as weights that are laid one behind the other, only the plan can say: so each run of pieces
-is a candidate beside the pieces themselves, and a plan takes either (`plan_fit.py`).
+CAD programs break a line at a crossing, and leave collinear pieces. Such pieces may be one vector, or several such as
+weights laid end to end; only the plan can tell. So each run of pieces is a candidate in addition to the pieces
+themselves, and a plan uses either (`plan_fit.py`).
 """
 
 from __future__ import annotations
@@ -16,17 +16,17 @@ from reportgen.handin.arrowheads import arrowheads
 from reportgen.handin.line_set import Lines, close_pairs
 
 COVERED = 0.1
-"""Lines with ends no farther apart (mm) are one line."""
+"""Largest distance (mm) between the ends of two lines that count as one."""
 EXACT = 0.02
-"""Pieces of one line lie on it within this distance (mm): nobody drew them apart."""
+"""Largest distance (mm) of pieces from their common line; pieces drawn separately are less exact."""
 GAP = 3.0
-"""A line is broken over a gap of this width (mm) at most."""
+"""Largest width (mm) of a gap in a broken line."""
 MOST_PIECES = 4
-"""A line has no more pieces; a chain of more is a dashed line."""
+"""Largest number of pieces of a line; a longer chain is a dashed line."""
 
 
 def distinct(ends: np.ndarray) -> np.ndarray:
-    """Return the lines [M, 2] (mm) without those that another one before them covers."""
+    """Return the lines [M, 2] (mm) without those that an earlier one covers."""
     if not len(ends):
         return ends
     middle = ends.sum(axis=1) / 2
@@ -44,7 +44,7 @@ def distinct(ends: np.ndarray) -> np.ndarray:
 
 @dataclass(frozen=True, slots=True)
 class _Run:
-    """Pieces one behind the other: the first and the last end, and the inner ends as (piece, end)."""
+    """Pieces in sequence: the first and the last end, and the inner ends as (piece, end)."""
 
     first: complex
     last: complex
@@ -53,16 +53,16 @@ class _Run:
 
 
 def meant(lines: Lines) -> tuple[Lines, np.ndarray]:
-    """Return the lines that may be meant, and whether each of their ends [M, 2] has an arrowhead.
+    """Return the possible intended lines, and a mask of their ends [M, 2] that have an arrowhead.
 
-    These are the lines as drawn, without the strokes of arrowheads, and each run of pieces as a further line.  No run
-    goes over an arrowhead, and none repeats a line that was drawn.
+    These are the lines as drawn, without the strokes of arrowheads, and each run of pieces as a further line. No run
+    crosses an arrowhead, and none repeats a drawn line.
     """
     runs = _unlike(lines, list(_runs(lines)))
     count = len(lines.ends)
     ends = np.concatenate((lines.ends, np.array([(run.first, run.last) for run in runs]).reshape(-1, 2)))
     every = Lines(ends, lines.error, (*lines.pieces, *(frozenset(run.pieces) for run in runs)))
-    # The last piece of a line may be shorter than the arrowhead at its end: the whole line shows it.
+    # The last piece of a line may be shorter than its arrowhead; the whole line shows it.
     marked = arrowheads(every)
     strokes = frozenset(np.flatnonzero(marked.strokes[:count]).tolist())
     kept = [n for n in range(count) if n not in strokes]
@@ -74,7 +74,7 @@ def meant(lines: Lines) -> tuple[Lines, np.ndarray]:
 
 
 def _unlike(lines: Lines, runs: list[_Run]) -> list[_Run]:
-    """Return the runs that no line and no run before them covers."""
+    """Return the runs that no line and no earlier run covers."""
     if not runs:
         return runs
     ends = np.concatenate((lines.ends, np.array([(run.first, run.last) for run in runs])))
@@ -83,7 +83,7 @@ def _unlike(lines: Lines, runs: list[_Run]) -> list[_Run]:
 
 
 def _runs(lines: Lines) -> Iterator[_Run]:
-    """Yield the runs of two pieces or more, each once."""
+    """Yield the runs of two or more pieces, each once."""
     count = len(lines.ends)
     following: dict[tuple[int, int], list[tuple[int, int]]] = {}
     first, second = close_pairs(lines.points, GAP)
@@ -102,14 +102,14 @@ def _runs(lines: Lines) -> Iterator[_Run]:
             last = complex(lines.ends[piece, 1 - end])
             if not _are_straight(lines, run.first, last, (*run.inner, (piece, end))):
                 continue
-            # Each run is met from both of its ends.
+            # Each run is found from both of its ends.
             if pieces[0] < pieces[-1]:
                 yield _Run(run.first, last, pieces, (*run.inner, (piece, end)))
             pending.append(_Run(run.first, 0j, pieces, (*run.inner, (piece, end), (piece, 1 - end))))
 
 
 def _in_line(piece: np.ndarray, end: int, beside: np.ndarray, its_end: int) -> bool:
-    """Return whether a line goes on, over no more than a gap, at the end of another one."""
+    """Return True if a line continues another one at its end, over a gap of limited width."""
     start, last = complex(piece[1 - end]), complex(beside[1 - its_end])
     whole = last - start
     if not whole:
@@ -131,9 +131,9 @@ def _are_straight(lines: Lines, first: complex, last: complex, inner: tuple[tupl
 
 
 def goes_on(lines: Lines, start: complex, end: complex) -> bool:
-    """Return whether a line that begins behind the `end` of another one lies in its direction.
+    """Return True if a line in the same direction begins after the `end` of another one.
 
-    Nobody can tell then whether the two are pieces of one line.
+    The two may then be pieces of one line.
     """
     way = (end - start) / abs(end - start)
     along = (lines.ends - end) / way

@@ -1,9 +1,8 @@
-"""Which of the places that a plan fits is beyond doubt, and which line of it is which vector.
+"""Decide which placement of a plan is certain, and which line of it is which vector.
 
-What speaks for a fit is counted as the logarithm of odds.  A figure that has nothing to do with a plan has an end at a
-third corner only by chance: one of its lines would have to end within ±2.5 σ instead of anywhere in the figure, once
-in each direction.  A plan is taken where the odds are `BEYOND_DOUBT` against chance and against every other plan at
-its place.
+The evidence for a fit is a logarithm of odds. An unrelated figure has an end at a third corner only by chance: one of
+its lines would have to end within ±2.5 σ in place of anywhere in the figure, once in each direction. A plan is accepted
+if the odds are `BEYOND_DOUBT` against chance and against every other plan at its place.
 """
 
 from __future__ import annotations
@@ -20,39 +19,39 @@ from reportgen.handin.plan_labels import TITLE, Labels, names_of
 from reportgen.handin.plan_shapes import PlanShape
 
 BEYOND_DOUBT = float(np.log(1e5))
-"""Odds against another plan at the same place."""
+"""Required odds (logarithm) against another plan at the same place."""
 BY_CHANCE = float(np.log(1e3))
-"""Odds against lines that meet so by chance, of all placings that were tried."""
+"""Required odds (logarithm) against lines that meet in this way by chance, over all placements tried."""
 WITHIN = 2.5
-"""Deviations within which an end lies that is where it should be: √(2π) σ is the width of a normal distribution."""
+"""Number of deviations within which a right end lies: √(2π) σ is the width of a normal distribution."""
 LEFT_OUT = float(np.log(20.0))
-"""Odds against a vector that was not drawn: students leave out one of twenty."""
+"""Odds (logarithm) against an omitted vector: students omit one in twenty."""
 CLOSED = 1.0
-"""What speaks for a line between two ends that are there anyhow, as every polygon has it."""
+"""Evidence of a line between two ends that already exist, as every polygon has one."""
 OTHER_SCALE = float(np.log(0.05))
-"""Odds of a plan that is drawn to another scale than most."""
+"""Odds (logarithm) of a plan drawn to another scale than most."""
 MANY = 3
-"""So many plans of one kind show the scale that they are drawn to."""
+"""Number of plans of one kind that establish their common scale."""
 FINEST = 0.03
-"""No drawing is taken for more exact (mm): lengths are rounded before they are drawn."""
+"""Smallest assumed deviation (mm) of a drawing, because lengths are rounded before they are drawn."""
 SHARED = 1 / 3
-"""Two fits are of one place if they share more of the lines of either."""
+"""Share of common lines above which two fits are at the same place."""
 UNLABELLED = Labels(())
 
 
 @dataclass(frozen=True)
 class FoundPlans:
-    """The plans found beyond doubt, those that share a place with others, and how exactly ends were drawn (mm)."""
+    """The plans found with certainty, those that share a place with others, and the deviation of drawn ends (mm)."""
 
     plans: tuple[Fit, ...]
     sure: tuple[np.ndarray, ...]
-    """Of each whether the line of each vector is beyond doubt [E]."""
+    """For each plan, a mask [E] of the vectors whose line is certain."""
     doubtful: tuple[tuple[Fit, ...], ...]
     deviation: float
 
 
 def find(shapes: Sequence[PlanShape], lines: Lines, labels: Labels = UNLABELLED) -> FoundPlans:
-    """The plans among the lines."""
+    """Return the plans among the lines."""
     every = [fit for shape in shapes for fit in fits(shape, lines)]
     judge = _Judge(lines, len(shapes), lines.error / np.sqrt(3), {}, labels)
     clear, _ = judge.decided(every)
@@ -74,7 +73,7 @@ def find(shapes: Sequence[PlanShape], lines: Lines, labels: Labels = UNLABELLED)
 
 
 def _names(fit: Fit, lines: Lines, labels: Labels) -> Beside:
-    """What tells the vectors of a plan apart where they lie beside one another."""
+    """Return a test by labels that distinguishes vectors of a plan that lie beside one another."""
 
     def beside(vector: int, line: int) -> bool:
         start, end = lines.ends[line]
@@ -97,7 +96,7 @@ def _distinct(several: Sequence[Fit]) -> list[Fit]:
 
 
 def _deviation(plans: Sequence[Fit], lines: Lines) -> float:
-    """The standard deviation (mm) of ends from their places in each direction over all plans, not above the usual."""
+    """Return the standard deviation (mm) of ends in each direction over all plans, at most the usual one."""
     usual = lines.error / np.sqrt(3)
     count = sum(4 * len(fit.present) - 3 for fit in plans)
     if count < 4 * MANY:
@@ -107,12 +106,14 @@ def _deviation(plans: Sequence[Fit], lines: Lines) -> float:
 
 
 def _drawn_to(fit: Fit) -> float:
-    """The scale of a plan over the report's; of forces, whose report has one for each position, the scale itself."""
+    """Return the scale of a plan relative to the report's; for forces, with a scale for each position, the scale
+    itself.
+    """
     return fit.scale if fit.shape.is_of_motion else fit.shape.unit / fit.scale
 
 
 def _common_scales(plans: Sequence[Fit], judge: _Judge) -> dict[str, float]:
-    """The scale that most plans of a kind share, by kinds."""
+    """Return the scale that most plans of a kind share, by kind."""
     scales: dict[str, float] = {}
     for kind in {fit.shape.scale for fit in plans}:
         own = [fit for fit in plans if fit.shape.scale == kind]
@@ -137,7 +138,7 @@ class _Judge:
     labels: Labels
 
     def for_it(self, fit: Fit) -> float:
-        """What speaks for a fit (logarithm of odds), chance not yet taken off."""
+        """Return the evidence for a fit (logarithm of odds), before the correction for chance."""
         corners, square = fit.corners_met(2 * self.lines.reach)
         closing = len(fit.explained) - (len(corners) - 1)
         of_scale = self._of_scale(fit)
@@ -150,7 +151,7 @@ class _Judge:
         )
 
     def _of_scale(self, fit: Fit) -> float:
-        """What the scale says: nothing where none is common."""
+        """Return the evidence of the scale: 0 if none is common."""
         if fit.shape.scale not in self.scales:
             return 0.0
         off = abs(np.log(_drawn_to(fit) / self.scales[fit.shape.scale]))
@@ -159,7 +160,7 @@ class _Judge:
 
     @cached_property
     def _long(self) -> tuple[np.ndarray, np.ndarray]:
-        """The numbers of all two lines with a common end that both have a direction."""
+        """The numbers of all pairs of lines with a common end that are both long enough to have a direction."""
         first, second = self.lines.touching
         length = np.abs(self.lines.ways)
         long = np.minimum(length[first], length[second]) > LONG * self.lines.error
@@ -167,19 +168,21 @@ class _Judge:
         return first[long] % count, second[long] % count
 
     def by_chance(self, taken: Collection[int], left: int) -> float:
-        """How many placings can be tried, as a logarithm: two lines that meet and that no plan has, for each left."""
+        """Return the logarithm of the number of possible placements: pairs of free lines that meet, times the remaining
+        plans.
+        """
         free = np.zeros(len(self.lines.ends), dtype=bool)
         free[self.lines.without(taken)] = True
         first, second = self._long
         return float(np.log(max((free[first] & free[second]).sum() * left, 1)))
 
     def decided(self, every: Sequence[Fit]) -> tuple[list[Fit], list[tuple[Fit, ...]]]:
-        """The fits beyond doubt, the best first, and those of places that several plans fit.
+        """Return the certain fits, the best first, and the groups of fits at places that several plans fit.
 
-        What is found leaves fewer lines and fewer plans, for which less is to be had by chance.
+        Each certain fit leaves fewer lines and plans, so the threshold against chance becomes lower.
         """
         odds = {id(fit): self.for_it(fit) for fit in every}
-        # Letters speak for a figure, and make none.
+        # Labels support a figure, but are not enough alone.
         likely = [fit for fit in every if odds[id(fit)] >= BY_CHANCE]
         odds |= {id(fit): odds[id(fit)] + self.labels.speak_for(fit) for fit in likely}
         for at, positions in self.labels.owned(likely, self.lines.ends).items():
@@ -223,10 +226,10 @@ class _Judge:
 
 
 def _of_corners(corners: np.ndarray, width: float, scaled: bool) -> float:
-    """What it says that lines end within a `width` (mm) of so many corners, in each direction, if nothing made them.
+    """Return the evidence that lines end within a `width` (mm) of these corners, in each direction, against chance.
 
-    An end may lie anywhere about the corner next to it, as far as that is; the first one gives the place, the farthest
-    one the scale.  Corners on one line are no figure: that others lie on it, too, counts only at the common scale.
+    An end may lie anywhere around the nearest corner, within their distance. The first corner determines the place, the
+    farthest one the scale. Corners on one line are not a figure: further corners on it count only at the common scale.
     """
     if len(corners) < FEWEST_CORNERS:
         return 0.0

@@ -1,8 +1,8 @@
-"""Where a plan of known shape lies among the lines of a drawing: found by its corners, fitted by least squares.
+"""Find a plan of known shape among the lines of a drawing by its corners, and fit it by least squares.
 
 A plan may be drawn at any place and to any scale, but not turned: a corner z of the report's figure lies at f z + t,
-with a real f > 0.  Two lines that share an end are tried for each two vectors that share a corner; what they say of f
-and t is tested at all other corners, and fitted to all lines that lie there.
+with a real f > 0. For each two vectors that share a corner, all pairs of lines that share an end are tried. The
+resulting f and t are tested at all other corners, and fitted to all lines there.
 """
 
 from __future__ import annotations
@@ -18,30 +18,30 @@ from reportgen.handin.line_set import Lines
 from reportgen.handin.plan_shapes import PlanShape
 
 FURTHEST = 5.0
-"""A plan is drawn at most so many times larger or smaller than in the report."""
+"""Largest factor by which a plan is drawn larger or smaller than in the report."""
 ANYWHERE = float(np.log(FURTHEST**2))
 """The range of scales, as a logarithm."""
 FEWEST_CORNERS = 3
-"""Fewer corners have no shape."""
+"""Smallest number of corners that have a shape."""
 HALF = 0.5
-"""So many of the vectors that would be seen must have a line before anything is fitted."""
+"""Share of the visible vectors that must have a line before anything is fitted."""
 MOST_TRIED = 15
-"""Placings of a plan that are fitted, those that have most lines first."""
+"""Largest number of placements of a plan that are fitted, those with most lines first."""
 ROUNDS = 4
 LONG = 10.0
-"""A line shorter than so many errors of an end has hardly a direction, and a vector no arrowhead (5 mm)."""
+"""Length in errors of an end (5 mm) below which a line hardly has a direction, and a vector has no arrowhead."""
 REACH = float(np.sqrt(6))
-"""Deviations that an end lies off its place at most: √3 in each direction where errors are evenly spread."""
+"""Largest distance of an end from its place, in deviations: √3 in each direction for evenly spread errors."""
 SEEN = 6.0
-"""A vector as long as so many errors of an end is seen on paper (3 mm); what is shorter is drawn enlarged beside it."""
+"""Length in errors of an end (3 mm) from which a vector is visible; a shorter one is drawn enlarged beside it."""
 
 
 @dataclass(frozen=True, eq=False)
 class Fit:
     """A plan found among lines: corners z at `scale` z + `shift`; the line of each vector by number, −1 for none.
 
-    `turned` lines begin where their vector ends.  `rest` [2 K] are the ends of the K lines found, first where their
-    vectors start, less their places (mm), `size` is the extent of what was found (mm).
+    `turned` lines begin where their vector ends. `rest` [2 K] are the ends of the K lines found, vector starts first,
+    minus their places (mm). `size` is the extent of the lines found (mm).
     """
 
     shape: PlanShape
@@ -54,7 +54,7 @@ class Fit:
     off_centre: float
     """The sum of the squared distances (mm², report's scale) of the fitted corners from their middle."""
     reach: np.ndarray
-    """How far the ends of each vector may lie off their places (mm) [E]."""
+    """Largest distance (mm) of the ends of each vector from their places [E]."""
     used: frozenset[int]
     """The pieces of the lines that it explains."""
 
@@ -74,20 +74,22 @@ class Fit:
         return float((np.abs(self.rest) ** 2).sum())
 
     def missing(self, least: float) -> int:
-        """Vectors of the report's figure that would be seen, being longer than `least` (mm), and have no line."""
+        """Return the number of vectors without a line that would be visible, being longer than `least` (mm)."""
         lengths = self.scale * np.abs(self.shape.ends - self.shape.starts)
         drawn = np.array([vector.drawn for vector in self.shape.vectors])
         return int((drawn & (self.lines < 0) & (lengths > least)).sum())
 
     def at(self, corners: np.ndarray) -> np.ndarray:
-        """Where corners of the report's figure lie in the drawing (mm)."""
+        """Return the places of corners of the report's figure in the drawing (mm)."""
         return self.scale * corners + self.shift
 
     def corners_met(self, apart: float) -> tuple[np.ndarray, float]:
-        """The corners [n] (mm) that the lines have, those nearer than `apart` (mm) being one, and how far off they lie.
+        """Return the corners [n] (mm) that lines reach, merging those closer than `apart` (mm), and their squared
+        error.
 
-        The second is the sum over the corners of the squared mean distance of their ends, each as often as it has ends
-        (mm²): how far the ends of one corner lie from each other speaks neither for this plan nor against it.
+        The second value (mm²) is the sum over the corners of the squared mean distance of their ends, weighted with the
+        number of ends. The distances of the ends of one corner from each other are evidence neither for nor against
+        this plan.
         """
         shape, present = self.shape, self.present
         met = [shape.vectors[number].start for number in present] + [shape.vectors[number].end for number in present]
@@ -105,12 +107,12 @@ class Fit:
         return np.array(kept), float((count * np.abs(means) ** 2).sum())
 
     def scale_error(self, deviation: float) -> float:
-        """The standard deviation of the scale where every end has that `deviation` (mm) in each direction."""
+        """Return the standard deviation of the scale if every end has that `deviation` (mm) in each direction."""
         return float(deviation / np.sqrt(self.off_centre)) if self.off_centre > 0 else np.inf
 
 
 def fits(shape: PlanShape, lines: Lines, scales: Sequence[float] = ()) -> list[Fit]:
-    """All places where a plan fits some of the lines, at any scale or at about those given; each once."""
+    """Return all placements in which a plan fits some of the lines, at any scale or near the given ones, each once."""
     tried = [_by_corners(shape, lines)] if not scales else [_by_vectors(shape, lines, scale) for scale in scales]
     scale, shift = (np.concatenate(part) for part in zip(*tried, strict=True))
     if not len(scale):
@@ -137,7 +139,7 @@ def fits(shape: PlanShape, lines: Lines, scales: Sequence[float] = ()) -> list[F
 
 
 def _by_corners(shape: PlanShape, lines: Lines) -> tuple[np.ndarray, np.ndarray]:
-    """Scales and shifts of a plan by all two lines that meet as two of its vectors do."""
+    """Return scales and shifts of a plan from all pairs of lines that meet as two of its vectors do."""
     angle, at, along, beside = lines.pairs
     scales, shifts = [np.zeros(0)], [np.zeros(0, dtype=complex)]
     off = 2 * lines.reach
@@ -157,7 +159,9 @@ def _by_corners(shape: PlanShape, lines: Lines) -> tuple[np.ndarray, np.ndarray]
 
 
 def _meeting(shape: PlanShape) -> Iterator[tuple[complex, complex, complex]]:
-    """Each corner at which two vectors meet, and both from there, the longer one first; those along one line too."""
+    """Yield each corner at which two vectors meet, and both vectors from it, the longer one first, also if
+    collinear.
+    """
     touching: dict[int, list[complex]] = {}
     for vector in shape.vectors:
         start, end = complex(shape.corners[vector.start]), complex(shape.corners[vector.end])
@@ -172,7 +176,7 @@ def _meeting(shape: PlanShape) -> Iterator[tuple[complex, complex, complex]]:
 
 
 def _window(angle: np.ndarray, middle: float, turn: float) -> Iterator[tuple[int, int]]:
-    """The ranges of sorted angles within ±`turn` of one, around the circle."""
+    """Yield the ranges of sorted angles within ±`turn` of one, around the circle."""
     for whole in (-2 * np.pi, 0.0, 2 * np.pi):
         low, high = np.searchsorted(angle, (middle - turn + whole, middle + turn + whole))
         if high > low:
@@ -180,7 +184,9 @@ def _window(angle: np.ndarray, middle: float, turn: float) -> Iterator[tuple[int
 
 
 def _by_vectors(shape: PlanShape, lines: Lines, scale: float) -> tuple[np.ndarray, np.ndarray]:
-    """Shifts of a plan of known scale by every line that is as long as one of its vectors, and of its direction."""
+    """Return shifts of a plan of known scale from every line with the length and the direction of one of its
+    vectors.
+    """
     starts, ways = shape.starts, scale * (shape.ends - shape.starts)
     shifts = []
     for sense, start in ((1, lines.ends[:, 0]), (-1, lines.ends[:, 1])):
@@ -192,9 +198,9 @@ def _by_vectors(shape: PlanShape, lines: Lines, scale: float) -> tuple[np.ndarra
 
 
 def fitted(shape: PlanShape, lines: Lines, scale: float, shift: complex, deviation: float | None = None) -> Fit | None:
-    """The best fit of a plan about a first guess of scale and shift; None where less than two of its vectors lie there.
+    """Return the best fit of a plan near a first guess of scale and shift; None if fewer than two vectors have lines.
 
-    `deviation` is that of an end in each direction (mm); without it that of ends spread evenly over their errors.
+    `deviation` is that of an end in each direction (mm); by default, that of evenly spread errors.
     """
     starts, ends = shape.starts, shape.ends
     sigma = lines.error / np.sqrt(3) if deviation is None else deviation
@@ -207,7 +213,7 @@ def fitted(shape: PlanShape, lines: Lines, scale: float, shift: complex, deviati
     for turn in range(ROUNDS):
         a, b = scale * starts + shift, scale * ends + shift
         farthest, turned, squares = off_place(some, a, b)
-        # What is shorter than two ends may lie off has no direction.
+        # A vector shorter than the errors of its two ends has no direction.
         fits_there = (farthest <= reach[:, None]) & (np.abs(b - a) > 2 * REACH * sigma)[:, None]
         line = _with_own_pieces(np.where(fits_there, squares, np.inf), lines, near_by)
         seen = line >= 0
@@ -243,8 +249,11 @@ def fitted(shape: PlanShape, lines: Lines, scale: float, shift: complex, deviati
 
 
 def off_place(some: np.ndarray, a: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Of vectors from a to b [E] and some lines [M, 2]: how far off the farther end lies (mm) [E, M], whether the line
-    is turned round, and the sum of both squares (mm²)."""
+    """Return the distances of some lines [M, 2] from vectors from a to b [E].
+
+    These are the distance of the farther end (mm) [E, M], True if the line is reversed, and the sum of both squares
+    (mm²).
+    """
     starts, ends = [np.abs(some[:, n] - a[:, None]) for n in (0, 1)], [np.abs(some[:, n] - b[:, None]) for n in (0, 1)]
     straight, opposite = np.maximum(starts[0], ends[1]), np.maximum(starts[1], ends[0])
     turned = opposite < straight
@@ -253,7 +262,7 @@ def off_place(some: np.ndarray, a: np.ndarray, b: np.ndarray) -> tuple[np.ndarra
 
 
 def _with_own_pieces(squares: np.ndarray, lines: Lines, some: np.ndarray) -> np.ndarray:
-    """Return the line of each vector [E] as `_each_its_own`; pieces that are vectors themselves make no further one.
+    """Return the line of each vector [E] like `_each_its_own`; pieces that are vectors themselves do not form a run.
 
     `some` [M] are the numbers of the lines.
     """
@@ -267,7 +276,7 @@ def _with_own_pieces(squares: np.ndarray, lines: Lines, some: np.ndarray) -> np.
         twice = [n for n, own in pieces.items() if len(own) > 1 and any(used[piece] > 1 for piece in own)]
         if not twice:
             return line
-        # Where a piece is left over, the pieces are those of the whole line.
+        # If a piece remains unused, the pieces belong to the whole line.
         whole = next((n for n in twice if any(used[piece] == 1 for piece in pieces[n])), None)
         gone = twice if whole is None else [n for n in chosen if n != whole and pieces[n] & pieces[whole]]
         squares[:, gone] = np.inf
@@ -275,9 +284,9 @@ def _with_own_pieces(squares: np.ndarray, lines: Lines, some: np.ndarray) -> np.
 
 
 def _each_its_own(squares: np.ndarray) -> np.ndarray:
-    """The line of each vector [E], −1 without one, from how badly they fit [E, M]: the best first, no line twice.
+    """Return the line of each vector [E], −1 for none, from the misfits [E, M]: the best first, no line twice.
 
-    A vector that is left without a line may have that of another: both are one line on paper where nothing else is.
+    A vector left without a line may share that of another: both are one line on paper if there is no other.
     """
     best = np.where(np.isfinite(squares.min(axis=1)), squares.argmin(axis=1), -1)
     kept = best[best >= 0]
@@ -294,15 +303,15 @@ def _each_its_own(squares: np.ndarray) -> np.ndarray:
 
 
 def _ends_of(some: np.ndarray, turned: np.ndarray) -> np.ndarray:
-    """The ends [2 K] of lines [K, 2], first those where their vectors start."""
+    """Return the ends [2 K] of lines [K, 2], first those where their vectors start."""
     return np.concatenate((np.where(turned, some[:, 1], some[:, 0]), np.where(turned, some[:, 0], some[:, 1])))
 
 
 def _reach(shape: PlanShape, fitted_to: np.ndarray, sigma: float) -> np.ndarray:
-    """How far from their places (mm) [E] the ends of each vector may lie: an end's own error and three of the fit's.
+    """Return the largest distance (mm) of the ends of each vector from their places [E].
 
-    Evenly spread errors reach to √3 deviations in each direction; the fit's own deviation is σ √h, with the leverage
-    h = 1/n + |z − z̄|²/Σ|z − z̄|².
+    It is an end's own error plus three deviations of the fit. Evenly spread errors reach to √3 deviations in each
+    direction. The fit's own deviation is σ √h, with the leverage h = 1/n + |z − z̄|²/Σ|z − z̄|².
     """
     middle = fitted_to.mean()
     spread = float((np.abs(fitted_to - middle) ** 2).sum())
@@ -313,16 +322,16 @@ def _reach(shape: PlanShape, fitted_to: np.ndarray, sigma: float) -> np.ndarray:
 
 
 Beside = Callable[[int, int], bool]
-"""Whether the name of a vector, by its number, stands beside a line, by its number."""
+"""Returns True if the name of a vector, by its number, is written beside a line, by its number."""
 
 
 def named(fit: Fit, lines: Lines, deviation: float, odds: float, beside: Beside) -> np.ndarray:
-    """Whether it is beyond doubt, for each vector [E] of a fit, that its line is its and no other vector's.
+    """Return a mask [E] of the vectors of a fit whose line certainly belongs to them and to no other vector.
 
-    A fragment of a longer line is the vector's only if the plan has vectors for all pieces of that one.  `odds`
-    (logarithm) is what must speak against every other line at its place, and against every other vector at that
-    of its line; a name beside it, that does not stand beside the other, says it as well.  Vectors whose
-    ends are no farther apart than a drawn point may be off are one line on paper, which is both.
+    A fragment of a longer line belongs to the vector only if the plan has vectors for all pieces of that line. `odds`
+    (logarithm) is required against every other line at its place, and against every other vector at the place of its
+    line. A name written beside this line and not beside the other is enough too. Vectors whose ends are closer than the
+    error of a drawn point are one line on paper, which is both.
     """
     a, b = fit.at(fit.shape.starts), fit.at(fit.shape.ends)
     near = _around(lines, fit.at(fit.shape.corners))
@@ -342,7 +351,7 @@ def named(fit: Fit, lines: Lines, deviation: float, odds: float, beside: Beside)
         for j in np.flatnonzero(fits_there[:, column]):
             if j == i or _off_place_of(a, b, i, int(j)) < lines.error:
                 continue
-            # A name says little of a line that two vectors have.
+            # A name is weak evidence for a line that two vectors share.
             alone = own.get(int(j)) != column
             if alone and beside(i, int(fit.lines[i])) and not beside(int(j), int(fit.lines[i])):
                 continue
@@ -355,13 +364,13 @@ def named(fit: Fit, lines: Lines, deviation: float, odds: float, beside: Beside)
 
 
 def _off_place_of(a: np.ndarray, b: np.ndarray, first: int, second: int) -> float:
-    """How far the ends of two vectors lie apart at most (mm), whichever way round."""
+    """Return the largest distance (mm) between the ends of two vectors, in the better orientation."""
     straight = max(abs(a[first] - a[second]), abs(b[first] - b[second]))
     return float(min(straight, max(abs(a[first] - b[second]), abs(b[first] - a[second]))))
 
 
 def _around(lines: Lines, places: np.ndarray) -> np.ndarray:
-    """The numbers of the lines that lie wholly about some places."""
+    """Return the numbers of the lines that lie entirely around some places."""
     room = lines.cell
     low = complex(places.real.min() - room, places.imag.min() - room)
     high = complex(places.real.max() + room, places.imag.max() + room)

@@ -1,6 +1,6 @@
-"""What is written beside plans: the position of one, the letters of its corners, the names of its vectors.
+"""Labels beside plans: the position of a plan, the letters of its corners, the names of its vectors.
 
-Letters are welcome and never needed; they speak for a plan that its shape leaves in doubt.
+Labels are optional; they support a plan that its shape leaves in doubt.
 """
 
 from __future__ import annotations
@@ -18,33 +18,33 @@ from reportgen.handin.plan_fit import Fit
 from reportgen.handin.plan_shapes import PlanShape
 
 LETTER = float(np.log(20.0))
-"""What a letter at its place says: of twenty that may stand there it is the one."""
+"""Evidence of a letter at its place: it is one of twenty possible letters."""
 TITLE = float(np.log(1e5))
-"""What a position that is written beside a plan says."""
+"""Evidence of a position written beside a plan."""
 BESIDE = 3.0
-"""So many heights of its letters a text stands from what it names at most."""
+"""Largest distance, in heights of its letters, between a text and what it names."""
 ROOM = 30.0
-"""The position of a plan is written at most so far from it (mm)."""
+"""Largest distance (mm) of the position's label from its plan."""
 
 _DROPPED = re.compile(r"[\s_^{}()′'’`,.\-]")
 _SAME = str.maketrans({"τ": "t", "đ": "d", "Đ": "D"})
 
 
 def plain(text: str) -> str:
-    """A text without accents, primes and what raises or lowers."""
+    """Return a text without accents, primes and marks of indices or exponents."""
     letters = unicodedata.normalize("NFKD", text.translate(_SAME))
     return _DROPPED.sub("", "".join(one for one in letters if not unicodedata.combining(one)))
 
 
 def spoken(text: str) -> str:
-    """A text in small letters without accents."""
+    """Return a text in lower case without accents."""
     letters = unicodedata.normalize("NFKD", text.translate(_SAME)).casefold()
     return "".join(one for one in letters if not unicodedata.combining(one))
 
 
 @dataclass(frozen=True)
 class Labels:
-    """The texts of a drawing, in mm; `words` are those for “position” and `labels` what positions are called."""
+    """The texts of a drawing, in mm; `words` are those for “position” and `labels` the positions by label."""
 
     texts: tuple[DrawnText, ...]
     words: frozenset[str] = frozenset()
@@ -52,7 +52,7 @@ class Labels:
 
     @cached_property
     def places(self) -> np.ndarray:
-        """The middle of each text [T]: letters are about as wide as two thirds of their height."""
+        """The middle of each text [T]; a letter is about two thirds of its height wide."""
         return np.array([one.at + one.height * complex(len(one.text) / 3, 0.5) for one in self.texts], dtype=complex)
 
     @cached_property
@@ -61,7 +61,7 @@ class Labels:
 
     @cached_property
     def by_text(self) -> Mapping[str, np.ndarray]:
-        """The numbers of the texts by what they say."""
+        """The numbers of the texts by their content."""
         said: dict[str, list[int]] = {}
         for number, text in enumerate(self.texts):
             said.setdefault(plain(text.text), []).append(number)
@@ -84,7 +84,7 @@ class Labels:
         return titles
 
     def beside(self, names: Sequence[str], start: complex, end: complex) -> bool:
-        """Whether one of some names stands beside a line, or beside a point where both ends are one."""
+        """Return True if one of some names is written beside a line, or beside a point if both ends are the same."""
         for name in names:
             for number in self.by_text.get(name, ()):
                 along, to = end - start, self.places[number] - start
@@ -94,7 +94,7 @@ class Labels:
         return False
 
     def speak_for(self, fit: Fit) -> float:
-        """What the letters at corners and vectors say for a fit (logarithm of odds)."""
+        """Return the evidence of the letters at corners and vectors for a fit (logarithm of odds)."""
         if not len(self.texts):
             return 0.0
         shape = fit.shape
@@ -107,9 +107,9 @@ class Labels:
         return LETTER * count
 
     def owned(self, fits: Sequence[Fit], ends: np.ndarray) -> dict[int, set[int]]:
-        """The positions that are written beside the lines of each fit, by the number of the fit.
+        """Return the positions written beside the lines of each fit, by the number of the fit.
 
-        A title belongs to what it is nearest to, and to all fits that share lines with that.
+        A title belongs to the nearest fit, and to all fits that share lines with it.
         """
         boxes = [_box(ends[list(fit.explained)]) for fit in fits]
         owned: dict[int, set[int]] = {}
@@ -125,12 +125,12 @@ class Labels:
 
 
 def letters_of(shape: PlanShape, corner: int) -> list[str]:
-    """What may stand at a corner."""
+    """Return the possible labels of a corner."""
     return [plain(letter) for letter in shape.letters[corner]]
 
 
 def names_of(shape: PlanShape, number: int) -> list[str]:
-    """What may stand beside a vector: its symbol, or the letters of its ends."""
+    """Return the possible labels of a vector: its symbol, or the letters of its ends."""
     vector = shape.vectors[number]
     starts, ends = letters_of(shape, vector.start), letters_of(shape, vector.end)
     return [*(plain(name) for name in vector.names), *(a + b for a in starts for b in ends)]

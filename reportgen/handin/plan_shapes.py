@@ -1,4 +1,4 @@
-"""The plans of velocities, accelerations and forces as shapes to be looked for in a drawing: corners and vectors.
+"""Velocity, acceleration and force plans as shapes to search for in a drawing: corners and vectors.
 
 The corners are those of the report's figures, from the key's values or from a student's own.
 """
@@ -19,16 +19,16 @@ from reportgen.report.plans import POLE, force_construction, motion_construction
 from reportgen.report.report import Report
 
 NOTHING = 0.01
-"""What is shorter (mm) is a point on any paper."""
+"""Length (mm) below which a vector is a point on any paper."""
 PAIR = 2
 _PARTS = {"n": "n", "τ": "t", "k": "k", "r": "r"}
 
 
 @dataclass(frozen=True, slots=True)
 class ShapeVector:
-    """A vector of a plan between two of its corners, by the ids of its length and, if it has one, of its direction.
+    """A vector of a plan between two of its corners, with the ids of its length and, if it has one, its direction.
 
-    One that is not `drawn` in the report, as the whole relative acceleration, may be drawn or not.
+    A vector that is not `drawn` in the report, such as the whole relative acceleration, is optional.
     """
 
     length: str
@@ -43,7 +43,7 @@ class ShapeVector:
 class PlanShape:
     """A plan at a position: corners [n] (mm at the report's scale) and vectors, none of which is a point.
 
-    `scale` is the id of μ, `unit` what a millimetre stands for (SI); `letters` are those of its corners.
+    `scale` is the id of μ, `unit` the value of a millimetre (SI); `letters` are those of its corners.
     """
 
     scale: str
@@ -55,24 +55,24 @@ class PlanShape:
 
     @property
     def is_of_motion(self) -> bool:
-        """Whether it is a plan of velocities or accelerations, which have one scale at all positions."""
+        """True for a velocity or acceleration plan, which has one scale at all positions."""
         names = ids.scale.read(self.scale)
         return names is not None and names["plan"] in ("v", "a")
 
     @property
     def starts(self) -> np.ndarray:
-        """Where its vectors begin [E]."""
+        """The starts of its vectors [E]."""
         return self.corners[[vector.start for vector in self.vectors]]
 
     @property
     def ends(self) -> np.ndarray:
-        """Where they end [E]."""
+        """The ends of its vectors [E]."""
         return self.corners[[vector.end for vector in self.vectors]]
 
 
 @dataclass(frozen=True, slots=True)
 class SketchedVector:
-    """A vector of a plan between two corners, by their ids; otherwise as a `ShapeVector`."""
+    """A vector of a plan between two corners, by their ids; otherwise like a `ShapeVector`."""
 
     length: str
     direction: str
@@ -84,7 +84,7 @@ class SketchedVector:
 
 @dataclass(frozen=True)
 class PlanSketch:
-    """A plan whatever its values are, at the first `count` positions."""
+    """A plan independent of its values, at the first `count` positions."""
 
     scale: str
     count: int
@@ -92,7 +92,7 @@ class PlanSketch:
     letters: Mapping[str, tuple[str, ...]]
 
     def shapes(self, values: Values) -> Iterator[PlanShape]:
-        """The plan at each position from values by their ids."""
+        """Yield the plan at each position, from values by their ids."""
         ends = dict.fromkeys(corner for vector in self.vectors for corner in (vector.start, vector.end))
         index = {id: number for number, id in enumerate(ends)}
         places = MM * np.array([self._over(np.zeros(1) if id == POLE else values[id]) for id in ends])
@@ -108,12 +108,12 @@ class PlanSketch:
                 yield PlanShape(self.scale, k + 1, float(units[k]), at, vectors, letters)
 
     def _over(self, values: np.ndarray) -> np.ndarray:
-        """Values at the positions [count]."""
+        """Return values at the positions [count]."""
         return np.broadcast_to(values, (self.count,)) if values.size == 1 else values[: self.count]
 
 
 def sketches(case: Case) -> tuple[PlanSketch, ...]:
-    """The plans of a machine: of velocities, of accelerations, of the forces of each group and of the driver."""
+    """Return the plans of a machine: velocities, accelerations, and the forces of each dyad and of the driver."""
     if not isinstance(case, MachineAnalysis):
         return ()
     report = Report(case)
@@ -122,7 +122,7 @@ def sketches(case: Case) -> tuple[PlanSketch, ...]:
 
 
 def _of_motion(report: Report, what: What, count: int) -> PlanSketch:
-    """The plan of velocities or accelerations of one turn, with the lengths that it has besides its vectors."""
+    """Return the velocity or acceleration plan of one turn, including lengths that are not among its vectors."""
     ledger, construction = report.ledger, motion_construction(report, what)
     corners = {corner: corner.rpartition(".")[2] for corner in construction.corners if corner != POLE}
     named = {ids.POLE: POLE} | {letter: corner for corner, letter in corners.items()}
@@ -147,7 +147,7 @@ def _of_motion(report: Report, what: What, count: int) -> PlanSketch:
 
 
 def _of_forces(report: Report, number: int, count: int) -> PlanSketch:
-    """The force plan of a group or of the driver, by its number, through the cycle."""
+    """Return the force plan of a dyad or of the driver, by its number, over the cycle."""
     polygon = report.case.polygons[number]
     ledger, construction = report.ledger, force_construction(report, polygon)
     vectors = []
@@ -160,7 +160,7 @@ def _of_forces(report: Report, number: int, count: int) -> PlanSketch:
 
 
 def _letters(points: Iterable[tuple[str, object]]) -> dict[str, tuple[str, ...]]:
-    """The letters at each corner."""
+    """Return the letters at each corner."""
     letters: dict[str, tuple[str, ...]] = {}
     for corner, label in points:
         letters[corner] = (*letters.get(corner, ()), *_plain(label))
@@ -168,7 +168,7 @@ def _letters(points: Iterable[tuple[str, object]]) -> dict[str, tuple[str, ...]]
 
 
 def _plain(label: object) -> tuple[str, ...]:
-    """A symbol as a drawing has it, without what raises, lowers or marks a vector."""
+    """Return a symbol as a drawing has it, without marks of indices, exponents or vectors."""
     if not isinstance(label, Symbol):
         return ()
     return tuple(dict.fromkeys((f"{label.base}{label.sup}{label.sub}", f"{label.base}{label.sub}{label.sup}")))

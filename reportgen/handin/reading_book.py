@@ -1,7 +1,7 @@
-"""What was read of a student's files as an answer sheet, to be completed by hand where something was not.
+"""Prefilled answer sheet with the values read from a student's files, to be completed by hand.
 
-A cell holds what was read; “?” where something stands in the file that was not.  What the sheet held at first is
-written into it as a fingerprint, so that one that nobody has changed is told from one that somebody has.
+A cell has the value that was read, or “?” if the file has an entry that could not be read. A fingerprint of the
+original content is stored in the sheet, so that an edited sheet can be recognised.
 """
 
 from __future__ import annotations
@@ -29,12 +29,12 @@ from reportgen.workbook import Book, BookSheet, Entry, write_xlsx
 
 NAME = "reading.xlsx"
 _SHORT = 16
-"""Characters of a fingerprint."""
+"""Number of characters of a fingerprint."""
 _WIDTHS = (12.0, 12.0, 12.0, 18.0, 90.0)
 
 
 def fingerprint(submission: Submission) -> str:
-    """What all cells of a reading hold, in short."""
+    """Return a short hash of all cells of a prefilled sheet."""
     cells = [f"{id} {k} {answer.value:.10g}" for (id, k), answer in submission.values.items()]
     cells += [f"{id} {k} {UNSETTLED}" for id, k in submission.unread]
     cells += [f"{id} {k} !" for id, k in submission.problems]
@@ -42,12 +42,12 @@ def fingerprint(submission: Submission) -> str:
 
 
 def is_unchanged(submission: Submission) -> bool:
-    """Whether a sheet is a reading as it was written: it says nothing that its file does not say."""
+    """Return True if a prefilled sheet has not been changed since it was written."""
     return submission.fingerprint == fingerprint(submission)
 
 
 def reading_book(key: Key, submission: Submission) -> bytes:
-    """The answer sheet filled with what was read; what was not is on a page of its own, with place and reason."""
+    """Return the prefilled answer sheet; a separate page lists the unread entries with location and reason."""
     words = words_of(key)["answer_sheet"]
     empty = answer_book(key)
     pages = [_page(part, name, submission) for name, part in named_pages(key, words["answers"])]
@@ -75,7 +75,7 @@ def _page(key: Key, name: str, submission: Submission) -> BookSheet:
 
 
 def _unread_page(key: Key, submission: Submission) -> BookSheet:
-    """What was not read: quantity, position, where it stands, and why."""
+    """Return the page of unread entries: quantity, position, location and reason."""
     words = words_of(key)["answer_sheet"]
     heads = (words["id"], words["symbol"], words["position"].format(label="").strip(), words["where"], words["text"])
     rows = [tuple(Entry(head, "head") for head in heads), *_unread_rows(key, submission)]

@@ -1,6 +1,6 @@
-"""Patterns of the words by which a report is understood, those of all languages together.
+"""Patterns of the words that are recognised in a report, for all languages together.
 
-A student may write in another language than the assignment's, and reports mix languages.  The words stand in
+A student may write in another language than the assignment's, and reports mix languages. The words are in
 `language.yaml` of each language, under `reading`.
 """
 
@@ -13,7 +13,7 @@ from operator import attrgetter
 from reportgen.base.languages import ReadingWords, languages, setting_of
 
 HAN = "\u3400-\u9fff"
-"""Letters of a language that sets no blanks between words: a symbol may stand right behind one."""
+"""Letters of a language without blanks between words: a symbol may follow one directly."""
 _LABEL = "([0-9]{1,3}[a-z]?′*)"
 """The label of a position."""
 
@@ -22,7 +22,7 @@ _LABEL = "([0-9]{1,3}[a-z]?′*)"
 def any_of(*names: str, whole: bool = True) -> str:
     """Return a pattern for any of the words that `ReadingWords` has under some names.
 
-    `whole` words begin and end where words do, in languages that have blanks between them.
+    With `whole`, words must match at word boundaries, in languages that have blanks between them.
     """
     read = attrgetter(*names)
     found: dict[str, None] = {}
@@ -36,7 +36,7 @@ def any_of(*names: str, whole: bool = True) -> str:
 
 @cache
 def labelled_position() -> re.Pattern[str]:
-    """Return a pattern of a position with its label, in one of the groups: “position 3”, “第3个位置”."""
+    """Return a pattern of a position with its label in one of the groups: “position 3”, “第3个位置”."""
     named = rf"{any_of('position')}[\s(]*{any_of('number', whole=False)}?[\s:(]*{_LABEL}"
     within = [
         re.escape(before) + r"\s*" + _LABEL + r"\s*" + _pattern(behind, False)
@@ -48,12 +48,12 @@ def labelled_position() -> re.Pattern[str]:
 
 
 def label_of(match: re.Match[str]) -> str:
-    """Return the label that a match of a position has."""
+    """Return the label in a match of a position."""
     return next(group for group in match.groups() if group)
 
 
 def _pattern(word: str, whole: bool) -> str:
-    """Return the pattern of one word, a blank in it being any or none."""
+    """Return the pattern of one word; a blank in it matches any number of blanks."""
     body = r"\s*".join(r"\w*".join(map(re.escape, piece.split("*"))) for piece in word.split(" "))
     begins, ends = whole and word[0].isalnum(), whole and word[-1].isalnum()
     return (rf"(?<![^\W\d_{HAN}])" if begins else "") + body + (rf"(?![^\W\d_{HAN}])" if ends else "")

@@ -1,7 +1,7 @@
-"""A drawing given back: the same file with a layer more, on which the right vectors stand in red with a line of text.
+"""Write corrections into a DXF drawing: a new layer with the right vectors in red and lines of text.
 
-The new lines are put into the file's text, so that every byte of the student's stays as it is; only the number from
-which the file counts its next objects grows.
+The new lines are inserted into the file's text, so that every byte of the student's stays as it is. Only the number
+from which the file counts its next objects increases.
 """
 
 from __future__ import annotations
@@ -19,9 +19,9 @@ from reportgen.workbook.package import RefusedError
 LAYER = "CORRECTIONS"
 RED = 1
 FONT = "arial.ttf"
-"""It has all letters of Vietnamese, which the letters of strokes that CAD programs begin with have not."""
+"""A font with all Vietnamese letters, which the default stroke fonts of CAD programs lack."""
 HEIGHT, LINE, HEAD = 3.5, 5.5, 4.0
-"""The height of letters, the distance of their lines, the length of an arrowhead (mm)."""
+"""The height of letters, the distance of lines of text, and the length of an arrowhead (mm)."""
 SLIM = math.radians(10.0)
 """The angle of a stroke of an arrowhead with its line."""
 MODEL = b"*MODEL_SPACE"
@@ -29,27 +29,27 @@ MODEL = b"*MODEL_SPACE"
 _HANDLES = frozenset({5, 105})
 _OLD = b"AC1009"
 _LINKS = frozenset({102, 330, 360, 1000, 1001, 1002, 1003, 1005, 1070, 1071, 1040})
-"""What a copy of a layer has no share in: what hangs on the first one."""
+"""Codes that a copy of a layer omits, because they link to other objects."""
 
 
 @dataclass(frozen=True, slots=True)
 class RedVector:
-    """The right vector from where the student's begins (drawing units), and the lines of text at its middle.
+    """The right vector from the start of the student's (drawing units), and the lines of text at its middle.
 
-    Without an end only the text stands there.
+    Without an end, only the text is written.
     """
 
     start: complex
     end: complex | None
     lines: tuple[str, ...]
     space: bytes = b""
-    """The block of the sheet of paper that it goes onto, "" for model space."""
+    """Block of the paper sheet that it is written to, "" for model space."""
 
 
 def with_corrections(data: bytes, vectors: Sequence[RedVector], millimetre: float) -> bytes:
-    """The drawing with the vectors on their layer; `millimetre` is how long one is in its units.
+    """Return the drawing with the vectors on their layer; `millimetre` is the length of one in its units.
 
-    Raises `RefusedError` for a file that is damaged.
+    Raises `RefusedError` if the file is damaged.
     """
     file = _Layout.of(data)
     writer = _Writer(file, b"\r\n" if b"\r\n" in data[:200] else b"\n", millimetre)
@@ -69,7 +69,7 @@ def with_corrections(data: bytes, vectors: Sequence[RedVector], millimetre: floa
 
 @dataclass
 class _Table:
-    """The table of layers or of text styles: its record of a name that every file has, where it ends."""
+    """The table of layers or of text styles: its record that every file has, and its end."""
 
     name: bytes
     first: bytes
@@ -81,13 +81,13 @@ class _Table:
 
 @dataclass
 class _Layout:
-    """Where in a file new lines go: bytes of its text, and what new objects hang on."""
+    """The positions in a file where new lines are inserted, and the objects that new ones refer to."""
 
     old: bool = True
     encoding: str = "cp1252"
     entities_end: int = -1
     ends: dict[bytes, int] = field(default_factory=dict)
-    """Where the blocks of sheets of paper end that are not the one in use, whose lines stand among the entities."""
+    """Ends of the blocks of inactive paper sheets; the active sheet's lines are among the entities."""
     owners: dict[bytes, bytes] = field(default_factory=dict)
     """The handles of model space, "", and of the sheets."""
     greatest: int = 0
@@ -111,7 +111,7 @@ _RECORDS = {b"LAYER": b"0", b"STYLE": b"STANDARD"}
 
 @dataclass
 class _Layouting:
-    """Goes through a file once, pair by pair."""
+    """Reads a file once, pair by pair."""
 
     layout: _Layout
     header: dict[bytes, bytes] = field(default_factory=dict)
@@ -156,7 +156,7 @@ class _Layouting:
             self.block = value.upper()
 
     def finish(self, offset: int) -> None:
-        """What an object of the tables that ends here says."""
+        """Store the data of a table object that ends here."""
         names = dict(reversed(self.tags))
         if self.kind == b"TABLE" and (name := names.get(2, b"")) in _RECORDS:
             self.table = _Table(name, _RECORDS[name], owner=names.get(5, b""))
@@ -185,13 +185,13 @@ class _Writer:
     millimetre: float
     handle: int = 0
     space: bytes = b""
-    """Where the vector goes that is being written."""
+    """Space of the vector that is being written."""
 
     def __post_init__(self) -> None:
         self.handle = self.layout.greatest + 1
 
     def vector(self, vector: RedVector) -> Iterator[bytes]:
-        """The lines of a vector with its arrowhead, and its texts beside its middle."""
+        """Yield the lines of a vector with its arrowhead, and its texts beside its middle."""
         self.space = vector.space
         if vector.end is not None and vector.end != vector.start:
             yield self.line(vector.start, vector.end)
@@ -218,7 +218,7 @@ class _Writer:
         return self.entity("TEXT", [("AcDbText", [*place, *style]), ("AcDbText", [])])
 
     def said(self, text: str) -> str:
-        """A text as the file has it: before R2007 letters that its code page has not are given by their numbers."""
+        """Return a text as the file encodes it: before R2007, other letters than ASCII are escaped by their numbers."""
         plain = text.replace("\n", " ").replace("%%", "% %")
         if self.layout.encoding == "utf-8":
             return plain
@@ -240,7 +240,7 @@ class _Writer:
         return self.pairs(tags)
 
     def record(self, table: _Table) -> bytes:
-        """The layer, or the style of its texts, as a copy of the one that every file has."""
+        """Return the layer, or its text style, as a copy of the record that every file has."""
         changed: dict[int, object] = {2: LAYER}
         changed |= {62: RED, 70: 0} if table.name == b"LAYER" else {3: FONT, 4: "", 70: 0, 40: "0.0"}
         tags: list[tuple[int, object]] = [(0, table.name)]

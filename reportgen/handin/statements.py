@@ -1,8 +1,8 @@
-"""Statements of a running text: a symbol, “=”, and what it comes to, with the position that it holds for.
+"""Statements of a running text: a symbol, “=”, its value, and the position that it applies to.
 
-A statement begins at a symbol before “=” where no operator stands in front, and goes on over “⇒”, commas and
-paragraphs that begin with “=”.  Its value is the number behind its last “=”.  The key decides which symbols there are,
-never what a number is.
+A statement begins at a symbol before “=” that no operator precedes. It continues over “⇒”, commas and paragraphs that
+begin with “=”. Its value is the number after its last “=”. The key determines which symbols exist, never what a number
+means.
 """
 
 from __future__ import annotations
@@ -26,23 +26,23 @@ _COMPARED = re.compile(any_of("compared"), re.IGNORECASE)
 SAYS_POSITION = re.compile(any_of("position", "dead_centre"), re.IGNORECASE)
 _THIS = re.compile(any_of("this_position"), re.IGNORECASE)
 _SUPPOSED = re.compile(any_of("supposed", "extreme"), re.IGNORECASE)
-"""Words before a symbol: what is tried, or is of no position, as a greatest value."""
+"""Words before a symbol of an assumed value, or of one without a position, such as a maximum."""
 _WITHDRAWN = re.compile(any_of("withdrawn", "extreme"), re.IGNORECASE)
-"""Words behind a number that take it back, or leave another one open."""
+"""Words after a number that withdraw it, or leave another one open."""
 _REASON = re.compile(rf"\(\s*{any_of('reason')}[^()]*\)", re.IGNORECASE)
 CLOCKWISE = re.compile(f"{any_of('clockwise')}|↻", re.IGNORECASE)
 ANTICLOCKWISE = re.compile(f"{any_of('anticlockwise')}|↺", re.IGNORECASE)
 
 BEHIND = 80
-"""Characters in front of a symbol that tell whether a statement begins at it."""
+"""Number of characters before a symbol that decide if a statement begins at it."""
 _LETTERS = rf"(?:[^\W_{HAN}]|′)"
 _SYMBOL = (
     rf"[^\W\d_{HAN}]{_LETTERS}{{0,24}}+"
     rf"(?:[_^]\{{(?:[^{{}}]{{1,24}}+|\{{[^{{}}]{{0,24}}\}}){{0,4}}+\}}|\^\([^()\s]{{1,3}}\)|[_^]{_LETTERS}{{1,24}}+){{0,4}}+′{{0,3}}"
 )
-"""No symbol is longer, so that a line is looked through once."""
+"""The length of a symbol is limited, so that a line is scanned only once."""
 _APART_FROM = rf"(?<![^\W{HAN}])(?<![′_^{{}}])"
-"""No letter of another symbol stands in front."""
+"""No letter of another symbol precedes."""
 _HEAD = re.compile(
     rf"{_APART_FROM}(\|\s*)?({_SYMBOL})(\s*\|)?\s*(\([0-9]{{1,3}}[a-z]?′*\))?\s*(?:[\[(]\s*({UNIT})\s*[\])])?\s*(?=[=≈])"
 )
@@ -51,7 +51,7 @@ _FUNCTION = re.compile(
     r"(?<![^\W\d_])(?:sin|cos|tan|tg|cot|cotg|arcsin|arccos|arctan|arctg|log|ln|exp)\s*$", re.IGNORECASE
 )
 _LOOSE_NUMBER = re.compile(r"(?:[\d})²³]|(?<![^\W\d_])[^\W\d_])$")
-"""A number or a letter alone, which may be a factor of the symbol behind it."""
+"""A number or a letter alone, which may be a factor of the following symbol."""
 _COLON = re.compile(rf"{_APART_FROM}({_SYMBOL}(?:\(\d\))?)\s*(?::|{any_of('equals')})\s*({NUMBER})(?![\w′]*\s*[=≈])")
 _SEPARATORS = frozenset(".,;:⇒→<>≤≥!?")
 _BULLET = re.compile(r"\s*(?:[-–+•*▪►✓]|\(?\w{1,3}[.)]|\(?\d{1,2}(?:\.\d{1,2})*[.)])\s+")
@@ -66,21 +66,21 @@ _TAIL = re.compile(
 )
 _LISTED = re.compile(r"\s*[;→\n]\s*[-+–]?\s*\d")
 _PROSE = re.compile(rf"\s*(?:$|[.,;:(]|[^\W\d_]*[^\x00-\x7f\W\d_][^\W\d_]*\b|{any_of('prose')})", re.IGNORECASE)
-"""How words begin behind a number without a unit that are no unit themselves."""
+"""Beginnings of words after a number without a unit that are not a unit themselves."""
 _NAMES = re.compile(
     r"[^\W\d_](?:[^\W_]|′)*+(?:[_^]\{[^{}]{0,40}\}|_++(?:[^\W_]|′)*+|\^(?:[^\W_]|′)++)*+|[_^]\{[^{}]{0,40}\}"
 )
 _GIVEN = re.compile(rf"\s*{NUMBER}\s*(?:{UNIT}(?![\w/])|[;÷±…]|\s[^\W\d_]{{2,}})")
-"""A number that was meant as a value, whatever stands behind it."""
+"""A number that was meant as a value, whatever follows it."""
 _FUNCTIONS = frozenset({"sin", "cos", "tan", "tg", "cotg", "arctan", "arcsin", "arccos", "arctg", "π", "pi", "x"})
 
 
 @dataclass(frozen=True, slots=True)
 class Statement:
-    """A symbol and all up to the next one.
+    """A symbol and the text up to the next one.
 
-    `lead` stands in front of it, from the end of the clause before it, `front` from the last “=” on; `text` stands
-    behind it, from index `at` on.  `doubt` says that it runs together with another one.
+    `lead` is the text before it from the end of the previous clause, `front` that from the last “=”. `text` is the text
+    after it, from index `at`. `doubt` is True if it runs into another statement.
     """
 
     symbol: str
@@ -91,19 +91,19 @@ class Statement:
     barred: bool = False
     doubt: bool = False
     label: str = ""
-    """Of the position that stands right behind the symbol, v_B(3)."""
+    """Label of the position directly after the symbol, v_B(3)."""
     unit: str = ""
-    """What stands there as well, v_B (m/s)."""
+    """Unit given there, v_B (m/s)."""
 
     @property
     def clauses(self) -> list[str]:
-        """Its text in pieces, of which the first is its own."""
+        """Its text in clauses, of which the first is its own."""
         return _APART.split(self.text)
 
 
 @dataclass(frozen=True, slots=True)
 class StatedValue:
-    """The number of a statement: its text and unit as written, its index in the line, the words behind it."""
+    """The number of a statement: its text and unit as written, its index in the line, the words after it."""
 
     number: str
     unit: str
@@ -124,7 +124,7 @@ class StatedValue:
 
 
 def statements(text: str, symbols: Symbols) -> list[Statement]:
-    """The statements of a line in their order, those of unknown symbols too: they end what stands before them."""
+    """Return the statements of a line in order, including those of unknown symbols, which end the preceding ones."""
     heads: list[tuple[re.Match[str], bool]] = []
     for match in _HEAD.finditer(text):
         kind = _begins(text, match, symbols, heads[-1][0] if heads else None)
@@ -139,7 +139,7 @@ def statements(text: str, symbols: Symbols) -> list[Statement]:
         body = text[match.end() : end]
         barred, symbol, label = bool(match[1] and match[3]), match[2], ""
         if match[4] and symbols.rows_of(symbol + match[4]):
-            # M_cb(1) is one symbol, v_B(3) a value at position 3.
+            # M_cb(1) is one symbol; v_B(3) is a value at position 3.
             symbol += match[4]
         elif match[4]:
             label = match[4].strip("()")
@@ -150,7 +150,7 @@ def statements(text: str, symbols: Symbols) -> list[Statement]:
 
 
 def _begins(text: str, match: re.Match[str], symbols: Symbols, before: re.Match[str] | None) -> str:
-    """`yes` where a statement begins at a symbol, `doubt` where it may stand in another one, "" where it does."""
+    """Return `yes` if a statement begins at a symbol, `doubt` if it may be part of another one, "" if it is."""
     start = match.start()
     front = text[:start]
     if (start <= BEHIND and (not front.strip() or _BULLET.fullmatch(front))) or front.isspace():
@@ -175,14 +175,14 @@ def _begins(text: str, match: re.Match[str], symbols: Symbols, before: re.Match[
 
 
 def value_of(statement: Statement) -> StatedValue | None:
-    """The number behind the last “=” of a statement; None where no number ends it."""
+    """Return the number after the last “=” of a statement; None if it does not end in a number."""
     own = statement.clauses[0]
     relation = list(RELATION.finditer(own))
     if not relation:
         return None
     start = relation[-1].end()
     match = _TAIL.fullmatch(own[start:])
-    # A list of values is none for one position.
+    # A list of values is not a value for one position.
     if match is None or _LISTED.match(statement.text, len(own)):
         return None
     at = statement.at + start + match.start(1)
@@ -190,7 +190,7 @@ def value_of(statement: Statement) -> StatedValue | None:
 
 
 def is_worked(statement: Statement) -> bool:
-    """Whether numbers stand behind the last “=” that no symbol is left among: they were to come to something."""
+    """Return True if the text after the last “=” has numbers and no symbols, so that it should give a value."""
     tail = RELATION.split(statement.clauses[0])[-1]
     if OBJECT in tail or _GIVEN.match(tail):
         return True
@@ -201,37 +201,37 @@ def is_worked(statement: Statement) -> bool:
 
 
 def labels_in(text: str) -> list[str]:
-    """The labels of the positions that a text names."""
+    """Return the labels of the positions that a text names."""
     return list(dict.fromkeys(label_of(match).casefold() for match in POSITION.finditer(text)))
 
 
 def names_several(text: str) -> bool:
-    """Whether a text is of several positions, or only compares with one."""
+    """Return True if a text names several positions."""
     return bool(_SEVERAL.search(text)) or len(labels_in(text)) > 1
 
 
 def begins_with(text: str, label: str | None) -> bool:
-    """Whether a text that names several positions, but no list of them, begins with one: “Position 14 is as 4.”"""
+    """Return True if a text that names several positions, but not as a list, begins with one: “Position 14 is as 4.”"""
     return labels_in(text)[:1] == [label] and not _SEVERAL.search(text)
 
 
 def is_compared(text: str) -> bool:
-    """Whether a text names a position to compare with it."""
+    """Return True if a text names a position only for comparison."""
     return bool(_COMPARED.search(text))
 
 
 def is_supposed(statement: Statement) -> bool:
-    """Whether a statement is none, but what is tried."""
+    """Return True if a statement is only an assumption."""
     return bool(_SUPPOSED.search(statement.front))
 
 
 def names_another(text: str) -> bool:
-    """Whether a text is of a position without saying which, unless it is that in hand."""
+    """Return True if a text mentions a position without a label, other than the current one."""
     return bool(SAYS_POSITION.search(text)) and not labels_in(text) and not _THIS.search(text)
 
 
 def goes_on(text: str) -> bool:
-    """Whether a line goes on with the statement before it."""
+    """Return True if a line continues the statement before it."""
     return bool(re.match(r"\s*[=≈]", text))
 
 
@@ -239,25 +239,25 @@ _CHAPTER = re.compile(any_of("chapter", whole=False), re.IGNORECASE)
 
 
 def names_chapter(text: str) -> bool:
-    """Whether a line in bold is the name of a chapter of the work at one position, and not of another one."""
+    """Return True if a line in bold names a chapter of the work at one position, not another position."""
     return bool(_CHAPTER.search(text))
 
 
 def has_number(statement: Statement) -> bool:
-    """Whether a statement comes to anything that would be its value."""
+    """Return True if a statement has a value, readable or not."""
     return value_of(statement) is not None or is_worked(statement)
 
 
 def is_broken(text: str) -> bool:
-    """Whether something ends between two statements, so that the position of the first is not that of the second."""
+    """Return True if a clause ends between two statements, so that the position of the first does not carry over."""
     return bool(re.search(r"[;\n]|\.\s+(?=[^\W\d])", text))
 
 
 def is_operator(text: str) -> bool:
-    """Whether a text ends with an operator, so that a sum or a product goes on behind it."""
+    """Return True if a text ends with an operator, so that a sum or a product continues after it."""
     return text.rstrip()[-1:] in _OPERATORS
 
 
 def said_otherwise(text: str) -> list[tuple[str, str, int]]:
-    """Symbols that a number follows without a sign of equality, each with the number and its index."""
+    """Return symbols followed by a number without a sign of equality, each with the number and its index."""
     return [(match[1], match[0], match.start(2)) for match in _COLON.finditer(text)]

@@ -1,4 +1,4 @@
-"""Symbols of a key as students write them, and the rows that they stand for."""
+"""Symbols of a key as students write them, and the rows that they refer to."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from reportgen.marking.key import symbol_text
 _MARKS = re.compile(r"[\s_^{}|]")
 _BRACES = re.compile(r"[\s{}|]")
 _POWER = re.compile(r"\^\{?(\d+)\}?")
-"""An exponent of v_B^2, which is no v_B2."""
+"""An exponent as in v_B^2, which is not v_B2."""
 _ROUND = re.compile(r"\(\d\)$")
-"""The number behind a quantity that is worked out twice, M_cb^(1)."""
+"""The number after a quantity that is computed twice, M_cb^(1)."""
 _SPELLED: Mapping[str, str] = {
     "omega": "ω",
     "epsilon": "ε",
@@ -29,11 +29,11 @@ _SPELLED: Mapping[str, str] = {
     "tau": "τ",
 }
 _LATIN = str.maketrans("ωμεατ", "wueat")
-"""What stands for a Greek letter on a keyboard without any."""
+"""Substitutes for Greek letters on a keyboard without them."""
 
 
 def bare(text: str) -> str:
-    """A symbol without what sets its index or exponent off: v_{BA}, v_BA and vBA are one."""
+    """Return a symbol without marks of index or exponent: v_{BA}, v_BA and vBA are equal."""
     return _MARKS.sub("", _POWER.sub(r"↑\1", "".join(LETTERS.get(letter, letter) for letter in text)))
 
 
@@ -45,16 +45,16 @@ _LOOSER: Sequence[Callable[[str], str]] = (str.casefold, _latin)
 
 
 class Symbols:
-    """All symbols of a key, and which of its rows that are asked for each of them is."""
+    """All symbols of a key, and the requested rows that each of them refers to."""
 
     def __init__(self, key: Key, rows: Iterable[KeyRow]) -> None:
-        """`rows` are those of the part of the key that is looked at."""
+        """Create the symbols of `rows`, the rows of the part of the key that is searched."""
         self.key = key
         self.rows = tuple(rows)
 
     @cached_property
     def every(self) -> dict[str, tuple[KeyRow, ...]]:
-        """The rows by their symbols, asked for or not."""
+        """The rows by their symbols, requested or not."""
         every: dict[str, tuple[KeyRow, ...]] = {}
         for row in self.rows:
             text = bare(symbol_text(row, self.key))
@@ -63,7 +63,7 @@ class Symbols:
 
     @cached_property
     def _round(self) -> dict[str, tuple[KeyRow, ...]]:
-        """Those that are worked out several times by what their symbols have in common."""
+        """The rows that are computed several times, by the common stem of their symbols."""
         common: dict[str, tuple[KeyRow, ...]] = {}
         for text, rows in self.every.items():
             if _ROUND.search(text):
@@ -76,9 +76,9 @@ class Symbols:
         return {}
 
     def rows_of(self, text: str) -> tuple[KeyRow, ...]:
-        """The rows that a symbol may stand for: as it is written, else by looser letters if only one symbol fits.
+        """Return the rows that a symbol may refer to: as written, else with looser letters if only one symbol fits.
 
-        Of symbols that differ by their marks alone, the segment pb and p_b, it is the one with the same marks.
+        If symbols differ only by their marks, such as the segment pb and p_b, the one with the same marks is chosen.
         """
         written, text = _BRACES.sub("", text), bare(text)
         if text not in self._known:
@@ -96,12 +96,12 @@ class Symbols:
             return self._round[text]
         stem = text.rstrip("′")
         if rows := self.every.get(stem[:1] + text[len(stem) :] + stem[1:]):
-            # A prime may stand above the index or behind it.
+            # A prime may be above the index or after it.
             return rows
         for spelled, letter in _SPELLED.items():
             if text.startswith(spelled) and (rows := self.every.get(letter + text.removeprefix(spelled))):
                 return rows
-        # A letter alone is too little: r of a machine's structure is no R.
+        # A single letter is too little: r of a machine's structure is not R.
         for loose, known in zip(_LOOSER, self._loose if len(text) > 1 else (), strict=False):
             if fitting := known.get(loose(text)):
                 return self.every[fitting[0]] if len(fitting) == 1 else ()
@@ -109,7 +109,7 @@ class Symbols:
 
     @cached_property
     def _loose(self) -> tuple[dict[str, list[str]], ...]:
-        """The symbols by their looser letters, in each way."""
+        """The symbols by their looser letters, for each way of loosening."""
         ways: tuple[dict[str, list[str]], ...] = tuple({} for _ in _LOOSER)
         for loose, known in zip(_LOOSER, ways, strict=True):
             for text in self.every:

@@ -1,7 +1,6 @@
-"""A Word report given back with comments at its numbers; nothing else of it changes but what could reach elsewhere.
+"""Return a Word report with comments at its numbers; nothing else changes except links to external templates.
 
-What is put in stands as text between the bytes of the student's own file, so that all that nobody here understands
-stays as it was.
+The comments are inserted as text between the bytes of the student's own file, so that unknown content is preserved.
 """
 
 from __future__ import annotations
@@ -38,7 +37,7 @@ class MarginNote:
 
 @dataclass(frozen=True, slots=True)
 class _Change:
-    """Bytes put in at a place of a part, in place of those up to `end`."""
+    """Bytes that replace those of a part from `start` to `end`."""
 
     start: int
     end: int
@@ -46,7 +45,7 @@ class _Change:
 
 
 def with_comments(file: WordFile, remarks: Sequence[MarginNote]) -> bytes:
-    """The file with a comment for each remark, the same remarks the same bytes; raises `RefusedError`."""
+    """Return the file with a comment for each remark, deterministically; raise `RefusedError`."""
     package = file.package
     namespace = _STRICT if _STRICT.encode() in file.content[:20_000] else _WORD
     name = file.related("comments")
@@ -81,9 +80,9 @@ def with_comments(file: WordFile, remarks: Sequence[MarginNote]) -> bytes:
 
 
 def _anchor(node: XmlNode) -> XmlNode | None:
-    """What a comment on a node goes round: the run or the formula in the paragraph that may have comments.
+    """Return the element that a comment on a node encloses: the run or the formula in a paragraph, or None.
 
-    Nothing stands inside a formula, and no comment in a box of text.
+    Comments are not allowed inside a formula or in a text box.
     """
     anchor = None
     inner = node
@@ -99,7 +98,7 @@ def _anchor(node: XmlNode) -> XmlNode | None:
 
 
 def _head(tree: XmlNode) -> XmlNode | None:
-    """The first run of the report that shows anything."""
+    """Return the first run of the report with visible text."""
     runs = (node for node in tree.walk() if node.tag == "w:r" and any(one.tag == "w:t" for one in node.children))
     return next((anchor for run in runs if (anchor := _anchor(run)) is not None), None)
 
@@ -112,7 +111,7 @@ def _marked(anchor: XmlNode, number: int, namespace: str) -> Iterator[_Change]:
 
 
 def _comment(text: str, number: int, namespace: str) -> str:
-    """A comment, each line of its text a paragraph."""
+    """Return a comment with a paragraph for each line of its text."""
     lines = "".join(
         f'<w:p><w:r><w:t xml:space="preserve">{escape(line)}</w:t></w:r></w:p>' for line in text.split("\n")
     )
@@ -121,7 +120,7 @@ def _comment(text: str, number: int, namespace: str) -> str:
 
 
 def _changed(content: bytes, changes: Sequence[_Change]) -> bytes:
-    """Bytes with all changes made; of those at one place the first stands first."""
+    """Return bytes with all changes made; changes at one place stay in order."""
     pieces: list[bytes] = []
     at = 0
     for change in sorted(changes, key=lambda change: change.start):
@@ -131,11 +130,11 @@ def _changed(content: bytes, changes: Sequence[_Change]) -> bytes:
 
 
 def _before_end(content: bytes, tree: XmlNode, written: str) -> bytes:
-    """A part with something more in its top element."""
+    """Return a part with an addition at the end of its top element."""
     closing = content.rfind(b"</", tree.start, tree.end) if tree.children or tree.pieces else -1
     if closing > tree.start:
         return content[:closing] + written.encode() + content[closing:]
-    # An element that holds nothing yet.
+    # The element is empty so far.
     opening = content[tree.start : tree.end].rstrip(b"/> \r\n")
     name = opening.split(None, 1)[0].lstrip(b"<")
     return content[: tree.start] + opening + b">" + written.encode() + b"</" + name + b">" + content[tree.end :]
@@ -145,7 +144,7 @@ def _before_end(content: bytes, tree: XmlNode, written: str) -> bytes:
 
 
 def _announce(file: WordFile, name: str, parts: dict[str, bytes]) -> None:
-    """Name a new part of comments among the types, and what the text refers to."""
+    """Register a new part of comments among the content types and the text's relationships."""
     package = file.package
     types = package.content(CONTENT_TYPES)
     entry = f'<Override xmlns="{_TYPES}" PartName="/{name}" ContentType="{_COMMENTS}"/>'
@@ -162,7 +161,7 @@ def _announce(file: WordFile, name: str, parts: dict[str, bytes]) -> None:
 
 
 def _without_template(file: WordFile, parts: Mapping[str, bytes]) -> Iterator[tuple[str, bytes]]:
-    """The parts that name a template elsewhere, without it: whoever opens the copy fetches nothing."""
+    """Yield the parts that name an external template without that link, so that opening the copy fetches nothing."""
     package = file.package
     for name in package.names:
         is_list, is_setting = name.lower().endswith(".rels"), name == file.related("settings")
@@ -179,7 +178,7 @@ def _without_template(file: WordFile, parts: Mapping[str, bytes]) -> Iterator[tu
 
 
 def _zipped(file: WordFile, parts: Mapping[str, bytes]) -> bytes:
-    """The package with some parts in place of its own, in its order, new ones behind."""
+    """Return the package with some parts replaced, in the original order, new ones last."""
     stream = io.BytesIO()
     names = [*file.package.names, *(name for name in parts if name not in file.package)]
     with zipfile.ZipFile(stream, "w") as archive:

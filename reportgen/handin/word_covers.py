@@ -1,10 +1,9 @@
-"""Which text of a Word file lies under a picture or a filled box that stands in front of it.
+"""Find text of a Word file that is covered by a picture or a filled box in front of it.
 
-A program that reads a file does not lay it out, so places are reckoned: from the paragraph that a picture is anchored
-at, each block is as high as its lines, by size of type and spacing.  Only blocks that lie wholly within the height
-of the picture and are no wider than it count, with a margin for what the reckoning misses; whoever leaves room for a
-picture loses nothing.  Left out are pictures in the line, those that text runs round or before, and those placed by the
-page.
+The file is not laid out, so positions are estimated from the paragraph that a picture is anchored at. The height of a
+block follows from its lines, its font size and its spacing. Only blocks entirely within the height of the picture and
+no wider than it count, with a margin for errors of the estimate; leaving room for a picture is therefore safe. Pictures
+in the line, those with text around or before them, and those placed relative to the page are ignored.
 """
 
 from __future__ import annotations
@@ -21,25 +20,25 @@ EMU = 36_000.0
 TWIPS = 56.7
 """Twentieths of a point in a millimetre."""
 SMALLEST = (30.0, 8.0)
-"""Width and height (mm) below which a thing in front is a label or an arrow."""
+"""Width and height (mm) below which an object in front is a label or an arrow."""
 LETTERS = 95
-"""Of a full line."""
+"""Number of letters of a full line."""
 LINE = 165.0
-"""Its length (mm)."""
+"""Length (mm) of a full line."""
 NEAR = 3.0
-"""A thing in front begins so near (mm) to the left margin, if it covers what stands there."""
+"""Largest distance (mm) from the left margin of an object that covers the text there."""
 PITCH = 1.2 * 25.4 / 72 / 2
-"""From line to line (mm) for each half point of the type."""
+"""Distance (mm) between lines for each half point of the font size."""
 USUAL = 22
-"""Half points of the type where nothing says its size."""
+"""Default font size in half points."""
 MARGIN = 0.15
-"""By this share of the distance from the anchor the reckoning may be wrong."""
+"""Error of the estimate, as a share of the distance from the anchor."""
 ON = frozenset({"1", "true", "on"})
 FILLS = (":solidFill", ":gradFill", ":pattFill", ":blipFill")
 
 
 def covered_runs(tree: XmlNode, styles: Styles) -> Iterator[XmlNode]:
-    """The runs of text under what stands in front of them."""
+    """Yield the runs of text that are covered."""
     for anchor in (node for node in tree.walk() if node.tag.endswith(":anchor")):
         reach = _reach(anchor)
         paragraph = next((one for one in anchor.above if one.tag == "w:p"), None)
@@ -58,7 +57,7 @@ def covered_runs(tree: XmlNode, styles: Styles) -> Iterator[XmlNode]:
 
 @dataclass(frozen=True, slots=True)
 class _Reach:
-    """From where to where (mm below the top of its paragraph) something reaches, and how far to the right (mm)."""
+    """The vertical range (mm below the top of its paragraph) that an object covers, and its right end (mm)."""
 
     top: float
     bottom: float
@@ -66,7 +65,7 @@ class _Reach:
 
 
 def _reach(anchor: XmlNode) -> _Reach | None:
-    """What an opaque thing in front of the text, from its left margin on, covers; None for any other."""
+    """Return what an opaque object in front of the text covers, from the left margin; None for any other."""
     parts = {one.tag.rpartition(":")[2]: one for one in anchor.children}
     down, across, extent = parts.get("positionV"), parts.get("positionH"), parts.get("extent")
     if anchor.get("behindDoc") in ON or "wrapNone" not in parts or not _is_opaque(anchor):
@@ -81,13 +80,15 @@ def _reach(anchor: XmlNode) -> _Reach | None:
 
 
 def _offset(position: XmlNode, aligned: float) -> float:
-    """An offset (mm) as it stands; `aligned` where the position is a word."""
+    """Return an offset (mm); `aligned` if the position is given as a word."""
     found = next((one for one in position.children if one.tag.endswith(":posOffset")), None)
     return aligned if found is None else _millimetres(found.text)
 
 
 def _end(block: XmlNode) -> float:
-    """Where the text of a block ends on its line (mm from the left margin), about; that of a table at two thirds."""
+    """Return the approximate right end of a block's text (mm from the left margin); two thirds of a line for a
+    table.
+    """
     if block.tag == "w:tbl":
         return 2 * LINE / 3
     length = min(_letters(block) / LETTERS, 1.0) * LINE
@@ -101,7 +102,7 @@ def _letters(block: XmlNode) -> int:
 
 
 def _is_opaque(anchor: XmlNode) -> bool:
-    """A picture, or a shape that is filled."""
+    """Return True for a picture or a filled shape."""
     for node in anchor.walk():
         if node.tag.endswith(":pic"):
             return True
@@ -111,8 +112,8 @@ def _is_opaque(anchor: XmlNode) -> bool:
 
 
 def _within(blocks: Sequence[XmlNode], at: int, reach: _Reach, styles: Styles) -> Iterator[XmlNode]:
-    """The blocks that lie wholly within a reach, reckoned from the top of the one at a place."""
-    # The first line may be cut a little.
+    """Yield the blocks entirely within a range, measured from the top of the block at index `at`."""
+    # The first line may be cut slightly.
     top, bottom = reach.top - 1.0, reach.bottom
     place = 0.0
     for block in blocks[at:]:
@@ -129,7 +130,7 @@ def _within(blocks: Sequence[XmlNode], at: int, reach: _Reach, styles: Styles) -
 
 
 def _height(block: XmlNode, styles: Styles) -> float:
-    """How high a paragraph or a table is (mm), about."""
+    """Return the approximate height of a paragraph or a table (mm)."""
     if block.tag == "w:tbl":
         rows = (one for one in block.children if one.tag == "w:tr")
         return sum(

@@ -1,8 +1,7 @@
-"""A Word file as a stranger sends it: judged as a package, then its text alone is looked at.
+"""Open a Word file from an untrusted source: check it as a package, then parse only its text.
 
-Refused are bombs, macros, entities, passwords, and what takes its content from elsewhere.  Objects are never opened and
-links never followed; pictures are not looked at.  A template that the file names, which honest files have, is dropped
-from the copy that is given back.
+Bombs, macros, entities, passwords and external content are rejected. Objects are never opened, links are never
+followed, and pictures are ignored. A template that the file names, as honest files may, is dropped.
 """
 
 from __future__ import annotations
@@ -22,11 +21,11 @@ from reportgen.handin.word_text import TextReader, WordBlock, heading_levels
 from reportgen.workbook.package import Bounds, Package, RefusedError
 
 LARGEST = 50_000_000
-"""Bytes of the file."""
+"""Largest size (bytes) of the file."""
 BOUNDS = Bounds(unpacked=200_000_000, links=frozenset({"hyperlink", "image", "attachedTemplate"}))
-"""Pictures of a report are large, and are not unpacked to be read."""
+"""Bounds of the package; pictures of a report are large, and are not unpacked."""
 LARGEST_TEXT = 60_000_000
-"""Bytes of a part of text."""
+"""Largest size (bytes) of a part of text."""
 TEMPLATE = "attachedTemplate"
 _CODES = {
     "sheet-no-zip": "word-damaged",
@@ -46,7 +45,7 @@ PICTURES = frozenset({"w:drawing", "w:pict"})
 
 @dataclass(frozen=True)
 class WordFile:
-    """A file that has been judged: its package, where its text stands, and the text as a tree."""
+    """A checked file: its package, the part with its text, and the text as a tree."""
 
     path: Path
     package: Package
@@ -61,12 +60,12 @@ class WordFile:
 
     @property
     def all_blocks(self) -> tuple[WordBlock, ...]:
-        """The same with the text that nobody sees."""
+        """The same including hidden text."""
         return self._blocks(everything=True)
 
     @cached_property
     def unseen(self) -> tuple[XmlNode, ...]:
-        """The runs that nobody sees and that have a figure in them."""
+        """The hidden runs that contain a digit."""
         styles = Styles() if self._styles is None else Styles.of(self._styles)
         mark_unseen(self.tree, styles)
         for run in covered_runs(self.tree, styles):
@@ -86,42 +85,42 @@ class WordFile:
 
     @property
     def pictures(self) -> int:
-        """How many pictures stand in the text."""
+        """The number of pictures in the text."""
         return sum(node.tag in PICTURES for node in self.tree.walk())
 
     @property
     def relations(self) -> str:
-        """The part that lists what the text refers to."""
+        """The part that lists the relationships of the text."""
         folder, name = posixpath.split(self.document)
         return f"{folder}/_rels/{name}.rels"
 
     def related(self, kind: str) -> str:
-        """The name of the part of a kind that the text refers to; "" if there is none."""
+        """Return the name of the part of a kind that the text refers to; "" if there is none."""
         relations = self.package.relations(self.relations).values()
         targets = (one.target for one in relations if one.kind == kind and not one.external)
         return next((resolved(self.document, target) for target in targets), "")
 
     @property
     def template(self) -> bool:
-        """Whether it names a template that stands elsewhere."""
+        """True if it names an external template."""
         names = [name for name in self.package.names if name.lower().endswith(".rels")]
         return any(one.kind == TEMPLATE for name in names for one in self.package.relations(name).values())
 
     @property
     def notes(self) -> tuple[Fault, ...]:
-        """What is told of the file as a whole."""
+        """Faults about the file as a whole."""
         return (Fault("word-template", Mark(str(self.path))),) if self.template else ()
 
 
 def resolved(part: str, target: str) -> str:
-    """The name of the part that another one refers to."""
+    """Return the name of the part that another one refers to."""
     joined = target if target.startswith("/") else posixpath.join(posixpath.dirname(part), target)
     return posixpath.normpath(joined).lstrip("/")
 
 
 @contextmanager
 def word_faults() -> Iterator[None]:
-    """Raise the faults of packages as those of Word files, whichever part is read."""
+    """Convert faults of packages to those of Word files, whichever part is read."""
     try:
         yield
     except RefusedError as refused:
@@ -131,7 +130,7 @@ def word_faults() -> Iterator[None]:
 
 @word_faults()
 def open_word(path: Path, data: bytes) -> WordFile:
-    """Return a Word file that may be read; raises `RefusedError` with a fault of Word files."""
+    """Return a Word file that may be read; raise `RefusedError` with a fault of Word files."""
     if len(data) > LARGEST:
         raise RefusedError("word-large", Mark(str(path)), largest=str(LARGEST // 1_000_000))
     package = Package(data, str(path), BOUNDS)

@@ -1,4 +1,4 @@
-"""The blanks of a frame that was filled in: by their tags, or else by the bookmarks round them."""
+"""Read the blanks of a filled-in frame, by their tags or else by the bookmarks around them."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _FILLED = re.compile(rf"\s*({NUMBER})\s*(?:[(\[]\s*({UNIT})\s*[)\]]|({UNIT}))?\s
 
 
 def read_blanks(tree: XmlNode, lines: Sequence[TextLine], gathering: Gathering) -> None:
-    """Read the blanks of a report before its text; a place that one of them fills is not looked for elsewhere."""
+    """Read the blanks of a report before its text; a place filled by one is not searched for elsewhere."""
     paragraphs = {node.number: line.number for line in lines for node in line.nodes}
     read: set[Place] = set()
     names = blanks(gathering.key)
@@ -39,7 +39,7 @@ def read_blanks(tree: XmlNode, lines: Sequence[TextLine], gathering: Gathering) 
 
 
 def _controls(tree: XmlNode, names: Mapping[str, Place]) -> Iterator[tuple[Place, TextLine]]:
-    """What stands in the content controls that have one of the names for their tag."""
+    """Yield the content of the content controls whose tag is one of the names."""
     for node in tree.walk():
         if node.tag != "w:sdt":
             continue
@@ -50,7 +50,7 @@ def _controls(tree: XmlNode, names: Mapping[str, Place]) -> Iterator[tuple[Place
 
 
 def _bookmarks(tree: XmlNode, names: Mapping[str, Place]) -> Iterator[tuple[Place, TextLine]]:
-    """What stands between the beginning and the end of the bookmarks that have one of the names."""
+    """Yield the content between the start and the end of the bookmarks with one of the names."""
     for node in tree.walk():
         if node.tag != "w:bookmarkStart" or node.parent is None or (place := names.get(node.get("w:name"))) is None:
             continue

@@ -1,6 +1,6 @@
-"""Which text of a Word file nobody sees: hidden, in the colour of what is behind it, or too small.
+"""Detect invisible text in a Word file: hidden, in the background's colour, or too small.
 
-A report is read as it looks.  What cannot be seen is no part of it, and the lecturer hears of it.
+A report is read as it looks. Invisible text is not read, and the lecturer is informed of it.
 """
 
 from __future__ import annotations
@@ -12,23 +12,23 @@ from dataclasses import dataclass, field
 from reportgen.handin.word_nodes import XmlNode
 
 SMALLEST = 8
-"""Letters of fewer half points (4 pt) cannot be read on paper."""
+"""Smallest size in half points (4 pt) that is readable on paper."""
 NARROWEST = 20
-"""Nor can letters of less than this share of their width (%)."""
+"""Smallest character width (%) that is readable."""
 CONTRAST = 24
-"""Two colours differ by less in each of red, green and blue (of 255): nobody tells them apart."""
+"""Largest difference in each of red, green and blue (of 255) between colours that look the same."""
 OFF = frozenset({"0", "false", "off", "none"})
 _WHITE = (255, 255, 255)
 _LIGHT = frozenset({"background1", "light1", "bg1", "lt1"})
 _DEEPEST = 20
-"""Styles that stand on one another."""
+"""Deepest inheritance of styles."""
 
 Colour = tuple[int, int, int]
 
 
 @dataclass(frozen=True)
 class Styles:
-    """The styles of a file by their ids, what stands in none of them, and the style of plain paragraphs."""
+    """The styles of a file by their ids, its defaults, and the style of plain paragraphs."""
 
     by_id: Mapping[str, XmlNode] = field(default_factory=dict)
     defaults: tuple[XmlNode, ...] = ()
@@ -46,7 +46,7 @@ class Styles:
         return cls(styles, (run,) if run is not None else (), next(plain, ""))
 
     def chain(self, id: str) -> Iterator[XmlNode]:
-        """A style, the one that it stands on, and so on."""
+        """Yield a style, the one that it is based on, and so on."""
         for _ in range(_DEEPEST):
             style = self.by_id.get(id)
             if style is None:
@@ -57,7 +57,7 @@ class Styles:
 
 
 def mark_unseen(tree: XmlNode, styles: Styles) -> None:
-    """Mark each run that nobody sees."""
+    """Mark each invisible run."""
     for node in tree.walk():
         if node.tag in ("w:r", "m:r"):
             node.unseen = _is_unseen(node, styles)
@@ -80,7 +80,7 @@ def _is_unseen(run: XmlNode, styles: Styles) -> bool:
 
 
 def looks_of(run: XmlNode, paragraph: XmlNode | None, styles: Styles) -> Iterator[XmlNode]:
-    """What says how a run looks, the nearest first."""
+    """Yield the properties that determine the look of a run, the nearest first."""
     own = run.child("w:rPr")
     named = [run.at("w:rPr", "w:rStyle"), paragraph.at("w:pPr", "w:pStyle") if paragraph is not None else None]
     if own is not None:
@@ -103,7 +103,7 @@ def _number(node: XmlNode | None) -> int | None:
 
 
 def _colour(node: XmlNode | None, attribute: str = "w:val") -> Colour | None:
-    """A colour that is said; None for that of plain text or of paper."""
+    """Return an explicit colour; None for that of plain text or of paper."""
     if node is None:
         return None
     theme = "w:themeColor" if attribute == "w:val" else "w:themeFill"
@@ -116,7 +116,7 @@ def _colour(node: XmlNode | None, attribute: str = "w:val") -> Colour | None:
 
 
 def _behind(run: XmlNode, paragraph: XmlNode | None, looks: list[XmlNode], styles: Styles) -> Colour | None:
-    """The colour behind a run; None where it is not known, as in a box with a colour or a table with a style."""
+    """Return the colour behind a run; None if it is unknown, as in a coloured box or a styled table."""
     marked = first_of(looks, "w:highlight")
     if marked is not None and marked.get("w:val") not in ("none", "white"):
         return None
@@ -140,7 +140,7 @@ def _behind(run: XmlNode, paragraph: XmlNode | None, looks: list[XmlNode], style
 
 
 def _is_filled(node: XmlNode) -> bool:
-    """Whether a style or a box may have a colour of its own."""
+    """Return True if a style or a box may have its own colour."""
     return any(
         (one.tag == "w:shd" and _colour(one, "w:fill") not in (None, _WHITE))
         or one.tag.endswith((":solidFill", ":gradFill", ":pattFill", ":blipFill", ":fillRef"))

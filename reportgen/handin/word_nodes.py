@@ -1,4 +1,4 @@
-"""A part of a Word file as a tree of nodes that know their bytes, so that a copy changes nothing but what is put in."""
+"""Parse a part of a Word file into a tree of nodes with byte offsets, so that a copy changes only what is inserted."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from xml.parsers import expat
 from reportgen.workbook.package import Package
 
 MOST_ELEMENTS = 300_000
-"""Elements of a part; a report of a hundred pages with all its formulas has some 60 000."""
+"""Largest number of elements of a part; a report of a hundred pages with all its formulas has some 60 000."""
 DEEPEST = 200
-"""Elements inside one another."""
+"""Deepest nesting of elements."""
 
 _OPEN = "http://schemas.openxmlformats.org"
 _STRICT = "http://purl.oclc.org/ooxml"
@@ -28,14 +28,14 @@ _NAMES = {
     "urn:schemas-microsoft-com:office:office": "o",
     "http://www.w3.org/XML/1998/namespace": "xml",
 }
-"""Prefixes by namespace; what is of another one has none that anybody asks for."""
+"""Prefixes by namespace; elements of other namespaces get "?"."""
 
 
 @dataclass(slots=True, eq=False)
 class XmlNode:
-    """An element: its tag (`w:p`), attributes, what stands in it, and the bytes from `start` to `end` that it takes.
+    """An element: its tag (`w:p`), attributes, content, and its bytes from `start` to `end`.
 
-    `number` counts the elements of the part in their order, from 0.
+    `number` counts the elements of the part in order, from 0.
     """
 
     tag: str
@@ -47,30 +47,30 @@ class XmlNode:
     children: list[XmlNode] = field(default_factory=list)
     pieces: list[str] = field(default_factory=list)
     unseen: bool = False
-    """Whether it is a run of text that nobody sees."""
+    """True for a run of invisible text."""
 
     @property
     def text(self) -> str:
-        """The text right in it."""
+        """The text directly in it."""
         return "".join(self.pieces)
 
     def get(self, name: str, otherwise: str = "") -> str:
-        """An attribute."""
+        """Return an attribute."""
         return self.attributes.get(name, otherwise)
 
     def child(self, tag: str) -> XmlNode | None:
-        """The first child of a tag."""
+        """Return the first child with a tag."""
         return next((child for child in self.children if child.tag == tag), None)
 
     def at(self, *tags: str) -> XmlNode | None:
-        """What stands in first children of these tags, one in the other."""
+        """Return the descendant reached by the first child of each tag in turn, or None."""
         node: XmlNode | None = self
         for tag in tags:
             node = node.child(tag) if node else None
         return node
 
     def walk(self) -> Iterator[XmlNode]:
-        """It and all that is in it, in order."""
+        """Yield the node and all its descendants in order."""
         pending = [self]
         while pending:
             node = pending.pop()
@@ -79,7 +79,7 @@ class XmlNode:
 
     @property
     def above(self) -> Iterator[XmlNode]:
-        """What it stands in, from the nearest on."""
+        """The ancestors, the nearest first."""
         node = self.parent
         while node is not None:
             yield node
@@ -93,14 +93,14 @@ def _named(name: str) -> str:
 
 
 def parse(package: Package, name: str, content: bytes) -> XmlNode:
-    """The tree of a part of XML in UTF-8; raises `RefusedError` for damage, a document type, too much in it."""
+    """Return the tree of an XML part in UTF-8; raise `RefusedError` if damaged, too large or with a document type."""
     parser: Any = expat.ParserCreate("utf-8", namespace_separator=" ")
     parser.buffer_text = False
     count = 0
     top: XmlNode | None = None
     open_nodes: list[XmlNode] = []
     closed: list[XmlNode] = []
-    """The one node whose end tag has been met; it ends where the next piece begins."""
+    """The single node whose end tag has been read; it ends where the next piece begins."""
 
     def settle() -> None:
         while closed:
@@ -135,7 +135,7 @@ def parse(package: Package, name: str, content: bytes) -> XmlNode:
 
     parser.StartElementHandler, parser.EndElementHandler = start, end
     parser.CharacterDataHandler = text
-    # Whatever else comes next ends a node, too.
+    # Any other event ends a node, too.
     parser.CommentHandler = parser.ProcessingInstructionHandler = lambda *_: settle()
     parser.StartCdataSectionHandler = settle
     parser.StartDoctypeDeclHandler = parser.EntityDeclHandler = refuse

@@ -1,4 +1,4 @@
-"""A Word report read: its headings say which position is in hand, its lines and tables what comes out there."""
+"""Read a Word report: its headings give the current position, its lines and tables the values there."""
 
 from __future__ import annotations
 
@@ -18,21 +18,23 @@ from reportgen.handin.word_tables import read_table
 from reportgen.handin.word_text import OBJECT, TextGrid, TextLine, WordBlock, WordMark
 
 FREE = 10
-"""The level of a position that no heading gives: any heading ends it."""
+"""Level of a position that no heading gives; any heading ends it."""
 SHORT = 80
-"""Characters of a line in bold that stands in place of a heading."""
+"""Largest number of characters of a line in bold that serves as a heading."""
 
 
 @dataclass(slots=True)
 class _Hand:
-    """Which position is in hand: its label, the level of the heading that says so, whether it is in doubt."""
+    """The current position: its label, None if it is in doubt, and the level of the heading that gives it."""
 
     label: str | None = None
     level: int = FREE
 
 
 def read_report(blocks: Sequence[WordBlock], key: Key, file: str, tree: XmlNode | None = None) -> FileReading:
-    """What a report says of the quantities that a key asks for; in its `tree` the blanks of a frame are looked for."""
+    """Return what a report says about the quantities that a key asks for; the `tree` is searched for blanks of
+    a frame.
+    """
     marks = marks_of((line.text for line in lines_of(blocks)), key.language)
     gathering = Gathering(key, file, marks, Symbols(key, key.rows))
     if tree is not None:
@@ -45,7 +47,7 @@ def read_report(blocks: Sequence[WordBlock], key: Key, file: str, tree: XmlNode 
 
 
 def lines_of(blocks: Sequence[WordBlock]) -> list[TextLine]:
-    """All lines, those of tables too."""
+    """Return all lines, including those of tables."""
     lines: list[TextLine] = []
     for block in blocks:
         if isinstance(block, TextLine):
@@ -57,15 +59,15 @@ def lines_of(blocks: Sequence[WordBlock]) -> list[TextLine]:
 
 
 class _Reader:
-    """Goes through a report from top to bottom."""
+    """Reads a report from top to bottom."""
 
     def __init__(self, gathering: Gathering) -> None:
         self.gathering = gathering
         self.hand = _Hand()
         self.open: tuple[KeyRow, str | None] | None = None
-        """The row whose statement may go on in the next line, and the label of its position."""
+        """The row whose statement may continue in the next line, and the label of its position."""
         self.hidden: dict[str | None, int] = {}
-        """How many equations stand under each position that nothing opens."""
+        """Number of equations at each position that cannot be opened."""
         self.first_object: WordMark | None = None
 
     def block(self, block: WordBlock) -> None:
@@ -94,7 +96,7 @@ class _Reader:
             self.hand = _Hand()
 
     def sentence(self, line: TextLine) -> None:
-        """A line without “=”: it may name the position that the next ones are of, or begin something else."""
+        """Process a line without “=”: it may name the position of the next ones, or begin something else."""
         text = line.text
         self.count_objects(line, self.hand.label)
         self.otherwise(line, self.hand.label)
@@ -105,7 +107,7 @@ class _Reader:
         labels = said.labels_in(text)
         compared = said.is_compared(text)
         if said.names_several(text):
-            # Which is in hand stays, if a heading said so and this only compares.
+            # The current position stays if a heading gave it and this line only compares.
             if (not compared and not said.begins_with(text, self.hand.label)) or self.hand.level == FREE:
                 self.hand = _Hand(None, self.hand.level)
         elif labels and compared:
@@ -116,17 +118,17 @@ class _Reader:
             self.hand = _Hand()
 
     def opened_by(self, text: str) -> None:
-        """A line with statements may begin with the position that the next ones are of as well."""
+        """Process the beginning of a line with statements, which may name the position of the next ones too."""
         front = said.RELATION.split(text)[0]
         labels = said.labels_in(front)
         if len(labels) == 1 and not said.names_several(front) and labels[0] != self.hand.label:
-            # Under the heading of another position it is not said whether it goes on.
+            # Under the heading of another position, it is unclear if the position continues.
             self.hand = _Hand(labels[0] if self.hand.label is None or self.hand.level == FREE else None, FREE)
 
     # --- statements -------------------------------------------------------------------------------
 
     def statement_line(self, line: TextLine, label: str | None) -> None:
-        """All statements of a line; those without a position of their own are of the one with the `label`."""
+        """Read all statements of a line; those without a position belong to the one with the `label`."""
         gathering, text = self.gathering, line.text
         self.count_objects(line, label)
         self.otherwise(line, label)
@@ -170,7 +172,7 @@ class _Reader:
                     self.statement(line, statement, row, own, last)
 
     def otherwise(self, line: TextLine, label: str | None) -> None:
-        """What is said in other ways than by “=” is not read, but it stands there."""
+        """Record values that are stated without “=” as unread."""
         for symbol, text, at in said.said_otherwise(line.text):
             for row in self.gathering.rows_of(symbol):
                 position = self.gathering.position(row, label)
@@ -179,25 +181,25 @@ class _Reader:
     def own_position(
         self, statement: Statement, label: str | None, carried: str | None, named: set[str]
     ) -> tuple[str | None, bool]:
-        """The label of the position of a statement, and whether two are named for it."""
+        """Return the label of the position of a statement, and True if two are named for it."""
         before, behind = said.labels_in(statement.lead), said.labels_in(statement.clauses[0])
         around = (statement.lead, statement.clauses[0])
         if any(said.names_several(text) or said.names_another(text) for text in around):
             return None, True
         own = statement.label or (before[0] if before else None)
         if behind:
-            # What only an earlier sentence says goes behind what this one says itself.
+            # A position from an earlier sentence yields to one that the statement names itself.
             firm = own or carried or (label if label != self.hand.label or self.hand.level < FREE else None)
             if firm not in (None, behind[0]):
                 return None, True
             return behind[0], False
         if own or carried:
             return own or carried, False
-        # A line that is of another position than the heading leaves it open of which what has none is.
+        # A line of another position than the heading's leaves the position of an unlabelled statement open.
         return (label, False) if named <= {label} else (None, False)
 
     def statement(self, line: TextLine, statement: Statement, row: KeyRow, label: str | None, last: bool) -> None:
-        """Read the value of a statement of a row; without one it may go on in the next line."""
+        """Read the value of a statement of a row; without one it may continue in the next line."""
         gathering = self.gathering
         position = gathering.position(row, label)
         value = said.value_of(statement)
@@ -226,7 +228,7 @@ class _Reader:
             self.first_object = self.first_object or self.gathering.mark(line, line.text.index(OBJECT))
 
     def objects(self) -> None:
-        """What is blank where such equations stand may stand in one of them."""
+        """Record doubts for missing values that may be in equations that cannot be opened."""
         if self.first_object is None:
             return
         gathering = self.gathering

@@ -1,4 +1,4 @@
-"""A Word report that is handed in: read for a key, and given back with comments."""
+"""Read a submitted Word report for a key, and return a copy with comments."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ MARKED = "marked.docx"
 
 @word_faults()
 def read(path: Path, data: bytes, key: Key, plans: object = None) -> FileReading:
-    """What a report says of the quantities that a key asks for; raises `RefusedError`."""
+    """Return what a report says about the quantities that a key asks for; raise `RefusedError`."""
     file = open_word(path, data)
     reading = read_report(file.blocks, key, str(path), file.tree)
     notes = (*file.notes, *reading.notes)
@@ -46,14 +46,14 @@ def _has(reading: FileReading, place: Place, answer: Answer) -> bool:
 
 @word_faults()
 def names(path: Path, data: bytes, known: Collection[str]) -> Collection[str]:
-    """Which of some names stand in a report as words; raises `RefusedError`."""
+    """Return the given names that occur in a report as words; raise `RefusedError`."""
     text = "\n".join(line.text for line in lines_of(open_word(path, data).blocks)).casefold()
     return [name for name in known if name and re.search(rf"(?<!\w){re.escape(name.casefold())}(?!\w)", text)]
 
 
 @word_faults()
 def marked(path: Path, data: bytes, reading: FileReading, marking: Marking, policy: Policy) -> tuple[str, bytes]:
-    """The report with a comment at each number that there is something to say of, and a summary at its head."""
+    """Return the report with a comment at each number that needs one, and a summary at its head."""
     words = words_of(marking.key)
     remarks = [MarginNote("\n".join(comment(marking, policy)))]
     for cell in marking.cells:
@@ -61,7 +61,7 @@ def marked(path: Path, data: bytes, reading: FileReading, marking: Marking, poli
         own, counted = reading.values.get(place), marking.submission.values.get(place)
         fault = reading.unread.get(place)
         mark = own.mark if own is not None else fault.mark if fault is not None else None
-        # Beside a sheet, that one counts: what the report has otherwise is not what was judged.
+        # If a sheet counts, a different value in the report is not the one that was judged.
         judged = own is None or (counted is not None and agree(own, counted))
         text = cell_comment(cell, marking, words, policy.show_answers)
         if text and judged and isinstance(mark, WordMark):

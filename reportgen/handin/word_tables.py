@@ -1,4 +1,4 @@
-"""Tables of a Word report: quantities by positions, either way round, or statements set out in cells."""
+"""Read tables of a Word report: quantities by positions, in rows or columns, or statements laid out in cells."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from reportgen.handin.word_text import OBJECT, TextCell, TextGrid, TextLine
 from reportgen.marking.numbers import is_blank
 
 HEADS = 4
-"""Rows among which the one with the positions is looked for."""
+"""Number of rows among which the row with the positions is searched for."""
 _PLAIN_LABEL = re.compile(rf"[\s(]*{any_of('number', whole=False)}?[\s:(]*([0-9]{{1,3}}[a-z]?′*)", re.IGNORECASE)
 _QUANTITY = re.compile(
     r"(?:[^\d_{}()]*?[\s:])??(?P<symbol>[^\s(),/\[]+?(?:\(\d\)\}?)?)\s*"
@@ -29,12 +29,12 @@ _NUMBER_CELL = re.compile(
 _HEAD_UNIT = re.compile(rf"(?:.*[,;]\s*|.*\s)?[(\[]?\s*({UNIT})\s*[)\]]?|({UNIT})")
 _INDEXED = re.compile(r"[^\W\d_]+_\{[^\s{}]*\}")
 _INDEX = re.compile(r"[A-Z0-9][A-Z0-9_{}]{0,7}")
-"""What stands below a letter: the number of an order, the ends of a length."""
+"""Index below a letter: the number of an order, the ends of a length."""
 _NUMBERED = re.compile(r"\s*\(\d+(?:[.,]\d+)*\)\s*")
 """The number of an equation."""
 
 _HEAD_WORD = re.compile(any_of("head"), re.IGNORECASE)
-"""What stands over positions besides their own word; a pair of gears has points."""
+"""Headings of positions besides their own word; a pair of gears has points."""
 
 Statements = Callable[[TextLine, str | None], None]
 TextCells = Sequence[Sequence[TextCell]]
@@ -42,14 +42,14 @@ TextCells = Sequence[Sequence[TextCell]]
 
 @dataclass(frozen=True, slots=True)
 class _Quantity:
-    """A cell that names a quantity: its rows, and the unit said there; None for one that is not understood."""
+    """A cell that names a quantity: its rows and its unit; None for a unit that is not understood."""
 
     rows: tuple[KeyRow, ...]
     unit: str | None
 
 
 def read_table(grid: TextGrid, gathering: Gathering, line: Statements, label: str | None) -> None:
-    """Read a table that stands where the position with the `label` is in hand."""
+    """Read a table at a place where the current position has the `label`."""
     cells = list(dict.fromkeys(cell for row in grid.rows for cell in row))
     nested = [block for cell in cells for block in cell.blocks if isinstance(block, TextGrid)]
     texts = {id(cell): cell.line.text for cell in cells}
@@ -70,7 +70,7 @@ def read_table(grid: TextGrid, gathering: Gathering, line: Statements, label: st
 
 
 def _leave(ways: Sequence[TextCells], gathering: Gathering) -> None:
-    """The quantities of a table whose numbers cannot be laid to positions."""
+    """Record doubts for the quantities of a table whose numbers cannot be assigned to positions."""
     for row in (row for way in ways for row in way):
         numbers = [cell for cell in row if _NUMBER_CELL.fullmatch(cell.line.text)]
         named = _named(row, gathering)
@@ -83,7 +83,7 @@ def _leave(ways: Sequence[TextCells], gathering: Gathering) -> None:
 
 
 def _read_statements(rows: TextCells, gathering: Gathering, line: Statements, label: str | None) -> None:
-    """Statements set out in a grid: cells side by side are a line, unless a head names the position of each."""
+    """Read statements laid out in a grid: cells side by side form a line, unless a head names the position of each."""
     heads = {column: text for column, cell in enumerate(rows[0]) if (text := _named_position(cell, gathering))}
     sides = {number: text for number, row in enumerate(rows) if row and (text := _named_position(row[0], gathering))}
     for number, row in enumerate(rows):
@@ -103,7 +103,7 @@ def _read_statements(rows: TextCells, gathering: Gathering, line: Statements, la
             if joined.letters and not (said.goes_on(text) or said.is_operator(text) or said.is_operator(joined.text)):
                 joined.put(" ; ", cell.line.nodes[0])
             elif not joined.letters and said.is_operator(text):
-                # No bullet, but a sum that began in another row.
+                # This is not a bullet, but a sum that began in another row.
                 joined.put("∑", cell.line.nodes[0])
             joined.extend(cell.line)
         if joined.text.strip():
@@ -111,7 +111,7 @@ def _read_statements(rows: TextCells, gathering: Gathering, line: Statements, la
 
 
 def _named_position(cell: TextCell, gathering: Gathering) -> str | None:
-    """The label of a cell that says by its word that it is a position."""
+    """Return the label of a cell that names a position with its word, or None."""
     text = cell.line.text
     return _label(text, gathering) if said.SAYS_POSITION.search(text) else None
 
@@ -126,7 +126,9 @@ def _label(text: str, gathering: Gathering) -> str | None:
 
 
 def _read_positions(rows: TextCells, gathering: Gathering) -> bool:
-    """Read a table with positions across one of its first rows and quantities down its first columns."""
+    """Read a table with positions across one of its first rows and quantities down its first columns; True if it is
+    one.
+    """
     for number, row in enumerate(rows[:HEADS]):
         labels = {column: text for column, cell in enumerate(row) if (text := _label(cell.line.text, gathering))}
         if not labels or len(set(labels.values())) < len(labels):
@@ -142,7 +144,7 @@ def _read_positions(rows: TextCells, gathering: Gathering) -> bool:
 
 
 def _read_row(cells: Sequence[TextCell], labels: Mapping[int, str], gathering: Gathering) -> bool:
-    """Read the values of a quantity by positions; whether the row has one that is known."""
+    """Read the values of a quantity by position; return True if the row names a known quantity."""
     beside = [cell for column, cell in enumerate(cells) if column not in labels]
     named = _named(beside, gathering)
     if named is None:
@@ -158,7 +160,9 @@ def _read_row(cells: Sequence[TextCell], labels: Mapping[int, str], gathering: G
 
 
 def _read_single(rows: TextCells, gathering: Gathering, label: str | None) -> bool:
-    """Read a table of quantities with one value each, at the position in hand or at all."""
+    """Read a table of quantities with one value each, at the current position or independent of it; True if it
+    is one.
+    """
     read = False
     for row in rows:
         apart = list(dict.fromkeys(row))
@@ -187,7 +191,7 @@ def _read_single(rows: TextCells, gathering: Gathering, label: str | None) -> bo
 def _by_unit(
     row: Sequence[TextCell], numbers: Sequence[TextCell], quantity: _Quantity, heads: TextCells, gathering: Gathering
 ) -> tuple[list[TextCell], str]:
-    """Return the one number of a row that stands under a unit of its quantity, and the unit: G | 20 | 32.9 | 0.62."""
+    """Return the numbers of a row below a unit of its quantity, and the unit: G | 20 | 32.9 | 0.62."""
     fitting: dict[TextCell, str] = {}
     for column, cell in enumerate(row):
         unit = next((text for head in heads if head is not row and (text := _unit_in_head(head[column]))), "")
@@ -197,14 +201,17 @@ def _by_unit(
 
 
 def _unit_in_head(cell: TextCell) -> str:
-    """The unit in the head of a column, “Magnitude, N” or “N” alone; "" if there is none."""
+    """Return the unit in the head of a column, “Magnitude, N” or “N” alone; "" if there is none."""
     text = cell.line.text.strip()
     match = _HEAD_UNIT.fullmatch(text)
     return match[1] or match[2] if match else ""
 
 
 def _read_composed(rows: TextCells, gathering: Gathering, label: str | None) -> bool:
-    """Read a table of symbols across and their indices down: A over 2 and 4, V_{1,i} over i, real lengths l over AB."""
+    """Read a table of symbols across and indices down: A over 2 and 4, V_{1,i} over i, real lengths l over AB.
+
+    Return True if it is one.
+    """
     read = False
     head = rows[0]
     running = head[0].line.text.strip()
@@ -227,7 +234,7 @@ def _read_composed(rows: TextCells, gathering: Gathering, label: str | None) -> 
 
 
 def _symbol_in_head(text: str) -> tuple[str, str]:
-    """What may be a symbol without its index in a head, and the unit behind it."""
+    """Return a possible symbol without its index in a head, and the unit after it."""
     if _INDEXED.fullmatch(text):
         return text, ""
     match = _QUANTITY.fullmatch(text)
@@ -235,7 +242,7 @@ def _symbol_in_head(text: str) -> tuple[str, str]:
 
 
 def _with_index(symbol: str, running: str, index: str) -> str:
-    """A symbol with its index put in place of the letter that runs, or behind it."""
+    """Return a symbol with its index in place of the running letter, or appended."""
     if len(running) == 1 and running.isalpha():
         put_in = re.sub(rf"(?<=[_{{,]){running}(?=[}},]|$)", index, symbol)
         if put_in != symbol:
@@ -246,7 +253,7 @@ def _with_index(symbol: str, running: str, index: str) -> str:
 def _read_cell(
     cell: TextCell, row: KeyRow, position: int, unit: str | None, several: bool, gathering: Gathering
 ) -> None:
-    """Read one cell for a place; `unit` is that of its row, None where it is not understood."""
+    """Read one cell for a place; `unit` is that of its row, None if it is not understood."""
     line = cell.line
     text = line.text
     if is_blank(text) or not line.nodes:
@@ -267,9 +274,9 @@ def _read_cell(
 
 
 def _named(cells: Sequence[TextCell], gathering: Gathering) -> tuple[_Quantity, TextCell] | None:
-    """The one quantity that some cells name, and the cell; None where they name none or several."""
+    """Return the only quantity that some cells name, and the cell; None if they name none or several."""
     named = [(quantity, cell) for cell in dict.fromkeys(cells) if (quantity := _quantity(cell, gathering))]
-    # The newton beside a force is not the power N.
+    # The unit newton beside a force is not the power N.
     named = [pair for pair in named if not _says_unit(pair[1])] or named
     return named[0] if len({tuple(row.id for row in quantity.rows) for quantity, _ in named}) == 1 else None
 
@@ -279,7 +286,7 @@ def _says_unit(cell: TextCell) -> bool:
 
 
 def _quantity(cell: TextCell, gathering: Gathering) -> _Quantity | None:
-    """What a cell names: v_B, Velocity v_B (m/s), v_B, m/s."""
+    """Return what a cell names: v_B, Velocity v_B (m/s), v_B, m/s."""
     text = cell.line.text.strip()
     if rows := gathering.rows_of(text):
         return _Quantity(_asked(rows), "")
@@ -298,7 +305,7 @@ def _asked(rows: Sequence[KeyRow]) -> tuple[KeyRow, ...]:
 
 
 def _unit_of(quantity: _Quantity, beside: Sequence[TextCell]) -> str | None:
-    """The unit of a row: said beside its symbol, or else in a cell of its own."""
+    """Return the unit of a row: given beside its symbol, or else in its own cell."""
     if quantity.unit != "":
         return quantity.unit
     texts = (cell.line.text.strip().strip("()[]").strip() for cell in beside)

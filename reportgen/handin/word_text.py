@@ -1,7 +1,7 @@
-"""The text of a Word report as lines of letters, each of which knows the element that it stands in.
+"""The text of a Word report as lines of letters, each with its element.
 
-Indices and exponents stand in braces (`v_{B}`), built formulas as a line of theirs.  What a reader does not see is left
-out: deleted and struck out text, hidden text, letters without width.
+Indices and exponents are in braces (`v_{B}`), built-up formulas are linearised. Invisible text is left out: deleted and
+struck-out text, hidden text, letters without width.
 """
 
 from __future__ import annotations
@@ -15,16 +15,16 @@ from reportgen.base.typed import DOTS, MINUSES, UNSEEN
 from reportgen.handin.word_nodes import XmlNode
 
 OBJECT = "\ufffc"
-"""In place of an equation that another program has made, which nothing here opens."""
+"""Placeholder of an equation from another program, which cannot be opened."""
 APART = "\u2005"
-"""Before and behind a built formula, so that two of them side by side are two."""
+"""Separator before and after a built-up formula, so that two adjacent ones stay separate."""
 LONGEST = 20_000
-"""Characters of a line that is read."""
+"""Largest number of characters of a line that is read."""
 
 
 @dataclass(frozen=True, slots=True)
 class WordMark(Mark):
-    """A paragraph of a Word file, counted from 1, and the number of the element in which the value stands."""
+    """A paragraph of a Word file, counted from 1, and the number of the element with the value."""
 
     element: int = 0
 
@@ -36,7 +36,7 @@ class WordMark(Mark):
 class TextLine:
     """A paragraph as text; `nodes` has the element of each letter.
 
-    `level` is that of a heading, 0 for any other; `bold` says that all of it is.
+    `level` is that of a heading, 0 for any other paragraph; `bold` is True if all of it is bold.
     """
 
     number: int
@@ -45,14 +45,14 @@ class TextLine:
     letters: list[str] = field(default_factory=list)
     nodes: list[XmlNode] = field(default_factory=list)
     everything: bool = False
-    """Whether text that nobody sees is put in as well."""
+    """True if invisible text is included."""
 
     @property
     def text(self) -> str:
         return "".join(self.letters)
 
     def put(self, text: str, node: XmlNode) -> None:
-        """Letters as they are read, those without width left out."""
+        """Append letters in normalised form, without those that have no width."""
         for letter in text:
             for plain in LETTERS.get(letter, letter):
                 self.letters.append(plain)
@@ -65,7 +65,7 @@ class TextLine:
 
 @dataclass(slots=True)
 class TextGrid:
-    """A table by rows of cells; a cell that goes over several columns or rows stands in each of them."""
+    """A table as rows of cells; a merged cell occurs in each of its rows and columns."""
 
     rows: list[list[TextCell]]
 
@@ -79,7 +79,7 @@ class TextCell:
 
     @property
     def line(self) -> TextLine:
-        """All its paragraphs in one line, broken as they are."""
+        """All its paragraphs in one line, separated by line breaks."""
         joined = TextLine(self.lines[0].number if self.lines else 0)
         for number, line in enumerate(self.lines):
             if number and line.nodes:
@@ -92,7 +92,7 @@ WordBlock = TextLine | TextGrid
 
 
 def _letters() -> dict[str, str]:
-    """Letters that look alike as one of them, and those that nobody sees as none."""
+    """Return a table that maps similar letters to one of them, and invisible ones to ""."""
     letters = {
         **dict.fromkeys((*UNSEEN, "\u20d7", "\u0305"), ""),
         **dict.fromkeys(MINUSES, "-"),
@@ -101,13 +101,13 @@ def _letters() -> dict[str, str]:
     letters |= {"’": "′", "'": "′", "‘": "′", "ʹ": "′", "″": "′′", "”": "′′", '"': "′′", "‴": "′′′"}
     letters |= {"µ": "μ", "ϕ": "φ", "ɸ": "φ", "ϵ": "ε", "ϑ": "θ", "∗": "*"}
     letters |= {chr(code): chr(code - 0xFEE0) for code in range(0xFF01, 0xFF5F)}
-    # The marks of Chinese have their blank within.
+    # Chinese punctuation includes its blank.
     letters |= {"，": ", ", "、": ", ", "；": "; ", "：": ": ", "。": ". ", "（": " (", "）": ") "}
     letters |= {"＝": "=", "≅": "≈", "≃": "≈", "≒": "≈", "∼": "~"}
     letters |= {"⟹": "⇒", "⟶": "→", "➔": "→", "➜": "→"}
     letters |= {chr(code): str(code - 0x2080) for code in range(0x2080, 0x208A)}
     letters |= dict(zip("ₐₑₒₓₕₖₗₘₙₚₛₜᵢⱼᵣᵤᵥ", "aeoxhklmnpstijruv", strict=True))
-    # Letters of mathematics in italics, bold and so on.
+    # Mathematical letters in italics, bold and so on.
     for first, last, start in ((0x1D400, 0x1D6A3, 52), (0x1D6A8, 0x1D7C9, 58)):
         for code in range(first, last + 1):
             place = (code - first) % start
@@ -134,24 +134,24 @@ _SYMBOL_FONT = dict(zip("abcdefghijklmnopqrstuvwxyz", "αβχδεφγηιφκλ�
     "\xa2": "′",
     "\xb2": "′′",
 }
-"""What the letters of the font Symbol look like."""
+"""Letters that the font Symbol shows."""
 _UNSEEN = frozenset({"w:del", "w:moveFrom", "w:rPr", "w:pPr", "w:instrText", "w:delText", "m:phant", "w:sdtPr"})
 _OFF = frozenset({"0", "false", "off", "none"})
 _EQUATIONS = re.compile(r"equation|mathtype", re.IGNORECASE)
 
 
 class TextReader:
-    """Reads the body of a document to blocks in their order."""
+    """Reads the body of a document into blocks in order."""
 
     def __init__(self, levels: Mapping[str, int], everything: bool = False) -> None:
-        """`everything` reads also what nobody sees."""
+        """Create a reader; with `everything` it also reads invisible text."""
         self.everything = everything
         self.levels = levels
         """Levels of headings by the ids of styles."""
         self.paragraphs = 0
 
     def blocks(self, nodes: Iterable[XmlNode]) -> Iterator[WordBlock]:
-        """Paragraphs and tables, also those in content controls and in boxes of text, which come behind their line."""
+        """Yield paragraphs and tables, also those in content controls and in text boxes, which follow their line."""
         for node in nodes:
             if node.tag == "w:p":
                 line = self.line(node)
@@ -166,7 +166,7 @@ class TextReader:
                 yield from self.blocks(node.children[:1])
 
     def line(self, paragraph: XmlNode) -> TextLine:
-        """A paragraph as a line."""
+        """Return a paragraph as a line."""
         self.paragraphs += 1
         style = paragraph.at("w:pPr", "w:pStyle")
         own = paragraph.at("w:pPr", "w:outlineLvl")
@@ -182,7 +182,7 @@ class TextReader:
         return line
 
     def grid(self, table: XmlNode) -> TextGrid:
-        """A table with its merged cells in all their places."""
+        """Return a table with its merged cells in all their places."""
         rows: list[list[TextCell]] = []
         for tr in _through(table, "w:tr"):
             row: list[TextCell] = []
@@ -199,7 +199,7 @@ class TextReader:
 
 
 def _through(node: XmlNode, tag: str) -> Iterator[XmlNode]:
-    """The rows of a table, or the cells of a row, also of content controls among them."""
+    """Yield the rows of a table, or the cells of a row, including those in content controls."""
     for child in node.children:
         if child.tag == tag:
             yield child
@@ -208,7 +208,7 @@ def _through(node: XmlNode, tag: str) -> Iterator[XmlNode]:
 
 
 def _within(node: XmlNode) -> Iterator[XmlNode]:
-    """All in a paragraph that is seen, without what is in boxes."""
+    """Yield all visible elements of a paragraph, except those in boxes."""
     for child in node.children:
         if child.tag not in _UNSEEN and child.tag not in ("w:drawing", "w:pict", "mc:AlternateContent"):
             yield child
@@ -216,7 +216,7 @@ def _within(node: XmlNode) -> Iterator[XmlNode]:
 
 
 def _boxes(paragraph: XmlNode) -> Iterator[XmlNode]:
-    """The boxes of text that hang on a paragraph; of one that is there twice, for old and new programs, the new one."""
+    """Yield the text boxes of a paragraph; if there are versions for old and new programs, the new one."""
     pending = list(reversed(paragraph.children))
     while pending:
         node = pending.pop()
@@ -234,13 +234,13 @@ def _is_on(run: XmlNode, name: str) -> bool:
 
 
 def is_unseen(run: XmlNode, everything: bool = False) -> bool:
-    """Whether the text of a run is struck out, or, unless `everything` is read, cannot be seen."""
+    """Return True if the text of a run is struck out or, unless `everything` is read, invisible."""
     names = ("w:strike", "w:dstrike") if everything else ("w:vanish", "w:strike", "w:dstrike")
     return any(_is_on(run, name) for name in names) or (run.unseen and not everything)
 
 
 def put(nodes: Iterable[XmlNode], line: TextLine) -> None:
-    """Put the text of what stands in a paragraph at the end of a line."""
+    """Append the text of a paragraph's elements to a line."""
     for child in nodes:
         if child.tag == "w:r":
             _put_run(child, line)
@@ -286,7 +286,7 @@ def _text_of(child: XmlNode, run: XmlNode) -> str:
 
 
 def _symbol(node: XmlNode) -> str:
-    """A letter of the font Symbol that was put in by itself."""
+    """Return a single inserted letter of the font Symbol."""
     code = node.get("w:char")
     if node.get("w:font").casefold() != "symbol" or not re.fullmatch("[0-9A-Fa-f]{4}", code):
         return ""
@@ -295,7 +295,7 @@ def _symbol(node: XmlNode) -> str:
 
 
 def _raised(run: XmlNode) -> str:
-    """ "_" or "^" of an index or an exponent, "" of what stands on the line."""
+    """Return "_" for an index, "^" for an exponent, "" for text on the base line."""
     align, position = run.at("w:rPr", "w:vertAlign"), run.at("w:rPr", "w:position")
     if align is not None:
         return {"subscript": "_", "superscript": "^"}.get(align.get("w:val"), "")
@@ -312,7 +312,7 @@ def _put_math(node: XmlNode, line: TextLine) -> None:
 
 
 def _put_built(node: XmlNode, line: TextLine) -> None:
-    """A built formula in a line."""
+    """Append a built-up formula to a line."""
 
     def part(name: str) -> None:
         if (inner := node.child(name)) is not None:
@@ -348,7 +348,7 @@ def _put_built(node: XmlNode, line: TextLine) -> None:
                 line.put("\n" if number else "", node)
                 _put_math(row, line)
         case "m:limLow" | "m:limUpp" | "m:nary":
-            # Sums and integrals have values of their own that are no results.
+            # Sums and integrals contain values that are not results.
             line.put("∑(", node)
             part("m:e")
             line.put(")", node)
@@ -359,7 +359,7 @@ def _put_built(node: XmlNode, line: TextLine) -> None:
 
 
 def _put_fence(node: XmlNode, line: TextLine) -> None:
-    """Parentheses, bars and so on."""
+    """Append parentheses, bars and similar delimiters with their content."""
 
     def sign(name: str, usual: str) -> str:
         given = node.at("m:dPr", name)
@@ -373,7 +373,7 @@ def _put_fence(node: XmlNode, line: TextLine) -> None:
 
 
 def heading_levels(styles: XmlNode) -> dict[str, int]:
-    """The levels of headings by the ids of the styles that are some, or stand on one that is."""
+    """Return the levels of headings by the ids of the heading styles and of styles based on them."""
     based: dict[str, str] = {}
     levels: dict[str, int] = {}
     for style in styles.children:

@@ -1,7 +1,7 @@
-"""Vectors that are drawn where their plan does not have them: each is known by its start and one more witness.
+"""Identify vectors drawn to a wrong end, by their start and one more witness.
 
-The witness is its arrowhead, its name, or a neighbour that goes on from its end.  A line that may be a vector which was
-left out, or one of several, is none's.
+The witness is the arrowhead, the name, or a neighbour that continues from the end. A line that may be an omitted
+vector, or one of several, is not assigned.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from reportgen.handin.plan_labels import Labels, names_of
 
 @dataclass(frozen=True, eq=False)
 class WrongVector:
-    """A vector of a plan, by its number, that is drawn from its right start to a wrong end: its line as drawn (mm)."""
+    """A vector of a plan, by its number, drawn from its right start to a wrong end: its line as drawn (mm)."""
 
     plan: Fit
     vector: int
@@ -31,7 +31,7 @@ class WrongVector:
 
 
 def wrong_vectors(plans: FoundPlans, lines: Lines, heads: np.ndarray, labels: Labels) -> tuple[WrongVector, ...]:
-    """The wrong vectors of the plans that were found; `heads` [M, 2] says which ends have an arrowhead."""
+    """Return the wrong vectors of the plans found; `heads` [M, 2] is True for ends with an arrowhead."""
     used = {line for plan in plans.plans for line in plan.used}
     used |= {line for several in plans.doubtful for fit in several for line in fit.used}
     search = _Search(lines, heads, labels, lines.without(used))
@@ -47,23 +47,23 @@ class _Search:
     free: np.ndarray
 
     def of(self, plan: Fit, sure: np.ndarray) -> Iterator[WrongVector]:
-        """Of each corner the one line that nobody else begins there, if one vector is wanting that begins there."""
+        """Yield, for each corner where a missing vector begins, the one free line that begins there."""
         shape = plan.shape
         a, b = plan.at(shape.starts), plan.at(shape.ends)
-        # Of two vectors that have one line, or lines that may be either's, one may well have been drawn elsewhere.
+        # Of two vectors with one line, or with interchangeable lines, one may have been drawn elsewhere.
         count = Counter(plan.lines[plan.present].tolist())
         unplaced = [n for n, line in enumerate(plan.lines) if line < 0 or count[line] > 1 or not sure[n]]
-        # Where pieces run that other vectors have, one may well be whole.
+        # A vector along pieces that other vectors use may be drawn in full.
         runs = self.lines.ends[self.lines.in_runs]
         in_pieces = np.any(off_place(runs, a, b)[0] <= plan.reach[:, None], axis=1)
         wanting = [n for n in unplaced if abs(b[n] - a[n]) >= SEEN * self.lines.error and not in_pieces[n]]
         for corner in {shape.vectors[number].start for number in wanting}:
             place = complex(plan.at(shape.corners[corner]))
             reach = max(float(plan.reach[number]) for number in wanting)
-            # Corners that ends may belong to as well are one.
+            # Corners within the error of the same ends count as one.
             begin = [int(number) for number in wanting if abs(a[number] - place) <= 2 * reach]
             lines = [line for line in self._from(place, reach) if abs(line.end - line.start) >= LONG * self.lines.error]
-            # A line of construction has no head, and a vector that ends here has it here.
+            # A construction line has no head, and a vector that ends here has its head here.
             telling = [line for line in lines if line.headed or self._named(plan, begin, line) is not None]
             for line in telling:
                 named = self._named(plan, begin, line)
@@ -78,10 +78,10 @@ class _Search:
                     yield WrongVector(plan, vector, line.number, line.start, line.end)
 
     def _from(self, place: complex, reach: float) -> list[_Begun]:
-        """The free lines that begin at a place, in the sense that their arrowhead says or else from there.
+        """Return the free lines that begin at a place, in the direction of their arrowhead or else from there.
 
-        A piece of a longer line, or a line without an arrowhead that goes on behind a gap, need not begin or end where
-        a vector does.
+        A piece of a longer line, or a line without an arrowhead that continues after a gap, need not begin or end at
+        the ends of a vector.
         """
         begun = []
         for number in self.free:
@@ -97,25 +97,25 @@ class _Search:
         return begun
 
     def _named(self, plan: Fit, begin: Sequence[int], line: _Begun) -> int | None:
-        """The one vector whose name stands beside a line, if no other has its length or its direction.
+        """Return the only vector whose name is beside a line, unless only another one has its length or direction.
 
-        A line that goes wrong may pass by what another plan's vector is called.
+        A wrong line may pass the label of another plan's vector.
         """
         named = [n for n in begin if self.labels.beside(names_of(plan.shape, n), line.start, line.end)]
         alike = [n for n in begin if self._may_be(plan, n, line)]
         return named[0] if len(named) == 1 and (named[0] in alike or not alike) else None
 
     def _may_be(self, plan: Fit, vector: int, line: _Begun) -> bool:
-        """Whether a line has the length or the direction of a vector, as far as it can be told."""
+        """Return True if a line has the length or the direction of a vector, within the errors."""
         along = plan.scale * complex(plan.shape.ends[vector] - plan.shape.starts[vector])
         drawn, off = line.end - line.start, 2 * self.lines.reach
         across = abs((drawn * along.conjugate()).imag) / abs(along)
         return abs(abs(drawn) - abs(along)) <= off or across <= off
 
     def _alike(self, plan: Fit, begin: Sequence[int], line: _Begun) -> int | None:
-        """The one of several vectors that a line has the length or the direction of.
+        """Return the one of several vectors whose length or direction a line has.
 
-        Of two that end at nearly the same place it is the one that the report's figure has.
+        If several end at nearly the same place, it is the one that the report's figure has.
         """
         alike = [vector for vector in begin if self._may_be(plan, vector, line)]
         drawn = [vector for vector in alike if plan.shape.vectors[vector].drawn]
@@ -128,7 +128,7 @@ class _Search:
 
 @dataclass(frozen=True, slots=True)
 class _Begun:
-    """A line as a vector from its start; whether it has an arrowhead at its end."""
+    """A line as a vector from its start, and True if it has an arrowhead at its end."""
 
     number: int
     start: complex
