@@ -1,7 +1,7 @@
-"""What a script or the command line calls: load, check, solve, build, and the makers of report, task and key.
+"""Functions for scripts and the command line: load, check, solve, build, and the makers of report, task and key.
 
-The whole way in one place: file → `Assignment` → `Machine` → `Analysis` → `Ledger` → `Document` → PDF.
-What comes before the document is in a `Case`.
+The complete pipeline is file → `Assignment` → `Machine` → `Analysis` → `Ledger` → `Document` → PDF. Everything before
+the document is in a `Case`.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ if TYPE_CHECKING:
     from reportgen.marking.policy import Policy
 
 FORMATS = names("report")
-"""What a report can be written as."""
+"""Formats of a report."""
 
 
 load, check, examine, assess = catalogue.load, catalogue.check, catalogue.examine, catalogue.assess
@@ -49,15 +49,15 @@ typeset, typeset_sheet, SUFFIX = (typesetting.typeset, typesetting.typeset_sheet
 
 
 def analyse(assignment: Assignment) -> Analysis:
-    """Everything computed of an assignment, as arrays over its positions."""
+    """Return everything computed for an assignment, as arrays over its positions."""
     return MachineCase(assignment).analysis
 
 
 def solve(assignment: Assignment, positions: int | None = None, printed: bool = False) -> dict[str, Any]:
-    """The results as the contract's JSON object (SI, unrounded); `positions` overrides the count a turn.
+    """Return the results as the contract's JSON object (SI, unrounded); `positions` overrides the count per turn.
 
-    What the report prints stands beside as `printed`, if it is asked for and there is a report of it.  Raises
-    `NotOfferedError` for positions of an exercise, which is one instant.
+    With `printed`, it also has the values that the report prints, if there is a report. Raises `NotOfferedError` for
+    positions of an exercise, which is one instant.
     """
     from reportgen.results import printed_values, results
 
@@ -81,15 +81,16 @@ def print_tables(results: Mapping[str, Any], language: Language) -> None:
 
 RESULT_FORMATS = names("results")
 DEGREES_OF_A_TURN = 360
-"""Positions of the table of a full turn."""
+"""Number of positions in the table of a full turn."""
 
 
 def result_files(
     path: Path | str, formats: Sequence[str], positions: int | None = None, language: Language | None = None
 ) -> Mapping[str, bytes]:
-    """The results of a full turn, by degrees unless `positions` says otherwise, in some of `RESULT_FORMATS`.
+    """Return the results of a full turn in some of `RESULT_FORMATS`, in steps of one degree unless `positions` is
+    given.
 
-    CSV, which has one table a file, has a further file for each part of a coursework, results-cam.csv.
+    A CSV file has only one table, so each part of a coursework has a further file, such as results-cam.csv.
     """
     assignment = load(path, language)
     wanted = positions or (DEGREES_OF_A_TURN if catalogue.kind(assignment.kind).counts_positions else None)
@@ -103,7 +104,7 @@ def result_files(
 
 
 def document(assignment: Assignment) -> Document:
-    """The report as a numbered tree, ready for any writer."""
+    """Return the report as a numbered tree, ready for any writer."""
     return opened(assignment).document()
 
 
@@ -118,11 +119,11 @@ def build(
     listing: bool = False,
     standards: Standards = STANDARDS,
 ) -> Path:
-    """Write the complete report to `out`/<id>/report.pdf and return that path; of several formats that of the first.
+    """Write the complete report to `out`/<id>/report.pdf and return that path; with several formats, that of the first.
 
-    It has the language and the extent of the file unless others are given.  A `listing` adds a program of the closed
-    formulas, which also stands beside it as report.py; raises `NotOfferedError` where there are none.  A PDF of typst
-    keeps the `standards`.  Files appear whole or not at all.  Raises `AssignmentError`, `TemplateError`,
+    Language and extent are those of the file unless others are given. A `listing` adds a program of the closed
+    formulas, which is also written as report.py; raises `NotOfferedError` if there are none. A PDF by typst conforms to
+    the `standards`. Files are written whole or not at all. Raises `AssignmentError`, `TemplateError`,
     `TypesetterError`, `OutputError`.
     """
     put = build_each(
@@ -142,7 +143,9 @@ def build_each(
     listing: bool = False,
     standards: Standards = STANDARDS,
 ) -> made.Put:
-    """Write the complete report in some of `FORMATS`; gives their paths in that order, and what became of others."""
+    """Write the complete report in some of `FORMATS`; return the paths in that order, and what happened to
+    other files.
+    """
     from reportgen.document import Listing
 
     assignment = load(path, language)
@@ -176,7 +179,7 @@ def build_each(
 def made_of(
     path: Path | str, engine: str, language: Language | None, standards: Standards = STANDARDS, **more: str
 ) -> made.MadeOf:
-    """All input that decides the bytes of what is made of an assignment file now, in its own language without another.
+    """Return all inputs that determine the products of an assignment file, in its own language unless one is given.
 
     Raises `AssignmentError`, `OutputError`.
     """
@@ -193,9 +196,8 @@ def made_of(
 Maker = Callable[..., Mapping[str, bytes]]
 """Makes the files of one product, by name, from path, engine and language.
 
-Those of `ASKING` take `ask`, too, those of `TYPESET` the `standards` that their PDF keeps.
-
-It depends on its arguments alone, so that it can run anywhere.
+Those of `ASKING` also take `ask`, those of `TYPESET` the `standards` of their PDF. The result depends only on the
+arguments, so that a maker can run anywhere.
 """
 
 KEY_FORMATS = names("key")
@@ -204,26 +206,26 @@ KEY_FORMATS = names("key")
 def report_files(
     path: Path, engine: Engine, language: Language | None, standards: Standards = STANDARDS
 ) -> Mapping[str, bytes]:
-    """The complete report."""
+    """Return the complete report."""
     case = open_case(path, language)
     letter = letter_of(case.assignment, engine)
     return _report("pdf", ReportJob(case, case.document(), engine, letter, standards))
 
 
 def page_files(path: Path, engine: Engine, language: Language | None) -> Mapping[str, bytes]:
-    """The complete report as a page for a browser, whatever the engine."""
+    """Return the complete report as a page for a browser, whatever the engine."""
     case = open_case(path, language)
     return _report("html", ReportJob(case, case.document()))
 
 
 def word_files(path: Path, engine: Engine, language: Language | None) -> Mapping[str, bytes]:
-    """The complete report as a Word file, whatever the engine."""
+    """Return the complete report as a Word file, whatever the engine."""
     case = open_case(path, language)
     return _report("docx", ReportJob(case, case.document()))
 
 
 def _report(name: str, job: ReportJob) -> Mapping[str, bytes]:
-    """The file of a report in one format."""
+    """Return the file of a report in one format."""
     (row,) = chosen("report", (name,))
     return {f"report.{row.suffix}": row.load()(job)[row.suffix]}
 
@@ -231,9 +233,9 @@ def _report(name: str, job: ReportJob) -> Mapping[str, bytes]:
 def task_files(
     path: Path, engine: Engine, language: Language | None, ask: Ask | None = None, standards: Standards = STANDARDS
 ) -> Mapping[str, bytes]:
-    """The student's handout, the answer sheet of what is to be asked, and the data to check oneself by, if wanted.
+    """Return the student's handout, the answer sheet and, unless disabled, the data for a self-check.
 
-    No answer is in them.
+    They contain no answers.
     """
     from reportgen.assignment.handed_out import handed_out
     from reportgen.marking.key import Ask, key_of
@@ -252,7 +254,7 @@ def task_files(
 
 
 def frame_files(path: Path, engine: Engine, language: Language | None, ask: Ask | None = None) -> Mapping[str, bytes]:
-    """The frame of a report as a Word file, with a field for each result that is asked for, whatever the engine."""
+    """Return the frame of a report as a Word file, with a field for each requested result, whatever the engine."""
     from reportgen.marking.frame import frame_of
     from reportgen.marking.key import Ask, key_of
 
@@ -268,7 +270,7 @@ def key_files(
     ask: Ask | None = None,
     standards: Standards = STANDARDS,
 ) -> Mapping[str, bytes]:
-    """The answer key in some of `KEY_FORMATS`; it says what the answer sheet asks for, and holds everything."""
+    """Return the answer key in some of `KEY_FORMATS`; it marks the requested cells and contains all values."""
     from reportgen.marking.key import Ask, key_of
 
     step("solve")
@@ -291,11 +293,12 @@ def sheet_files(
     every: bool = False,
     standards: Standards = STANDARDS,
 ) -> Mapping[str, bytes]:
-    """The drawing sheets, `sheet-1.pdf`, `sheet-1.dxf`, …, whatever the engine of the report.
+    """Return the drawing sheets, `sheet-1.pdf`, `sheet-1.dxf`, …, whatever the engine of the report.
 
-    Without a `size` they have the smallest that holds each set on one sheet; without `sets` they show all, with `every`
-    plate or those usually handed in; the title `block` is that of the language unless a file of one is given.  Raises
-    `SheetError` where there is nothing to draw, and `AssignmentError` where a plate has no place on the size.
+    Without a `size`, each set gets the smallest sheet that it fits on. Without `sets`, all are drawn; with `every`,
+    they include every plate, not only those usually submitted. The title `block` is that of the language unless a file
+    is given. Raises `SheetError` if there is nothing to draw, and `AssignmentError` if a plate does not fit on the
+    size.
     """
     from reportgen.sheets import drawing_sheets
 
@@ -311,24 +314,24 @@ def sheet_files(
 
 
 def blocks(assignment: Assignment) -> dict[str, Path]:
-    """The title blocks that are known by a name: the program's, and those of the assignment's school."""
+    """Return the title blocks that have a name: the program's, and those of the assignment's school."""
     from reportgen.sheets import frame
 
     return frame.blocks(assignment.school or "", assignment.language)
 
 
 MAKERS: Mapping[str, Maker] = {product.name: product.load() for product in PRODUCTS}
-"""The products by the names that `--make` takes."""
+"""The products by the names that `--make` accepts."""
 USUAL = tuple(product.name for product in PRODUCTS if product.usual)
-"""What a batch makes unless it is told."""
+"""Default products of a batch."""
 ASKING = frozenset(product.name for product in PRODUCTS if product.asks)
-"""Those that depend on what the answer sheet asks for."""
+"""Products that depend on the selection of the answer sheet."""
 TYPESET = frozenset(product.name for product in PRODUCTS if product.typeset)
-"""Those that have a PDF."""
+"""Products that have a PDF."""
 
 
 def policy(path: Path | None, language: Language | None) -> Policy:
-    """How a class is marked: as a file says, or what holds without one.  Raises `AssignmentError`."""
+    """Return the marking policy of a file, or the default without one; raise `AssignmentError`."""
     from reportgen.marking.policy import Policy, read_policy
 
     return Policy() if path is None else read_policy(path, language)
@@ -337,7 +340,7 @@ def policy(path: Path | None, language: Language | None) -> Policy:
 def compare(
     path: Path, files: Sequence[Path], hint: bool = False, language: Language | None = None
 ) -> tuple[tuple[str, ...], bool]:
-    """What a student is told of a filled answer sheet, or of a report and drawings, and whether they agree so far.
+    """Return the messages to a student about an answer sheet or a report and drawings, and True if they agree so far.
 
     Raises `AssignmentError`.
     """
@@ -349,9 +352,9 @@ def compare(
 def read(
     path: Path, files: Sequence[Path], out: Path, ask: Ask | None = None, language: Language | None = None
 ) -> tuple[Path, str]:
-    """Write what was read of a report and drawings to `out`/<id>/reading.xlsx; gives the path and a line about it.
+    """Write the values read from a report and drawings to `out`/<id>/reading.xlsx; return its path and a summary line.
 
-    Raises `AssignmentError` also where somebody has completed the sheet that stands there, and `OutputError`.
+    Raises `AssignmentError`, also if somebody has completed the existing sheet, and `OutputError`.
     """
     from reportgen.handin import checking, reading_book
     from reportgen.marking.key import Ask
@@ -365,12 +368,12 @@ def read(
 
 
 def check_ask(ask: Ask | None, files: Iterable[Path], language: Language | None) -> None:
-    """Raises `AssignmentError` if a policy asks for what no machine of these assignments has."""
+    """Raise `AssignmentError` if a policy asks for something that no machine of these assignments has."""
 
     from reportgen.marking.key import key_of
 
     def keys() -> Iterator[Key]:
-        """A key of each kind of machine; what cannot be computed is told where its turn comes."""
+        """Yield a key of each kind of machine; cases that cannot be computed are skipped and reported later."""
         seen: set[str] = set()
         for path in files:
             with suppress(ReportgenError):

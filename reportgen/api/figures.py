@@ -1,4 +1,4 @@
-"""Figures and curves of assignment files as files of their own."""
+"""Write figures and curves of assignment files as separate files."""
 
 from __future__ import annotations
 
@@ -24,13 +24,13 @@ from reportgen.writers import figure
 __all__ = ["FIGURE_FORMATS", "MOVING", "PLOT_FORMATS", "figure_files", "figure_list", "plot_files", "worked_at"]
 
 PLOT_FORMATS = names("plots")
-"""What a plot can be written as."""
+"""Formats of a plot."""
 
 
 def figure_list(
     path: Path | str, language: Language | None = None
 ) -> tuple[tuple[NamedFigure, ...], tuple[MovingFigure, ...]]:
-    """The figures of a file's report in their order, and what moves on its page."""
+    """Return the figures of a file's report in order, and the moving figures of its page."""
     return figures.listed(open_case(path, language))
 
 
@@ -43,10 +43,10 @@ def figure_files(
     layers: Sequence[str] = ("paths",),
     language: Language | None = None,
 ) -> Mapping[str, bytes]:
-    """Figures as files in some of `FIGURE_FORMATS`, by name; all that the report has unless some are named.
+    """Return figures as files in some of `FIGURE_FORMATS`, by name; all of the report unless `names` are given.
 
-    With the label or the number of a position `at` that one is worked out, and of several drawings those that show it
-    are chosen.  Raises `UnknownNameError`, `NotOfferedError`, `TypesetterError`.
+    With `at` (the label or the number of a position), that position is worked out, and of several drawings those that
+    show it are chosen. Raises `UnknownNameError`, `NotOfferedError`, `TypesetterError`.
     """
     case = open_case(path, language)
     case, labels = worked_at(case.assignment, at) if at else (case, ())
@@ -63,10 +63,10 @@ def plot_files(
     dpi: int = 220,
     language: Language | None = None,
 ) -> Mapping[str, bytes]:
-    """Quantities by their ids as curves of each file, a chart for each unit, in some of `PLOT_FORMATS`.
+    """Return quantities, given by their ids, as curves of each file, a chart for each unit, in some of `PLOT_FORMATS`.
 
-    They run over the driver's way or over time; a table of `measured` values is drawn as points.  Raises
-    `UnknownNameError`, `NotOfferedError`, `AssignmentError` also for the table.
+    They are plotted over the driver's displacement or over time; a table of `measured` values is drawn as points.
+    Raises `UnknownNameError`, `NotOfferedError`, and `AssignmentError`, also for the table.
     """
     cases = [opened(curves.dense(load(path, language))) for path in paths]
     curves.check_turning(cases)
@@ -78,9 +78,9 @@ def plot_files(
 
 
 def worked_at(assignment: Assignment, at: str) -> tuple[Case, tuple[str, ...]]:
-    """The case with one position worked out, and the labels that it goes by: its own, that of its place in a turn.
+    """Return the case with one position worked out, and its labels: its own, and that of its place in a turn.
 
-    Raises `UnknownNameError` where there is no such position, `NotOfferedError` of a kind without any.
+    Raises `UnknownNameError` if there is no such position, `NotOfferedError` for a kind without positions.
     """
     if not catalogue.kind(assignment.kind).has_positions:
         raise NotOfferedError(word("no_at", assignment.language, kind=assignment.kind))

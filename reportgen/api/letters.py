@@ -1,4 +1,4 @@
-"""The letters that a report is set in: those its file asks for, and those its language is written in."""
+"""Fonts of a report: the one that its file asks for, and those that its language requires."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ Engine = Literal["typst", "latex"]
 
 
 def letter_of(assignment: Assignment, engine: Engine) -> Letter:
-    """The letter of a file; raises `AssignmentError` where the engine does not have its font, or its language's."""
+    """Return the letter of a file; raise `AssignmentError` if the engine lacks its font or its language's."""
     from reportgen.document.layout import Letter
 
     if engine == "typst":
@@ -33,7 +33,7 @@ def letter_of(assignment: Assignment, engine: Engine) -> Letter:
 
 
 def letters_of(assignment: Assignment) -> None:
-    """Raises `AssignmentError`, at the language, where no font that Typst knows has the letters it is written in."""
+    """Raise `AssignmentError`, at the language, if no font known to Typst has the letters of its script."""
     wanted = setting_of(assignment.language).typst.fonts
     if not wanted:
         return
@@ -47,7 +47,7 @@ def letters_of(assignment: Assignment) -> None:
 
 
 def _fonts(engine: Engine) -> list[str]:
-    """The fonts whose names an engine knows."""
+    """Return the font names that an engine knows."""
     if engine == "latex":
         from reportgen.writers import latex
 

@@ -1,4 +1,4 @@
-"""Pages that are served while their file is edited: `watch`, `edit`, and the choice of a kind to begin with."""
+"""Serve pages while their file is edited: `watch`, `edit`, and the choice of a kind to begin with."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ if TYPE_CHECKING:
     from reportgen.document import Document
 
 Written = Callable[[Callable[[], bytes], Language], None]
-"""What is told of each finished report: a function that gives its PDF, or raises `TypesetterError`; its language."""
+"""Called for each finished report with its language and a function that returns its PDF or raises `TypesetterError`."""
 
 
 def watch(path: Path, language: Language | None = None, written: Written | None = None, browser: bool = True) -> None:
     """Show the report of a file in a browser, renewed whenever it changes, until the program is interrupted.
 
-    Raises `AssignmentError` if there is no file, `OutputError`.
+    Raises `AssignmentError` if there is no file, and `OutputError`.
     """
 
     def tell(case: Case, document: Document) -> None:
@@ -34,12 +34,12 @@ def watch(path: Path, language: Language | None = None, written: Written | None 
 
 
 def edit(path: Path, products: Products, language: Language | None = None, browser: bool = True) -> None:
-    """As `watch`, with a form beside what moves, by which the file is changed and its `products` are made."""
+    """Like `watch`, with a form beside the moving figure that changes the file and makes its `products`."""
     served.edit(path, opener(), language, products, browser=browser)
 
 
 def choose(
     begins: Callable[[str], Path], products: Products, language: Language | None = None, browser: bool = True
 ) -> None:
-    """Show the kinds in a browser; the file of the one that is chosen, which `begins` makes, is then edited."""
+    """Show the kinds in a browser; `begins` creates a file of the chosen kind, which is then edited."""
     served.choose(begins, opener(), language, products, browser=browser)

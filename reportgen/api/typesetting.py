@@ -1,4 +1,4 @@
-"""A document or a drawing sheet → PDF, by one of the two typesetters."""
+"""Typeset a document or a drawing sheet as PDF, with one of the two typesetters."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ SUFFIX: Mapping[Engine, str] = {"typst": ".typ", "latex": ".tex"}
 def reading_ahead(
     assignment: Assignment, engine: Engine, letter: Letter | None
 ) -> AbstractContextManager[Ahead | None]:
-    """The typesetter, if it has something to read while the report is worked out; under a school's templates later."""
+    """Return the typesetter if it can read ahead while the report is computed; not with a school's templates."""
     if engine != "latex" or letter is None or assignment.school is not None:
         return nullcontext()
     from reportgen.writers import latex, pdflatex
@@ -41,9 +41,9 @@ def typeset(
     standards: Standards = STANDARDS,
     ahead: Ahead | None = None,
 ) -> tuple[str, bytes]:
-    """The source that a writer makes of a document in a letter, and its PDF; raises `TypesetterError`.
+    """Return the source of a document in a letter, and its PDF; raise `TypesetterError`.
 
-    That of typst keeps the `standards`; LaTeX may have read `ahead` what the source begins with.
+    A PDF by typst conforms to the `standards`; LaTeX may have read the beginning of the source `ahead`.
     """
     from reportgen.document.layout import Letter
 
@@ -69,7 +69,7 @@ def typeset_sheet(
     phrases: Mapping[str, str],
     standards: Standards = STANDARDS,
 ) -> bytes:
-    """The PDF of a drawing sheet of an assignment, which tells in `phrases` what it shows.
+    """Return the PDF of a drawing sheet of an assignment, with a text alternative in `phrases`.
 
     Raises `TypesetterError`.
     """

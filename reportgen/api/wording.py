@@ -1,4 +1,4 @@
-"""The words of a language: compared with those of reference, and set beside them as a proof sheet."""
+"""Check the words of a language against the reference, and typeset them side by side as a proof sheet."""
 
 from __future__ import annotations
 
@@ -19,24 +19,24 @@ from reportgen.report.report import Report
 from reportgen.writers.typst_fonts import added, lacking, there_is_one_of
 
 BATCH = 400
-"""So many letters are asked for at a time."""
+"""Number of letters in one query."""
 WARNINGS = frozenset({"words-term", "words-untranslated", "words-idle"})
-"""What does no harm: a term said otherwise than in the glossary, a message in English, a word nobody asks for."""
+"""Codes of harmless findings: another term than the glossary's, a message in English, an unused word."""
 
 
 def folder_of(place: str) -> Path:
-    """The folder of a language, by its name or as a way to it; it may not be there."""
+    """Return the folder of a language, by its name or as a path; it may not exist."""
     return templates() / place if place in languages() else Path(place)
 
 
 def compared(folder: Path, language: Language) -> list[Problem]:
-    """What the words of a folder lack or have otherwise than those of reference, told in a language.
+    """Return the differences between the words of a folder and the reference, worded in a language.
 
-    Raises `TemplateError` for what cannot be read.
+    Raises `TemplateError` for a file that cannot be read.
     """
     wanted = read_setting(file).typst.fonts if (file := folder / LANGUAGE_FILE).is_file() else ()
     if wanted and not there_is_one_of(wanted):
-        # Without its fonts nearly every line would be told.
+        # Without its fonts, nearly every line would be reported.
         missing = Fault("no-letters", Mark(str(file)), {"text": folder.name, "known": ", ".join(wanted)})
         return [_problem(fault, language) for fault in (missing, *faults(folder))]
     return [_problem(fault, language) for fault in faults(folder, _lacking)]
@@ -59,18 +59,18 @@ def _in_batches(letters: str) -> Iterator[str]:
 
 PROOF = "proof.pdf"
 COMMON = "engine-twin"
-"""The machine whose data stand in what all machines say: it has gas, forces and a flywheel."""
+"""The machine whose data are used for the words common to all machines: it has gas, forces and a flywheel."""
 
 
 def proof_sheet(folder: Path, language: Language) -> bytes:
-    """The proof sheet of a language as PDF.  Raises `TypesetterError`, and `TemplateError` for faulty words."""
-    # What the language does not say yet, the reader is told as the reference says it.
+    """Return the proof sheet of a language as PDF; raise `TypesetterError`, and `TemplateError` for faulty words."""
+    # Words that the language lacks are shown in the reference language.
     words = {**common_words(REFERENCE), **common_words(language), **messages(spoken())["proof"]}
     return typeset(proof(folder, language, words, _names), "typst")[1]
 
 
 def _names(kind: str, language: Language) -> Mapping[str, object]:
-    """The names that the templates of a kind see, of its first example; none of a kind that is no machine."""
+    """Return the template names for the first example of a kind; {} for a kind that is not a machine."""
     from reportgen.report.template_names import names
 
     examples = catalogue.examples(kind or COMMON)

@@ -1,4 +1,4 @@
-"""The writers of reports, keys and drawing sheets that the table of formats names, and what each of them takes."""
+"""Writers of reports, keys and drawing sheets for the table of formats, and their arguments."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class ReportJob:
-    """A report to write: its case and its tree; for a typesetter also the letter, and what it has read `ahead`."""
+    """A report to write: its case and its tree; for a typesetter also the letter, and the opening read `ahead`."""
 
     case: Case
     tree: Document
@@ -39,7 +39,7 @@ class ReportJob:
 
 
 def report_pdf(job: ReportJob) -> Mapping[str, bytes]:
-    """Write the source and the PDF of a report, by their endings; raises `TypesetterError`."""
+    """Return the source and the PDF of a report, by suffix; raise `TypesetterError`."""
     if job.ahead is not None:
         source, pdf = typesetting.typeset(job.tree, job.engine, job.letter, job.standards, job.ahead)
     else:
@@ -49,7 +49,7 @@ def report_pdf(job: ReportJob) -> Mapping[str, bytes]:
 
 
 def report_page(job: ReportJob) -> Mapping[str, bytes]:
-    """Write a report as a page for a browser."""
+    """Return a report as a page for a browser."""
     from reportgen.page import page
 
     step("page")
@@ -57,14 +57,14 @@ def report_page(job: ReportJob) -> Mapping[str, bytes]:
 
 
 def report_word(job: ReportJob) -> Mapping[str, bytes]:
-    """Write a report as a Word file."""
+    """Return a report as a Word file."""
     return {"docx": word_file(job.case.assignment, job.tree)}
 
 
 def word_file(assignment: Assignment, tree: Document) -> bytes:
-    """Write a document as a Word file, in the letter and the size that its assignment gives.
+    """Return a document as a Word file, in the letter and the size of its assignment.
 
-    A school's own look goes before.  Raises `TemplateError` for a school's Word file that is refused.
+    A school's own look takes precedence. Raises `TemplateError` if a school's Word file is rejected.
     """
     from reportgen.workbook.letterhead import LETTERHEAD
 
@@ -74,7 +74,7 @@ def word_file(assignment: Assignment, tree: Document) -> bytes:
 
 
 def _written(assignment: Assignment, tree: Document, look: Path | None) -> bytes:
-    """Write a Word file with the look of a school's Word file, if there is one."""
+    """Return a Word file with the look of a school's Word file, if there is one."""
     from reportgen.document.layout import Letter
     from reportgen.workbook.letterhead import read_letterhead
     from reportgen.writers import pictures
@@ -98,7 +98,7 @@ def _written(assignment: Assignment, tree: Document, look: Path | None) -> bytes
 
 @dataclass(frozen=True, slots=True)
 class KeyJob:
-    """An answer key to write, and the case whose it is."""
+    """An answer key to write, and its case."""
 
     case: Case
     key: Key
@@ -107,7 +107,7 @@ class KeyJob:
 
 
 def key_pdf(job: KeyJob) -> bytes:
-    """Typeset the key; raises `TypesetterError`."""
+    """Return the key as PDF; raise `TypesetterError`."""
     from reportgen.marking import key_files
 
     tree = dated(key_files.key_document(job.key, job.case.title), job.case)
@@ -115,7 +115,7 @@ def key_pdf(job: KeyJob) -> bytes:
 
 
 def key_workbook(job: KeyJob) -> bytes:
-    """Write the key as a workbook of Excel."""
+    """Return the key as an Excel workbook."""
     from reportgen.marking import key_files
     from reportgen.workbook import write_xlsx
 
@@ -123,7 +123,7 @@ def key_workbook(job: KeyJob) -> bytes:
 
 
 def key_table(job: KeyJob) -> bytes:
-    """Write the key as CSV."""
+    """Return the key as CSV."""
     from reportgen.marking import key_files
     from reportgen.workbook import write_csv
 
@@ -131,7 +131,7 @@ def key_table(job: KeyJob) -> bytes:
 
 
 def key_json(job: KeyJob) -> bytes:
-    """Write the key as JSON."""
+    """Return the key as JSON."""
     from reportgen.marking import key_files
 
     return key_files.key_json(job.key).encode()
@@ -155,14 +155,14 @@ class SheetJob:
 
 
 def sheet_pdf(job: SheetJob) -> bytes:
-    """Typeset a drawing sheet; raises `TypesetterError`."""
+    """Return a drawing sheet as PDF; raise `TypesetterError`."""
     case = job.case
     pdf_of = partial(typesetting.typeset_sheet, phrases=case.words["told"], standards=job.standards)
     return bounded(case.assignment, pdf_of, job.sheet, case.title, case.assignment)
 
 
 def sheet_dxf(job: SheetJob) -> bytes:
-    """Write a drawing sheet as DXF."""
+    """Return a drawing sheet as DXF."""
     from reportgen.sheets import dxf
 
     return dxf.write_sheet(job.sheet, job.case.assignment.language)
