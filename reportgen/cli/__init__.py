@@ -1,6 +1,6 @@
-"""The command line: parse, call, print, end with the right code; no logic of its own.
+"""The command line: parse, call, print, and exit with the right code; it contains no logic.
 
-Exit codes: 0 done · 1 an input file is at fault · 2 wrong usage · 3 the typesetter or the system failed.
+Exit codes: 0 done · 1 an input file is invalid · 2 wrong usage · 3 the typesetter or the system failed.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ import sys
 from functools import cache
 
 TYPE_CHECKING = False
-# Until `main` runs Ctrl-C is not heard: `typing` alone takes as long as all that is loaded before.
+# Until `main` runs, Ctrl-C is not handled; importing `typing` alone takes as long as everything loaded before.
 if TYPE_CHECKING:
     from typing import Any, NoReturn, TextIO
 
@@ -23,14 +23,14 @@ if TYPE_CHECKING:
 
 LACKING = "reportgen: không đủ bộ nhớ (not enough memory: a limit is set, see ulimit -v)\n"
 STOPPED = "reportgen: đã dừng (interrupted)\n"
-"""Said where no words are loaded yet."""
+"""Messages used before any words are loaded."""
 
 COLLECTED = 1_000_000
-"""New objects between two searches for garbage: a report makes many that last, and hardly any cycles."""
+"""Number of new objects between two garbage collections: a report makes many lasting objects and hardly any cycles."""
 
 
 def main() -> None:
-    """Entry point of the `reportgen` command, which hears Ctrl-C before it has loaded anything."""
+    """Run the `reportgen` command; Ctrl-C is handled before anything is loaded."""
     if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
         signal.signal(signal.SIGINT, _leave)
     from reportgen.cli.limited import WATCHED, ends_by_itself, is_limited
@@ -40,7 +40,7 @@ def main() -> None:
     gc.set_threshold(COLLECTED)
     import warnings
 
-    # What others plug into models is none of ours, and looking for it takes time.
+    # Third-party plugins of models are not used, and searching for them takes time.
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
     import typer
 
@@ -48,11 +48,11 @@ def main() -> None:
     from reportgen.cli.common import SYSTEM, WRONG_USAGE, complain_of_program, language_of_run, misused
 
     for stream in (sys.stdout, sys.stderr):
-        # Vietnamese must not fail on a terminal or pipe of another encoding.
+        # Vietnamese must not fail on a terminal or pipe with another encoding.
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(encoding="utf-8", errors="backslashreplace")
     warnings.showwarning = _tell
-    # Each file is told of, not the first alone.
+    # Warn about each file, not only the first.
     warnings.simplefilter("always", OutputWarning)
     try:
         language_of_run(sys.argv[1:])
@@ -61,7 +61,7 @@ def main() -> None:
         misused(error)
         sys.exit(WRONG_USAGE)
     except Exception as error:
-        # What is watched over has little memory: libraries that are there cannot be loaded.
+        # A watched process has little memory: installed libraries may fail to load.
         if WATCHED in os.environ and isinstance(error, (ImportError, MemoryError)):
             os.write(2, LACKING.encode())
         else:
@@ -69,12 +69,12 @@ def main() -> None:
         sys.exit(SYSTEM)
     finally:
         ends_by_itself()
-        # All memory goes with the process: no need to look through it once more on the way out.
+        # The memory is freed with the process; no final garbage collection is needed.
         gc.freeze()
 
 
 def _watch() -> NoReturn:
-    """Let another process run this command, and say what it cannot say itself where memory ends it."""
+    """Run this command in another process, and report a lack of memory that kills it."""
     from reportgen.cli.limited import run_watched
 
     code = run_watched()
@@ -84,14 +84,14 @@ def _watch() -> NoReturn:
 
 
 def _leave(*_: object) -> None:
-    """End at once: before a command begins its work there is nothing to tidy up, and half an import to fall over."""
+    """Exit at once: before a command begins its work there is nothing to clean up, and imports may be incomplete."""
     os.write(2, STOPPED.encode())
     os._exit(128 + signal.SIGINT)
 
 
 @cache
 def _app() -> typer.Typer:
-    """The commands in the order of the help."""
+    """Return the commands in the order of the help."""
     import typer
 
     from reportgen.cli import instructor, reading, student, takeaway, translator
@@ -135,7 +135,7 @@ def _app() -> typer.Typer:
 
 
 def __getattr__(name: str) -> Any:
-    """The `app`, made when it is asked for."""
+    """Return the `app`, created on demand."""
     if name != "app":
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     return _app()
@@ -149,5 +149,5 @@ def _tell(
     file: TextIO | None = None,
     line: str | None = None,
 ) -> None:
-    """Print a warning as the command line's other messages are."""
+    """Print a warning in the form of the command line's other messages."""
     print(f"reportgen: {message}", file=file or sys.stderr)

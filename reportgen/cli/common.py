@@ -1,4 +1,4 @@
-"""What all commands share: their options, their language, and how an outcome becomes words and an exit code."""
+"""Shared parts of all commands: options, language, error messages and exit codes."""
 
 from __future__ import annotations
 
@@ -26,16 +26,16 @@ if TYPE_CHECKING:
 
 AT_FAULT, WRONG_USAGE, SYSTEM, INTERRUPTED = 1, 2, 3, 130
 ENDED = frozenset({"SIGTERM", "SIGHUP"})
-"""Signals that end a command tidily, as far as a system knows them."""
+"""Signals that end a command with cleanup, if the system has them."""
 ASSIGNMENTS = frozenset({".yaml", ".yml"})
-"""Endings of assignment files."""
+"""Suffixes of assignment files."""
 
 File = Annotated[Path, typer.Argument(metavar="FILE", help="Assignment file.", show_default=False)]
 Files = Annotated[list[Path], typer.Argument(metavar="FILE", help="Assignment files.", show_default=False)]
 if TYPE_CHECKING:
     NamedLanguage = Language
 else:
-    # As a type of choices the option says in its help, its completion and its faults which languages there are.
+    # As a type of choices, the option lists the languages in its help, its completion and its errors.
     NamedLanguage = Literal[languages()]
 LangOption = Annotated[
     NamedLanguage | None, typer.Option("--lang", help="Language, instead of the file's own.", show_default=False)
@@ -66,7 +66,7 @@ USUAL_STANDARDS = ",".join(STANDARDS)
 def offered(known: Iterable[str]) -> str:
     """Return the help of an option that takes a list of names.
 
-    It is found again in another language by its words around the names.
+    Its translation is found by the words around the names.
     """
     return f"Of {', '.join(known)}; parted by commas."
 
@@ -77,12 +77,12 @@ def format_option(product: str) -> Any:
 
 
 def usual_formats(product: str) -> str:
-    """Return the formats of a product that a command writes if none is named, as its option has them."""
+    """Return the default formats of a product, as its option writes them."""
     return ",".join(formats.usual(product))
 
 
 def _use_templates(folder: Path | None) -> Path | None:
-    """Names a school's folder for the whole run, in all processes that it starts."""
+    """Set a school's folder for the whole run, in all processes that it starts."""
     if folder is not None:
         os.environ["REPORTGEN_TEMPLATES"] = str(folder.absolute())
     return folder
@@ -106,7 +106,9 @@ def begin(
 
 
 def _choose(context: typer.Context) -> None:
-    """As `edit` alone: who double-clicks has no command line; a file is begun at home, never beside the program."""
+    """Start `edit` without arguments for a double click; a file is created in the home folder, never beside the
+    program.
+    """
     if Path.cwd() == Path(sys.argv[0]).absolute().parent:
         os.chdir(Path.home())
     assert isinstance(context.command, TyperGroup), "only a group has commands"
@@ -115,9 +117,9 @@ def _choose(context: typer.Context) -> None:
 
 @contextmanager
 def ending(lang: Language | None) -> Iterator[None]:
-    """Prints what goes wrong inside, never a traceback, and ends with the exit code it means."""
+    """Print errors raised inside, never a traceback, and exit with the matching code."""
     if signal.getsignal(signal.SIGINT) is not signal.SIG_IGN:
-        # From here on there is something to tidy up.
+        # From here on there is something to clean up.
         signal.signal(signal.SIGINT, signal.default_int_handler)
     for name in ENDED & {*dir(signal)}:
         if signal.getsignal(number := getattr(signal, name)) is signal.SIG_DFL:
@@ -152,9 +154,9 @@ def ending(lang: Language | None) -> Iterator[None]:
 
 
 def for_each(files: list[Path], lang: Language | None, work: Callable[[Path], None]) -> None:
-    """Does the work for every file, whatever comes of the others, and ends with the gravest exit code.
+    """Do the work for every file, whatever happens to the others, and exit with the highest exit code.
 
-    Files of one name, which would write to one folder, are wrong usage.
+    Files with the same name, which would write to the same folder, are wrong usage.
     """
     seen: dict[str, Path] = {}
     for file in files:
@@ -175,21 +177,21 @@ def complain(text: str) -> None:
 
 
 def complain_of_program(error: BaseException, lang: Language | None = None) -> None:
-    """Says that an exception nobody expected is a fault of the program."""
+    """Report an unexpected exception as a bug of the program."""
     from reportgen.base.words import unexpected
 
     complain(unexpected(error, lang))
 
 
 def say(key: str, lang: Language | None, /, **arguments: object) -> str:
-    """A text of the message table in the language of the command line."""
+    """Return a text of the message table in the language of the command line."""
     from reportgen.base.words import word
 
     return word(key, lang, **arguments)
 
 
 def tell(put: Put, lang: Language | None) -> None:
-    """Prints the paths of files that were put in place; says which others of their kind went, and which were left."""
+    """Print the paths of written files; report which stale files were deleted, and which were kept."""
     print(*put.paths, sep="\n", flush=True)
     for key, paths in (("stale_gone", put.gone), ("stale_left", put.left)):
         for path in paths:
@@ -197,7 +199,7 @@ def tell(put: Put, lang: Language | None) -> None:
 
 
 def listed(text: str, known: Collection[str], option: str, complaint: str, lang: Language | None) -> tuple[str, ...]:
-    """The names in a list separated by commas, each once; a name that is not `known` is wrong usage."""
+    """Return the names in a list separated by commas, each once; a name that is not `known` is wrong usage."""
     names = tuple(dict.fromkeys(name.strip() for name in text.split(",")))
     for name in names:
         if name not in known:
@@ -208,7 +210,7 @@ def listed(text: str, known: Collection[str], option: str, complaint: str, lang:
 
 
 def kept(standard: str, lang: Language | None) -> Standards:
-    """The standards that an option names; none of them for `none`, beside which any other is wrong usage."""
+    """Return the standards that an option names; () for `none`, which cannot be combined with others."""
     names = listed(standard, (NONE, *KNOWN), "--standard", "no_standard", lang)
     if NONE in names and len(names) > 1:
         raise typer.BadParameter(say("no_standard", lang, text=standard), param_hint="--standard")
@@ -216,13 +218,13 @@ def kept(standard: str, lang: Language | None) -> Standards:
 
 
 def refuse_inputs(outputs: Iterable[Path], inputs: Sequence[Path | None], lang: Language | None) -> None:
-    """Raises `AssignmentError` where a command would write over one of its inputs; asked before all else."""
+    """Raise `AssignmentError` if a command would overwrite one of its inputs; called before anything else."""
     given = [path for path in inputs if path is not None]
     refuse(overwritten(outputs, given), given[0], lang)
 
 
 def refuse(faults: Iterable[Fault], file: Path, lang: Language | None) -> None:
-    """Raises `AssignmentError` with these faults, if there are any, in the language of a file."""
+    """Raise `AssignmentError` with these faults, if there are any, in the language of a file."""
     if listed := list(faults):
         from reportgen.base.source import read_source
         from reportgen.base.words import as_error, language_of
@@ -231,7 +233,7 @@ def refuse(faults: Iterable[Fault], file: Path, lang: Language | None) -> None:
 
 
 def write(path: Path, text: str) -> None:
-    """To standard output for `-`; into a pipe or a device; else to the file, replaced only once all is written."""
+    """Write to standard output for `-`, to a pipe or a device, or else to the file, replaced only when complete."""
     if str(path) == "-":
         sys.stdout.write(text)
     elif is_stream(path):
@@ -244,9 +246,9 @@ def write(path: Path, text: str) -> None:
 
 
 def language_of_run(arguments: Sequence[str]) -> None:
-    """Speaks the language that a command line asks for: by `--lang`, else by the first assignment that it names.
+    """Set the language of a command line: that of `--lang`, else that of the first assignment that it names.
 
-    A folder stands for the first assignment file in it; where there is none, the locale says it.
+    For a folder, use the first assignment file in it; if there is none, the locale decides.
     """
     from reportgen.base.words import speak
 
@@ -261,7 +263,7 @@ def _asked_for(arguments: Sequence[str]) -> Iterator[Language]:
     line = " ".join(arguments).replace("--lang=", "--lang ")
     yield from (language for language in languages() if re.search(rf"(^| )--lang {language}( |$)", line))
     for path in map(Path, arguments):
-        # What is no path at all is told by who reads it.
+        # The reader reports a text that is not a path at all.
         with suppress(OSError, ValueError):
             for file in sorted(path.glob("*.y*ml"))[:1] if path.is_dir() else [path]:
                 text = text_in(file) if file.suffix.lower() in ASSIGNMENTS else ""
@@ -273,9 +275,9 @@ def _asked_for(arguments: Sequence[str]) -> Iterator[Language]:
 
 
 def misused(error: Any) -> None:
-    """Says what is wrong with a command line, and where its help is.
+    """Report an error of a command line, and where its help is.
 
-    What typer finds it says in English alone, so it is told apart by what each of its errors carries.
+    typer's own messages are only in English, so its errors are distinguished by their attributes.
     """
     complain(_told(error))
     if error.ctx is not None:
@@ -301,7 +303,7 @@ def _told(error: Any) -> str:
 
 
 def _allowed(error: Any) -> str:
-    """What the parameter of an error takes, from the types of the command's own parameters."""
+    """Return what the parameter of an error accepts, from the types of the command's own parameters."""
     hint = get_type_hints(error.ctx.command.callback, include_extras=True)[error.param.name]
     choices = [choice for one in _within(hint) if get_origin(one) is Literal for choice in get_args(one)]
     if choices:
@@ -313,7 +315,7 @@ def _allowed(error: Any) -> str:
 
 
 def _within(hint: Any) -> Iterator[Any]:
-    """A type with all those that it is made of."""
+    """Yield a type and all types that it consists of."""
     yield hint
     if get_origin(hint) is not Literal:
         for inner in get_args(hint):

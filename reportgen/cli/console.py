@@ -1,7 +1,7 @@
-"""Whether the program has a console to itself, which on Windows opens for what is double-clicked.
+"""Detect if the program has its own console, which Windows opens for a double click.
 
-The rule is that of the console API: `GetConsoleProcessList` names the processes of a console.  Of a command that was
-installed one is its launcher, which waits for Python; a shell is another program.
+`GetConsoleProcessList` of the console API lists the processes of a console. An installed command has a launcher among
+them, which waits for Python; a shell is another program.
 """
 
 from __future__ import annotations
@@ -11,14 +11,14 @@ import re
 from typing import Any
 
 LAUNCHERS = re.compile(r"(?:python|py|reportgen)[\w.-]*", re.IGNORECASE)
-"""The programs that only start this one, by their names."""
+"""Names of programs that only start this one."""
 QUERY_LIMITED_INFORMATION = 0x1000
 MOST, LONGEST = 16, 1024
-"""So many processes of a console are looked at; so long a name has place."""
+"""Largest number of console processes that are checked, and longest program name."""
 
 
 def is_double_clicked() -> bool:
-    """Whether nobody else is in the console of this process; False on systems that have no such consoles."""
+    """Return True if no other program uses this console; False on systems without such consoles."""
     windll = getattr(ctypes, "windll", None)
     if windll is None:
         return False
@@ -31,7 +31,7 @@ def is_double_clicked() -> bool:
 
 
 def _program(kernel: Any, process: int) -> str:
-    """The name of the program of a process; "" where that may not be asked."""
+    """Return the program name of a process; "" if access is denied."""
     handle = kernel.OpenProcess(QUERY_LIMITED_INFORMATION, False, process)
     if not handle:
         return ""

@@ -1,7 +1,7 @@
-"""Help in the language that is spoken: the texts of commands and options, and the words around them.
+"""Help in the current language: the texts of commands and options, and the words around them.
 
-The commands say in English what they do; `help.yaml` of another language has each of these texts in its own, by the
-English one.  It is read only where help is asked for.
+The commands have English texts; `help.yaml` of another language maps each of them to a translation. It is read only
+when help is requested.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ PAGES = {
     "key": "class",
     "grade": "class",
 }
-"""The page of the documentation that a command is explained on; that of all commands for any other."""
+"""Documentation page for a command; others have the page of all commands."""
 OTHERS = "commands"
 _EXTRA = re.compile(r"^(?P<help>.*?)(?P<extra>(?:  |^)\[[^\[\]]*\])$", re.DOTALL)
 _PYTHON_TYPE = re.compile(r" <[\w\[\]]+>$")
@@ -41,7 +41,7 @@ _DEFAULT = re.compile(r"\bdefault: (\((.+?)\)(?=; |\]))?")
 
 
 class _Spoken:
-    """What a command and the group of all commands have in common: help in words of the language."""
+    """Common base of a command and the group of commands: help in the current language."""
 
     name: str | None
     help: str | None
@@ -49,57 +49,57 @@ class _Spoken:
     get_params: Callable[[Any], list[Any]]
 
     def format_usage(self, ctx: Any, formatter: Any) -> None:
-        """The line that shows how the command is called."""
+        """Write the usage line of the command."""
         frame = _helps()["frame"]
         pieces = " ".join(self.collect_usage_pieces(ctx))
         shown = re.sub(r"\w+", lambda piece: frame["pieces"].get(piece[0], piece[0]), pieces)
         formatter.write_usage(ctx.command_path, shown, prefix=f"{frame['usage']}: ")
 
     def format_help_text(self, ctx: Any, formatter: Any) -> None:
-        """What the command does."""
+        """Write the description of the command."""
         for paragraph in (self.help or "").split("\n\n"):
             formatter.write_paragraph()
             with formatter.indentation():
                 formatter.write_text(translated(paragraph))
 
     def format_options(self, ctx: Any, formatter: Any) -> None:
-        """Arguments, then options; behind them the page that tells more."""
+        """Write the arguments, then the options."""
         frame = _helps()["frame"]
         for kind, head in (("argument", "arguments"), ("option", "options")):
             records = [each.get_help_record(ctx) for each in self.get_params(ctx) if each.param_type_name == kind]
-            # Behind an argument typer writes its Python type, which says nothing to a user.
+            # typer appends the Python type to an argument, which is meaningless to a user.
             rows = [(_PYTHON_TYPE.sub("", names), _record(text)) for names, text in filter(None, records)]
             if rows:
                 with formatter.section(frame[head]):
                     formatter.write_dl(rows)
 
     def format_epilog(self, ctx: Any, formatter: Any) -> None:
-        """Where more is told."""
+        """Write the reference to the documentation page."""
         page = PAGES.get(self.name or "", OTHERS)
         formatter.write_paragraph()
         formatter.write_text(_helps()["frame"]["more"].format(page=page))
 
 
 class Command(_Spoken, TyperCommand):
-    """A command whose help is in the language that is spoken."""
+    """A command whose help is in the current language."""
 
     def get_short_help_str(self, limit: int = 45) -> str:
-        """The first sentence of what it does."""
+        """Return the first sentence of the description."""
         return re.split(r"(?<=\.)\s", translated((self.help or "").split("\n\n")[0]))[0]
 
 
 class Commands(_Spoken, TyperGroup):
-    """All commands, of which an unknown one is told with the one it was probably meant to be."""
+    """The group of all commands; an unknown one is reported with the closest known one."""
 
     def format_options(self, ctx: Any, formatter: Any) -> None:
-        """Options, then the commands."""
+        """Write the options, then the commands."""
         super().format_options(ctx, formatter)
         rows = [(name, command.get_short_help_str()) for name, command in self.commands.items()]
         with formatter.section(_helps()["frame"]["commands"]):
             formatter.write_dl(rows)
 
     def resolve_command(self, ctx: Any, args: list[str]) -> Any:
-        """The command that a line names.  Raises `BadParameter` for none."""
+        """Return the command that a line names; raise `BadParameter` for an unknown one."""
         if args[0] not in self.commands:
             import typer
 
@@ -110,14 +110,14 @@ class Commands(_Spoken, TyperGroup):
 
 
 def start() -> str:
-    """The short start that is printed where no command is named."""
+    """Return the short introduction that is printed if no command is given."""
     return "\n".join(_helps()["start"])
 
 
 def translated(text: str) -> str:
-    """A text of the commands in the language that is spoken; one that has none there stays English.
+    """Return a text of the commands in the current language, or in English if it has no translation.
 
-    A text with `{names}` in `help.yaml` is that of every list of names in its place.
+    A text with `{names}` in `help.yaml` matches any list of names in its place.
     """
     plain = " ".join(text.split())
     texts = _helps()["texts"]
@@ -130,7 +130,7 @@ def translated(text: str) -> str:
 
 
 def _record(text: str) -> str:
-    """What is said of an option, with its default and whether it is required."""
+    """Return the help of an option, with its default and whether it is required."""
     match = _EXTRA.match(text)
     if match is None:
         return translated(text)

@@ -1,4 +1,4 @@
-"""Commands about a whole class: variants, papers, keys, marks."""
+"""Commands for a whole class: variants, papers, keys, marks."""
 
 from __future__ import annotations
 
@@ -86,7 +86,7 @@ def variants(
     from reportgen.classes.variants import make_variants
 
     formats = listed(format, names("variants"), "--format", "no_format", lang)
-    # What has a name of its own is one file for the class.
+    # A format with its own file name gives one file for the class.
     banks = {f"{row.stem}.{row.suffix}": row for row in chosen("variants", formats) if row.stem}
     with ending(lang):
         refuse_inputs([out / name for name in banks], [spec, roster, policy], lang)
@@ -106,7 +106,7 @@ def variants(
 
 
 def _bar(things: Iterable[Any], count: int) -> Iterable[Any]:
-    """Shows on a terminal how far it has come with so many things."""
+    """Show the progress over the things on a terminal."""
     from rich.console import Console
     from rich.progress import track
 
@@ -261,7 +261,7 @@ def grade(
         filled = () if gradebook is None else (outcome.filled_gradebook(gradebook, out),)
         refuse_inputs((*made, *filled), [*files_read(submissions), policy, roster, gradebook, corrections], lang)
         rules = api.policy(policy, lang)
-        # What is wrong with it is told before an hour's marking, not after.
+        # Errors in these files must be reported before an hour of marking, not after it.
         table = None if gradebook is None else read_gradebook(gradebook, column, lang)
         judged = () if corrections is None else read_corrections(corrections, lang)
         graded = assess.grade(

@@ -1,4 +1,4 @@
-"""A command under a limit of memory: libraries that get none end a process at once, so another one watches over it."""
+"""Run a command under a memory limit: libraries without memory kill a process, so another process watches over it."""
 
 from __future__ import annotations
 
@@ -9,15 +9,15 @@ import sys
 from contextlib import suppress
 
 WATCHED = "REPORTGEN_WATCHED"
-"""Stands in the environment of a command that is watched over."""
+"""Environment variable of a watched command."""
 LEFT = 128
-"""Codes above it say which signal a command was ended by, if it left at once."""
+"""Exit codes above it encode the signal that ended a command."""
 FEW = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS", "RAYON_NUM_THREADS"), "1")
-"""Each thread of a library takes memory, needed or not."""
+"""Environment that limits threads, because each thread of a library takes memory, needed or not."""
 
 
 def is_limited() -> bool:
-    """Whether this process may have so much memory and no more, and nobody watches over it yet."""
+    """Return True if this process has a memory limit and is not watched yet."""
     with suppress(ImportError, OSError, ValueError):
         import resource
 
@@ -26,14 +26,15 @@ def is_limited() -> bool:
 
 
 def run_watched() -> int | None:
-    """The exit code of this very command in another process; None where that did not end by itself."""
+    """Run this command in another process and return its exit code; None if it was killed or crashed."""
     command = [sys.executable, "-m", "reportgen.cli", *sys.argv[1:]]
     reading, telling = os.pipe()
     surroundings = {**FEW, **os.environ, WATCHED: str(telling)}
     with subprocess.Popen(command, env=surroundings, pass_fds=(telling,)) as process:
         os.close(telling)
         for number in (signal.SIGTERM, signal.SIGINT):
-            # Both hear Ctrl-C; what ends this process is passed on, and the other one tidies up.
+            # Both processes receive Ctrl-C; signals that would end this process are passed on, and the other one cleans
+            # up.
             signal.signal(number, lambda number, _: process.send_signal(number))
         code = process.wait()
     with os.fdopen(reading, "rb") as stream:
@@ -41,7 +42,7 @@ def run_watched() -> int | None:
 
 
 def ends_by_itself() -> None:
-    """Tell who watches, if somebody does: libraries in C end a process from within, with any code."""
+    """Inform a watching process that this one ends normally: C libraries end a process internally, with any code."""
     if pipe := os.environ.get(WATCHED):
         with suppress(OSError):
             os.write(int(pipe), b".")

@@ -1,4 +1,4 @@
-"""The documentation that comes with the program."""
+"""The command for the documentation that comes with the program."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def docs(
 
 
 def _show(text: str) -> None:
-    """Prints a page, on a terminal with its headings and tables as such."""
+    """Print a page; a terminal shows its headings and tables formatted."""
     if sys.stdout.isatty():
         from rich.console import Console
         from rich.markdown import Markdown

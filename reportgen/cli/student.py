@@ -1,4 +1,4 @@
-"""Commands about one assignment: check it, solve it, report it."""
+"""Commands for one assignment: check it, solve it, report it."""
 
 from __future__ import annotations
 
@@ -169,7 +169,7 @@ def edit(
     from reportgen.base.kinds import kinds
 
     def begin(kind: str) -> Path:
-        """The file of a kind, begun; one that was named, or the first that is not there yet."""
+        """Return a new file of a kind: the one that was named, or the first free name."""
         names = (Path(f"{kind}{f'-{number}' if number else ''}.yaml") for number in itertools.count())
         file = output or next(name for name in names if not os.path.lexists(name))
         _begin(kind, file, lang)
@@ -195,7 +195,7 @@ def edit(
 
 
 def _begin(kind: str, file: Path, lang: Language | None) -> None:
-    """Write the file to begin with of a kind, never over one that is there."""
+    """Write the sample file of a kind, never over an existing one."""
     from reportgen import api
     from reportgen.base.words import spoken
 
@@ -205,7 +205,7 @@ def _begin(kind: str, file: Path, lang: Language | None) -> None:
 
 
 def _products(file: Path, out: Path, lang: Language | None) -> dict[str, tuple[str, ...]]:
-    """The commands by which the page of a file has something made of it."""
+    """Return the commands with which the page of a file makes products."""
     spoken = ("--lang", lang) if lang else ()
     commands = {
         "pdf": ("build", "--format", "pdf"),
@@ -219,7 +219,7 @@ def _products(file: Path, out: Path, lang: Language | None) -> dict[str, tuple[s
 
 
 def _pdf_writer(path: Path, out: Path) -> Callable[[Callable[[], bytes], Language], None]:
-    """Writes each finished report as PDF, whole or not at all; says in a line what keeps it from that."""
+    """Return a function that writes each finished report as PDF, whole or not at all; it reports errors in one line."""
     from reportgen.api import made_of
     from reportgen.base.errors import ReportgenError
     from reportgen.base.made import put_made

@@ -1,4 +1,4 @@
-"""Commands that take something along: figures as files."""
+"""Commands that export figures and curves as files."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from reportgen.cli.common import (
 )
 
 FIGURES, PLOTS = "figures", "plots"
-"""The folder of figures beside the report, and that of plots."""
+"""Folders of figures and of plots beside the report."""
 
 
 def figure(
@@ -107,7 +107,7 @@ def plot(
 
 
 def _print_list(file: Path, lang: LangOption) -> None:
-    """A line a figure: its name, its number or the formats of what moves, what it shows, and at which positions."""
+    """Print a line per figure: its name, its number or moving formats, its caption, and its positions."""
     from reportgen.api import figures
 
     still, moving = figures.figure_list(file, lang)

@@ -1,4 +1,4 @@
-"""The command of those who translate: the words of a language, compared and set to be read."""
+"""The command for translators: check the words of a language, and typeset them for proofreading."""
 
 from __future__ import annotations
 
