@@ -1,6 +1,6 @@
-"""The case of an assignment: that of a machine, unless its kind brings one of its own.
+"""Open the case of an assignment: a machine's, unless its kind defines another one.
 
-A kind's module gives either `machine`, which makes a `Machine` of an assignment, or `case`, which makes a `Case`.
+A kind's module defines either `machine`, which makes a `Machine` of an assignment, or `case`, which makes a `Case`.
 """
 
 from __future__ import annotations
@@ -36,30 +36,31 @@ if TYPE_CHECKING:
 
 
 GENERAL, HEIGHT = "vasntωεφαl", "y"
-"""Letters without an index that stand for any point, link, length or angle, or count links; that of a diagram."""
+"""Letters without an index that denote any point, link, length or angle, or count links; and that of a diagram."""
 
 
 def opened(assignment: Assignment) -> Case:
-    """The case of an assignment, that of a coursework where it has parts."""
+    """Return the case of an assignment; that of a coursework if it has parts."""
     case: Case = getattr(catalogue.module(assignment.kind), "case", MachineCase)(assignment)
     if not assignment.parts:
         return case
-    # Its joining of trees loads what renders templates, which most commands of one part go without.
+    # Coursework loads the template renderer, which most commands for a single part do not need.
     from reportgen.coursework.case import Coursework
 
     return Coursework.of(case, [opened(part.within(assignment)) for part in assignment.parts])
 
 
 def open_case(path: Path | str, language: Language | None = None, whole: Path | None = None) -> Case:
-    """The case of an assignment file, in its own language or in `language`; of a part, with what it takes in `whole`.
+    """Return the case of an assignment file, in its own language or in `language`.
 
-    Raises `AssignmentError` with all faults of the file, located.
+    For a part, `whole` is the file from which it takes data. Raises `AssignmentError` with all faults of the file,
+    located.
     """
     return opened(catalogue.load(path, language, whole))
 
 
 def opener() -> Callable[..., Case]:
-    """As `open_case`, for a file that is opened again and again: a part that has not changed is not computed again."""
+    """Return a function like `open_case` for repeated opening; unchanged parts are not computed again."""
     from reportgen.coursework.case import Coursework
 
     earlier: Case | None = None
@@ -87,12 +88,14 @@ class MachineCase(MachineAnalysis):
 
     @property
     def used(self) -> frozenset[Symbol]:
-        """Those of its numbers, of its points and their images and coordinates, of the corners of its plans."""
+        """The symbols of its numbers, of its points with their images and coordinates, and of the corners of
+        its plans.
+        """
         from reportgen.derivation.motion import POLES
 
         names, bodies = list(self.analysis.motion.points), self.analysis.machine.linkage.inertias
         images = {vocabulary.on_plan(name, prime) for name in names for prime in (False, True)}
-        # Views load what renders templates, which most commands go without.
+        # Views load the template renderer, which most commands do not need.
         from reportgen.report.topic_views import VIEWS
 
         further = "".join(hooks.letters for hooks in VIEWS.among(self.analysis.machine.topics))
@@ -122,15 +125,15 @@ class MachineCase(MachineAnalysis):
 
     @property
     def _report(self) -> Report:
-        """The same as its templates name it."""
-        # It loads what renders templates, which most commands go without.
+        """The case as its templates see it."""
+        # It loads the template renderer, which most commands do not need.
         from reportgen.report.report import Report
 
         return Report(self)
 
     @cached_property
     def _ways(self) -> Mapping[str, str]:
-        """Where the motion of its sliders counts as positive, in words, by their points."""
+        """The positive directions of the motion of its sliders, in words, by their points."""
         from reportgen.report.equations import heading_words
 
         report = self._report
@@ -144,7 +147,9 @@ class MachineCase(MachineAnalysis):
 
     @property
     def driver_motion(self) -> DriverMotion:
-        """Sliders on the ground have signed velocities and accelerations, positive as in the report's curves."""
+        """The motion of the driver; sliders on the frame have signed velocities and accelerations, as in the report's
+        curves.
+        """
 
         machine, points = self.analysis.machine, self.analysis.motion.points
         signed = {
@@ -155,7 +160,7 @@ class MachineCase(MachineAnalysis):
         slides = bool(machine.span)
         gone = machine.cycle_angles * (machine.way / (machine.turns * FULL_TURN) if slides else 1.0)
         called = self.words["figure"]["way" if slides else "cycle_angle"]
-        # A speed that holds at each position by itself makes no time.
+        # A speed given separately for each position determines no time.
         speed = None if machine.acceleration else abs(machine.speed)
         return DriverMotion(gone, machine.way, called, speed, slides=slides, signed=signed)
 
@@ -217,7 +222,7 @@ class MachineCase(MachineAnalysis):
 
     @property
     def shafts(self) -> Sequence[Shaft]:
-        """The driver's, if it turns."""
+        """The driver's shaft, if it turns."""
         if self.analysis.machine.span:
             return ()
         turn = self.assignment.positions.sign
@@ -230,7 +235,7 @@ class MachineCase(MachineAnalysis):
 
     @property
     def redrawn(self) -> tuple[float, Callable[[float], Case]] | None:
-        """The length (mm) of its drawn crank, and the same case with another."""
+        """The length (mm) of the drawn crank, and a function that returns the case with another one."""
         crank = self._report.drawn_crank
         return (crank, self._with_crank) if crank else None
 
@@ -240,12 +245,12 @@ class MachineCase(MachineAnalysis):
 
 
 def _turns(machine: Machine) -> bool:
-    """Whether the mechanism assembles all the way round (or along, for a sliding driver)."""
+    """Return True if the mechanism assembles over the full turn (or stroke, for a sliding driver)."""
     return bool(motion_at(machine, np.linspace(0.0, 2 * np.pi, STEPS, endpoint=bool(machine.span))).reachable.all())
 
 
 def _finite(analysis: Analysis) -> bool:
-    """Whether motion, reactions and both torques are finite at every position."""
+    """Return True if motion, reactions and both torques are finite at every position."""
     motion = analysis.motion
     arrays = [part for link in motion.links.values() for part in (link.angle, link.omega, link.epsilon)]
     if analysis.loads:
@@ -255,7 +260,7 @@ def _finite(analysis: Analysis) -> bool:
 
 
 def _wrong_readings(analysis: Analysis) -> Mapping[str, list[tuple[str, np.ndarray]]]:
-    """The pressure of another piston, or of another stroke at the piston's own place."""
+    """Return wrong pressure readings: of another piston, or of another stroke at the piston's own place."""
     readings: dict[str, list[tuple[str, np.ndarray]]] = {}
     for here in analysis.gas.values():
         piston = here.piston
@@ -269,7 +274,7 @@ def _wrong_readings(analysis: Analysis) -> Mapping[str, list[tuple[str, np.ndarr
 
 
 def _whole_rods(machine: Machine, entered: tuple[str, ...]) -> Mapping[str, str]:
-    """The length of the rod on which `l.AS2` places a mass centre; of those `entered`, one before it."""
+    """Return the length of the rod on which `l.AS2` places a mass centre; it precedes that id in `entered`."""
     centres = {body.centre for body in machine.linkage.inertias}
     rods: dict[str, str] = {}
     for dyad in machine.linkage.dyads:

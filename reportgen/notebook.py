@@ -1,4 +1,6 @@
-"""What a script or a notebook holds: an assignment opened, its quantities as arrays, its figures, curves and tables."""
+"""Interface for scripts and notebooks: an opened assignment with its quantities as arrays, figures, curves and
+tables.
+"""
 
 from __future__ import annotations
 
@@ -40,18 +42,18 @@ from reportgen.export.study import Study
 
 PARAMETERS = "parameters"
 WRITABLE = 10**300
-"""Whole numbers below it are floating-point numbers, too, and Python itself writes their digits."""
+"""Limit of whole numbers that are valid floating-point numbers, and whose digits Python itself writes."""
 UNNAMED = Path("assignment.yaml")
-"""What a text or a dict is called in messages."""
+"""Name of a text or a dict in messages."""
 
 
 def open(source: Path | str | Mapping[str, Any], language: Language | None = None) -> Model:
-    """An assignment to work with: a file by its path, or the content of one as a text of several lines or a dict.
+    """Return an assignment to work with: a file by its path, or its content as a text of several lines or a dict.
 
     Raises `AssignmentError` with all faults, located.
     """
     if isinstance(source, Mapping):
-        # JSON is YAML: each key has a line of its own.
+        # JSON is YAML: each key has its own line.
         text = json.dumps(_written(source), ensure_ascii=False, indent=1)
         return Model(read_text(text, str(UNNAMED)), UNNAMED, language)
     if isinstance(source, str) and "\n" in source:
@@ -60,7 +62,7 @@ def open(source: Path | str | Mapping[str, Any], language: Language | None = Non
 
 
 def _written(value: Any) -> Any:
-    """A value of Python as JSON has it; a number with more digits than Python writes is a text of them."""
+    """Return a Python value as JSON; a number with more digits than Python writes becomes a text."""
     if isinstance(value, Mapping):
         return {str(key): _written(one) for key, one in value.items()}
     if isinstance(value, np.ndarray | np.generic):
@@ -73,7 +75,7 @@ def _written(value: Any) -> Any:
 
 
 def _digits(value: int) -> str:
-    """All digits of a whole number, of which Python itself writes 4,300 at most."""
+    """Return all digits of a whole number; Python itself writes at most 4,300."""
     return f"{Decimal(value):f}"
 
 
@@ -92,33 +94,33 @@ class Model:
         return f"<{self.assignment.kind} {self.assignment.id}>"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        # What is computed is computed again where it is wanted.
+        # Computed results are computed again when they are needed.
         return type(self), (self._source, self._path, self._language)
 
     @cached_property
     def case(self) -> Case:
-        """All that is computed of it."""
+        """All computed results."""
         return opened(self.assignment)
 
     # --- numbers
 
     @property
     def ids(self) -> list[str]:
-        """The ids of what changes from position to position, as answer sheets and keys have them."""
+        """The ids of quantities that vary from position to position, as in answer sheets and keys."""
         return list(shown(self.case))
 
     def __getitem__(self, id: str) -> QuantityArray:
-        """A quantity [N], or [1] of one that is the same at all positions; what moves on a line has its sign along it.
+        """Return a quantity [N], or [1] if it is the same at all positions; motion on a line is signed along it.
 
         Raises `UnknownNameError`.
         """
         return quantity(self.case, id).array
 
     def with_parameters(self, **values: Any) -> Model:
-        """The same with other parameters: texts with units, "260 mm", or numbers in SI units.
+        """Return the same assignment with other parameters: texts with units, "260 mm", or numbers in SI units.
 
-        Names with dots lead into others, `**{"cutting.F": "900 N"}`.  Of keys that give the same quantity, as `n` and
-        `omega1`, the one given here takes the place of the other.  Raises `AssignmentError` as for a file.
+        Names with dots denote nested parameters, `**{"cutting.F": "900 N"}`. If several keys give the same quantity,
+        such as `n` and `omega1`, the one given here replaces the other. Raises `AssignmentError` as for a file.
         """
         top = self._source.top
         assert isinstance(top, MappingNode), "an assignment in order is a table"
@@ -134,13 +136,13 @@ class Model:
         return Model(replace(self._source, top=top), self._path, self._language)
 
     def _alternatives(self, where: tuple[str, ...]) -> set[str]:
-        """The other keys by which a quantity may be given."""
+        """Return the other keys that can give the same quantity."""
         checks = catalogue.kind(self.assignment.kind).checks
         sets = [set(one.names) for one in checks if isinstance(one, OneOf) and one.where == where[:-1]]
         return {name for names in sets if where[-1] in names for name in names} - {where[-1]}
 
     def _typed(self, where: tuple[str, ...], value: Any) -> str:
-        """A value as a file has it: a number in the unit that it has there already, else in that of its key."""
+        """Return a value as in a file: a number in the unit that the file uses, else in that of its key."""
         if isinstance(value, str):
             return value
         known: Any = self.assignment
@@ -162,12 +164,12 @@ class Model:
     def study(
         self, *, of: Sequence[str], grid: bool = False, **values: Sequence[Any] | np.ndarray
     ) -> dict[str, QuantityArray]:
-        """Quantities [values, positions] by their ids over ranges of parameters, which go side by side.
+        """Return quantities [values, positions] by their ids over ranges of parameters, which vary together.
 
-        With `grid` every value of each range meets every value of the others: arrays [first, second, …, positions] in
-        the order of the ranges.  Numbers are in SI units.  A value that `check` refuses has nan.  Raises
-        `UnknownNameError`, `RangesError` without ranges or for ranges of different lengths, `AssignmentError` where all
-        values are refused.
+        With `grid`, each value of a range is combined with each value of the others: arrays [first, second, …,
+        positions] in the order of the ranges. Numbers are in SI units. A value that `check` rejects gives nan. Raises
+        `UnknownNameError`, `RangesError` without ranges or for ranges of different lengths, `AssignmentError` if all
+        values are rejected.
         """
         ranges = {name: [*np.atleast_1d(np.asarray(row, dtype=object))] for name, row in values.items()}
         lengths = [len(row) for row in ranges.values()]
@@ -195,7 +197,7 @@ class Model:
         return shaped
 
     def table(self, positions: int | None = None) -> ResultTable:
-        """The results as a table, a row a position, of so many positions a turn; raises `NotOfferedError`."""
+        """Return the results as a table with a row per position, for `positions` per turn; raise `NotOfferedError`."""
         from reportgen.results.files import result_rows
 
         head, *rows = result_rows(api.solve(self.assignment, positions))
@@ -204,9 +206,9 @@ class Model:
     # --- figures and curves
 
     def diagram(self, *of: str, over: Over = "phi", label: str = "") -> Diagram:
-        """Quantities of one unit as curves through a turn.
+        """Return quantities of one unit as curves over a turn.
 
-        Raises `UnknownNameError`, `NotOfferedError` for what is no curve, `ValueError` for quantities of several units.
+        Raises `UnknownNameError`, `NotOfferedError` for a quantity that is not a curve, `ValueError` for several units.
         """
         found = curves.diagrams([self._dense], of, over)
         if len(found) != 1:
@@ -223,9 +225,9 @@ class Model:
         return case
 
     def plot(self, *of: str, ax: Any = None, over: Over = "phi", label: str = "", **look: Any) -> Any:
-        """Draw quantities of one unit on axes of matplotlib, on the current ones without `ax`, and give the axes back.
+        """Draw quantities of one unit on matplotlib axes, by default the current ones, and return the axes.
 
-        `look` is that of matplotlib's `plot`.
+        `look` are arguments of matplotlib's `plot`.
         """
         if ax is None:
             from reportgen.writers import figure
@@ -235,11 +237,11 @@ class Model:
 
     @property
     def figures(self) -> list[str]:
-        """The names of its figures, then of what moves."""
+        """The names of the figures, then those of the moving figures."""
         return list(dict.fromkeys([*(one.name for one in self._still), *(one.name for one in self._moving)]))
 
     def figure(self, name: str, at: str | int = "") -> ShownFigure:
-        """A figure by its name, v.4, or with a position `at` only what it shows, v; it shows itself in a notebook.
+        """Return a figure by its name, v.4, or with a position `at` only its content, v; a notebook displays it.
 
         Raises `UnknownNameError`, `NotOfferedError`.
         """
@@ -259,7 +261,7 @@ class Model:
         return figures.moving(self.case)
 
     def _repr_html_(self) -> str:
-        """Its given data, as a notebook shows it."""
+        """Return the given data as HTML for a notebook."""
         rows = "".join(
             f"<tr><td>{html.escape(name)}</td><td>{html.escape(str(getattr(value, 'text', value)))}</td></tr>"
             for name, value in self.assignment.parameters
@@ -269,11 +271,11 @@ class Model:
 
 
 class RangesError(UnknownNameError, ValueError):
-    """A study without ranges of parameters, or with ranges that cannot go side by side."""
+    """A study without ranges of parameters, or with ranges that cannot vary together."""
 
 
 def _unit_of(annotation: Any, *metadata: Any) -> str:
-    """The unit of a key of the assignment file by the type of its field, "" for what is not a quantity."""
+    """Return the unit of a key of the assignment file by the type of its field, "" if it is not a quantity."""
     inner = (one for part in get_args(annotation) for one in (part, *getattr(part, "__metadata__", ())))
     for one in (*metadata, *inner):
         if isinstance(one, Quantity):
@@ -283,7 +285,7 @@ def _unit_of(annotation: Any, *metadata: Any) -> str:
 
 @dataclass(frozen=True, slots=True)
 class ShownFigure:
-    """A figure of a report, several drawings of it together, or what moves."""
+    """A figure of a report: a drawing, several drawings together, or a moving figure."""
 
     name: str
     scenes: tuple[Scene, ...]
@@ -292,18 +294,18 @@ class ShownFigure:
 
     @property
     def scene(self) -> Scene:
-        """Its drawings on one sheet, in rows as in the report."""
+        """The drawings on one sheet, in rows as in the report."""
         return self.scenes[0] if len(self.scenes) == 1 else sheets(self.scenes, TEXT_WIDTH, float("inf"), trim=0.0)[0]
 
     @property
     def diagrams(self) -> tuple[Diagram, ...]:
-        """What its charts are painted of; none of a drawing."""
+        """The data of its charts; () for a drawing."""
         return tuple(scene.diagram for scene in self.scenes if scene.diagram is not None)
 
     def save(self, path: Path | str, dpi: int = 0, layers: Sequence[str] = figures.SHOWN) -> Path:
-        """Write it to a file, as the ending of its name says: svg, png, pdf, eps; of what moves also gif, mp4.
+        """Write it to a file in the format of the suffix: svg, png, pdf, eps; for a moving figure also gif, mp4.
 
-        Raises `NotOfferedError` for another ending, `TypesetterError`, `OutputError`.
+        Raises `NotOfferedError` for another suffix, `TypesetterError`, `OutputError`.
         """
         path = Path(path)
         format = path.suffix.lower().removeprefix(".")
@@ -325,20 +327,20 @@ class ShownFigure:
 
 @dataclass(frozen=True, slots=True)
 class ResultTable:
-    """Results, a row a position; a column has the way to its number in the JSON of `solve` as its name."""
+    """Results with a row per position; a column is named by the path to its number in the JSON of `solve`."""
 
     columns: tuple[str, ...]
     rows: tuple[tuple[Any, ...], ...]
 
     def __getitem__(self, column: str) -> np.ndarray:
-        """A column of numbers; nan where there is none.  Raises `KeyError`."""
+        """Return a column of numbers, nan for missing ones; raise `KeyError`."""
         if column not in self.columns:
             raise KeyError(column)
         at = self.columns.index(column)
         return np.array([np.nan if row[at] is None else row[at] for row in self.rows])
 
     def to_dataframe(self) -> Any:
-        """It as a `pandas.DataFrame`; raises `ImportError` where pandas is not installed."""
+        """Return a `pandas.DataFrame`; raise `ImportError` if pandas is not installed."""
         import pandas
 
         return pandas.DataFrame(list(self.rows), columns=list(self.columns))

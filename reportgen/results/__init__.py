@@ -1,6 +1,6 @@
-"""What `solve` gives: the results of a case as plain data, in the format reportgen-results/1.
+"""Results of `solve` as plain data, in the format reportgen-results/1.
 
-They are in SI units and radians, unrounded, and beside them what the report prints, in its units.
+They are in SI units and radians, unrounded. The values that the report prints, in its units, can be added.
 """
 
 from __future__ import annotations
@@ -20,9 +20,9 @@ FORMAT = "reportgen-results/1"
 
 
 def results(case: Case) -> dict[str, Any]:
-    """The contract's JSON object of a case: an entry a position, null where it cannot be reached.
+    """Return the contract's JSON object of a case: an entry per position, null if it cannot be reached.
 
-    A coursework has those of its machine, and those of each further part by its name.
+    For a coursework, it has the results of the machine, and those of each further part by its name.
     """
     assignment, entries = case.assignment, case.entries
     about = {"format": FORMAT, "kind": assignment.kind, "variant": assignment.variant, "units": "SI"}
@@ -32,7 +32,7 @@ def results(case: Case) -> dict[str, Any]:
 
 
 def plain(value: Any) -> Any:
-    """A value as JSON has it: a vector of the plane [x, y], null for one that does not exist; numbers as floats."""
+    """Return a value as JSON: a plane vector as [x, y] or null if it does not exist; numbers as floats."""
     match value:
         case Mapping():
             return {str(name): plain(one) for name, one in value.items()}
@@ -47,7 +47,9 @@ def plain(value: Any) -> Any:
 
 
 def printed_values(written: Ledger) -> dict[str, Any]:
-    """By id the unit, the decimals (null: as typed) and the values that a report prints, one or one per position."""
+    """Return, by id, the unit, the decimals (null: as typed) and the printed values of a report, one or one per
+    position.
+    """
     return {
         id: {
             "unit": family.how.unit,
@@ -60,7 +62,9 @@ def printed_values(written: Ledger) -> dict[str, Any]:
 
 
 def _shown(written: Ledger, family: Family, position: int) -> float | None:
-    """The value of a quantity at a position as printed; None where there is none, as of the direction of no vector."""
+    """Return the printed value of a quantity at a position; None if there is none, such as a zero vector's
+    direction.
+    """
     if family.is_of_vector and written[family.of].at(position) == 0:
         return None
     value = written.quantity(family.id, position).number.shown

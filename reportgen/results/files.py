@@ -1,6 +1,6 @@
-"""Results as files: a row a position, a column each number, under the names that the JSON has for them.
+"""Results as files: a row per position and a column per number, named as in the JSON.
 
-A number's column is the way to it in a position of `reportgen-results/1`: `points.B.v.x`, `links.2.omega`.
+A number's column is the path to it in a position of `reportgen-results/1`: `points.B.v.x`, `links.2.omega`.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from reportgen.workbook import Book, BookSheet, write_csv, write_xlsx
 Cell = str | float | None
 AXES = ("x", "y")
 WIDTH = 16.0
-"""Of a column, in characters."""
+"""Width of a column, in characters."""
 
 
 def text(results: Mapping[str, Any]) -> bytes:
@@ -40,7 +40,7 @@ def _result_page(name: str, results: Mapping[str, Any]) -> BookSheet:
 
 
 def result_rows(results: Mapping[str, Any]) -> list[list[Cell]]:
-    """The heads, then each position; one that cannot be reached has its number alone."""
+    """Return the heads, then a row per position; an unreachable one has only its number."""
     rows = [
         {"number": float(index)} if position is None else dict(_leaves(position))
         for index, position in enumerate(results["positions"], start=1)
@@ -50,7 +50,7 @@ def result_rows(results: Mapping[str, Any]) -> list[list[Cell]]:
 
 
 def _leaves(value: Any, path: str = "") -> Iterator[tuple[str, Cell]]:
-    """The numbers and texts of an entry with the ways to them; a pair is a vector of the plane."""
+    """Yield the numbers and texts of an entry with their paths; a pair is a plane vector."""
     match value:
         case Mapping():
             for name, inner in value.items():

@@ -24,9 +24,9 @@ from reportgen.formula import ids
 
 DIGITS = 5
 NOTHING = 1e-9
-"""Of its scale: less is what rounding left over."""
+"""Share of its scale below which a value is a rounding error."""
 LEADS = ("position", "crank_angle", "driver_way")
-"""Headings that stand in every table: the position, and where the driver is."""
+"""Headings in every table: the position, and the position of the driver."""
 MOST_COLUMNS = 7
 WORDS = frozenset({"position", "crank_angle", "driver_way", "equilibrium", "virtual_work"})
 """Headings that are words of a language; the others are symbols."""
@@ -36,11 +36,11 @@ RowsOf = Callable[[Mapping[str, Any]], Mapping[str, Mapping[str, float | None]]]
 
 
 def print_tables(results: Mapping[str, Any], language: Language) -> None:
-    """Prints the tables of results in the form of `reportgen-results/1`, as wide as they need."""
+    """Print the tables of results in the form of `reportgen-results/1`, as wide as necessary."""
     from rich.console import Console
     from rich.table import Table
 
-    # Numbers are never cut to the width of a terminal; `MOST_COLUMNS` keeps the tables within most.
+    # Numbers are never cut to the width of a terminal; `MOST_COLUMNS` keeps the tables narrow enough for most.
     console = Console(width=500)
     titles = load_words((kind_file(language, results["kind"]),)).get("results", {})
     topics = of_topics(templates() / language).get("results", {})
@@ -65,16 +65,16 @@ def print_tables(results: Mapping[str, Any], language: Language) -> None:
 
 
 def _split(row: ResultRow) -> list[list[str]]:
-    """Headings of the tables side by side that a row is split into, each with the position and its angle."""
+    """Return the headings of the tables into which a row is split, each with the position and its angle."""
     lead, others = [heading for heading in row if heading in LEADS], [one for one in row if one not in LEADS]
     return [[*lead, *others[at : at + MOST_COLUMNS]] for at in range(0, len(others), MOST_COLUMNS)]
 
 
 def _rows_of(kind: str, titles: Collection[str], topics: Collection[str]) -> RowsOf:
-    """Return what gives the rows that a kind and topics add to a position.
+    """Return a function that gives the rows that a kind and its topics add to a position.
 
-    Those of the kind are from its `table_rows`, else the entries that its words have titles for.  Those of topics are
-    the entries that their words have titles for.
+    Those of the kind come from its `table_rows`, else from the entries that its words have titles for. Those of topics
+    are the entries that their words have titles for.
     """
 
     def as_they_are(position: Mapping[str, Any]) -> Mapping[str, Mapping[str, float | None]]:
@@ -87,9 +87,9 @@ def _rows_of(kind: str, titles: Collection[str], topics: Collection[str]) -> Row
 def tables(
     positions: Sequence[Mapping[str, Any] | None], own: RowsOf = lambda position: {}
 ) -> dict[str, list[ResultRow]]:
-    """Name of each table and its rows; positions that cannot be reached are left out.
+    """Return the rows of each table by its name; unreachable positions are left out.
 
-    `own` gives the rows of a position, by the names of their tables, that its kind alone has.
+    `own` returns the rows that only this kind has at a position, by the names of their tables.
     """
     found: dict[str, list[ResultRow]] = defaultdict(list)
     for position in positions:
@@ -118,7 +118,7 @@ def tables(
 
 
 def _driver(position: Mapping[str, Any]) -> ResultRow:
-    """The position of the driver: the angle of a crank in degrees, the way of a slider in mm; nothing without one."""
+    """Return the position of the driver: a crank's angle in degrees, a slider's displacement in mm; {} without one."""
     if "driver_way" in position:
         return {"driver_way": position["driver_way"] * MM}
     if "crank_angle" not in position:
@@ -127,7 +127,7 @@ def _driver(position: Mapping[str, Any]) -> ResultRow:
 
 
 def _once(reactions: ResultRow) -> ResultRow:
-    """Each pair R_ij, R_ji once: their sizes are the same."""
+    """Return each pair R_ij, R_ji once, because their sizes are equal."""
     shown: ResultRow = {}
     for name, size in reactions.items():
         if ids.reaction_force(ids.joint(*reversed(ids.links_of(name)))) not in shown:
@@ -136,23 +136,23 @@ def _once(reactions: ResultRow) -> ResultRow:
 
 
 def _without_zeros(rows: list[ResultRow]) -> list[ResultRow]:
-    """The rows without the columns that are zero at every position (a slider's angular velocity)."""
+    """Return the rows without the columns that are zero at every position (a slider's angular velocity)."""
     heads = dict.fromkeys(key for row in rows for key in row)
     kept = [key for key in heads if any(row.get(key) for row in rows) or key in WORDS]
     return [{key: row.get(key) for key in kept} for row in rows]
 
 
 def _size(vector: Any) -> float | None:
-    """The size of a vector [x, y]; of a reaction with further keys, that of its force."""
+    """Return the size of a vector [x, y]; for a reaction with further keys, that of its force."""
     parts = vector.get("force") if isinstance(vector, Mapping) else vector
     return None if parts is None else math.hypot(*parts)
 
 
 def _column(values: Sequence[float | str | None], scale: float, language: Language) -> list[str]:
-    """The column's numbers with the decimals that give the largest of them `DIGITS` figures.
+    """Return the column's numbers with the decimals that give the largest of them `DIGITS` figures.
 
-    What is nothing beside its `scale` is 0.  What these decimals would make nothing has figures of its own, and so have
-    all where the largest is very large or very small.
+    A value negligible beside its `scale` is 0. A value that these decimals would round to 0 has its own number of
+    decimals, and so have all values if the largest is very large or very small.
     """
     numbers = [value for value in values if not (value is None or isinstance(value, str))]
     largest = max(map(abs, numbers), default=0.0)
@@ -174,11 +174,11 @@ SCALES: Mapping[str, str] = {
     **{name: name for name in ("velocities", "accelerations", "torque")},
     **dict.fromkeys(("loads", "reactions", "force"), "force"),
 }
-"""The scale that all columns of a table share, since they are worked out of one another."""
+"""Common scale of all columns of a table, since they are computed from one another."""
 
 
 def _scale(name: str, heading: str) -> str:
-    """The scale that a column of a table shares with others, with those of its letter at least: ω1 and ω2."""
+    """Return the scale that a column of a table shares with others, at least with those of its letter: ω1 and ω2."""
     letter = heading[:1]
     return letter if name == "links" else SCALES.get(name, f"{name} {letter}")
 
@@ -186,9 +186,9 @@ def _scale(name: str, heading: str) -> str:
 def _scales(
     found: Mapping[str, Sequence[ResultRow]], positions: Sequence[Mapping[str, Any] | None]
 ) -> Mapping[tuple[str, str], float]:
-    """How large the values are at their largest that a column shares its scale with; 0 for where the driver is.
+    """Return the largest value among the columns that share a column's scale; 0 for the position of the driver.
 
-    ε is also measured by ω², a torque by the forces and the lengths that make it.
+    ε is also compared with ω², a torque with the forces and lengths that cause it.
     """
     largest: dict[str, float] = defaultdict(float)
     columns = {
