@@ -1,4 +1,4 @@
-"""Many PDFs in one, page after page, with a bookmark at the first page of each: what a class is printed from."""
+"""Bind many PDFs into one, with a bookmark at the first page of each, for printing the papers of a class."""
 
 from __future__ import annotations
 
@@ -17,21 +17,21 @@ _COUNT = re.compile(rb"/Count\s+(\d+)")
 
 
 def bound(parts: Sequence[tuple[str, bytes]]) -> bytes:
-    """Return one PDF of several, each with its title; raises `TypesetterError`."""
+    """Return one PDF of several, each with its title; raise `TypesetterError`."""
     files = {f"{number}.pdf": content for number, (_, content) in enumerate(parts)}
     lines = [line for name, (title, content) in zip(files, parts, strict=True) for line in _pages(name, title, content)]
     return typst_compiler.compile_as("\n".join(lines), "pdf", beside=files)[0]
 
 
 def _pages(name: str, title: str, content: bytes) -> Iterator[str]:
-    """The Typst source of the pages of a file, each as large as it is, the first one with the file's bookmark."""
+    """Yield the Typst source of the pages of a file in their own sizes, with the file's bookmark on the first."""
     for number in range(1, page_count(content) + 1):
         mark = f"#place(hide(heading({literal(title)})))" if number == 1 else ""
         yield f'#page(width: auto, height: auto, margin: 0pt)[{mark}#image("{name}", page: {number})]'
 
 
 def page_count(pdf: bytes) -> int:
-    """Return the number of pages of a PDF of a typesetter; raises `TypesetterError` for one without a tree of pages.
+    """Return the number of pages of a typesetter's PDF; raise `TypesetterError` if it has no page tree.
 
     The root of the tree counts all pages; objects may be packed in streams.
     """

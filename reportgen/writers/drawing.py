@@ -1,8 +1,8 @@
-"""Scene → the source of either typesetter, in true size; labels are set in the report's fonts.
+"""Convert a scene into the source of either typesetter, in true size, with labels in the report's fonts.
 
-For Typst a drawing is calls of its own primitives, whose short names (`S`, `L`, `A`, …) the frame defines; for LaTeX a
-TeX box of PDF operators, which run under one matrix that makes the millimetre their unit.  Coordinates are those of
-the scene to 0.001 mm.
+For Typst, a drawing is a sequence of calls of its primitives, whose short names (`S`, `L`, `A`, …) the frame defines.
+For LaTeX, it is a TeX box of PDF operators under one matrix that makes the millimetre their unit. Coordinates are those
+of the scene to 0.001 mm.
 """
 
 from __future__ import annotations
@@ -26,16 +26,16 @@ ANCHORS: dict[Anchor, tuple[str, float, float]] = {
     "bottom-left": ("left+bottom", 0.0, 1.0),
     "bottom-right": ("right+bottom", 1.0, 1.0),
 }
-"""Typst's alignment, and the share of the sheet's width and height (from the top) that it measures from."""
+"""Typst's alignment, and the share of the sheet's width and height (from the top) that offsets are measured from."""
 LABEL_SIZE = 9.0
-"""The size of labels, in points, that LaTeX's `\\scene` sets; any other is written where it begins."""
+"""Default size of labels in points, which LaTeX's `\\scene` sets; any other size is written before its label."""
 
 
 # --- Typst ----------------------------------------------------------------------------------------
 
 
 def paint_typst(scene: Scene, formulas: TextSetter) -> str:
-    """A Typst code expression that draws the scene in a box of `scene.width` × `scene.height` mm."""
+    """Return a Typst code expression that draws the scene in a box of `scene.width` × `scene.height` mm."""
     strokes = dict.fromkeys(
         item.stroke for item in scene.items if not isinstance(item, Label) and item.stroke is not None
     )
@@ -47,7 +47,7 @@ def paint_typst(scene: Scene, formulas: TextSetter) -> str:
 
 
 def _calls(item: Item, scene: Scene, pens: Mapping[Pen | None, str], formulas: TextSetter) -> list[str]:
-    """The calls that draw an item; y is turned over here, once for all."""
+    """Return the calls that draw an item; the y axis is reversed here, once for all items."""
 
     def at(*points: complex) -> str:
         return ",".join(f"{decimal(point.real)},{decimal(scene.height - point.imag)}" for point in points)
@@ -101,9 +101,9 @@ def _rgb(colour: str | None) -> str:
 
 
 def paint_latex(scene: Scene, formulas: TextSetter) -> str:
-    """The TeX source of one box, `scene.width` × `scene.height` mm, its reference point at the lower left.
+    """Return the TeX source of one box, `scene.width` × `scene.height` mm, with its reference point at the lower left.
 
-    Raises `TypesetterError` for a label with a character the fonts do not have.
+    Raises `TypesetterError` for a label with a character that the fonts do not have.
     """
     runs: list[str] = []
     size = LABEL_SIZE
@@ -111,7 +111,7 @@ def paint_latex(scene: Scene, formulas: TextSetter) -> str:
         if labels:
             for item in items:
                 assert isinstance(item, Label)
-                # LaTeX takes long to change a size.
+                # Changing the font size is slow in LaTeX.
                 if item.size != size:
                     size = item.size
                     runs.append(rf"\fontsize{{{decimal(size)}}}{{{decimal(1.2 * size)}}}\selectfont")
@@ -128,14 +128,14 @@ def _box_of_label(label: Label, formulas: TextSetter) -> str:
         content = rf"\lbturned{{{content}}}"
     if label.background:
         content = rf"\lbpaper{{{content}}}"
-    # Which part of the box's width and height lies left of and below the anchor.
+    # Shares of the box's width and height to the left of and below the anchor.
     along = "0" if "left" in label.anchor else "1" if "right" in label.anchor else ".5"
     up = "0" if "bottom" in label.anchor else "1" if "top" in label.anchor else ".5"
     return rf"\lb{{{decimal(label.at.real)}}}{{{decimal(label.at.imag)}}}{{{along}}}{{{up}}}{{{content}}}%"
 
 
 def _operators(items: Iterable[Item]) -> Iterator[str]:
-    """PDF operators of items that are not labels; a pen is written only where it changes."""
+    """Yield PDF operators of items that are not labels; a pen is written only where it changes."""
     pen: Pen | None = None
     paper: str | None = None
     for item in items:
@@ -150,7 +150,7 @@ def _operators(items: Iterable[Item]) -> Iterator[str]:
 
 
 def _shape(item: Item) -> tuple[Pen | None, str | None, str]:
-    """(pen, fill colour, path with its painting operators) of an item."""
+    """Return pen, fill colour and path with its painting operators of an item."""
     match item:
         case Line(start, end, stroke):
             return stroke, None, _path((start, end), "S")
@@ -172,7 +172,7 @@ def _shape(item: Item) -> tuple[Pen | None, str | None, str]:
 
 
 def _path(points: Sequence[complex], end: str) -> str:
-    """The operators of a broken line, then `end`."""
+    """Return the operators of a polyline, followed by `end`."""
     if len(points) < 2:
         return "n"
     first, *others = (_point(point) for point in points)

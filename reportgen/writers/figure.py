@@ -1,7 +1,7 @@
-"""What matplotlib makes of drawings and diagrams: real axes to go on with, EPS, charts of one's own.
+"""Draw scenes and diagrams with matplotlib: axes that a user can extend, EPS files, and charts.
 
-Nobody else imports matplotlib, and this module where it is used alone: most commands go without.  Everything is drawn
-on a `Figure` of its own, which no window knows; pyplot is asked for its current axes where one wants to see them.
+Only this module imports matplotlib, and it is imported on demand, because most commands do not need it. Everything is
+drawn on a separate `Figure` without a window; pyplot is only asked for its current axes.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from reportgen.drawing.mathtext import MathText
 from reportgen.drawing.style import Bezier, Triangle, arc_with_head, arrow_head, clip_hatch
 
 INCH, POINT = 25.4, 25.4 / 72
-"""Millimetres of an inch, and of a point as matplotlib has it."""
+"""Millimetres per inch, and per point of matplotlib."""
 STYLE: Any = {
     "mathtext.fontset": "stix",
     "ps.fonttype": 3,
@@ -37,19 +37,19 @@ STYLE: Any = {
     "svg.hashsalt": "reportgen",
     "legend.framealpha": 1.0,
 }
-"""Letters near those of the report, nothing transparent, which EPS has not, the same bytes from run to run."""
+"""Fonts similar to the report's, no transparency (EPS has none), and the same bytes in every run."""
 SIZE = (6.3, 3.6)
-"""Of a chart: the width of a page's text, in inches."""
+"""Size of a chart in inches: the width of a page's text."""
 COLOURS = (style.BLUE, style.RED, style.BLACK, style.GRAY) * 2
 DASHES = ("-", "--", "-.", ":", "--", "-.", ":", "-")
-"""Of one curve after the other."""
+"""Dashes of successive curves."""
 FONTS = ("STIXGeneral", "DejaVu Serif")
-"""Of texts: the first that has all letters, which for Vietnamese is the second."""
+"""Fonts of texts: the first one that has all letters is used; for Vietnamese, this is the second."""
 _DATED = re.compile(rb"^%%CreationDate: .*\n", re.MULTILINE)
 
 
 def figure(scene: Scene, language: Language) -> Figure:
-    """A figure of the size of a scene, true to scale; one unit of its axes is a millimetre."""
+    """Return a figure with the size of a scene, true to scale; one unit of its axes is a millimetre."""
     with matplotlib.rc_context(STYLE):
         made = Figure((scene.width / INCH, scene.height / INCH))
         axes = made.add_axes((0.0, 0.0, 1.0, 1.0))
@@ -64,17 +64,17 @@ def figure(scene: Scene, language: Language) -> Figure:
 
 
 def eps(scene: Scene, language: Language) -> bytes:
-    """A scene as Encapsulated PostScript, in the letters of STIX."""
+    """Return a scene as Encapsulated PostScript, with STIX fonts."""
     return saved(figure(scene, language), "eps")
 
 
 def eps_files(scenes: Sequence[Scene], language: Language, dpi: int = 0) -> list[bytes]:
-    """Scenes as EPS, whose lines need no `dpi`."""
+    """Return scenes as EPS, whose lines need no `dpi`."""
     return [eps(scene, language) for scene in scenes]
 
 
 def chart(diagram: Diagram, language: Language) -> Figure:
-    """A figure of a diagram, its curves told apart without colour, too."""
+    """Return a figure of a diagram; its curves are distinguishable without colour, too."""
     with matplotlib.rc_context({**STYLE, "axes.prop_cycle": cycler(color=COLOURS) + cycler(linestyle=DASHES)}):
         made = Figure(SIZE, layout="constrained")
         diagram.on(made.subplots(), language)
@@ -84,14 +84,14 @@ def chart(diagram: Diagram, language: Language) -> Figure:
 
 
 def current_axes() -> Any:
-    """The axes that pyplot shows, in a notebook or a window; it makes some where there are none."""
+    """Return the axes that pyplot shows in a notebook or a window; create them if there are none."""
     from matplotlib import pyplot
 
     return pyplot.gca()
 
 
 def saved(made: Figure, format: str, dpi: int = 0) -> bytes:
-    """The file of a figure, the same bytes from run to run."""
+    """Return the file of a figure, with the same bytes in every run."""
     stream = io.BytesIO()
     undated = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}
     with matplotlib.rc_context(STYLE):
@@ -103,7 +103,7 @@ def saved(made: Figure, format: str, dpi: int = 0) -> bytes:
 
 
 def _artists(item: Item, setter: MathText) -> Iterator[Artist]:
-    """What an item of a scene is drawn with."""
+    """Yield the artists that draw an item of a scene."""
     match item:
         case Line(start, end, pen):
             yield _strokes([(start, end)], pen)
@@ -151,7 +151,7 @@ def _curve(pieces: Sequence[Bezier]) -> Path:
 
 
 def _look(pen: Pen | None, fill: str | None) -> dict[str, Any]:
-    """Pen and fill of a patch; dashes count in widths of the pen."""
+    """Return pen and fill of a patch; dashes are in multiples of the pen's width."""
     face = {"facecolor": fill or "none"}
     if pen is None:
         return {**face, "edgecolor": "none", "linewidth": 0.0, "linestyle": "-"}

@@ -1,8 +1,8 @@
-"""Document → LaTeX → PDF: the words and numbers of the tree, the looks of the frame.
+"""Write a document as LaTeX source: words and numbers come from the tree, the layout from the frame.
 
-The body is PyLaTeX fragments and short macros that the Jinja2 frame `templates/frames/latex` defines.
-Contents, links and outline use pdfTeX's own primitives: the titles are known here, so that only page
-numbers wait for a second pass.
+The body consists of PyLaTeX fragments and short macros that the Jinja2 frame `templates/frames/latex` defines.
+Contents, links and outline use pdfTeX's own primitives: the titles are known here, so that only page numbers require a
+second pass.
 """
 
 from __future__ import annotations
@@ -29,41 +29,41 @@ if TYPE_CHECKING:
     from jinja2 import Template
 
 CONTENTS_LEVEL = 3
-"""The deepest level of heading that the contents and the outline list."""
+"""Deepest level of heading in the contents and the outline."""
 HEADING, OPENING, TITLE, ROW = 12, 20, 14, 5.0
-"""Approximate heights in mm: of a heading, of the words before a table, of its caption, and of a row."""
+"""Approximate heights (mm) of a heading, of the words before a table, of its caption, and of a row."""
 WORDS, LINE = 9, 12
-"""Of the words before an equation that leads to a table, and of a line of it."""
+"""Approximate heights (mm) of the words before an equation that leads to a table, and of a line of it."""
 FRAME = r"\vrule width\heavyrulewidth"
-"""The side of a framed table."""
+"""Side rule of a framed table."""
 LEADING = 1.2
-"""From line to line, in font sizes."""
+"""Distance of lines, in font sizes."""
 STOREYS, LONG, SHORT = 42, 28, 18
-"""Of words with what they lead to: a vector equation in two storeys, one in one or the start of a list, other rows."""
+"""Heights (mm) of words with a vector equation in two storeys, with one in one or the start of a list, or other rows."""
 ONE_STOREY = 6
-"""So many vectors stand in one storey."""
+"""Largest number of vectors in one storey."""
 CHARACTERS, TEXT_LINE = 85, 5.0
-"""About so many characters stand in a line of text, and what it takes (mm)."""
+"""Approximate number of characters in a line of text, and its height (mm)."""
 
 
 FAMILIES: Mapping[str, tuple[str, str, str]] = dict.fromkeys(
     ("Times New Roman", "Times", "TeX Gyre Termes", "Nimbus Roman", "Liberation Serif"), ("tgtermes.sty", "qtm", "utm")
 )
-"""Fonts by their names elsewhere: a package with its family, and where that is missing the family that VnTeX brings."""
+"""Fonts by their names in other systems: a package with its family, and the family that VnTeX has if it is missing."""
 
 
 def write(document: tree.Document, letter: layout.Letter = layout.OWN_LETTER) -> str:
-    """The complete LaTeX source, which compiles as it stands.
+    """Return the complete LaTeX source, ready to compile.
 
-    Raises `TypesetterError` for a character the fonts do not have.
+    Raises `TypesetterError` for a character that the fonts do not have.
     """
     return "".join(pieces(document, letter))
 
 
 def pieces(document: tree.Document, letter: layout.Letter = layout.OWN_LETTER) -> Iterator[str]:
-    """The source as it is written: all up to the end of the contents, then each block.
+    """Yield the source as it is written: everything up to the end of the contents, then each block.
 
-    Raises `TypesetterError` for a character the fonts do not have.
+    Raises `TypesetterError` for a character that the fonts do not have.
     """
     frame = _frame().render(
         title=hexadecimal(document.title),
@@ -89,13 +89,13 @@ def pieces(document: tree.Document, letter: layout.Letter = layout.OWN_LETTER) -
 
 
 def opening(letter: layout.Letter, close: bool, language: Language) -> str:
-    """What the source of every document in this letter begins with, whatever it says: LaTeX's own files."""
+    """Return the common beginning of the source of every document in this letter: LaTeX's own files."""
     frame = _frame()
     return "".join(frame.blocks["opening"](frame.new_context({"close": close, **_type(letter, language)})))
 
 
 def _type(letter: layout.Letter, language: Language) -> Mapping[str, object]:
-    """The letter and what the language says, as the frame is told it."""
+    """Return the frame's variables for the letter and the language."""
     return {
         "setting": setting_of(language),
         "family": FAMILIES.get(letter.font),
@@ -129,7 +129,7 @@ def _command(name: str, *arguments: str) -> str:
 
 
 class _Writer:
-    """The blocks of one document as LaTeX, with the places that links and contents lead to."""
+    """Writer of the blocks of one document as LaTeX, with the targets of links and contents."""
 
     def __init__(self, document: tree.Document) -> None:
         self.document = document
@@ -148,7 +148,7 @@ class _Writer:
         return (self.kept(blocks[index:]) for index in range(len(blocks)))
 
     def kept(self, blocks: Sequence[tree.Block]) -> str:
-        """The first of the blocks, on one page with the next one if it leads to that."""
+        """Return the first of the blocks, kept on one page with the next one if it leads to that."""
         block, following = blocks[0], blocks[1] if len(blocks) > 1 else None
         if isinstance(block, tree.Section):
             room = self.room_to_table(blocks)
@@ -164,7 +164,7 @@ class _Writer:
         return f"{_command(name, f'{room:g}mm')}{self.block(block)}\\par\\nobreak"
 
     def room_to_go_on(self, blocks: Sequence[tree.Block]) -> float:
-        """About how much paper (mm) words need with what they lead to, and with what that leads to in its turn."""
+        """Return the approximate height (mm) of words with what they lead to, and with what that leads to in turn."""
         _, following, *after = blocks
         room = _beginning(following)
         if len(after) > 1 and isinstance(after[0], tree.Paragraph) and layout.leads(following, after[0], self.language):
@@ -173,7 +173,7 @@ class _Writer:
         return room
 
     def room_to_table(self, blocks: Sequence[tree.Block]) -> float:
-        """About how much paper (mm) blocks need that lead one to the next and at last to a table; 0 for others."""
+        """Return the approximate height (mm) of blocks that lead one to the next up to a table; 0 for others."""
         room = 0.0
         for block, following in pairwise(blocks):
             if isinstance(block, tree.Section):
@@ -281,7 +281,7 @@ class _Writer:
         environment = Itemize()
         for number, item in enumerate(block.items, block.start):
             environment.append(Command("item", options=f"{number}." if block.ordered else None))
-            # A text that begins with a bracket is no option of the command before it.
+            # A text that begins with a bracket must not become an option of the command before it.
             environment.append(NoEscape(r"\relax " + self.blocks(item).strip()))
         if end:
             environment.append(NoEscape(end))
@@ -315,7 +315,7 @@ class _Writer:
         return "\n".join([*(self.aligned(group, "") for group in before), self.aligned(last, number)])
 
     def aligned(self, group: Sequence[Expression], number: str) -> str:
-        """Rows that are set alike, the number on the last."""
+        """Return rows that are aligned together, with the number on the last."""
         rows = []
         for index, row in enumerate(group):
             macro = "L" if index == len(group) - 1 else "R"
@@ -333,13 +333,13 @@ class _Writer:
         return _command("captiontext", place, escape(label), self.inlines(block.caption))
 
     def again(self, word: str, block: tree.Table | tree.Figure | tree.Plate, part: int = 0) -> str:
-        """The caption of what goes on from the page before, or of a later part."""
+        """Return the caption of a continuation from the page before, or of a later part."""
         words = self.document.words
         where = words.part.format(part=part) if part else words.continued
         return _command("captiontext", "", escape(f"{word} {block.number} ({where})"), "")
 
     def figure(self, figure: tree.Figure) -> str:
-        """Its rows with the caption below, on as many pages as they need."""
+        """Return the rows of a figure with the caption below, on as many pages as they need."""
         if figure.turned:
             drawing = paint_latex(figure.scenes[0], self.formulas)
             shown = _command("turned", drawing, self.caption(self.document.words.figure, figure))
@@ -351,7 +351,7 @@ class _Writer:
         return "\n".join((self.rows(first, self.caption(word, figure), place), *further))
 
     def rows(self, rows: Sequence[Sequence[Scene]], caption: str, place: str = "scenes") -> str:
-        """Rows of scenes with the caption below."""
+        """Return rows of scenes with the caption below."""
         gap = rf"\hskip{layout.SCENE_GAP:g}mm "
         drawn = "\n\\scenegap\n".join(_command("scenerow", gap.join(map(self.scene, row))) for row in rows)
         return "\n".join([rf"\begin{{{place}}}", drawn, _command("figurecaption", caption), rf"\end{{{place}}}"])
@@ -361,7 +361,7 @@ class _Writer:
         return _command("titledscene", painted, escape(scene.title)) if scene.title else painted
 
     def table(self, block: tree.Table) -> str:
-        """A long table under its caption; its head is repeated on every page."""
+        """Return a long table below its caption; its head is repeated on every page."""
         from pylatex import LongTable, NoEscape
 
         columns = "".join(_column(column.width, column.align) for column in block.columns)
@@ -392,7 +392,7 @@ class _Writer:
         return f"{room}\\begin{{belowfigures}}\\tablesize{framed}\n{environment.dumps()}\n\\end{{belowfigures}}"
 
     def head(self, block: tree.Table) -> str:
-        # Every option is written out: a cell's text may begin with a bracket.
+        # Every option is written explicitly, because a cell's text may begin with a bracket.
         lines = [r"\toprule[\heavyrulewidth]"]
         for index, row in enumerate(block.head):
             lines.append(self.row(row, block.columns, head=True) + r"\\*[0pt]")
@@ -419,7 +419,7 @@ class _Writer:
 
 
 def _beginning(block: tree.Block | None) -> float:
-    """About how much paper (mm) the beginning of a block needs with the words that lead to it."""
+    """Return the approximate height (mm) of the beginning of a block with the words that lead to it."""
     match block:
         case tree.Equation(rows=(VectorEquation() as first, *_)):
             return LONG if len(list(columns(first))) <= ONE_STOREY else STOREYS
@@ -430,7 +430,7 @@ def _beginning(block: tree.Block | None) -> float:
 
 
 def _height(block: tree.Table) -> float:
-    """About how much paper (mm) a table needs with its caption, up to its first possible break."""
+    """Return the approximate height (mm) of a table with its caption, up to its first possible break."""
     return TITLE + ROW * (len(block.head) + layout.held(block)[0])
 
 
@@ -439,7 +439,7 @@ def _column(width: float, align: str) -> str:
 
 
 def _rules_below(row: Sequence[tree.Cell]) -> str:
-    """A thin rule under every cell of a head row that stands over several columns."""
+    """Return thin rules under every cell of a head row that spans several columns."""
     rules, at = [], 1
     for cell in row:
         if cell.span > 1:
@@ -461,7 +461,7 @@ class _Entry:
 
 
 def _entries(blocks: Sequence[tree.Block]) -> Iterator[_Entry]:
-    """The headings that contents and outline list, in order."""
+    """Yield the headings of contents and outline, in order."""
     sections = [block for block in blocks if isinstance(block, tree.Section) and block.level <= CONTENTS_LEVEL]
     for index, section in enumerate(sections):
         below = 0
@@ -473,7 +473,7 @@ def _entries(blocks: Sequence[tree.Block]) -> Iterator[_Entry]:
 
 
 def _keys(blocks: Sequence[tree.Block]) -> Iterator[str]:
-    """The keys of all blocks that references may name, those inside lists too."""
+    """Yield the keys of all blocks that references may name, including those inside lists."""
     for block in blocks:
         if isinstance(block, tree.List):
             for item in block.items:
@@ -483,7 +483,7 @@ def _keys(blocks: Sequence[tree.Block]) -> Iterator[str]:
 
 
 def _plain(inlines: tree.Inlines) -> str:
-    """The words of a title for the outline, which knows no formulas."""
+    """Return the words of a title for the outline, which cannot contain formulas."""
     words = []
     for inline in inlines:
         match inline:

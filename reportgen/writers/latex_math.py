@@ -1,7 +1,7 @@
-"""Words and formulas → LaTeX source, so that they appear on the page exactly as typed.
+"""Convert words and formulas into LaTeX source that prints them exactly as typed.
 
-T5 fonts hold the Vietnamese letters, T1 the other Latin ones; symbols and Greek letters come from the
-mathematical fonts.  A character that none of them has is refused before TeX runs.
+T5 fonts have the Vietnamese letters, T1 fonts the other Latin ones; symbols and Greek letters come from the
+mathematical fonts. A character that none of them has is rejected before TeX runs.
 """
 
 from __future__ import annotations
@@ -35,20 +35,20 @@ from reportgen.formula.setting import (
 from reportgen.formula.vocabulary import numbered, runs
 
 NARROW_TERMS = 5
-"""A vector equation of at most so many terms fits any line."""
+"""Largest number of terms of a vector equation that fits any line."""
 
 _CHARACTERS = json.loads(Path(__file__).with_name("characters.json").read_text(encoding="utf-8"))
 SPECIAL: dict[str, str] = _CHARACTERS["special"]
-"""ASCII marks that TeX would take for commands or for other signs."""
+"""ASCII characters that TeX would interpret as commands or as other signs."""
 
 _LIGATURES = re.compile(r"([-,])(?=\1)")
-"""Marks that fonts would join into one sign: -- ,,"""
+"""Characters that fonts would join into one sign: -- ,,"""
 
 MATHEMATICAL: dict[str, str] = _CHARACTERS["mathematical"]
-"""Characters that the frame declares as this mathematics, in text and in formulas alike."""
+"""Characters that the frame declares with this mathematics, in text and in formulas alike."""
 
 TEXTUAL: dict[str, str] = _CHARACTERS["textual"]
-"""Characters that the frame declares as these text commands, in text and in formulas alike."""
+"""Characters that the frame declares with these text commands, in text and in formulas alike."""
 
 _VIETNAMESE = frozenset(
     "ÀÁÂÃÈÉÊÌÍÒÓÔÕÙÚÝàáâãèéêìíòóôõùúýĂăĐđĨĩŨũƠơƯưẠạẢảẤấẦầẨẩẪẫẬậẮắẰằẲẳẴẵẶặẸẹẺẻẼẽẾếỀềỂểỄễỆệỈỉỊịỌọỎỏỐốỒồỔổỖỗỘộ"
@@ -59,14 +59,14 @@ _DECLARED = frozenset(MATHEMATICAL) | frozenset(TEXTUAL)
 
 
 def declarations() -> tuple[tuple[str, str], ...]:
-    """(code point in hex, definition) of every character that the frame declares."""
+    """Return code point (hexadecimal) and definition of every character that the frame declares."""
     mathematics = ((char, rf"\ensuremath{{{code}}}") for char, code in MATHEMATICAL.items())
     words = ((char, rf"\reporttextual{{{code}}}") for char, code in TEXTUAL.items())
     return tuple((f"{ord(char):04X}", code) for char, code in (*mathematics, *words))
 
 
 def escape(text: str) -> str:
-    """The LaTeX source that prints `text` as typed.
+    """Return the LaTeX source that prints `text` as typed.
 
     Raises `TypesetterError` naming the first character that the fonts do not have.
     """
@@ -90,7 +90,7 @@ def _character(char: str) -> str:
 
 
 class _Sources(dict[int, str]):
-    """The source of each character, by its number, as it is asked for."""
+    """Cache of the source of each character, by code point."""
 
     def __missing__(self, number: int) -> str:
         self[number] = _character(chr(number))
@@ -101,7 +101,7 @@ _SOURCES = _Sources()
 
 
 def hexadecimal(text: str) -> str:
-    """A text as a PDF string's content in UTF-16, in hexadecimal digits."""
+    """Return the content of a PDF string in UTF-16, in hexadecimal digits."""
     return "FEFF" + unicodedata.normalize("NFC", text).encode("utf-16-be").hex().upper()
 
 
@@ -109,7 +109,7 @@ def hexadecimal(text: str) -> str:
 
 
 class LatexFormulas(TextSetter):
-    r"""Formulas with the places where a line may break: \relbreak, \binbreak, \dotbreak."""
+    r"""Writer of formulas with possible line breaks: \relbreak, \binbreak, \dotbreak."""
 
     BELOW = r"%s_{\scriptstyle{%s}}"
     RAISED = POWER = "%s^{%s}"
@@ -121,7 +121,7 @@ class LatexFormulas(TextSetter):
     SIGNS: ClassVar = {"·": r"\cdot", "×": r"\times", "−": "-"}
     BREAKS: ClassVar[Mapping[Role, str]] = {"sum": r"\binbreak", "product": r"\dotbreak", "relation": r"\relbreak"}
     AHEAD: ClassVar[Mapping[Role, str]] = {"prefix": "", "slash": "", "separator": ""}
-    """What stands before a sign that has no white on its left."""
+    """Text before a sign that has no space on its left."""
     BEHIND: ClassVar[Mapping[Role, str]] = {"prefix": "", "slash": "", "first": r"\nobreak "}
 
     def text(self, text: str) -> str:
@@ -151,7 +151,7 @@ class LatexFormulas(TextSetter):
         return rf"\{name}" if name in NAMED else rf"\operatorname{{{escape(name)}}}"
 
     def number(self, number: Written) -> str:
-        """Digits without a gap after the decimal comma and with a true minus sign, and the unit."""
+        """Return digits without a gap after the decimal comma and with a true minus sign, and the unit."""
         if any(char.isdigit() for char in number.digits):
             digits = number.digits.replace(",", "{,}").replace(MINUS, "-")
         else:
@@ -170,9 +170,9 @@ class LatexFormulas(TextSetter):
         return rf"\overline{{{marked}}}" if node.over == "segment" else marked
 
     def aligned(self, node: Expression) -> tuple[str, str]:
-        """A displayed line cut at its first relation: what stands left of it, and the rest.
+        """Return a displayed line split at its first relation: the left side, and the rest.
 
-        A vector equation is a grid and not cut.
+        A vector equation is a grid and is not split.
         """
         if isinstance(node, VectorEquation):
             return "", self._vector_equation(columns(node), node.rows)
@@ -185,7 +185,7 @@ class LatexFormulas(TextSetter):
     # --- vector equations -------------------------------------------------------------------------
 
     def _vector_equation(self, terms: Sequence[TermColumn], rows: Sequence[str]) -> str:
-        """A grid; if it is too wide for the line, two grids of half the terms, one below the other."""
+        """Return a grid; if it is too wide for the line, two grids of half the terms, one below the other."""
         whole = self._grid(terms, rows)
         if len(terms) <= NARROW_TERMS:
             return whole
@@ -194,7 +194,7 @@ class LatexFormulas(TextSetter):
         return rf"\fitting{{{whole}}}{{\storeys{{{upper}}}{{{lower}}}}}"
 
     def _grid(self, terms: Sequence[TermColumn], rows: Sequence[str]) -> str:
-        """Terms on top, below each what is known of it; "?" marks an unknown."""
+        """Return terms on top, with the known data of each below; "?" marks an unknown."""
         signs = ("".join(self.SIGNS.get(sign.of, sign.of) for sign in term.signs) for term in terms)
         lines = ["&" + "&".join(f"{sign}&{self.part(one.term)}" for sign, one in zip(signs, terms, strict=True))]
         for row, name in enumerate(rows):
@@ -207,7 +207,7 @@ class LatexFormulas(TextSetter):
 
 
 def _bracketed(inner: str) -> str:
-    """Square brackets as tall as what they hold; copied from the page they are single characters."""
+    """Return square brackets as tall as their content; copied from the page, they are single characters."""
     strut = rf"\vphantom{{{inner}}}"
     opening = rf"\mathopen{{\reportactual{{005B}}{{\left[{strut}\right.\kern-\nulldelimiterspace}}}}"
     closing = rf"\mathclose{{\reportactual{{005D}}{{\kern-\nulldelimiterspace\left.{strut}\right]}}}}"
@@ -219,7 +219,7 @@ def _is_mathematical(text: str) -> bool:
 
 
 def _word(text: str, shape: Literal["rm", "it"] = "rm") -> str:
-    """A run of letters in one alphabet of TeX; whatever else a writer put there is set as text."""
+    """Return a run of letters in one alphabet of TeX; other characters are set as text."""
     if text.isdigit() and text.isascii():
         return text
     primes = {"′": r"\prime", "″": r"\prime\prime"}

@@ -1,11 +1,9 @@
-"""LaTeX source → PDF: runs pdflatex in a directory of its own, as often as the page numbers need.
+"""Compile LaTeX source into PDF: run pdflatex in its own directory, as often as the page numbers require.
 
-The run may read and write that directory only, starts no other program, and stops at the first error
-or at the time limit.  The same source gives the same bytes.
-
-Page numbers are kept from one report to the next of the same contents: where they still hold, one pass is enough.
-What all reports begin with may be read ahead, while the rest of one is still worked out, and the rest while it is
-written.
+The run may read and write that directory only, starts no other program, and stops at the first error or at the time
+limit. The same source gives the same bytes. Page numbers are cached between reports with the same contents; if they are
+still right, one pass is enough. The common beginning of all reports may be read ahead while the rest of one is
+computed, and the rest while it is written.
 """
 
 from __future__ import annotations
@@ -29,12 +27,12 @@ from reportgen.base.files import keep, kept
 INSTALL = (
     "apt-get install --no-install-recommends texlive-latex-base texlive-latex-recommended texlive-lang-other lmodern"
 )
-"""The one command that installs all this writer needs, on Debian and its kin."""
+"""Command that installs everything this writer needs, on Debian and its derivatives."""
 
 MAX_PASSES = 4
 STANDARD_INPUT = Path("/dev/stdin")
 REPORTED_EXCESS = 1.0
-"""Points by which a box may stand out before it counts as overfull."""
+"""Excess (points) above which a box is reported as overfull."""
 
 _COMMAND = (
     "pdflatex",
@@ -53,7 +51,7 @@ _ENVIRONMENT = {
     "openout_any": "p",
     "SOURCE_DATE_EPOCH": "0",
     "FORCE_SOURCE_DATE": "1",
-    # A message of the log on one line, so that it can be read back.
+    # Messages of the log stay on one line, so that they can be parsed.
     "max_print_line": "1000",
     "error_line": "254",
     "half_error_line": "238",
@@ -69,7 +67,9 @@ _ERROR = re.compile(r"^(?:!|\S+:\d+:) ", re.MULTILINE)
 
 @dataclass(frozen=True, slots=True)
 class Compiled:
-    """A finished PDF with its source, the passes it took, and the log's lines about boxes more than 1 pt too large."""
+    """A finished PDF with its source, the number of passes, and the log's lines about boxes more than 1 pt too
+    large.
+    """
 
     source: str
     pdf: bytes
@@ -78,9 +78,9 @@ class Compiled:
 
 
 class Ahead:
-    """A run of pdflatex that reads the opening of a source while the rest of it is still made; ended with its block.
+    """A run of pdflatex that reads the opening of a source while the rest is computed; a context manager that ends it.
 
-    It comes to nothing where pdflatex is missing or the system has no file that is the standard input.
+    It does nothing if pdflatex is missing or the system has no file for the standard input.
     """
 
     def __init__(self, opening: str) -> None:
@@ -105,18 +105,17 @@ class Ahead:
         self._end.close()
 
     def begins(self, source: str) -> bool:
-        """Whether a source goes on from what is read."""
+        """Return True if a source begins with the opening that is being read."""
         return self.process is not None and source.startswith(self.opening)
 
 
 def compile(source: str | Iterable[str], timeout: float = 120.0, ahead: Ahead | None = None) -> Compiled:
     """Typeset a whole document; passes end when the auxiliary file no longer changes.
 
-    A source in pieces, whose first one holds the contents, is read as they come if its opening was read `ahead`.
-
-    Raises `TypesetterError` if pdflatex or one of its packages is missing (with the command that
-    installs them), if TeX stops at an error (with the first lines of the log that say why), if it
-    runs longer than `timeout` seconds, or if the page numbers do not settle.
+    A source in pieces, whose first one contains the contents, is read as they arrive if its opening was read `ahead`.
+    Raises `TypesetterError` if pdflatex or one of its packages is missing (with the command that installs them), if TeX
+    stops at an error (with the first lines of the log that explain it), if it runs longer than `timeout` seconds, or if
+    the page numbers do not settle.
     """
     program = shutil.which(_COMMAND[0])
     if program is None:
@@ -142,7 +141,7 @@ def compile(source: str | Iterable[str], timeout: float = 120.0, ahead: Ahead | 
         except TypesetterError:
             if not known:
                 raise
-            # What was kept may be damaged.
+            # The cached file may be damaged.
             compiled, auxiliary = _settled(program, directory, timeout, text, b"")
     if name and auxiliary != known:
         keep(name, auxiliary)
@@ -150,12 +149,12 @@ def compile(source: str | Iterable[str], timeout: float = 120.0, ahead: Ahead | 
 
 
 def _told(run: subprocess.Popen[bytes], begun: str, pieces: Iterable[str], timeout: float) -> Iterator[str]:
-    """The pieces of a source, each once the run was told it, after what it had `begun` with."""
+    """Yield the pieces of a source after sending each to the run, following the part that it `begun` with."""
     late = Timer(timeout, run.kill)
     late.start()
     assert run.stdin
     try:
-        # A run that has ended says why in its log.
+        # A run that has ended gives the reason in its log.
         with suppress(BrokenPipeError):
             run.stdin.write(begun.encode())
         for piece in pieces:
@@ -176,10 +175,10 @@ def _settled(
     auxiliary: bytes,
     first: subprocess.Popen[bytes] | None = None,
 ) -> tuple[Compiled, bytes]:
-    """The PDF with page numbers that hold, and the auxiliary file that has them; `auxiliary` is one from before.
+    """Return the PDF with stable page numbers, and its auxiliary file; `auxiliary` is an earlier one.
 
-    The `first` pass may have begun.  Contents have room for any number, so that the pages do not depend on what was
-    known of them.
+    The `first` pass may have begun. Contents have room for any number, so that the pages do not depend on the numbers
+    known before.
     """
     if first is None:
         (directory / "report.aux").write_bytes(auxiliary)
@@ -195,18 +194,20 @@ def _settled(
 
 
 def _kept_as(source: str) -> str:
-    """The name under which page numbers are kept, the same for reports of the same contents; "" for no contents."""
+    """Return the name under which page numbers are cached, equal for reports with equal contents; "" without
+    contents.
+    """
     contents = "\n".join(_ENTRY.findall(source))
     return f"contents-{hashlib.sha256(contents.encode()).hexdigest()[:32]}.aux" if contents else ""
 
 
 def overfull(log: str) -> tuple[str, ...]:
-    """The lines of a log about boxes that stand out by more than 1 pt."""
+    """Return the lines of a log about boxes that are too large by more than 1 pt."""
     return tuple(match.group() for match in _OVERFULL.finditer(log) if float(match["excess"]) > REPORTED_EXCESS)
 
 
 def _started(program: str, directory: Path, file: str, given: int = subprocess.DEVNULL) -> subprocess.Popen[bytes]:
-    """A run on a file of the directory; its standard input is `given`."""
+    """Start a run on a file of the directory; its standard input is `given`."""
     try:
         return subprocess.Popen(
             (program, *_COMMAND[1:], file),
@@ -247,7 +248,7 @@ def _log(directory: Path) -> str:
 
 
 def _reason(log: str) -> str:
-    """What went wrong, from the log: a missing package with the remedy, else the first error's lines."""
+    """Return the error of a log: a missing package with the remedy, else the first error's lines."""
     error = _ERROR.search(log)
     if error is None:
         return "pdflatex failed and left no message"

@@ -1,4 +1,4 @@
-"""Scenes as pictures in true size, each a file of its own: SVG, PNG and PDF by Typst, in the letters of the report."""
+"""Render scenes as pictures in true size, one file each: SVG, PNG and PDF by Typst, in the report's fonts."""
 
 from __future__ import annotations
 
@@ -11,15 +11,15 @@ from reportgen.writers.drawing import paint_typst
 from reportgen.writers.typst_math import TypstFormulas
 
 DPI = 220
-"""Dots an inch of pictures in PNG."""
+"""Resolution of PNG pictures in dots per inch."""
 
 
 def svgs(scenes: Sequence[Scene], language: Language, dpi: int = 0) -> list[bytes]:
-    """Scenes as SVG, whose lines need no `dpi`; letters are outlines, which look the same everywhere.
+    """Return scenes as SVG, whose lines need no `dpi`; letters are outlines, which look the same everywhere.
 
     Raises `TypesetterError`.
     """
-    # Letters are symbols that are used; groups that are used look the same, and more programs know them.
+    # Letters are symbols referred to by `use`; groups look the same, and more programs support them.
     return [
         svg.replace(b"<symbol", b"<g").replace(b"</symbol>", b"</g>")
         for svg in typst_compiler.compile_as(_source(scenes, language), "svg")
@@ -27,22 +27,22 @@ def svgs(scenes: Sequence[Scene], language: Language, dpi: int = 0) -> list[byte
 
 
 def pngs(scenes: Sequence[Scene], language: Language, dpi: int = 0) -> list[bytes]:
-    """Scenes as PNG of `dpi` dots an inch, `DPI` for 0.  Raises `TypesetterError`."""
+    """Return scenes as PNG with `dpi` dots per inch, `DPI` for 0; raise `TypesetterError`."""
     return typst_compiler.compile_as(_source(scenes, language), "png", dpi=dpi or DPI)
 
 
 def pdfs(scenes: Sequence[Scene], language: Language, dpi: int = 0) -> list[bytes]:
-    """A PDF for each scene, whose lines need no `dpi`.  Raises `TypesetterError`."""
+    """Return a PDF for each scene, whose lines need no `dpi`; raise `TypesetterError`."""
     return [typst_compiler.compile(_source([scene], language), standards=()) for scene in scenes]
 
 
 def for_word(scenes: Sequence[Scene], language: Language) -> list[tuple[bytes, bytes]]:
-    """Scenes as PNG and as SVG, of which a Word file has both."""
+    """Return scenes as PNG and as SVG, because a Word file needs both."""
     return list(zip(pngs(scenes, language), svgs(scenes, language), strict=True)) if scenes else []
 
 
 def _source(scenes: Sequence[Scene], language: Language) -> str:
-    """A Typst source with a page for each scene, of its size."""
+    """Return a Typst source with a page for each scene, of its size."""
     formulas = TypstFormulas(language)
     pages = (
         f"#page(width:{scene.width}mm,height:{scene.height}mm,margin:0pt)[#{paint_typst(scene, formulas)}]"

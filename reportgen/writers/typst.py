@@ -1,8 +1,8 @@
-"""Document → Typst source.
+"""Write a document as Typst source.
 
-The source is one self-standing file: the frame `templates/frames/typst/report.typ`, which holds the
-look and defines short names, then the report as calls of these names, a block a line.  What the typesetter would have
-to measure is told it where our own estimate is beyond doubt: that an equation has room, that a row is one line high.
+The source is one self-contained file: the frame `templates/frames/typst/report.typ`, which contains the layout and
+defines short names, then the report as calls of these names, one block per line. Measurements that the typesetter would
+have to make are given to it where our own estimate is certain: that an equation fits, that a row is one line high.
 """
 
 from __future__ import annotations
@@ -32,23 +32,23 @@ from reportgen.writers.typst_fonts import FONT, breadth
 from reportgen.writers.typst_math import TypstFormulas, literal
 
 LIST_INDENT = 12.0
-"""What a list takes from the width of its items at most, mm."""
+"""Largest reduction of the width of a list's items (mm)."""
 LONG_HEAD = 0.45
-"""Behind what takes a larger share of the room the rows of an equation are not aligned, as in the frame."""
+"""Share of the room above which a left side prevents aligning the rows of an equation, as in the frame."""
 NUMBER_ROOM = 20.0
-"""What the number of an equation takes with the gap before it at most, mm."""
+"""Largest width of an equation's number with the gap before it (mm)."""
 LOW = 0.9
-"""The share of its cell's room that a line may take by our estimate, so that it is one line beyond doubt."""
+"""Share of its cell's room up to which an estimated line is certainly a single line."""
 CAPITAL, OUT = 2.4, 0.8
-"""Height of capitals there, and how far a formula may stand out above them or below the line, mm."""
+"""Height of capitals there, and largest overshoot of a formula above them or below the line (mm)."""
 CELL, CELL_INSET = 10.0, 3.0
-"""The size of letters in tables, in points, and the white on both sides of a cell, mm."""
+"""Font size in tables (points), and the total white space on both sides of a cell (mm)."""
 UNDATED = datetime.date(1980, 1, 1)
-"""The date of a file of which none is known, as the parts of a Word file have it."""
+"""Date of a file without a known date, equal to that of the parts of a Word file."""
 
 
 def write(document: tree.Document, letter: layout.Letter = layout.OWN_LETTER) -> str:
-    """The complete Typst source of a document; it needs no other file but fonts of the system.
+    """Return the complete Typst source of a document; it needs no other files except system fonts.
 
     Raises `TypesetterError` if the frame is missing.
     """
@@ -70,7 +70,7 @@ def write(document: tree.Document, letter: layout.Letter = layout.OWN_LETTER) ->
 
 
 def _of_language(language: Language) -> Iterator[str]:
-    """What the frame is told of a language, as far as it is not as the frame has it."""
+    """Yield the frame's arguments for a language that differ from the frame's defaults."""
     setting = setting_of(language)
     own, page = setting.typst, setting.page
     yield f"lang: {literal(own.lang or language)}"
@@ -84,7 +84,7 @@ def _of_language(language: Language) -> Iterator[str]:
 
 
 def _in(letter: layout.Letter) -> Iterator[str]:
-    """The letter as the frame is told it; tables in a broad font are set smaller, since their columns are as wide."""
+    """Yield the frame's arguments for the letter; tables in a broad font are set smaller to fit their columns."""
     if letter.font:
         yield f"font: {literal(letter.font)}"
         yield f"narrower: {breadth(letter.font):.4g}"
@@ -93,7 +93,7 @@ def _in(letter: layout.Letter) -> Iterator[str]:
 
 
 def _date(date: datetime.date | None) -> str:
-    """A date as Typst has it; archives ask for one, and the same input gives the same bytes."""
+    """Return a date in Typst; archival standards require one, and equal input gives equal bytes."""
     known = date or UNDATED
     return f"datetime(year:{known.year},month:{known.month},day:{known.day})"
 
@@ -106,9 +106,9 @@ def write_sheet(
     author: str = "",
     date: datetime.date | None = None,
 ) -> str:
-    """The Typst source of a drawing sheet, one page of its own size; it needs no other file.
+    """Return the Typst source of a drawing sheet, one page of its own size; it needs no other file.
 
-    Each of its plates is a figure that tells, in `phrases`, what it shows; what says nothing is decoration.
+    Each plate is a figure with a text alternative made from `phrases`; plates without one are decoration.
     """
     formulas, figures = TypstFormulas(language), []
     for _, parts in groupby(sheet.parts, key=lambda part: part.name.partition(".")[0]):
@@ -125,14 +125,14 @@ def write_sheet(
 
 
 def sheet_look(language: Language) -> str:
-    """The letters of what has a page of its own size, a drawing sheet or a single figure."""
+    """Return the fonts of a page with its own size, such as a drawing sheet or a single figure."""
     fonts = [literal(font) for font in (FONT, *setting_of(language).typst.fonts)]
     text = f"#set text(font:{_array(fonts)},ligatures:false)"
     return f"{text}\n#show math.equation: set text(font:{_array((literal(f'{FONT} Math'), *fonts))})"
 
 
 def frame(language: Language, close: bool = False) -> str:
-    """The frame's source, for a document that is set `close` or not: from the package, or beside it in a checkout."""
+    """Return the frame's source, for a document that is set `close` or not, from the package or the checkout."""
     path = templates() / "frames" / "typst" / "report.typ"
     setting = setting_of(language)
     said = {
@@ -150,12 +150,12 @@ def frame(language: Language, close: bool = False) -> str:
 
 
 def _array(items: Iterable[str]) -> str:
-    """An array of Typst; the closing comma makes one of a single item, too."""
+    """Return a Typst array; the final comma makes an array of a single item, too."""
     return "(" + "".join(f"{item}," for item in items) + ")"
 
 
 class _Blocks:
-    """Writes blocks in one language; `room` is the width that lists leave for equations, in mm."""
+    """Writer of blocks in one language; `room` is the width that lists leave for equations (mm)."""
 
     def __init__(
         self,
@@ -170,7 +170,7 @@ class _Blocks:
         self.formulas = TypstFormulas(language)
         self.words, self.speech = words, speech
         self.letter, self.close = letter, close
-        # Of a document that is set close the letters are a point smaller, as in the frame.
+        # In a document that is set close, the font is a point smaller, as in the frame.
         self.size = letter.size - close
         self.room = room
 
@@ -245,7 +245,7 @@ class _Blocks:
     def inlines(self, inlines: Sequence[tree.Inline]) -> str:
         written = [self.inline(inline) for inline in inlines]
         for place, (before, inline) in enumerate(pairwise(inlines), 1):
-            # No line begins with these marks of Chinese, though Typst would break before them behind a formula.
+            # No line may begin with these Chinese marks, though Typst would break before them after a formula.
             if (
                 isinstance(inline, tree.Text)
                 and inline.text[:1] in ("；", "：")
@@ -280,18 +280,18 @@ class _Blocks:
                 return f"#{literal(tree.DOTS)}"
 
     def formula(self, expression: Expression, slashed: bool = False) -> str:
-        """A formula in a line, which may break before a second "=" and between the terms of a sum only."""
+        """Return an inline formula, which may break only before a second "=" and between the terms of a sum."""
         parts = expression.parts if isinstance(expression, Chain) else (expression,)
         products = any(isinstance(node, Product) for node in walk(expression))
         if any(isinstance(part, Sum) for part in parts[:2]) or not (products or len(parts) > 1):
             return f"#{self.heard([laid(expression, self.language, slashed)])}"
         first, *others = sides(expression, self.language, slashed=slashed)
-        # What stands left of "=" never stands alone at the end of a line.
+        # The left side of "=" is never alone at the end of a line.
         pieces = [[first, EQUALS, *others[:1]] if others else [first], *([EQUALS, part] for part in others[1:])]
         return " ".join(f"#box({self.heard(piece)})" for piece in pieces)
 
     def heard(self, parts: Sequence[Part]) -> str:
-        """A formula of parts with what is heard of it."""
+        """Return a formula of parts with its spoken text."""
         printed = "".join(map(self.formulas.part, parts)).strip()
         return f"M({literal(self.speech.part(MathRow(tuple(parts))))},${printed}$)"
 
@@ -307,7 +307,7 @@ class _Blocks:
         return f"#{name}{','.join(f'[{inner.write(item)}]' for item in block.items)})"
 
     def equation(self, equation: tree.Equation) -> str:
-        """Rows that are set alike in one block each; the number on the last."""
+        """Return rows that are aligned together in one block each, with the number on the last."""
         groups = layout.in_groups(equation.rows, layout.room_for(self.room, self.close))
         lines = []
         for index, group in enumerate(groups):
@@ -325,15 +325,15 @@ class _Blocks:
         return "\n".join(lines) + _label(equation.key)
 
     def setter(self, rows: Sequence[Expression], laid_out: Sequence[Sequence[object]], number: str) -> str:
-        """Which function of the frame sets rows alike: `F` below each other, `A` two abreast, `E` by measuring.
+        """Return the frame's function that aligns rows: `F` below each other, `A` in two columns, `E` by measuring.
 
-        Rows without a number stand two abreast where they have room so.
+        Rows without a number are set in two columns if they fit.
         """
         own = [box(row, self.size, displayed=True).width for row in rows]
         heads = [self.head(row, len(parts)) for row, parts in zip(rows, laid_out, strict=True)]
 
         def aligned(start: int, step: int) -> float:
-            """What rows take (mm) whose relations stand below each other."""
+            """Return the width (mm) of rows whose relations are aligned below each other."""
             left = heads[start::step]
             return max(left) + max(row - head for row, head in zip(own[start::step], left, strict=True))
 
@@ -343,18 +343,18 @@ class _Blocks:
         room = self.room - (NUMBER_ROOM if number else 0.0)
         if two + _doubt(two) <= room:
             return "A("
-        # Behind something long rows are not aligned.
+        # Rows with a long left side are not aligned.
         short = len(rows) == 1 or max(heads) + _doubt(max(heads)) <= LONG_HEAD * room
         return "F(" if short and two - _doubt(two) > room >= below + _doubt(below) else f"E({self.room:g},"
 
     def head(self, row: Expression, parts: int) -> float:
-        """What a row that is displayed in so many parts takes before its first relation (mm)."""
+        """Return the width before the first relation of a row displayed in `parts` parts (mm)."""
         if not isinstance(row, Chain) or parts == 1:
             return 0.0
         return box(row.parts[0], self.size, displayed=True).width
 
     def row(self, sides: Sequence[Sequence[Part]]) -> list[str]:
-        """A displayed row: the parts between "=", each in the pieces between which it may break."""
+        """Return a displayed row: the parts between "=", each as the pieces between which it may break."""
         part = self.formulas.part
         return [_array(f"${part(piece).strip()}$" for piece in side) for side in sides]
 
@@ -382,7 +382,7 @@ class _Blocks:
         return f"#R({framed}{label},{again},{columns},{aligns},{head},{together},\n{rows})" + _label(table.key)
 
     def is_low(self, row: Sequence[tree.Cell], columns: Sequence[tree.Column]) -> bool:
-        """Whether a row of a table is one line of plain texts and symbols high beyond doubt."""
+        """Return True if a table row certainly is one line high, with plain texts and symbols only."""
         at = 0
         for cell in row:
             width = 0.0
@@ -415,33 +415,35 @@ class _Blocks:
         )
 
     def drawing(self, scene: Scene, block: tree.Figure | tree.Plate) -> str:
-        """A scene with what it tells a reader who does not see it."""
+        """Return a scene with its text alternative."""
         return f"D({literal(figure_text(block, scene, self.words, self.language))},{paint_typst(scene, self.formulas)})"
 
     def caption(self, word: str, block: tree.Table | tree.Figure | tree.Plate) -> str:
-        """The two arguments of a caption: its label, and what it says."""
+        """Return the two arguments of a caption: its label and its text."""
         return f"{literal(f'{word} {block.number}'.strip())},{self.content(block.caption)}"
 
     def again(self, word: str, block: tree.Table | tree.Plate) -> str:
-        """The label of what goes on from the page before."""
+        """Return the label of a continuation from the page before."""
         return literal(f"{word} {block.number}{setting_of(self.language).aside(self.words.continued)}")
 
 
 def _doubt(width: float) -> float:
-    """By what a width (mm) may be wrong that is estimated: a few letters, and a few of a hundred."""
+    """Return the uncertainty of an estimated width (mm): a few letters plus a few per cent."""
     return 4.0 + 0.05 * width if width < math.inf else 0.0
 
 
 def _together(groups: Sequence[int]) -> str:
-    """The rows of a table that stay together: 0 for all, one number for the first and the last, or each group's."""
+    """Return the rows of a table that stay together: 0 for all, one number for first and last group, or all groups'
+    sizes.
+    """
     first, *between, last = groups if len(groups) > 1 else (0, 0)
     return str(first) if first == last and set(between) <= {1} else _array(map(str, groups))
 
 
 def _text(text: str) -> str:
-    """A text as a string, but its units and names of files in boxes: lines would break behind a slash."""
+    """Return a text as a string, with units and file names in boxes, since lines would break after a slash."""
     parts = layout.UNBROKEN.split(text)
-    # Behind each piece of text both groups, of which one is what was found.
+    # After each piece of text come both groups, one of which is the match.
     return "".join(
         f"#box({literal(part)})" if index % 3 else f"#{literal(part)}"
         for index, part in enumerate(parts)
@@ -450,5 +452,5 @@ def _text(text: str) -> str:
 
 
 def _label(key: str) -> str:
-    """An anchor behind the block before it, for links to `key`."""
+    """Return an anchor after the block before it, for links to `key`."""
     return f"#label({literal(key)})" if key else ""

@@ -1,6 +1,6 @@
-"""Typst source → PDF or pictures, by the typesetter that comes embedded in its Python package.
+"""Compile Typst source into PDF or pictures with the compiler embedded in its Python package.
 
-It runs once for each source, twice where a standard refuses it.
+It runs once for each source, or twice if a standard rejects it.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from reportgen.writers.typst_fonts import MissingLettersWarning, sought
 
 
 class StandardWarning(OutputWarning):
-    """A file keeps none of the `standards` that were asked for, since they refuse it for a `reason`."""
+    """Warning that a file conforms to none of the requested `standards`, since they reject it for a `reason`."""
 
     def __init__(self, standards: Standards, reason: str) -> None:
         self.standards, self.reason = standards, reason
@@ -30,9 +30,9 @@ class StandardWarning(OutputWarning):
 
 
 def compile(source: str, system: bool = False, standards: Standards = STANDARDS) -> bytes:
-    """The PDF of a Typst source, byte for byte the same from run to run; it may name fonts of the `system`.
+    """Return the PDF of a Typst source, byte for byte the same in every run; it may use fonts of the `system`.
 
-    It keeps the `standards`, or none of them where they do not allow what it says, which is told as a warning.  Raises
+    It conforms to the `standards`, or to none of them (with a warning) if they do not allow its content. Raises
     `TypesetterError` with the message's first lines.
     """
     (pdf,) = compile_as(source, "pdf", system, standards=standards)
@@ -47,9 +47,9 @@ def compile_as(
     standards: Standards = (),
     beside: Mapping[str, bytes] | None = None,
 ) -> list[bytes]:
-    """A PDF of a Typst source, or a picture of each of its pages, of `dpi` dots an inch.
+    """Return a PDF of a Typst source, or a picture of each of its pages with `dpi` dots per inch.
 
-    The source may name the files `beside` it.  Raises `TypesetterError`.
+    The source may refer to the files `beside` it. Raises `TypesetterError`.
     """
     try:
         import typst
@@ -91,12 +91,12 @@ def compile_as(
                 warnings.warn(StandardWarning(standards, _refusal(error)), stacklevel=2)
         except typst.TypstError as error:
             raise TypesetterError(f"typst: {_first_lines(error, 4)}") from error
-    # What has one page comes alone.
+    # A single page is not returned as a list.
     return [pages] if isinstance(pages, bytes) else list(pages)
 
 
 def _refusal(error: Exception) -> str:
-    """Why standards refuse a source, without their names; of such as contradict each other, that they do."""
+    """Return the reason why standards reject a source, without their names; if they are incompatible, say so."""
     line = _first_lines(error, 1).partition(" error: ")[2]
     return line.split('"')[1] if line.startswith("HintedString") else line
 

@@ -1,8 +1,8 @@
-"""The fonts that Typst sets in, and the letters that its own ones lack: Chinese, names in Thai, Lao, emoji.
+"""Find fonts for Typst, and letters that its own fonts lack: Chinese, names in Thai or Lao, emoji.
 
-Typst leaves out in silence what no font has, and refuses it in a file that keeps a standard.  So its fonts are asked
-first, then those that came with the extra `zh`, if it is installed, then those of the system; what none has is told as
-a warning.
+Typst silently omits letters that no font has, and rejects them in a file that conforms to a standard. So its own fonts
+are checked first, then those of the extra `zh` if it is installed, then those of the system. Letters that no font has
+are reported as a warning.
 """
 
 from __future__ import annotations
@@ -20,16 +20,20 @@ from reportgen.base.standards import Standards, titled
 from reportgen.base.words import word
 
 COMMON = re.compile("[\u0000-\u024f\u0300-\u052f\u1e00-\u2bff\u3000-\u3003\ufb00-\ufb06\ufe00-\ufe0f]+")
-"""Latin (Vietnamese included), Greek, Cyrillic, punctuation, arrows and the signs of mathematics: never asked for."""
+"""Latin (including Vietnamese), Greek, Cyrillic, punctuation, arrows and mathematical signs, which are never
+checked.
+"""
 FONT = "New Computer Modern"
 NOWHERE = r"\u{10fffe}"
-"""No character, and therefore in no font: the typesetter sets the same in its place as for a letter it lacks."""
+"""A code point without a character: the typesetter renders it like any letter that its fonts lack."""
 BATCH = 400
-"""So many different letters are asked for at most; a text of more is not worth a warning."""
+"""Largest number of different letters that are checked."""
 
 Folders = tuple[str, ...]
 MissingFromFonts = Callable[[str, bool, Folders], str]
-"""Those of some letters that none of the typesetter's own fonts has, nor those in folders, or the system's if asked."""
+"""Returns the letters that neither the typesetter's own fonts, nor those in folders, nor (if asked) the
+system's have.
+"""
 
 QUESTION = """\
 #set text(font: "{font}", size: 10pt, top-edge: "bounds", bottom-edge: "bounds")
@@ -46,12 +50,12 @@ BREADTH = """\
 #context [#metadata(calc.max(..("regular", "bold").map(weight =>
   breadth("{font}", weight) / breadth("{own}", weight)))) <breadth>]
 """
-"""What the typesetter is asked about the letters of a font; words and numbers, as tables have them."""
+"""Typst query for the relative width of a font, with words and numbers as in tables."""
 
 
 @cache
 def added() -> Folders:
-    """The folders of fonts that came with the extra `zh`: Noto Serif SC, by a package that holds nothing else."""
+    """Return the font folders of the extra `zh`: Noto Serif SC, from a package that contains nothing else."""
     try:
         import pylopdf_fonts_zh_cn
     except ImportError:
@@ -60,20 +64,20 @@ def added() -> Folders:
 
 
 def families(system: bool = True) -> list[str]:
-    """The fonts that a source may name: the typesetter's own, those of the extra and of the system, in order."""
+    """Return the fonts that a source may name: the typesetter's own, those of the extra and of the system, sorted."""
     import typst
 
     return sorted(typst.Fonts(include_system_fonts=system, font_paths=[*added()]).families())
 
 
 def there_is_one_of(fonts: Sequence[str]) -> bool:
-    """Whether one of some fonts is here; the system is asked only where no nearer one is among them."""
+    """Return True if one of some fonts is available; the system's fonts are searched last."""
     return any(not set(families(system)).isdisjoint(fonts) for system in (False, True))
 
 
 @lru_cache(maxsize=16)
 def breadth(font: str) -> float:
-    """By which factor, at least 1, a text in another font is broader than in the typesetter's own."""
+    """Return the factor, at least 1, by which a text in another font is wider than in the typesetter's own."""
     import typst
 
     answer = typst.query(BREADTH.format(font=font, own=FONT).encode(), "<breadth>", field="value", one=True)
@@ -81,12 +85,12 @@ def breadth(font: str) -> float:
 
 
 def lacking(letters: str, system: bool, folders: Folders = ()) -> str:
-    """Those of the letters that none of the typesetter's own fonts, of the folders', or the `system`'s either, has."""
+    """Return the letters that the typesetter's own fonts, those of the folders and (if asked) the `system`'s lack."""
     import typst
 
     if not letters:
         return ""
-    # A source is bytes and a path is a text, though both have one type in the typesetter's annotations.
+    # A source is bytes and a path is a string, although both have one type in the typesetter's annotations.
     asked: Any = question(letters).encode()
     paths = [*folders]
     answer = typst.query(asked, "<lacking>", field="value", one=True, font_paths=paths, ignore_system_fonts=not system)
@@ -94,7 +98,9 @@ def lacking(letters: str, system: bool, folders: Folders = ()) -> str:
 
 
 class MissingLettersWarning(OutputWarning):
-    """Letters of a text have no place on the page, since no font has them; so its file keeps no `standards`."""
+    """Warning that letters of a text are missing on the page, since no font has them; so it conforms to no
+    `standards`.
+    """
 
     def __init__(self, letters: str, standards: Standards = ()) -> None:
         self.letters, self.standards = letters, standards
@@ -106,19 +112,21 @@ class MissingLettersWarning(OutputWarning):
 
 
 def uncommon(text: str) -> str:
-    """The letters, digits and signs of a text, each once, that the typesetter's own fonts may lack."""
+    """Return the letters, digits and signs of a text, each once, that the typesetter's own fonts may lack."""
     left = dict.fromkeys(COMMON.sub("", text))
     return "".join(letter for letter in left if unicodedata.category(letter)[0] in "LNPS")[:BATCH]
 
 
 def question(letters: str) -> str:
-    """What the typesetter is asked: which of the letters, one at least, it sets as it sets what no font has."""
+    """Return the query for the letters (at least one) that the typesetter renders like a letter that no font has."""
     listed = ", ".join(f'"\\u{{{ord(letter):x}}}"' for letter in letters)
     return QUESTION.format(font=FONT, letters=listed, nowhere=NOWHERE)
 
 
 def sought(text: str, lacking: MissingFromFonts = lacking) -> tuple[Folders, bool, str]:
-    """The folders of further fonts that a text needs, whether the system's, and those letters that no font has."""
+    """Return the further font folders that a text needs, True if it needs system fonts, and the letters that no font
+    has.
+    """
     wanted = uncommon(text)
     folders = added() if wanted else ()
     left = lacking(wanted, False, folders)

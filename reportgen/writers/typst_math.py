@@ -1,7 +1,7 @@
-"""Formulas → Typst, as it writes them between two dollar signs.
+"""Write formulas in Typst's mathematical notation.
 
-Names and numbers travel as string literals, so nothing in them can become markup, and every operator stands between
-spaces, because identifiers of Typst may hold a hyphen.
+Names and numbers are string literals, so that nothing in them can become markup. Every operator is surrounded by
+spaces, because Typst identifiers may contain a hyphen.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from reportgen.formula.vocabulary import numbered, runs
 
 
 def literal(text: str) -> str:
-    """A string literal of Typst that reads back as `text`."""
+    """Return a Typst string literal whose value is `text`."""
     escaped = text.replace("\\", "\\\\").replace('"', '\\"')
     return '"' + escaped.replace("\n", "\\n").replace("\r", "\\r").replace("\t", "\\t") + '"'
 
@@ -58,11 +58,11 @@ class TypstFormulas(TextSetter):
         return f' class("{role}", lr(size: #{200 if mark.tall else 100}%, \\{mark.of})) '
 
     def symbol(self, node: Symbol) -> str:
-        """A symbol with its marks: base in italics, sub- and superscript upright, a bar over the whole of it."""
+        """Return a symbol with its marks: base in italics, sub- and superscript upright, a bar over all of it."""
         letters, above = parted(node)
         single = len(letters) == 1 and letters.isalpha()
         base = letters if single else self.lowered(runs(letters), lambda part: f"italic({literal(part)})")
-        # Marks hang on something even where there are no letters.
+        # Marks need a base even if there are no letters.
         base = base or literal("")
         if node.over == "vector":
             base = f"arrow({base})"
@@ -72,7 +72,7 @@ class TypstFormulas(TextSetter):
 
 
 def _superscript(text: str) -> str:
-    """Primes as Typst's own symbol, which has the right size, everything else upright."""
+    """Return primes as Typst's own symbol, which has the right size, and everything else upright."""
     letters = text.lstrip(PRIMES)
     primes = {"′": "prime", "″": "prime.double"}
     names = [primes[char] for char in text[: len(text) - len(letters)]]

@@ -1,6 +1,6 @@
-"""Scenes one after the other as a picture that moves: GIF by Pillow, MP4 by ffmpeg where it is installed.
+"""Write scenes as a moving picture: GIF with Pillow, MP4 with ffmpeg if it is installed.
 
-Nobody else imports Pillow.
+Only this module imports Pillow.
 """
 
 from __future__ import annotations
@@ -21,15 +21,15 @@ from reportgen.drawing import Scene
 from reportgen.writers import pictures
 
 SECONDS = 0.05
-"""That a frame is shown; GIF counts in hundredths."""
+"""Duration of a frame in seconds; GIF counts in hundredths."""
 COLOURS = 64
-"""Of all frames: the few of a drawing, and what lies between them at its edges."""
+"""Number of colours of all frames: the few of a drawing, and their blends at its edges."""
 TOLD = 4
-"""So many frames tell the colours of all."""
+"""Number of frames from which the palette is computed."""
 
 
 def gif(scenes: Sequence[Scene], language: Language, dpi: int) -> bytes:
-    """An animated GIF of scenes of one size that begins anew for ever."""
+    """Return an animated GIF of scenes of one size that repeats for ever."""
     frames = _frames(scenes, language, dpi)
     width, height = frames[0].size
     telling = frames[:: max(len(frames) // TOLD, 1)]
@@ -44,15 +44,15 @@ def gif(scenes: Sequence[Scene], language: Language, dpi: int) -> bytes:
 
 
 def mp4(scenes: Sequence[Scene], language: Language, dpi: int) -> bytes:
-    """A film of scenes of one size in H.264, as any player and presentation has it.
+    """Return a film of scenes of one size in H.264, which any player and presentation program supports.
 
-    Raises `TypesetterError` where there is no ffmpeg, or it fails.
+    Raises `TypesetterError` if ffmpeg is missing or fails.
     """
     ffmpeg = shutil.which("ffmpeg")
     if ffmpeg is None:
         raise TypesetterError(word("no_ffmpeg", language))
     frames = _frames(scenes, language, dpi)
-    # H.264 halves colours both ways.
+    # H.264 halves the colour resolution in both directions.
     width, height = (side - side % 2 for side in frames[0].size)
     raw = ("-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{width}x{height}", "-r", f"{1 / SECONDS:g}", "-i", "-")
     coded = ("-c:v", "libx264", "-crf", "18", "-pix_fmt", "yuv420p", "-movflags", "+faststart", "-bitexact")

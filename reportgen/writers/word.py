@@ -1,7 +1,7 @@
-"""Document → Word file: styles, live fields with their results, formulas as Word's own, figures in true size.
+"""Write a document as a Word file: styles, live fields with results, Word's own formulas, figures in true size.
 
-A section of the file is a run of blocks on the same paper.  Numbers of headings are a list of Word's; those of
-captions and equations are fields, and references lead to bookmarks round them: what is put in between renumbers.
+A section of the file is a run of blocks on the same paper. Numbers of headings are a list of Word's; those of captions
+and equations are fields, and references lead to bookmarks around them, so that insertions are renumbered.
 """
 
 from __future__ import annotations
@@ -48,13 +48,13 @@ from reportgen.writers.word_sections import CONTENTS_LEVEL, COVER, broken, paged
 from reportgen.writers.word_styles import BULLETS, LIST_INDENT, merged, numbering, properties, settings, styles
 
 Pictures = Callable[[Sequence[Scene]], Sequence[tuple[bytes, bytes]]]
-"""Scenes as PNG and SVG."""
+"""Returns scenes as PNG and SVG."""
 
 
 def write(
     document: tree.Document, pictures: Pictures, letter: layout.Letter | None = None, own: Own | None = None
 ) -> bytes:
-    """The file of a document, byte for byte the same from run to run; what a school has of its `own` goes before."""
+    """Return the file of a document, byte for byte the same in every run; a school's `own` parts take precedence."""
     usual_look = setting_of(document.language)
     letter, own = letter or layout.Letter(usual_look.word.font, usual_look.word.size), own or Own()
     usual = styles(letter.font, letter.size, document.language, document.close, A4.room)
@@ -80,7 +80,7 @@ def write(
 
 
 def _running(kind: str, document: tree.Document, page: PageSetup) -> str:
-    """A header with the report and the chapter that runs there, a footer with the variant and the page."""
+    """Return a header with the report and the current chapter, or a footer with the variant and the page."""
     texts = {
         "Header": (document.header[0], field("STYLEREF 1", "")),
         "Footer": (
@@ -95,30 +95,30 @@ def _running(kind: str, document: tree.Document, page: PageSetup) -> str:
 
 
 EQUATION = "Equation"
-"""What the counter of equations is called."""
+"""Name of the counter of equations."""
 LINKED = "\\h \\* MERGEFORMAT"
-"""A reference leads to what it names, and looks like the text that it stands in, not like a caption."""
+"""Switches of a reference: it is a link, and has the format of the surrounding text, not of a caption."""
 TAB, BREAK = "<w:r><w:tab/></w:r>", "<w:r><w:br/></w:r>"
 AFTER = paragraph("Gap", "", spaced(0, 10))
-"""Below a table with its caption."""
+"""Space below a table with its caption."""
 NEXT_PAGE = paragraph("Gap", '<w:r><w:br w:type="page"/></w:r>')
 
 
 @dataclass(frozen=True, slots=True)
 class _Setting:
-    """How blocks stand: the level of the list that they are in, 0 outside, and whether they keep to the next block."""
+    """Context of a block: the level of its list, 0 outside, and True if it stays with the next block."""
 
     level: int = 0
     kept: bool = False
 
     @property
     def indent(self) -> float:
-        """How far a paragraph at this level is indented (mm)."""
+        """Indentation of a paragraph at this level (mm)."""
         return LIST_INDENT * self.level
 
     @property
     def lines(self) -> str:
-        """Of a paragraph, after its style."""
+        """Properties of a paragraph, after its style."""
         return KEPT if self.kept else ""
 
     @property
@@ -127,7 +127,7 @@ class _Setting:
 
 
 class _Blocks:
-    """The blocks of one document as WordprocessingML, with all that they refer to."""
+    """Writer of the blocks of one document as WordprocessingML, with everything that they refer to."""
 
     def __init__(self, document: tree.Document, page: PageSetup) -> None:
         self.page = page
@@ -140,7 +140,7 @@ class _Blocks:
         """Level and first number of each ordered list."""
         self._marks = 0
         self._figure = ""
-        """The key of the figure that goes on, if one does."""
+        """Key of the figure that is continued, "" if there is none."""
         sections = [block for block in document.blocks if isinstance(block, tree.Section)]
         self.entries = [section for section in sections if section.level <= CONTENTS_LEVEL]
         self._entries = {id(one): f"_Toc{index}" for index, one in enumerate(self.entries, start=1)}
@@ -149,7 +149,7 @@ class _Blocks:
     # --- sections of the file ---------------------------------------------------------------------
 
     def sections(self) -> tuple[str, list[PageSetup]]:
-        """The body, and the pages that have a header and a footer of their own."""
+        """Return the body, and the pages that have their own header and footer."""
         runs = [
             (page, [block for _, block in run])
             for (page, _), run in groupby(paged(self.document.blocks, self.page), key=lambda one: one[0])
@@ -160,12 +160,12 @@ class _Blocks:
             body.append(self.write(broken(blocks)))
             ending = section(page, self.running(page, pages))
             last = index == len(runs)
-            # Nothing but a paragraph ends a section.
+            # Only a paragraph can end a section.
             body.append(GAP + ending if last else f'<w:p><w:pPr><w:pStyle w:val="Gap"/>{ending}</w:pPr></w:p>')
         return "".join(body), pages
 
     def running(self, page: PageSetup, pages: Sequence[PageSetup]) -> str:
-        """The references of a section to its header and footer."""
+        """Return the references of a section to its header and footer."""
         if not page.running:
             return ""
         number = pages.index(page) + 1
@@ -175,7 +175,7 @@ class _Blocks:
     # --- blocks -----------------------------------------------------------------------------------
 
     def write(self, blocks: Sequence[tree.Block], level: int = 0) -> str:
-        """Blocks in order; a run-in heading stands at the head of the paragraph behind it."""
+        """Return blocks in order; a run-in heading begins the following paragraph."""
         written: list[str] = []
         run_in = ""
         for block, following in pairwise((*blocks, None)):
@@ -235,12 +235,12 @@ class _Blocks:
         title = self.bookmarked(self._entries[id(section)], self.inlines(section.title))
         if section.key:
             title = self.bookmarked(self.places[section.key].bookmark, title)
-        # List 0 is none: a heading outside of all lists has no number.
+        # List 0 means no list: a heading outside all lists has no number.
         unnumbered = "" if section.number else '<w:numPr><w:ilvl w:val="0"/><w:numId w:val="0"/></w:numPr>'
         return paragraph(f"Heading{section.level}", title + self.counters(section), unnumbered)
 
     def counters(self, section: tree.Section) -> str:
-        """What sets the counters of a part back, for readers that do not know a sequence's `\\s`; it shows nothing."""
+        """Return hidden fields that reset the counters of a part, for readers that ignore a sequence's `\\s`."""
         if section.level > 1 or not section.number:
             return ""
         names = (self.words.figure, self.words.table, EQUATION)
@@ -290,7 +290,7 @@ class _Blocks:
         return "".join(lines)
 
     def contents(self, title: str, brief: bool) -> str:
-        """Word's own table of contents, its entries written in; page numbers are Word's."""
+        """Return Word's own table of contents with its entries written; Word computes the page numbers."""
         deepest = CONTENTS_LEVEL - 1 if brief else CONTENTS_LEVEL
         begin, _, end = field(f'TOC \\o "1-{deepest}" \\h \\z', "|").partition(run("|"))
         lines: list[str] = []
@@ -336,20 +336,20 @@ class _Blocks:
                 return self.bookmarked(inline.called, control(inline.name, inline.title, tree.DOTS))
 
     def counted(self, name: str, number: str, key: str, look: str = "", around: str = "%s") -> str:
-        """The number of a caption or an equation as fields, marked for references to `key`."""
+        """Return the number of a caption or an equation as fields, with a bookmark for references to `key`."""
         part, _, last = number.rpartition(".")
         if part:
             shown = field("STYLEREF 1 \\s", part, look) + run(".", look)
             shown += field(f"SEQ {sequence(name)} \\* ARABIC \\s 1", last, look)
         else:
-            # In parts without a number they count through the whole document.
+            # In parts without a number, they count through the whole document.
             shown = field(f"SEQ {sequence(name)}_0 \\* ARABIC", last, look)
         opening, closing = (run(mark, look) for mark in around.split("%s"))
         shown = opening + shown + closing
         return self.bookmarked(self.places[key].bookmark, shown) if key else shown
 
     def caption(self, word: str, block: tree.Table | tree.Figure | tree.Plate) -> str:
-        """Word, number and words of a caption; nothing for a block that has none."""
+        """Return word, number and text of a caption; "" for a block without one."""
         if not (block.number or block.caption):
             return ""
         number = self.counted(word, block.number, block.key, BOLD) if block.number else ""
@@ -357,7 +357,7 @@ class _Blocks:
         return run(f"{word} ", BOLD) + number + stop + self.inlines(block.caption)
 
     def again(self, block: tree.Figure | tree.Plate, where: str) -> str:
-        """The caption of what goes on from the page before, or of a later part."""
+        """Return the caption of a continuation from the page before, or of a later part."""
         place = self.places.get(self._figure)
         number = field(f"REF {place.bookmark} {LINKED}", block.number, BOLD) if place else run(block.number, BOLD)
         return run(f"{self.words.figure} ", BOLD) + number + run(self.setting.aside(where), BOLD)
@@ -365,7 +365,9 @@ class _Blocks:
     # --- tables -----------------------------------------------------------------------------------
 
     def table(self, table: tree.Table) -> str:
-        """A ruled table below its caption; its head is repeated on each page, a short one stays on one."""
+        """Return a ruled table below its caption; its head is repeated on each page, and a short table stays on one
+        page.
+        """
         caption = self.caption(self.words.table, table)
         rows = [self.table_row(row, table, True, index == len(table.head) - 1) for index, row in enumerate(table.head)]
         rows += [
@@ -379,7 +381,7 @@ class _Blocks:
         return (paragraph("Caption", caption, KEPT) if caption else "") + body + AFTER
 
     def table_row(self, row: Sequence[tree.Cell], table: tree.Table, head: bool, kept_or_last: bool) -> str:
-        """A row; the last one of the head has a rule below, of the others what spans columns."""
+        """Return a row; in the head, the last row and spanning cells have a rule below."""
         cells, at = [], 0
         for cell in row:
             covered = table.columns[at : at + cell.span]
@@ -395,7 +397,7 @@ class _Blocks:
     # --- figures ----------------------------------------------------------------------------------
 
     def figure(self, figure: tree.Figure) -> str:
-        """Its rows with the caption below; where it has several parts, the later ones go on."""
+        """Return the rows of a figure with the caption below; later parts have the caption of a continuation."""
         self._figure = figure.key
         written = []
         for index, part in enumerate(layout.in_parts(figure), 1):
@@ -406,7 +408,7 @@ class _Blocks:
         return "".join(written)
 
     def row(self, scenes: Sequence[Scene], block: tree.Figure | tree.Plate) -> str:
-        """Scenes side by side, each over its title."""
+        """Return scenes side by side, each above its title."""
         drawn = [paragraph("Figure", self.picture(scene, block), KEPT) for scene in scenes]
         titles = [paragraph("FigureTitle", run(scene.title), KEPT) for scene in scenes]
         titled = any(scene.title for scene in scenes)
@@ -422,7 +424,7 @@ class _Blocks:
         return grid_table(GRID, widths, CENTRE, body) + paragraph("Gap", "", KEPT)
 
     def picture(self, scene: Scene, block: tree.Figure | tree.Plate) -> str:
-        """A scene in its true size with what it tells a reader who does not see it."""
+        """Return a scene in its true size with its text alternative."""
         self.scenes.append(scene)
         number = len(self.scenes)
         return drawing(number, scene.width, scene.height, figure_text(block, scene, self.words, self.language))

@@ -1,6 +1,6 @@
-"""The elements of a Word file as text: runs, fields, paragraphs, pictures, sections, rules, in the schema's order.
+"""Elements of a Word file as text: runs, fields, paragraphs, pictures, sections, rules, in the schema's order.
 
-Texts become XML in `escape` and nowhere else.  What whole parts look like stands in `templates/frames/word/`.
+Only `escape` converts texts into XML. The frames of whole parts are in `templates/frames/word/`.
 """
 
 from __future__ import annotations
@@ -26,20 +26,20 @@ NAMESPACES = {
 DECLARED = " ".join(f'xmlns:{prefix}="{uri}"' for prefix, uri in NAMESPACES.items())
 PROLOGUE = '<?xml version="1.0" encoding="UTF-8" standalone="yes"?>\n'
 _IMPOSSIBLE = re.compile("[^\t\n\r\u0020-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
-"""Characters that no XML can hold, not even by their numbers."""
+"""Characters that XML cannot contain, not even as numeric references."""
 
 MATH_FONT = "Cambria Math"
 TWIPS, EMU = 1440 / 25.4, 36000
-"""Of a millimetre: Word's unit of lengths, and that of pictures."""
+"""Units per millimetre: Word's unit of lengths, and that of pictures."""
 
 
 def escape(text: str) -> str:
-    """A text that reads back as typed, composed, in an element or an attribute; what XML cannot hold shows as �."""
+    """Return a text escaped for an element or an attribute, composed; characters that XML cannot contain become �."""
     return escaped(_IMPOSSIBLE.sub("\ufffd", unicodedata.normalize("NFC", text)))
 
 
 def twips(millimetres: float) -> int:
-    """A length in twips, twentieths of a point."""
+    """Return a length in twips, twentieths of a point."""
     return round(millimetres * TWIPS)
 
 
@@ -47,13 +47,13 @@ def twips(millimetres: float) -> int:
 
 
 def run(text: str, look: str = "") -> str:
-    """Letters that look alike; `look` are the elements that say how, in the schema's order."""
+    """Return a run of text with one look; `look` are its property elements, in the schema's order."""
     properties = f"<w:rPr>{look}</w:rPr>" if look else ""
     return f'<w:r>{properties}<w:t xml:space="preserve">{escape(text)}</w:t></w:r>' if text else ""
 
 
 def field(code: str, result: str, look: str = "") -> str:
-    """A field with the result that it has as long as nobody recounts it."""
+    """Return a field with the result that it shows until it is updated."""
     properties = f"<w:rPr>{look}</w:rPr>" if look else ""
 
     def mark(kind: str) -> str:
@@ -64,16 +64,16 @@ def field(code: str, result: str, look: str = "") -> str:
 
 
 def paragraph(style: str, content: str, properties: str = "") -> str:
-    """A paragraph in a style; further properties in the schema's order."""
+    """Return a paragraph in a style, with further properties in the schema's order."""
     return f'<w:p><w:pPr><w:pStyle w:val="{style}"/>{properties}</w:pPr>{content}</w:p>'
 
 
 SVG = "{96DAC541-7B7A-43D3-8B79-37D633B846F1}"
-"""What a picture's extension with its SVG is called; who does not know it shows the PNG."""
+"""Id of a picture's SVG extension; programs that do not know it show the PNG."""
 
 
 def drawing(number: int, width: float, height: float, description: str) -> str:
-    """The picture of a number in a line of text, in its size (mm), with what is told in its place."""
+    """Return an inline picture by its number, in its size (mm), with its text alternative."""
     size = f'cx="{round(width * EMU)}" cy="{round(height * EMU)}"'
     named = f'id="{number}" name="figure{number}"'
     vector = f'<a:extLst><a:ext uri="{SVG}"><asvg:svgBlip r:embed="rel-figure{number}.svg"/></a:ext></a:extLst>'
@@ -92,7 +92,7 @@ def drawing(number: int, width: float, height: float, description: str) -> str:
 
 @dataclass(frozen=True, slots=True)
 class PageSetup:
-    """Paper and margins of a section (mm); its header stands `above`, its footer `below`, from the paper's edge."""
+    """Paper and margins of a section (mm); `above` and `below` are the distances of header and footer from the edge."""
 
     width: float = 210.0
     height: float = 297.0
@@ -103,12 +103,12 @@ class PageSetup:
     above: float = 11.0
     below: float = 9.0
     running: bool = True
-    """Whether it has header and footer."""
+    """True if it has header and footer."""
     framed: bool = False
 
     @property
     def room(self) -> float:
-        """What text takes across (mm)."""
+        """Width of the text (mm)."""
         return self.width - self.left - self.right
 
 
@@ -117,7 +117,7 @@ A4 = PageSetup()
 
 @dataclass(frozen=True, slots=True)
 class Own:
-    """What a school has of its own: parts as XML, "" for ours; margins by the names that pages have for them (mm)."""
+    """A school's own parts: XML, "" for the default; margins by the names that pages use for them (mm)."""
 
     styles: str = ""
     header: str = ""
@@ -125,13 +125,13 @@ class Own:
     margins: Mapping[str, Any] | None = None
 
     def page(self, usual: PageMargins) -> PageSetup:
-        """The page of the text, which leaves it no less room than figures and tables are made for."""
+        """Return the page of the text, which is never narrower than figures and tables require."""
         page = replace(A4, **asdict(usual) | dict(self.margins or {}))
         return page if page.room >= A4.room else replace(page, left=A4.left, right=A4.right)
 
 
 def section(page: PageSetup, running: str) -> str:
-    """The properties of a section, which begins a page; `running` are the references to its header and footer."""
+    """Return the properties of a section, which begins a page; `running` are references to its header and footer."""
     turned = ' w:orient="landscape"' if page.width > page.height else ""
     names = ("top", "right", "bottom", "left")
     lengths = {**{name: getattr(page, name) for name in names}, "header": page.above, "footer": page.below}
@@ -148,13 +148,13 @@ _SIDES = ("top", "left", "bottom", "right")
 
 
 def spaced(before: float, after: float, line: float = 0.0) -> str:
-    """The white of a paragraph (points), and its pitch in lines where it is not that of Normal."""
+    """Return the spacing of a paragraph (points), and its line pitch if it differs from Normal."""
     pitch = f' w:line="{round(240 * line)}" w:lineRule="auto"' if line else ""
     return f'<w:spacing w:before="{round(20 * before)}" w:after="{round(20 * after)}"{pitch}/>'
 
 
 def right_tab(at: float, leader: str = "") -> str:
-    """A stop for the right end of what stands at it (mm)."""
+    """Return a right-aligned tab stop (mm)."""
     dots = f' w:leader="{leader}"' if leader else ""
     return f'<w:tab w:val="right"{dots} w:pos="{twips(at)}"/>'
 
@@ -164,21 +164,21 @@ BOLD, ITALIC = "<w:b/><w:bCs/>", "<w:i/><w:iCs/>"
 KEPT = "<w:keepNext/>"
 
 GRID = "Grid"
-"""The table style without rules and margins, for what only stands side by side."""
+"""Table style without rules and margins, for content side by side."""
 RULED = "Ruled"
-"""That of a report's tables."""
+"""Table style of a report's tables."""
 HEAVY, LIGHT = 6, 4
-"""Rules, in eighths of a point: 0.8 and 0.5 pt to the next one that Word has."""
+"""Widths of rules in eighths of a point: 0.8 and 0.5 pt, rounded to widths that Word has."""
 
 
 def rule(side: str, width: int) -> str:
-    """A rule at a side of a table or a cell; without `width` there is none."""
+    """Return a rule at a side of a table or a cell; without `width` there is no rule."""
     kind = "single" if width else "nil"
     return f'<w:{side} w:val="{kind}" w:sz="{width}" w:space="0" w:color="auto"/>'
 
 
 def control(tag: str, title: str, shown: str) -> str:
-    """A content control of plain text in a line, empty: what it shows goes with the first letter that is typed."""
+    """Return an empty inline content control for plain text; its placeholder disappears when text is typed."""
     about = f'<w:alias w:val="{escape(title)}"/><w:tag w:val="{escape(tag)}"/><w:showingPlcHdr/><w:text/>'
     content = run(shown, '<w:color w:val="808080"/>')
     return f"<w:sdt><w:sdtPr>{about}</w:sdtPr><w:sdtContent>{content}</w:sdtContent></w:sdt>"

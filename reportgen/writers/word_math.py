@@ -1,7 +1,7 @@
-"""Formulas as Word's own (OMML), and the lines that displayed ones are broken into.
+"""Formulas as Word's own (OMML), and the line breaking of displayed ones.
 
-Texts upright in formulas are `m:nor`.  A word processor that reads a formula as source text of its own must find no
-word of that in it: the letters of a name are a run each.
+Upright texts in formulas are `m:nor`. A word processor that reads a formula as its own source text must not find
+keywords in it, so each letter of a name is a separate run.
 """
 
 from __future__ import annotations
@@ -38,27 +38,27 @@ from reportgen.writers.word_styles import EQUATION_SIZE, KNOWN_SIZE
 QUAD, EMPTY = "\N{EM SPACE}", "\N{ZERO WIDTH SPACE}"
 _UPRIGHT = f'<m:rPr><m:nor/></m:rPr><w:rPr><w:rFonts w:ascii="{MATH_FONT}" w:hAnsi="{MATH_FONT}"/></w:rPr>'
 _FIGURES = frozenset("0123456789,.")
-"""What a number consists of that any reader of formulas takes for one."""
+"""Characters of a number that any reader of formulas recognises as one."""
 
 
 def letters(text: str) -> str:
-    """Letters of a formula, in the face that Word gives them there."""
+    """Return letters of a formula, in the typeface that Word uses for them."""
     return f'<m:r><m:t xml:space="preserve">{escape(text)}</m:t></m:r>'
 
 
 def upright(text: str) -> str:
-    """A text within a formula."""
+    """Return an upright text within a formula."""
     return f'<m:r>{_UPRIGHT}<m:t xml:space="preserve">{escape(text)}</m:t></m:r>'
 
 
 def displayed_formula(mathematics: str, align: str = "center") -> str:
-    """A formula in full size at a side of its paragraph."""
+    """Return a displayed formula, aligned within its paragraph."""
     jc = f'<m:oMathParaPr><m:jc m:val="{align}"/></m:oMathParaPr>'
     return f"<m:oMathPara>{jc}<m:oMath>{mathematics}</m:oMath></m:oMathPara>"
 
 
 class OmmlFormulas(TextSetter):
-    """Expressions as OMML, in one language."""
+    """Writer of expressions as OMML, in one language."""
 
     BELOW = "<m:sSub><m:e>%s</m:e><m:sub>%s</m:sub></m:sSub>"
     RAISED = POWER = "<m:sSup><m:e>%s</m:e><m:sup>%s</m:sup></m:sSup>"
@@ -101,7 +101,7 @@ class OmmlFormulas(TextSetter):
         return letters(mark.of)
 
     def symbol(self, node: Symbol) -> str:
-        """A symbol with its marks: base in italics, sub- and superscript upright, a bar over the whole of it."""
+        """Return a symbol with its marks: base in italics, sub- and superscript upright, a bar over all of it."""
         name, above = parted(node)
         base = self.lowered(runs(name), lambda part: "".join(map(letters, part)))
         if node.over == "vector":
@@ -113,7 +113,7 @@ class OmmlFormulas(TextSetter):
         return marked
 
     def line(self, part: Part) -> str:
-        """What stands in a line; before a sign at its head there is an empty text, for what takes two operands."""
+        """Return the content of a line; a sign at its head gets an empty text before it as its first operand."""
         mathematics = self.part(part)
         return upright(EMPTY) + mathematics if isinstance(_first(part), Sign) else mathematics
 
@@ -137,19 +137,19 @@ def _first(part: Part) -> Part:
 
 EM = EQUATION_SIZE * POINT
 LONG_HEAD = 0.45
-"""Of the room: where more than that stands left of "=", lines flow from the left."""
+"""Share of the room above which a left side prevents alignment, so that lines flow from the left."""
 HANGING, WITHIN = 2.0, 1.6
-"""How far a line stands in that goes on in a flow, and within a side of a row (em)."""
+"""Indentations (em) of a continuation line in a flow, and within a side of a row."""
 
 
 @dataclass(frozen=True, slots=True)
 class FormulaLine:
-    """A line of a displayed equation: what stands left of the "=" that lines are aligned at, and the rest."""
+    """A line of a displayed equation: the part left of the "=" that lines are aligned at, and the rest."""
 
     left: Part
     rest: Part
     indent: float = 0.0
-    """Of the rest (mm)."""
+    """Indentation of the rest (mm)."""
 
     @property
     def whole(self) -> Part:
@@ -157,7 +157,7 @@ class FormulaLine:
 
     @property
     def widths(self) -> tuple[float, float]:
-        """Of both (mm)."""
+        """Widths of both parts (mm)."""
         return width(self.left), self.indent + width(self.rest)
 
 
@@ -165,18 +165,18 @@ NOTHING = MathRow(())
 
 
 def width(*parts: Part) -> float:
-    """Of parts side by side in a displayed formula (mm)."""
+    """Return the width of parts side by side in a displayed formula (mm)."""
     return Boxes(EM, displayed=True).part(MathRow(parts)).width
 
 
 def broken(rows: Sequence[Expression], language: Language, room: float) -> list[FormulaLine]:
-    """The lines of displayed rows within a room (mm), aligned and broken as on the page of the PDF."""
+    """Return the lines of displayed rows within a room (mm), aligned and broken as in the PDF."""
     sides = [displayed(row, language, fits) for row in rows]
     heads = [width(*first) if others else 0.0 for first, *others in sides]
     head = max(heads)
     formula_lines: list[FormulaLine] = []
     for first, *others in sides:
-        # No relation to align at, or what stands before it is too long: the row flows from the left.
+        # Without a relation to align at, or with a long left side, the row flows from the left.
         flowing = not others or head > LONG_HEAD * room
         equated = [_equated(side) for side in others]
         rest = tuple(chain.from_iterable(equated))
@@ -193,12 +193,12 @@ def broken(rows: Sequence[Expression], language: Language, room: float) -> list[
 
 
 def _equated(side: Sequence[Part]) -> list[Part]:
-    """The pieces of a side behind its "="."""
+    """Return the pieces of a side, after its "="."""
     return [MathRow((EQUALS, side[0])), *side[1:]]
 
 
 def _relations(equated: Sequence[Sequence[Part]], room: float) -> list[FormulaLine]:
-    """The sides of a row in lines, each as full as it may be; a side too wide for a line is broken inside."""
+    """Return the sides of a row in lines, each as full as possible; a side too wide for a line is broken inside."""
     lines: list[FormulaLine] = []
     for side in equated:
         if lines and lines[-1].widths[1] + width(*side) <= room:
@@ -209,7 +209,7 @@ def _relations(equated: Sequence[Sequence[Part]], room: float) -> list[FormulaLi
 
 
 def _filled(pieces: Sequence[Part], room: float, indent: float) -> list[FormulaLine]:
-    """Lines of pieces, none wider than the room where a break can help; later ones stand in."""
+    """Return lines of pieces, within the room where a break can help; later ones are indented."""
     lines: list[list[Part]] = [[pieces[0]]]
     for piece in pieces[1:]:
         if width(*lines[-1], piece) + (indent if len(lines) > 1 else 0.0) <= room:
@@ -220,7 +220,7 @@ def _filled(pieces: Sequence[Part], room: float, indent: float) -> list[FormulaL
 
 
 def abreast(lines: Sequence[FormulaLine], room: float) -> bool:
-    """Whether lines have room (mm) two by two."""
+    """Return True if lines fit into the room (mm) in two columns."""
     widths = (max(line.widths[side] for line in lines[at::2]) for at in (0, 1) for side in (0, 1))
     return sum(widths) + ABREAST <= room
 
@@ -228,27 +228,27 @@ def abreast(lines: Sequence[FormulaLine], room: float) -> bool:
 # --- vector equations -----------------------------------------------------------------------------
 
 SPREAD = 1.25
-"""So much wider than they need the columns of a vector equation may be: fonts of formulas differ."""
+"""Largest factor by which columns of a vector equation are widened, because fonts of formulas differ."""
 BESIDE = 1.1
-"""White on either side of what stands in a vector equation (mm)."""
+"""White space on either side of an entry of a vector equation (mm)."""
 BEHIND_NAME = 4.0
-"""White behind the name of a row (mm)."""
+"""White space after the name of a row (mm)."""
 
 
 def name_width(name: str) -> float:
-    """Of the name of a row (mm)."""
+    """Return the width of the name of a row (mm)."""
     return Boxes(KNOWN_SIZE * POINT).text(name).width + BEHIND_NAME
 
 
 def term_widths(term: TermColumn) -> tuple[float, float]:
-    """What the signs before a term and the term take across, with what is known of it (mm)."""
+    """Return the widths of the signs before a term and of the term with its known data (mm)."""
     small = Boxes(KNOWN_SIZE * POINT)
     entries = [small.content("?" if entry is None else entry, slashed=True).width for entry in term.known]
     return width(*term.signs) + 2 * BESIDE, max(width(term.term), *entries, 0.0) + 2 * BESIDE
 
 
 def in_storeys(widths: Sequence[float], names: float, room: float) -> list[range]:
-    """Terms of these widths (mm) in as few grids as the room asks for, each beside the names of the rows."""
+    """Return terms of these widths (mm) in as few grids as fit the room, each beside the names of the rows."""
     storeys: list[range] = []
     start, used = 0, names
     for index, term in enumerate(widths):
@@ -260,22 +260,22 @@ def in_storeys(widths: Sequence[float], names: float, room: float) -> list[range
 
 
 # --- equations in their places --------------------------------------------------------------------
-# Lines are rows of tables without rules: so all word processors align them alike.
+# Lines are rows of tables without rules, so that all word processors align them alike.
 
 GAP = paragraph("Gap", "")
-"""Between two tables, which would grow together without it."""
+"""Paragraph between two tables, which would merge without it."""
 KEPT_GAP = paragraph("Gap", "", KEPT)
-"""The same between those that stay on one page."""
+"""The same between tables that stay on one page."""
 NUMBER_ROOM = 16.0
-"""What the number of an equation takes at the right (mm)."""
+"""Width of an equation's number at the right (mm)."""
 SLIVER = 1.0
-"""A column that holds nothing (mm)."""
+"""Width of an empty column (mm)."""
 NO_COLUMNS = range(0)
 
 
 @dataclass(frozen=True, slots=True)
 class GridEntry:
-    """What stands in a cell of a grid, at which side, how far from its left (mm)."""
+    """The content of a grid cell, its alignment, and its indentation (mm)."""
 
     content: str = ""
     align: str = "center"
@@ -292,7 +292,7 @@ FREE = GridEntry()
 
 
 def grid_cell(content: str, width: float, span: int = 1, borders: str = "", align: str = "center") -> str:
-    """A cell of a width (mm) that spans some columns."""
+    """Return a cell of a width (mm) that spans some columns."""
     spans = f'<w:gridSpan w:val="{span}"/>' if span > 1 else ""
     ruled = f"<w:tcBorders>{borders}</w:tcBorders>" if borders else ""
     size = f'<w:tcW w:w="{twips(width)}" w:type="dxa"/>'
@@ -300,7 +300,7 @@ def grid_cell(content: str, width: float, span: int = 1, borders: str = "", alig
 
 
 def grid_table(style: str, widths: Sequence[float], place: str, rows: str) -> str:
-    """A table of columns of fixed widths (mm); `place` says where it stands, and its own rules."""
+    """Return a table of columns of fixed widths (mm); `place` are its position and its own rules."""
     columns = "".join(f'<w:gridCol w:w="{twips(width)}"/>' for width in widths)
     size = f'<w:tblW w:w="{sum(map(twips, widths))}" w:type="dxa"/>'
     look = f'<w:tblPr><w:tblStyle w:val="{style}"/>{size}{place}<w:tblLayout w:type="fixed"/></w:tblPr>'
@@ -308,27 +308,27 @@ def grid_table(style: str, widths: Sequence[float], place: str, rows: str) -> st
 
 
 class Equations:
-    """Displayed equations of one language, `indent` (mm) from the left, their paragraphs `kept` to what follows."""
+    """Writer of displayed equations in one language."""
 
     def __init__(self, language: Language) -> None:
         self.language: Language = language
         self.formulas = OmmlFormulas(language)
 
     def displayed(self, rows: Sequence[Expression], number: str, indent: float, kept: str) -> str:
-        """Rows that are set alike in one table each, indented (mm); the number beside the last."""
+        """Return rows that are aligned together in one table each, indented (mm), with the number beside the last."""
         room = TEXT_WIDTH - indent
         *before, last = in_groups(rows, room)
         groups = [*((group, "", KEPT) for group in before), (last, number, kept)]
         return KEPT_GAP.join(self.group(group, shown, indent, lines) for group, shown, lines in groups)
 
     def group(self, rows: Sequence[Expression], number: str, indent: float, kept: str) -> str:
-        """Rows that are set alike, indented (mm)."""
+        """Return rows that are aligned together, indented (mm)."""
         if isinstance(rows[0], VectorEquation):
             return self.vector_equation(rows[0], number, indent, kept)
         return self.aligned(rows, number, indent, kept)
 
     def aligned(self, rows: Sequence[Expression], number: str, indent: float, kept: str) -> str:
-        """Rows aligned at their "=", indented (mm); a single line is in the middle unless the number is in the way."""
+        """Return rows aligned at their "=", indented (mm); a single line is centred if the number leaves room."""
         beside = NUMBER_ROOM if number else 0.0
         room = TEXT_WIDTH - indent - beside
         lines = broken(rows, self.language, room)
@@ -339,7 +339,7 @@ class Equations:
                 return paragraph("Equation", formula, kept + indented)
             left = beside if sum(lines[0].widths) + beside <= room else SLIVER
             return grid((left, room - left), [[FREE, GridEntry(formula)]], number, indent, kept)
-        # Short rows stand two abreast, read along the line.
+        # Short rows are set in two columns, read line by line.
         count = 2 if not number and len(lines) == len(rows) and abreast(lines, room) else 1
         columns = [max(line.widths[side] for line in lines[at::count]) for at in range(count) for side in (0, 1)]
         free = room - sum(columns) - ABREAST * (count - 1)
@@ -360,7 +360,7 @@ class Equations:
         ]
 
     def vector_equation(self, equation: VectorEquation, number: str, indent: float, kept: str) -> str:
-        """Terms in a row, indented (mm), below each what is known of it, in as many storeys as it takes."""
+        """Return terms in a row, indented (mm), with their known data below, in as many storeys as necessary."""
         room = TEXT_WIDTH - indent - (NUMBER_ROOM if number else 0.0)
         terms = columns(equation)
         widths = [term_widths(term) for term in terms]
@@ -404,7 +404,11 @@ def grid(
     kept: str,
     ruled: range = NO_COLUMNS,
 ) -> str:
-    """A table whose rows stay together (mm), a rule below `ruled` columns of the first; the number at the right."""
+    """Return a table whose rows stay together, with a rule below `ruled` columns of the first and the number at the
+    right.
+
+    Widths and `indent` are in mm.
+    """
     widths = [*widths, TEXT_WIDTH - indent - sum(widths)] if number else widths
     lines = []
     for index, row in enumerate(rows):

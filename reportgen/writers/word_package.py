@@ -1,6 +1,6 @@
-"""The package that holds the parts of a Word file.
+"""The package that contains the parts of a Word file.
 
-It has fixed dates and a fixed order, so that the same document is the same bytes.
+It has fixed dates and a fixed order, so that the same document gives the same bytes.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ _CORE = "http://schemas.openxmlformats.org/package/2006/relationships/metadata/c
 
 
 def packed(parts: Mapping[str, str], media: Mapping[str, bytes]) -> bytes:
-    """A Word file of its parts by name, `document` among them, and of pictures by name."""
+    """Return a Word file from its parts by name, including `document`, and pictures by name."""
     beside = {name: f"rel-{name}" for name in parts if name not in ("document", "core")}
     related = "".join(_relation(id, _kind(name), f"{name}.xml") for name, id in beside.items())
     related += "".join(_relation(f"rel-{name}", "image", f"media/{name}") for name in media)
@@ -47,7 +47,7 @@ def packed(parts: Mapping[str, str], media: Mapping[str, bytes]) -> bytes:
 
 
 def _kind(name: str) -> str:
-    """The kind of a part: `header` of `header2`."""
+    """Return the kind of a part: `header` for `header2`."""
     return name.rstrip("0123456789")
 
 
@@ -64,7 +64,7 @@ def _relations(relations: str) -> bytes:
 
 
 def _zipped(files: Iterable[tuple[str, bytes]]) -> bytes:
-    """Files in a zip that depends on nothing but their names and contents; pictures in PNG are packed as they are."""
+    """Return a zip that depends only on the names and contents of its files; PNG pictures are stored uncompressed."""
     stream = io.BytesIO()
     with zipfile.ZipFile(stream, "w") as archive:
         for name, content in files:

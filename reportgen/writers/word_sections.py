@@ -1,4 +1,4 @@
-"""What a document is parted into in a Word file: runs of blocks on the same paper, and what references lead to."""
+"""Divide a document for a Word file: runs of blocks on the same paper, and the targets of references."""
 
 from __future__ import annotations
 
@@ -11,26 +11,26 @@ from reportgen.writers.word_elements import PageSetup
 COVER = PageSetup(left=36, right=26, top=30, bottom=26, running=False, framed=True)
 LANDSCAPE = PageSetup(297, 210, left=20, right=20, top=20, bottom=18, above=10, below=8)
 CONTENTS_LEVEL = 3
-"""The deepest level of heading that the contents list."""
+"""Deepest level of heading in the contents."""
 
 
 @dataclass(frozen=True, slots=True)
 class Bookmark:
-    """What a reference leads to: a bookmark, and what of it is shown instead of the text that it marks."""
+    """The target of a reference: a bookmark, and the switch that shows something other than the marked text."""
 
     bookmark: str
     shown: str = ""
 
 
 def paged(blocks: Sequence[tree.Block], usual: PageSetup) -> Iterator[tuple[tuple[PageSetup, int], tree.Block]]:
-    """Each block with the page that it stands on, and a number of its own where that is a page for itself."""
+    """Yield each block with its page, and a unique number if it has a page of its own."""
     for index, block in enumerate(blocks, start=1):
         page = _page(block, usual)
         yield (page, index if isinstance(block, (tree.Plate, tree.Figure)) and page != usual else 0), block
 
 
 def _page(block: tree.Block, usual: PageSetup) -> PageSetup:
-    """The paper of a block: what is wider than the text stands on a turned page."""
+    """Return the paper of a block; one wider than the text is on a landscape page."""
     match block:
         case tree.Cover():
             return COVER
@@ -45,9 +45,9 @@ def _page(block: tree.Block, usual: PageSetup) -> PageSetup:
 
 
 def broken(blocks: Sequence[tree.Block]) -> Sequence[tree.Block]:
-    """The blocks of a section with a break before and behind contents on pages of their own.
+    """Return the blocks of a section, with page breaks around contents that have their own pages.
 
-    A section begins and ends with its page, so that breaks at its ends say nothing, nor does a second one.
+    A section begins and ends with its page, so breaks at its ends and duplicate breaks are removed.
     """
     separated: list[tree.Block] = [tree.PageBreak()]
     for block in blocks:
@@ -59,7 +59,9 @@ def broken(blocks: Sequence[tree.Block]) -> Sequence[tree.Block]:
 
 
 def places(blocks: Sequence[tree.Block]) -> Iterator[tuple[str, Bookmark]]:
-    """Where the references to each key lead; a numbered heading is named by its number, all else by what is marked."""
+    """Yield the target of the references to each key; a numbered heading is shown by its number, others by the marked
+    text.
+    """
     for index, block in enumerate(_walk(blocks), start=1):
         if key := getattr(block, "key", ""):
             numbered = isinstance(block, tree.Section) and block.number and block.level <= CONTENTS_LEVEL
@@ -75,5 +77,5 @@ def _walk(blocks: Sequence[tree.Block]) -> Iterator[tree.Block]:
 
 
 def sequence(name: str) -> str:
-    """The counter of captions with a word, by the name that Word gives it."""
+    """Return the counter of captions with a word, by the name that Word uses for it."""
     return name.replace(" ", "_")

@@ -1,6 +1,6 @@
-"""The parts of a Word file that say how it looks: styles, lists and settings, of `templates/frames/word/`.
+"""Parts of a Word file that define its look: styles, lists and settings, from `templates/frames/word/`.
 
-A school's own styles go before ours, under the names that the report uses.
+A school's own styles take precedence over ours, under the names that the report uses.
 """
 
 from __future__ import annotations
@@ -19,11 +19,13 @@ if TYPE_CHECKING:
     from jinja2 import Environment
 
 EQUATION_SIZE, KNOWN_SIZE = 12.0, 9.5
-"""Of displayed formulas, whose lines are measured in it, and of what is known of vectors below them (points)."""
+"""Font sizes (points) of displayed formulas, by which their lines are measured, and of known data of vectors below
+them.
+"""
 HEADINGS, BULLETS = 1, 2
-"""The lists that headings and lists without numbers are in; those with numbers follow, one each."""
+"""Ids of the lists of headings and of unordered lists; ordered lists follow, one id each."""
 LIST_INDENT = 8.0
-"""What each level of a list stands further right (mm)."""
+"""Additional indentation of each level of a list (mm)."""
 
 
 @cache
@@ -44,15 +46,15 @@ def _environment() -> Environment:
 
 
 def _part(name: str, **values: Any) -> str:
-    """A part as its frame has it, without the white between elements that makes a frame readable."""
+    """Return a part from its frame, without the white space between elements that keeps the frame readable."""
     text = _environment().get_template(f"{name}.xml.j2").render(values)
     return PROLOGUE + "".join(line.strip() for line in text.splitlines())
 
 
 def styles(font: str, size: float, language: Language, close: bool, room: float) -> str:
-    """The part of styles of a report in a font of a size (points), whose text takes `room` across (mm).
+    """Return the part of styles of a report in a font of a size (points), whose text is `room` wide (mm).
 
-    In one that is set `close`, type and gaps are smaller.  Without a school's own, they are all that the report names.
+    If it is set `close`, font and gaps are smaller. Without a school's own styles, these are all that the report uses.
     """
     body, gap = (size - 1, 4.0) if close else (size, 5.0)
     sizes = {"equation": EQUATION_SIZE, "known": KNOWN_SIZE}
@@ -63,18 +65,20 @@ def styles(font: str, size: float, language: Language, close: bool, room: float)
 
 
 def numbering(starts: Sequence[tuple[int, int]]) -> str:
-    """The part of lists; `starts` are level and first number of each ordered one."""
+    """Return the part of lists; `starts` are level and first number of each ordered one."""
     return _part("numbering", starts=starts, headings=HEADINGS, bullets=BULLETS, indent=LIST_INDENT)
 
 
 def settings(language: Language) -> str:
-    """The part of settings: what Word 2013 and later do, the font of formulas, the language's marks."""
+    """Return the part of settings: compatibility with Word 2013 and later, the font of formulas, the language's
+    marks.
+    """
     own = setting_of(language)
     return _part("settings", code=own.code, decimal=own.decimal, separator=own.separator)
 
 
 def properties(title: str, author: str, language: Language) -> str:
-    """The part that says what the file is, without a date."""
+    """Return the part with the file's properties, without a date."""
     return _part("core", title=title, author=author, code=setting_of(language).code)
 
 
@@ -85,15 +89,15 @@ _REFERENCES = frozenset(f"{_W}{name}" for name in ("basedOn", "next", "link"))
 _BEFORE_NUMBERS = frozenset(
     f"{_W}{name}" for name in ("pStyle", "keepNext", "keepLines", "pageBreakBefore", "framePr", "widowControl")
 )
-"""What stands before the list of a style in the schema's order."""
+"""Elements that precede the list of a style in the schema's order."""
 
 
 def merged(ours: str, school: str, language: Language) -> str:
-    """A school's styles under the names that the report uses, with what they lack; lists and language stay ours."""
+    """Return a school's styles under the names that the report uses, completed; lists and language stay ours."""
     own, usual = ElementTree.fromstring(school), ElementTree.fromstring(ours)
     styles, wanted = ({_named(style): style for style in one.iter(f"{_W}style")} for one in (own, usual))
     ids = {_id(styles[name]): _id(style) for name, style in wanted.items() if name in styles}
-    # The report's own ids are all taken: those of its styles that the school lacks are added below.
+    # The report's own ids are all reserved, because styles that the school lacks are added below.
     taken = {_id(style).casefold() for style in wanted.values()}
     for style in styles.values():
         if _id(style) not in ids:
@@ -125,14 +129,14 @@ def merged(ours: str, school: str, language: Language) -> str:
 
 
 def _free(id: str, taken: Collection[str]) -> str:
-    """The id, or one made of it that is not taken."""
+    """Return the id, or one derived from it that is not taken."""
     while id.casefold() in taken:
         id = f"own-{id}"
     return id
 
 
 def _put_in_list(style: ElementTree.Element, numbers: ElementTree.Element) -> None:
-    """Give a style the list that it is numbered in, at its place in the schema's order."""
+    """Give a style the list that numbers it, at its place in the schema's order."""
     lines = style.find(f"{_W}pPr")
     if lines is None:
         lines = ElementTree.Element(f"{_W}pPr")
