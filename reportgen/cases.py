@@ -88,9 +88,7 @@ class MachineCase(MachineAnalysis):
 
     @property
     def used(self) -> frozenset[Symbol]:
-        """The symbols of its numbers, of its points with their images and coordinates, and of the corners of
-        its plans.
-        """
+        """The symbols of its numbers, of its points with images and coordinates, and of the corners of its plans."""
         from reportgen.derivation.motion import POLES
 
         names, bodies = list(self.analysis.motion.points), self.analysis.machine.linkage.inertias
@@ -147,9 +145,7 @@ class MachineCase(MachineAnalysis):
 
     @property
     def driver_motion(self) -> DriverMotion:
-        """The motion of the driver; sliders on the frame have signed velocities and accelerations, as in the report's
-        curves.
-        """
+        """The motion of the driver; sliders on the frame are signed as in the report's curves."""
 
         machine, points = self.analysis.machine, self.analysis.motion.points
         signed = {

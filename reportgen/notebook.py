@@ -1,6 +1,4 @@
-"""Interface for scripts and notebooks: an opened assignment with its quantities as arrays, figures, curves and
-tables.
-"""
+"""Interface for scripts and notebooks: an opened assignment with its arrays, figures, curves and tables."""
 
 from __future__ import annotations
 

@@ -87,8 +87,7 @@ DEGREES_OF_A_TURN = 360
 def result_files(
     path: Path | str, formats: Sequence[str], positions: int | None = None, language: Language | None = None
 ) -> Mapping[str, bytes]:
-    """Return the results of a full turn in some of `RESULT_FORMATS`, in steps of one degree unless `positions` is
-    given.
+    """Return the results of a full turn in some of `RESULT_FORMATS`, by degrees unless `positions` is given.
 
     A CSV file has only one table, so each part of a coursework has a further file, such as results-cam.csv.
     """
@@ -143,9 +142,7 @@ def build_each(
     listing: bool = False,
     standards: Standards = STANDARDS,
 ) -> made.Put:
-    """Write the complete report in some of `FORMATS`; return the paths in that order, and what happened to
-    other files.
-    """
+    """Write the complete report in some of `FORMATS`; return the paths in that order, and the fate of other files."""
     from reportgen.document import Listing
 
     assignment = load(path, language)

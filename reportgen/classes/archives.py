@@ -119,9 +119,7 @@ def _stated(info: zipfile.ZipInfo) -> str | None:
 
 
 def _fault(members: Sequence[ArchiveMember], path: Path) -> Fault | None:
-    """Return the reason to reject an archive, or None: names that lead outside, links, encryption, or too much
-    content.
-    """
+    """Return the reason to reject an archive, or None: outside names, links, encryption, or too much content."""
     for member in members:
         info, mark = member.info, Mark(str(path / PurePosixPath(member.name).name))
         if not _is_harmless(member.name) or stat.S_ISLNK(info.external_attr >> 16):

@@ -61,9 +61,7 @@ def pick(assignment: str, salt: str, student: str, parameter: str, attempt: int,
 
 @dataclass(slots=True)
 class Draw:
-    """A draw in progress: the number of uses of each variant, its faults, and the faults that make the draw
-    impossible.
-    """
+    """A draw in progress: the uses and the faults of each variant, and the faults that make the draw impossible."""
 
     spec: Spec
     judge: FindFaults
@@ -75,8 +73,7 @@ class Draw:
     def each(
         self, roster: Roster, redrawn: Mapping[str, int] | None = None, anew: Collection[str] = ()
     ) -> Iterator[DrawnVariant]:
-        """Yield the students' variants in the order of the roster; if there are `faults` in the end, none of them
-        counts.
+        """Yield the students' variants in the order of the roster; none counts if there are `faults` in the end.
 
         `redrawn` gives the numbers, from 1, of variants that were redrawn before, by `comparable` id. Students in
         `anew` get a variant that they have not had. The first variants stay taken, so that the others keep theirs.
@@ -206,9 +203,7 @@ class Draw:
         return list(reasons.values())[:MOST_REASONS]
 
     def _faults_of_roster(self, student: RosterEntry) -> list[Fault]:
-        """Return the reasons located at the student's own values, or else the first reason at the first of
-        these cells.
-        """
+        """Return the reasons located at the student's own values, or else the first reason at the first of them."""
         cells = [value.mark for value in student.overrides.values()]
         reasons = self._reasons(student)
         own = [fault for fault in reasons if fault.mark in cells]

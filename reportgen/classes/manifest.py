@@ -106,9 +106,7 @@ def write_manifest(out: Path, entries: Iterable[ManifestEntry]) -> Path:
 
 @contextmanager
 def journal(out: Path) -> Iterator[Callable[[ManifestEntry], None]]:
-    """Yield a function that records each entry as soon as its files exist; the next `write_manifest` deletes the
-    journal.
-    """
+    """Yield a function that journals each entry once its files exist; `write_manifest` deletes the journal."""
     with (out / JOURNAL).open("a", encoding="utf-8", newline="\n") as stream:
 
         def record(entry: ManifestEntry) -> None:

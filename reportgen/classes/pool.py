@@ -267,9 +267,7 @@ def _context(
 
 @contextmanager
 def _uninterrupted() -> Iterator[None]:
-    """Block Ctrl-C in processes started inside, because it reaches all processes of a terminal; the parent ends
-    them.
-    """
+    """Block Ctrl-C in processes started inside, because a terminal sends it to all; the parent ends them."""
     if not hasattr(signal, "pthread_sigmask"):
         yield
         return
@@ -411,9 +409,7 @@ def cluster(address: str, language: Language | None) -> Pool:
 
 
 def _results(client: Any, jobs: Iterator[Job], suspect: Callable[[Job], None]) -> Results:
-    """Yield results as they arrive; the number of submitted jobs is limited, so that results never pile up on the
-    workers.
-    """
+    """Yield results as they arrive; few jobs are submitted at a time, so that results never pile up on workers."""
     handed_out: dict[Any, Job] = {}
 
     def hand_out() -> None:

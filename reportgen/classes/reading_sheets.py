@@ -42,9 +42,7 @@ def read_sheets(handed: Iterable[Handed], language: Language | None) -> Iterator
 def read_own(
     handed: Iterable[tuple[Handed, Key, WantedPlans | None]], language: Language | None
 ) -> Iterator[tuple[Handed, FileReading | list[Problem]]]:
-    """Return each student's own file, read for a key and its plans, or with the problems for which it cannot be
-    read.
-    """
+    """Return each student's own file, read for a key and its plans, or with the problems that prevented it."""
     return _each(((file, partial(_read_own, file, key, plans)) for file, key, plans in handed), language)
 
 

@@ -225,9 +225,7 @@ def read_roster(path: Path, language: Language | None = None) -> Roster:
 
 
 def _identified(rows: Sequence[Record]) -> list[Record]:
-    """Return the rows with ids: the local part of each e-mail, or the whole e-mail if two students share a
-    local part.
-    """
+    """Return the rows with ids: the local part of each e-mail, or the whole e-mail if two share a local part."""
     mails = [row.values.get("email") for row in rows]
     counts = Counter(comparable(mail.text.partition("@")[0]) for mail in mails if mail is not None)
     identified: list[Record] = []
@@ -403,9 +401,7 @@ def beside(path: Path) -> list[Path]:
 
 
 def _is_frozen(path: Path) -> bool:
-    """Return True if a file is a student's part by its name, whatever its content and that of the student's own
-    file.
-    """
+    """Return True if a file is a student's part by its name, whatever its content."""
     return "." in path.stem and parts.is_frozen(path, _heads())
 
 

@@ -106,9 +106,7 @@ def begin(
 
 
 def _choose(context: typer.Context) -> None:
-    """Start `edit` without arguments for a double click; a file is created in the home folder, never beside the
-    program.
-    """
+    """Start `edit` without arguments for a double click; its file goes to the home folder, never beside the program."""
     if Path.cwd() == Path(sys.argv[0]).absolute().parent:
         os.chdir(Path.home())
     assert isinstance(context.command, TyperGroup), "only a group has commands"

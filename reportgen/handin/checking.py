@@ -27,8 +27,7 @@ from reportgen.marking.sheet import read_submission
 
 
 def read(case: Case, papers: Case, files: Sequence[Path], ask: Ask) -> tuple[Key, Submission]:
-    """Return what reports and drawings say about the requested cells, with the key; raise `AssignmentError` if
-    rejected.
+    """Return the readings of the requested cells, with the key; raise `AssignmentError` if a file is rejected.
 
     `papers` are the case in the language of the student's own papers, whose symbols are searched for.
     """
@@ -60,8 +59,7 @@ def refuse(files: Sequence[Path], language: Language) -> None:
 
 
 def compare(case: Case, papers: Case, files: Sequence[Path], hint: bool = False) -> tuple[tuple[str, ...], bool]:
-    """Return lines that say where a sheet, or else a report and drawings, departs from the assignment; True if they
-    agree.
+    """Return lines that say where a sheet, or a report and drawings, departs from the assignment; True if it agrees.
 
     An unread entry does not count as a disagreement, and is reported. Raises `AssignmentError` if a file cannot be
     read.

@@ -151,9 +151,7 @@ class _Unfolding:
         return _pieces(seen, self.encoding)
 
     def check(self, several: Iterable[Pieces]) -> None:
-        """Check the size before anything is expanded: a file of a few kB may have millions of lines in nested
-        blocks.
-        """
+        """Check the size before expanding: a file of a few kB may have millions of lines in nested blocks."""
         if sum(self.count(pieces, ()) for pieces in several) > MOST:
             raise RefusedError("drawing-elements", Mark(self.file), most=f"{MOST}")
 

@@ -1,6 +1,4 @@
-"""Kinds of files that are submitted in place of a sheet, by suffix: how to read each, and how to return a
-marked copy.
-"""
+"""Kinds of files submitted in place of a sheet, by suffix: how to read each, and how to mark a copy."""
 
 from __future__ import annotations
 

@@ -44,9 +44,7 @@ class Gathering:
         return self.symbols.rows_of(symbol)
 
     def position(self, row: KeyRow, label: str | None) -> int | None:
-        """Return the position of a row by its label; 0 for a quantity that is the same at all positions; None if
-        unknown.
-        """
+        """Return the position of a row by its label; 0 for a row with a single value; None if unknown."""
         if row.single:
             return 0
         owner = self.key.owner(row.id)

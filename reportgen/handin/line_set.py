@@ -80,9 +80,7 @@ class Lines:
 
     @cached_property
     def pairs(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-        """Pairs of lines with a common end: the first one's angle, that end, and both as vectors from it, sorted by
-        angle.
-        """
+        """Pairs of lines with a common end: the first one's angle (sorted), that end, and both as vectors from it."""
         first, second = self.touching
         along, beside = self.ways[first], self.ways[second]
         at = (self.points[first] + self.points[second]) / 2

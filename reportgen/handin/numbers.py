@@ -65,9 +65,7 @@ def marks_of(texts: Iterable[str], language: Language) -> Marks:
 
 
 def read_value(number: str, unit: str, row: KeyRow, marks: Marks) -> float:
-    """Return a number of a text in the row's unit; raise `QuantityFault`, with the code `product` for a
-    doubtful one.
-    """
+    """Return a number of a text in the row's unit; raise `QuantityFault`, for a doubtful one `product`."""
     text = number.strip()
     if _PRODUCT.search(text) or (_THOUSANDS.fullmatch(text) and _is_doubtful(text, marks)):
         raise QuantityFault("product", text=text)

@@ -106,9 +106,7 @@ def _deviation(plans: Sequence[Fit], lines: Lines) -> float:
 
 
 def _drawn_to(fit: Fit) -> float:
-    """Return the scale of a plan relative to the report's; for forces, with a scale for each position, the scale
-    itself.
-    """
+    """Return the scale of a plan relative to the report's; for forces, whose scale varies, the scale itself."""
     return fit.scale if fit.shape.is_of_motion else fit.shape.unit / fit.scale
 
 
@@ -168,9 +166,7 @@ class _Judge:
         return first[long] % count, second[long] % count
 
     def by_chance(self, taken: Collection[int], left: int) -> float:
-        """Return the logarithm of the number of possible placements: pairs of free lines that meet, times the remaining
-        plans.
-        """
+        """Return the logarithm of the number of possible placements: free pairs of lines that meet, times plans left."""
         free = np.zeros(len(self.lines.ends), dtype=bool)
         free[self.lines.without(taken)] = True
         first, second = self._long

@@ -84,8 +84,7 @@ class Fit:
         return self.scale * corners + self.shift
 
     def corners_met(self, apart: float) -> tuple[np.ndarray, float]:
-        """Return the corners [n] (mm) that lines reach, merging those closer than `apart` (mm), and their squared
-        error.
+        """Return the corners [n] (mm) of the lines, merging those closer than `apart` (mm), and their squared error.
 
         The second value (mm²) is the sum over the corners of the squared mean distance of their ends, weighted with the
         number of ends. The distances of the ends of one corner from each other are evidence neither for nor against
@@ -159,9 +158,7 @@ def _by_corners(shape: PlanShape, lines: Lines) -> tuple[np.ndarray, np.ndarray]
 
 
 def _meeting(shape: PlanShape) -> Iterator[tuple[complex, complex, complex]]:
-    """Yield each corner at which two vectors meet, and both vectors from it, the longer one first, also if
-    collinear.
-    """
+    """Yield each corner at which two vectors meet, and both vectors from it, the longer one first."""
     touching: dict[int, list[complex]] = {}
     for vector in shape.vectors:
         start, end = complex(shape.corners[vector.start]), complex(shape.corners[vector.end])
@@ -184,9 +181,7 @@ def _window(angle: np.ndarray, middle: float, turn: float) -> Iterator[tuple[int
 
 
 def _by_vectors(shape: PlanShape, lines: Lines, scale: float) -> tuple[np.ndarray, np.ndarray]:
-    """Return shifts of a plan of known scale from every line with the length and the direction of one of its
-    vectors.
-    """
+    """Return shifts of a plan of known scale from every line with the length and direction of one of its vectors."""
     starts, ways = shape.starts, scale * (shape.ends - shape.starts)
     shifts = []
     for sense, start in ((1, lines.ends[:, 0]), (-1, lines.ends[:, 1])):

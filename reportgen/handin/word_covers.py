@@ -86,9 +86,7 @@ def _offset(position: XmlNode, aligned: float) -> float:
 
 
 def _end(block: XmlNode) -> float:
-    """Return the approximate right end of a block's text (mm from the left margin); two thirds of a line for a
-    table.
-    """
+    """Return the approximate right end of a block's text (mm from the left margin); for a table, 2/3 of a line."""
     if block.tag == "w:tbl":
         return 2 * LINE / 3
     length = min(_letters(block) / LETTERS, 1.0) * LINE

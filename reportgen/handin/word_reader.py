@@ -32,9 +32,7 @@ class _Hand:
 
 
 def read_report(blocks: Sequence[WordBlock], key: Key, file: str, tree: XmlNode | None = None) -> FileReading:
-    """Return what a report says about the quantities that a key asks for; the `tree` is searched for blanks of
-    a frame.
-    """
+    """Return what a report says about the quantities of a key; its `tree` is searched for blanks of a frame."""
     marks = marks_of((line.text for line in lines_of(blocks)), key.language)
     gathering = Gathering(key, file, marks, Symbols(key, key.rows))
     if tree is not None:

@@ -126,9 +126,7 @@ def _label(text: str, gathering: Gathering) -> str | None:
 
 
 def _read_positions(rows: TextCells, gathering: Gathering) -> bool:
-    """Read a table with positions across one of its first rows and quantities down its first columns; True if it is
-    one.
-    """
+    """Read a table with positions across a first row and quantities down the first columns; True if it is one."""
     for number, row in enumerate(rows[:HEADS]):
         labels = {column: text for column, cell in enumerate(row) if (text := _label(cell.line.text, gathering))}
         if not labels or len(set(labels.values())) < len(labels):
@@ -160,9 +158,7 @@ def _read_row(cells: Sequence[TextCell], labels: Mapping[int, str], gathering: G
 
 
 def _read_single(rows: TextCells, gathering: Gathering, label: str | None) -> bool:
-    """Read a table of quantities with one value each, at the current position or independent of it; True if it
-    is one.
-    """
+    """Read a table of quantities with one value each, at the current position or at none; True if it is one."""
     read = False
     for row in rows:
         apart = list(dict.fromkeys(row))

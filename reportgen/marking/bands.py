@@ -115,8 +115,7 @@ def measuring_errors(
 
 
 def plans_read(ledger: Ledger) -> dict[str, frozenset[str]]:
-    """Return, for each quantity, the ids of the scales of the plans and of the mechanism's drawing that it is read
-    from.
+    """Return, for each quantity, the ids of the scales of the plans and of the drawing that it is read from.
 
     A quantity is read from a plan if it is measured there or depends on a measured one.
     """
@@ -133,9 +132,7 @@ def plans_read(ledger: Ledger) -> dict[str, frozenset[str]]:
 
 
 def _measured_on(ledger: Ledger, id: str) -> str:
-    """Return the scale of the plan that a measured quantity is read from, or that of the drawing if it is on no
-    plan.
-    """
+    """Return the scale of the plan that a quantity is measured on, or that of the drawing if it is on no plan."""
     if is_direction(id):
         id = _on_paper(ledger, id).id
     return vocabulary.plan(id) or "mu.l"
@@ -149,9 +146,7 @@ def _may_be_measured(family: Family) -> bool:
 
 
 def _pressure_slopes(ledger: Ledger) -> dict[str, np.ndarray]:
-    """Return the slope of the pressure on each piston over its displacement [N], from the flatter side of each
-    position.
-    """
+    """Return the slope of the pressure over each piston's displacement [N], from the flatter side of a position."""
     slopes: dict[str, np.ndarray] = {}
     for id, family in ledger.families.items():
         names = ids.pressure.read(id)

@@ -20,9 +20,7 @@ FEWEST = 3
 """Smallest number of values that must distinguish the two positions."""
 
 MOST, NEARLY_ALL = 0.5, 0.9
-"""Shares of the distinguishing values: more than `MOST` must be those of the other position, and at least `NEARLY_ALL`
-must be right or follow after the exchange.
-"""
+"""Required shares: values of the other position (more than), and values right or following after the exchange (at least)."""
 
 APART = 3.0
 """Number of tolerances by which the key's values must differ for a value to distinguish two positions."""
@@ -61,15 +59,11 @@ class Exchange:
         return met >= NEARLY_ALL * len(self.telling)
 
     def charged(self, cells: Cells) -> Place | None:
-        """Return the place (of the corrected submission) of the value that loses its points: the first that
-        earned any.
-        """
+        """Return the place (of the corrected submission) of the value that loses its points: the first with any."""
         return next((place for place in self.telling if cells[place].points), None)
 
     def as_handed_in(self, cells: Cells) -> dict[Place, Marked]:
-        """Return the verdicts on a corrected submission at the places where the values were written, one of
-        them wrong.
-        """
+        """Return the verdicts on a corrected submission at the places as written, one of them wrong."""
         placed = {at: replace(cell, position=at[1]) for place, cell in cells.items() for at in [self.other(place)]}
         lost = self.charged(cells)
         if lost is None:

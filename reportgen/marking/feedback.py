@@ -50,9 +50,7 @@ LEAST, MOST = 1e-6, 1e9
 
 
 def feedback_book(marking: Marking, show_answers: bool = True) -> Book:
-    """Return the marked sheet as a workbook: the answer sheet's layout, with points after each row and their total
-    below.
-    """
+    """Return the marked sheet as a workbook: the answer sheet's layout with points after each row and a total."""
     key, words = marking.key, words_of(marking.key)
     feedback = words["feedback"]
     marked = {(cell.id, cell.position): cell for cell in marking.cells}
@@ -174,9 +172,7 @@ def _firsts(marking: Marking, words: Mapping[str, Any], show_answers: bool) -> I
 
 
 def _first(cell: Marked, key: Key, words: Mapping[str, Any], show_answers: bool) -> Inlines:
-    """Return one error as text: quantity, position, given value, expected value (if shown), and the mistake in
-    words.
-    """
+    """Return one error as text: quantity, position, given value, expected value (if shown), and mistake."""
     feedback, row = words["feedback"], key.row(cell.id)
     assert cell.written is not None
     number = _expected(row, cell)
@@ -194,9 +190,7 @@ def _first(cell: Marked, key: Key, words: Mapping[str, Any], show_answers: bool)
 
 
 def _expected(row: KeyRow, cell: Marked) -> Number:
-    """Return the expected value with the decimals of its tolerance, or with the report's decimals if these are
-    fewer.
-    """
+    """Return the expected value with the decimals of its tolerance, or the report's decimals if these are fewer."""
     width = band(row, cell.on_sheet.band)
     if not width:
         return shown_number(row, cell.on_sheet.expected)
@@ -205,9 +199,7 @@ def _expected(row: KeyRow, cell: Marked) -> Number:
 
 
 def _followed(marking: Marking) -> list[Marked]:
-    """Return the values that differ from the key but earned points because they follow from the student's own
-    values.
-    """
+    """Return the values that differ from the key but earned points because they follow from own values."""
     return [cell for cell in marking.cells if cell.verdict is Verdict.follows and not cell.mistake]
 
 
@@ -220,9 +212,7 @@ def _approximated(marking: Marking, words: Mapping[str, Any]) -> Iterator[Block]
 
 
 def _listed_cells(marking: Marking, words: Mapping[str, Any], chosen: Sequence[Marked], lead: str) -> Iterator[Block]:
-    """Yield a paragraph that lists the chosen values by quantity, after a lead; yield nothing if there are no
-    values.
-    """
+    """Yield a paragraph that lists the chosen values by quantity, after a lead; nothing if there are none."""
     key = marking.key
     if not chosen:
         return

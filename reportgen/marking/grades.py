@@ -200,9 +200,7 @@ SHOWN = 4
 
 
 def _flags(marking: Marking, words: Mapping[str, Any], people: Mapping[str, str]) -> str:
-    """Return every flag in full: kind, other student, places, probability on an honest sheet, cells whose marks it
-    took.
-    """
+    """Return every flag in full: kind, other student, places, chance on an honest sheet, cells that it cost."""
     texts: list[str] = []
     for flag in marking.flags:
         cells = [cell for cell in marking.cells if (cell.id, cell.position) in {*flag.places[:SHOWN]}]

@@ -58,8 +58,7 @@ CHANCE = 3e-4
 """Largest probability that an honest sheet is reported as copied; the test suite checks it to 1 in 1000."""
 
 NEAR, FAR = 0.3, 0.02
-"""Probabilities that a value equals a classmate's in all figures: for a value that is right within the drawing's
-tolerance, and for a wrong value.
+"""Probabilities that a value equals a classmate's: for a value right within the drawing's tolerance; for a wrong one.
 
 A length of 0.1 mm read to ± 0.3 mm equals another reading of it in one case of four. A wrong value may be any of about
 a hundred three-figure numbers nearby.
@@ -143,9 +142,7 @@ def _constant_rows(scheme: MarkingScheme, cells: Cells) -> Iterator[Notice]:
 
 
 def _same_columns(scheme: MarkingScheme, cells: Cells) -> Iterator[Notice]:
-    """Yield a notice for each position whose values equal those of another one digit for digit though the key's
-    differ.
-    """
+    """Yield a notice for each position whose values equal another's digit for digit though the key's differ."""
     positions = sorted({position for _, position in _filled(cells) if position})
     copies: set[int] = set()
     for first, second in combinations(positions, 2):
@@ -257,8 +254,7 @@ def _copied(scheme: MarkingScheme, cells: Cells, classmates: Sequence[Classmate]
 
 
 def _of_key(scheme: MarkingScheme, cells: Cells, own: Cells, classmate: Classmate) -> tuple[Place, ...]:
-    """Return the places that follow only from values of the same classmate's key, if nearly all wrong values are from
-    it.
+    """Return the places that follow only from values of the same classmate's key, if most wrong values are from it.
 
     Wrong values without a named mistake do not come from the student's own data, and neither do values that depend on
     them. A student who misread a datum has few of them, because the rest follows from the misread datum.
@@ -443,9 +439,7 @@ def _differs(working: Working, cell: Marked) -> bool:
 
 
 def _differs_on_plan(working: Working, cell: Marked) -> bool:
-    """Return True if a length on a force plan disagrees with the student's own forces, all of which are on the
-    sheet.
-    """
+    """Return True if a length on a force plan disagrees with the student's own forces, all of them on the sheet."""
     scheme, plan = working.scheme, vocabulary.plan(cell.id)
     if scheme.ledger[plan].kind != "force scale" or not _stands(working, plan, cell.position):
         return False

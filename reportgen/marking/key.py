@@ -130,9 +130,7 @@ def _role(ledger: Ledger, family: Family) -> Role:
 
 
 def _values(ledger: Ledger, id: str) -> np.ndarray:
-    """Return the values of a quantity (SI) as a key stores them; a direction and an arm are stored as absolute
-    values.
-    """
+    """Return the values of a quantity (SI) as a key stores them; directions and arms are absolute values."""
     family = ledger[id]
     values = np.array([family.at(k + 1).real for k in range(len(family.values))])
     if family.is_of_vector:

@@ -213,9 +213,7 @@ def key_document(key: Key, title: str) -> Document:
 
 
 def _why_wide(key: Key, text: str) -> Iterator[Paragraph]:
-    """Yield a paragraph that explains the wide bands of integrals over the cycle: on paper there are only the
-    positions.
-    """
+    """Yield a paragraph that explains the wide bands of integrals: on paper there are only the positions."""
     rows = [row for row in key.rows if row.by_rule]
     unnamed = unnamed_rows(rows)
     if rows:
@@ -225,9 +223,7 @@ def _why_wide(key: Key, text: str) -> Iterator[Paragraph]:
 
 
 def _tables(key: Key, words: Mapping[str, Any], name: str, rows: Sequence[KeyRow]) -> Iterator[Table]:
-    """Yield the tables of a part: a list of single values, then quantities side by side with a row for each
-    position.
-    """
+    """Yield the tables of a part: a list of single values, then quantities side by side with a row per position."""
     singles = [row for row in rows if row.single]
     if singles:
         yield _list(words, name, singles)
@@ -276,9 +272,7 @@ def _by_position(
 
 
 def _title(row: KeyRow, with_id: bool) -> Inlines:
-    """Return symbol, unit and optional id of a quantity, with its description below (without a formula, which may be
-    longer).
-    """
+    """Return symbol, unit and optional id of a quantity, with its description (without formula) below."""
     text = (f", {row.unit}" if row.unit else "") + (f" ({row.id})" if with_id else "")
     return (InlineMath(row.symbol), *((Text(text),) if text else ()), tree.LineBreak(), Text(row.named))
 

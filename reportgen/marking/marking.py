@@ -165,8 +165,7 @@ def _accepted(working: Working, cell: Marked) -> Marked:
 
 
 def _judged_cells(working: Working, possible: Sequence[Values]) -> dict[Place, Marked]:
-    """Return the verdicts on all cells, each judged independently; `possible` are values that follow from the student's
-    own.
+    """Return the verdicts on all cells, each judged independently; `possible` are values that follow from own ones.
 
     The finer tolerance of a large drawing applies only to values that depend on no wrong value. After a wrong one, no
     tolerance is narrower than the report's.
@@ -183,9 +182,7 @@ def _judged_cells(working: Working, possible: Sequence[Values]) -> dict[Place, M
 
 
 def _fitting(working: Working) -> tuple[int, int]:
-    """Return the number of given values that are right or follow from the student's own, and the number of given
-    values.
-    """
+    """Return the number of given values that are right or follow from own values, and the number of given values."""
     cells = _judged_cells(working, [working.own_values(blank_from_key=True)])
     met = sum(cell.verdict in (Verdict.right, Verdict.follows) for cell in cells.values())
     return met, met + sum(cell.verdict is Verdict.wrong for cell in cells.values())
@@ -238,9 +235,7 @@ def _judged(working: Working, row: KeyRow, position: int, possible: Sequence[Val
 
 
 def _own(ledger: Ledger, values: Values, id: str, index: int) -> float:
-    """Return the value of a quantity from the student's own values; a signed one takes its size from the row
-    before it.
-    """
+    """Return the value of a quantity from own values; a signed one takes its size from the row before it."""
     own = float(values[id][index].real)
     before = ledger.size_of(id)
     size = values.get(before) if before != id else None

@@ -94,9 +94,7 @@ class Verdict(StrEnum):
     implausible = "implausible"
     """The value follows, or is right by chance, but its points were deducted for a reason that the marking lists."""
     unread = "unread"
-    """The student's own file has an entry that could not be read with certainty; it earns no points until it is
-    settled.
-    """
+    """The own file has an entry that could not be read with certainty; it earns no points until it is settled."""
 
 
 OPEN = frozenset({Verdict.unreadable, Verdict.unread})

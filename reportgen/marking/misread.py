@@ -54,9 +54,7 @@ def misread_by_many(working: Working, cells: Cells) -> dict[Place, Mistake]:
 
 
 def _worked_out(working: Working, places: Sequence[Place]) -> Iterator[Mistake]:
-    """Yield named mistakes in unseen quantities before several of the places; at equal counts they precede misread
-    data.
-    """
+    """Yield named mistakes in unseen quantities before several of the places; they precede misread data."""
     scheme = working.scheme
     before = Counter(id for place in places for id in scheme.before[place[0]])
     for id in scheme.ledger.families:
@@ -103,9 +101,7 @@ def _data(scheme: MarkingScheme) -> Iterator[str]:
 
 
 def _crossings(working: Working, id: str, places: Sequence[Place]) -> Iterator[tuple[float, bool]]:
-    """Yield the multiples of a datum at which a quantity equals the student's value, and True if it is a single
-    value.
-    """
+    """Yield the multiples of a datum that give the student's values, and True for single values."""
     scheme = working.scheme
     wanted = {name for place in places for name in (place[0], *scheme.before[place[0]])}
     worlds = follow(scheme.ledger, {id: FACTORS[:, None] * scheme.ledger[id].values}, only=wanted)
@@ -293,9 +289,7 @@ def _rounded(value: float, like: float) -> float:
 
 
 def redesigned(working: Working, mistake: Mistake) -> Iterator[Mapping[str, ChangeValue]]:
-    """Yield the further changes caused by a misread datum that determines a design: one mapping for each way to
-    continue.
-    """
+    """Yield the further changes caused by a misread datum of a design: a mapping for each way to continue."""
     scheme, id = working.scheme, mistake.where
     design = scheme.misconceptions.designs.get(id) if mistake.name == WRONG_DATUM else None
     if design is None:
@@ -382,9 +376,7 @@ def _either(left_out: str, reversed_: str, where: str, id: str) -> Iterator[Mist
 
 
 def _met(working: Working, cells: Cells, place: Place, values: np.ndarray) -> np.ndarray:
-    """Return a mask of the candidates whose value [candidates, positions] matches the student's and is not the right
-    one.
-    """
+    """Return a mask of the candidates whose value [candidates, positions] is the student's and not the right one."""
     scheme, cell = working.scheme, cells[place]
     index = scheme.rows[place[0]].at(place[1])
     given, band = float(working.values[place[0]][index]), cell.band

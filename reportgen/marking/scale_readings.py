@@ -111,9 +111,7 @@ class _Possible:
     stated: Mapping[str, float]
 
     def readings(self, scale: str, taken: Mapping[str, ScaleReading]) -> list[ScaleReading]:
-        """Return the readings of a scale: from the student's own values by its formula or as v_A/pa, then the written
-        number.
-        """
+        """Return the readings of a scale: from own values by its formula or as v_A/pa, then the written number."""
         definition = self.scheme.ledger[scale].definition
         assert definition is not None, "an open scale is worked out"
         inputs = {id: np.array([taken[id].value]) if id in taken else self.world[id] for id in refs(definition)}

@@ -67,8 +67,7 @@ class MarkingScheme:
         return float(values[np.isfinite(values)].max(initial=0.0))
 
     def _size_near(self, id: str) -> np.ndarray:
-        """Return the largest value of a quantity within a quarter turn of each position (SI) [N]; for an angle, a full
-        turn.
+        """Return the largest value within a quarter turn of each position (SI) [N]; for an angle, a full turn.
 
         So the pressure of combustion does not widen the tolerance in the intake stroke.
         """
@@ -86,9 +85,7 @@ class MarkingScheme:
         return np.asarray(vocabulary.distance(id, np.asarray(values), np.asarray(references)))
 
     def is_unsigned(self, id: str) -> bool:
-        """Return True if the sign of a quantity is not judged: an arm, or a quantity whose sense the sheet
-        leaves open.
-        """
+        """Return True if the sign of a quantity is not judged: an arm, or a quantity with an open sense."""
         row = self.key.find(id)
         return self.ledger[id].arm or (row is not None and row.open_sense)
 
@@ -99,9 +96,7 @@ class MarkingScheme:
 
     @cached_property
     def judged(self) -> tuple[KeyRow, ...]:
-        """The rows that earn marks, in the ledger's order; the drawn length of the crank is the student's own
-        choice.
-        """
+        """The rows that earn marks, in the ledger's order; the drawn length of the crank is the student's choice."""
         order = {id: index for index, id in enumerate(self.ledger.families)}
         kept = (row for row in self.key.asked if row.kind != "segment" or row.role is not Role.scale)
         return tuple(sorted(kept, key=lambda row: order[row.id]))
@@ -146,9 +141,7 @@ class MarkingScheme:
 
     @cached_property
     def sizes(self) -> dict[str, set[str]]:
-        """For each length of a plan, the quantities that it represents: μ times it, and the size of the vector drawn as
-        it.
-        """
+        """For each length of a plan, the quantities that it represents: μ times it, and the size of its vector."""
         sizes: dict[str, set[str]] = {id: set() for id in self.ledger.families if vocabulary.plan(id)}
         for id, family in self.ledger.families.items():
             if isinstance(family.definition, Product) and len(family.definition.factors) == 2:
@@ -199,8 +192,7 @@ def makes_scale(ledger: Ledger, id: str, scale: str) -> bool:
 
 
 def key_asked(policy: Policy, key: Key, submission: Submission) -> tuple[Key, frozenset[str]]:
-    """Return a key with the cells that a policy asks for and those that are filled in, and the ids of the requested
-    rows.
+    """Return a key with the cells that a policy asks for and the filled ones, and the ids of the requested rows.
 
     For a drawing, its lengths and directions are requested where it must show them. A sheet prefilled from own files
     and completed by hand has no other cells.

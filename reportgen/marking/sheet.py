@@ -265,9 +265,7 @@ def _says(cell: SheetCell, name: str) -> bool:
 
 
 def _sheets(pages: Sequence[Page]) -> list[tuple[Page, int]]:
-    """Return the answer pages with the indices of their head rows: the page with that name first, then all with
-    a head.
-    """
+    """Return the answer pages with the indices of their head rows, the page with that name first."""
     answers: dict[int, tuple[Page, int]] = {}
     called = [page for page in pages if page.name.strip().casefold() in _words("answers")]
     for page in (*called, *pages):

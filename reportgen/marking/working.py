@@ -64,9 +64,7 @@ class Working:
         return self.scheme.bands_at(own_scales) if own_scales else self.scheme.bands
 
     def unit(self, id: str) -> np.ndarray:
-        """Return the value in `values` [N] of one printed unit of a quantity; lengths are as drawn at the student's
-        scale.
-        """
+        """Return the value in `values` [N] of one printed unit of a quantity; lengths are at the student's scale."""
         if id not in self._units:
             family = self.scheme.ledger[id]
             unit = family.how.scale * self.factors.get(vocabulary.plan(id), 1.0) / self.factors.get(id, 1.0)
@@ -182,9 +180,7 @@ class Working:
         return tuple(dict.fromkeys([*judged, *sizes, *self.values, *self.readings]))
 
     def entered_values(self, id: str, computed: np.ndarray, blank: np.ndarray) -> np.ndarray:
-        """Return a student's values (SI) [N], `blank` where missing, with the computed sign if the sign is not
-        judged.
-        """
+        """Return a student's values (SI) [N], `blank` where missing, with the computed sign if it is not judged."""
         if id in self.readings:
             reading = self.readings[id]
             return computed if reading.own else np.full(self.scheme.ledger[id].values.shape, reading.value)

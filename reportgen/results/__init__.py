@@ -47,9 +47,7 @@ def plain(value: Any) -> Any:
 
 
 def printed_values(written: Ledger) -> dict[str, Any]:
-    """Return, by id, the unit, the decimals (null: as typed) and the printed values of a report, one or one per
-    position.
-    """
+    """Return, by id, unit, decimals (null: as typed) and printed values of a report, one or one per position."""
     return {
         id: {
             "unit": family.how.unit,
@@ -62,9 +60,7 @@ def printed_values(written: Ledger) -> dict[str, Any]:
 
 
 def _shown(written: Ledger, family: Family, position: int) -> float | None:
-    """Return the printed value of a quantity at a position; None if there is none, such as a zero vector's
-    direction.
-    """
+    """Return the printed value of a quantity at a position; None if there is none (a zero vector's direction)."""
     if family.is_of_vector and written[family.of].at(position) == 0:
         return None
     value = written.quantity(family.id, position).number.shown

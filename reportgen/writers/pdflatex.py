@@ -67,9 +67,7 @@ _ERROR = re.compile(r"^(?:!|\S+:\d+:) ", re.MULTILINE)
 
 @dataclass(frozen=True, slots=True)
 class Compiled:
-    """A finished PDF with its source, the number of passes, and the log's lines about boxes more than 1 pt too
-    large.
-    """
+    """A finished PDF with its source, its number of passes, and the log's lines about boxes over 1 pt too large."""
 
     source: str
     pdf: bytes
@@ -194,9 +192,7 @@ def _settled(
 
 
 def _kept_as(source: str) -> str:
-    """Return the name under which page numbers are cached, equal for reports with equal contents; "" without
-    contents.
-    """
+    """Return the name under which page numbers are cached, equal for equal contents; "" without contents."""
     contents = "\n".join(_ENTRY.findall(source))
     return f"contents-{hashlib.sha256(contents.encode()).hexdigest()[:32]}.aux" if contents else ""
 

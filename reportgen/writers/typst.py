@@ -433,9 +433,7 @@ def _doubt(width: float) -> float:
 
 
 def _together(groups: Sequence[int]) -> str:
-    """Return the rows of a table that stay together: 0 for all, one number for first and last group, or all groups'
-    sizes.
-    """
+    """Return the rows of a table that stay together: 0 for all, one number for both ends, or all group sizes."""
     first, *between, last = groups if len(groups) > 1 else (0, 0)
     return str(first) if first == last and set(between) <= {1} else _array(map(str, groups))
 

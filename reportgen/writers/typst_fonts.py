@@ -20,9 +20,7 @@ from reportgen.base.standards import Standards, titled
 from reportgen.base.words import word
 
 COMMON = re.compile("[\u0000-\u024f\u0300-\u052f\u1e00-\u2bff\u3000-\u3003\ufb00-\ufb06\ufe00-\ufe0f]+")
-"""Latin (including Vietnamese), Greek, Cyrillic, punctuation, arrows and mathematical signs, which are never
-checked.
-"""
+"""Latin (with Vietnamese), Greek, Cyrillic, punctuation, arrows and mathematical signs, never checked."""
 FONT = "New Computer Modern"
 NOWHERE = r"\u{10fffe}"
 """A code point without a character: the typesetter renders it like any letter that its fonts lack."""
@@ -31,9 +29,7 @@ BATCH = 400
 
 Folders = tuple[str, ...]
 MissingFromFonts = Callable[[str, bool, Folders], str]
-"""Returns the letters that neither the typesetter's own fonts, nor those in folders, nor (if asked) the
-system's have.
-"""
+"""Returns the letters that neither the typesetter's own fonts, nor folders, nor (if asked) the system have."""
 
 QUESTION = """\
 #set text(font: "{font}", size: 10pt, top-edge: "bounds", bottom-edge: "bounds")
@@ -98,9 +94,7 @@ def lacking(letters: str, system: bool, folders: Folders = ()) -> str:
 
 
 class MissingLettersWarning(OutputWarning):
-    """Warning that letters of a text are missing on the page, since no font has them; so it conforms to no
-    `standards`.
-    """
+    """Warning that letters are missing on the page, since no font has them; the file keeps no `standards`."""
 
     def __init__(self, letters: str, standards: Standards = ()) -> None:
         self.letters, self.standards = letters, standards
@@ -124,9 +118,7 @@ def question(letters: str) -> str:
 
 
 def sought(text: str, lacking: MissingFromFonts = lacking) -> tuple[Folders, bool, str]:
-    """Return the further font folders that a text needs, True if it needs system fonts, and the letters that no font
-    has.
-    """
+    """Return further font folders for a text, True if it needs system fonts, and letters that no font has."""
     wanted = uncommon(text)
     folders = added() if wanted else ()
     left = lacking(wanted, False, folders)

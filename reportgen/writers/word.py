@@ -365,9 +365,7 @@ class _Blocks:
     # --- tables -----------------------------------------------------------------------------------
 
     def table(self, table: tree.Table) -> str:
-        """Return a ruled table below its caption; its head is repeated on each page, and a short table stays on one
-        page.
-        """
+        """Return a ruled table below its caption; its head is repeated on each page, a short table is not broken."""
         caption = self.caption(self.words.table, table)
         rows = [self.table_row(row, table, True, index == len(table.head) - 1) for index, row in enumerate(table.head)]
         rows += [

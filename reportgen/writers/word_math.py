@@ -404,8 +404,7 @@ def grid(
     kept: str,
     ruled: range = NO_COLUMNS,
 ) -> str:
-    """Return a table whose rows stay together, with a rule below `ruled` columns of the first and the number at the
-    right.
+    """Return a table whose rows stay together, ruled below `ruled` columns of the first; the number is at the right.
 
     Widths and `indent` are in mm.
     """
