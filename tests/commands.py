@@ -24,16 +24,16 @@ from reportgen import cli
 
 ROOT = Path(__file__).parents[1]
 PLAIN = {"PATH": "/usr/bin:/bin:/usr/local/bin", "COLUMNS": "100"}
-"""The environment of somebody who has set nothing."""
+"""Environment of a user without any settings."""
 KEPT = ("XDG_CACHE_HOME",)
-"""What stays as it is for all tests."""
+"""Variables that keep their values in all tests."""
 SIGNALS = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)]
 """Signals that a command handles itself."""
 
 
 @dataclass(frozen=True)
 class Done:
-    """How a command ended, and what it printed."""
+    """The result of a command: its exit code and its output."""
 
     returncode: int
     stdout: str
@@ -54,7 +54,7 @@ def reportgen(*arguments: object, cwd: Path = ROOT, **environment: str) -> Done:
 
 
 def process(*arguments: object, cwd: Path = ROOT, **environment: str) -> Done:
-    """Run `reportgen` with these arguments in a process of its own."""
+    """Run `reportgen` with these arguments in a separate process."""
     done = subprocess.run(
         [sys.executable, "-m", "reportgen.cli", *map(str, arguments)],
         cwd=cwd,
@@ -81,10 +81,10 @@ def _text(stream: io.TextIOWrapper) -> str:
 
 @contextmanager
 def _as_if_alone(line: list[str], cwd: Path, environment: Mapping[str, str]) -> Iterator[None]:
-    """Meanwhile this process has a command line, a folder and an environment of its own; then all is as before."""
+    """Give this process another command line, folder and environment for the duration of the block."""
     handlers = {number: signal.getsignal(number) for number in SIGNALS}
     with pytest.MonkeyPatch.context() as patch, warnings.catch_warnings():
-        # As Python has it where nobody asks for more.
+        # As Python sets it by default.
         for category in (DeprecationWarning, PendingDeprecationWarning, ImportWarning, ResourceWarning):
             warnings.simplefilter("ignore", category)
         for name in list(os.environ):

@@ -1,4 +1,4 @@
-"""What tests share: reports built once a run, and the option that renews snapshots.
+"""Shared fixtures: reports built once per run, and the option that renews snapshots.
 
 With several processes (`-n 2`) all tests whose parameters name one assignment file are run by one of them, so that its
 reports are made once; the others go by their own file.
@@ -38,7 +38,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 
 class ByAssignment(LoadScopeScheduling):
-    """Tests that belong together are those of one assignment file."""
+    """A scheduler that runs the tests of one assignment file together."""
 
     def _split_scope(self, nodeid: str) -> str:
         file, _, parameters = nodeid.partition("[")
@@ -52,26 +52,26 @@ def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> ByAssignment
 
 @pytest.fixture(params=built.CASES)
 def report(request: pytest.FixtureRequest) -> built.Report:
-    """Each assignment file of the repository with each writer in each language."""
+    """Return the report of each assignment file of the repository, with each writer in each language."""
     return built.report(*request.param)
 
 
 @pytest.fixture(params=built.PAIRS)
 def pair(request: pytest.FixtureRequest) -> tuple[built.Report, built.Report]:
-    """The reports of both writers on one assignment file in one language: (typst, latex)."""
+    """Return the reports of both writers on one assignment file in one language: (typst, latex)."""
     path, language = request.param
     return built.report(path, "typst", language), built.report(path, "latex", language)
 
 
 @pytest.fixture(params=built.WRITTEN)
 def written(request: pytest.FixtureRequest) -> built.Written:
-    """The tree of each assignment file in each language."""
+    """Return the tree of each assignment file in each language."""
     return built.written(*request.param)
 
 
 @pytest.fixture
 def here(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A school's words are rendered in this process, as in one that is bounded already.
+    """Render a school's words in this process, as in one that is already bounded.
 
     For tests of what the words do; those of the bounds have the process that users have.
     """

@@ -1,4 +1,4 @@
-"""Files spoilt at random, from a seed: what comes of them is a result or a located fault, and soon.
+"""Fuzz files from a seed: each must give a result or a located fault, within a time limit.
 
 `python -m tests.fuzz [CASES] [SEED]` tries any number of them; `tests/test_fuzz.py` hundreds.
 """
@@ -70,16 +70,16 @@ from tests.spoiling import (
 ASSIGNMENTS = sorted(Path("assignments").glob("*.yaml"))
 DEMO = Path("assignments/class-demo")
 MOST_SECONDS = 2.0
-"""Of the processor's time for one file, so that other work on the machine does not count."""
+"""Largest processor time (s) for one file, which excludes other work on the machine."""
 MOST_SECONDS_OF_A_CLASS = 10.0
 """The same for a spec, of which a whole class is drawn and each variant tried."""
 AGREE = 1e-9
-"""Of the greatest torque: how far the two torques may be apart."""
+"""Largest difference between the two torques, as a share of the greatest torque."""
 FULL = 16
-"""One right assignment in so many is worked out to the last printed number."""
+"""One in this many valid assignments is computed to the last printed number."""
 
 EXECUTED = "executed"
-"""The file that a text would write if it were run."""
+"""The file that a text would write if it were executed."""
 REACHING = (
     "{{ cycler.__init__.__globals__.os.mkdir('EXECUTED') }}",
     "{{ ''.__class__.__mro__[1].__subclasses__() }}",
@@ -101,15 +101,15 @@ REACHING = (
     "@fig.nowhere",
     "| a | b |\n",
 )
-"""What a template may hold; each of them is a fault, or nothing."""
+"""Content tried in a template; each gives a fault or has no effect."""
 GAPS = ("{nobody}", "{}", "{0}", "{k.real.imag}", "{k:d}", "{{", "{", "", "5", "{k!r}")
-"""What may stand in place of a gap of a short word."""
+"""Text tried in place of a placeholder of a short word."""
 TABLES = ("../roster.csv", "/etc/passwd", "../../../../../etc/passwd", "roster.csv", ".", "nowhere.csv", "~/roster.csv")
 
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
-    """What became of one file: its number, what kind of file it was, what it came to, the seconds, what is wrong."""
+    """The outcome of one file: its number, its kind, its result, the seconds taken, and the error."""
 
     number: int
     kind: str
@@ -162,7 +162,7 @@ def _block(number: int, chance: random.Random, folder: Path) -> None:
 
 
 def _template(number: int, chance: random.Random, folder: Path) -> None:
-    """A section of a school, with what reaches for more than it may have; in this process, for it is bounded anyway."""
+    """Try a section of a school that accesses more than it may; in this process, because it is bounded anyway."""
     report = _report()
     language, kind = report.assignment.language, report.assignment.kind
     file = folder / f"{language}.md"
@@ -179,7 +179,7 @@ def _template(number: int, chance: random.Random, folder: Path) -> None:
 
 
 def _words(number: int, chance: random.Random, folder: Path) -> None:
-    """A part of the short words as a school may write it, with other gaps or spoilt, on all pages that have it."""
+    """Try some short words as a school may write them, with other placeholders or spoilt, on all their pages."""
     file = folder / "en.md"
     part = chance.choice(re.split(r"\n(?=\w)", _text(templates() / "en" / "words.yaml")))
     if chance.random() < 0.5:
@@ -195,7 +195,7 @@ def _words(number: int, chance: random.Random, folder: Path) -> None:
 
 
 def _letterhead(number: int, chance: random.Random, folder: Path) -> None:
-    """A school's Word file with a part spoilt as a text or as elements, or with some bytes changed."""
+    """Try a school's Word file with a part spoilt as a text or as elements, or with some bytes changed."""
     file = folder / "report.docx"
     content = spoilt_package(_word_file(), r"document|styles|header|footer", (element, value, letter), chance)
     file.write_bytes(spoilt_bytes(content, chance, (1, 20)) if number % 8 == 0 else content)
@@ -204,7 +204,7 @@ def _letterhead(number: int, chance: random.Random, folder: Path) -> None:
 
 @cache
 def _word_file() -> bytes:
-    """A report as a school may take it for its own look."""
+    """Return a report that a school may use as its own look."""
     case = open_case(Path("assignments/plane-motion/01.yaml"), "en")
     return word.write(replace(case.document(), blocks=()), lambda _: ())
 
@@ -222,7 +222,7 @@ def _report() -> Report:
 
 
 def _sheet(number: int, chance: random.Random, folder: Path) -> None:
-    """A sheet as CSV, spoilt as a text, or as a workbook with some bytes changed."""
+    """Try a sheet as CSV, spoilt as a text, or as a workbook with some bytes changed."""
     key, csv, xlsx = _key()
     if number % 2:
         file = folder / "sheet.csv"
@@ -234,7 +234,7 @@ def _sheet(number: int, chance: random.Random, folder: Path) -> None:
 
 
 def _handed_in(number: int, chance: random.Random, folder: Path) -> None:
-    """A report that was handed in, with its text spoilt as a text or as elements, or with some bytes changed."""
+    """Try a submitted report with its text spoilt as a text or as elements, or with some bytes changed."""
     file = folder / "handed.docx"
     changes = (element, value, letter, scaled, extreme)
     content = spoilt_package(_report_file(), "word/document.xml", changes, chance, (1, 3, 9))
@@ -248,7 +248,7 @@ def _handed_in(number: int, chance: random.Random, folder: Path) -> None:
 
 @cache
 def _report_file() -> bytes:
-    """A report in Word, its figures left out, and the frame of one."""
+    """Return a Word report without its figures, and the frame of one."""
     case = open_case(Path("assignments/slotted-lever-01.yaml"), "en")
     blocks = (*case.document().blocks, *frame_of(case, _key()[0]).blocks)
     tree = replace(case.document(), blocks=tuple(block for block in blocks if not isinstance(block, Figure | Plate)))
@@ -257,7 +257,7 @@ def _report_file() -> bytes:
 
 @cache
 def _key() -> tuple[Key, str, bytes]:
-    """The key of a sample with its empty sheet as CSV and as a workbook."""
+    """Return the key of a sample with its empty sheet as CSV and as a workbook."""
     key = key_of(open_case(Path("assignments/slotted-lever-01.yaml"), "en"))
     book = answer_book(key)
     rows = [[getattr(entry, "value", entry) for entry in row] for row in book.sheets[0].rows]
@@ -265,7 +265,7 @@ def _key() -> tuple[Key, str, bytes]:
 
 
 def _drawing(number: int, chance: random.Random, folder: Path) -> None:
-    """A drawing with some lines of its text changed, or some bytes; what can be read is given back, too."""
+    """Try a drawing with some lines of its text or some bytes changed; a readable one is also marked."""
     key, plans, data = _drawn()
     data = spoilt_lines(data, chance) if number % 2 else spoilt_bytes(data, chance)
     file = folder / "sheet.dxf"
@@ -277,7 +277,7 @@ def _drawing(number: int, chance: random.Random, folder: Path) -> None:
 
 @cache
 def _drawn() -> tuple[Key, WantedPlans, bytes]:
-    """The plans of a sample, and somebody's drawing of them."""
+    """Return the plans of a sample, and a student's drawing of them."""
     case = open_case(Path("assignments/four-bar-02.yaml"), "en")
     assert isinstance(case, MachineAnalysis)
     key = key_of(case)
@@ -323,20 +323,20 @@ WRITTEN = frozenset(
         "sheet.dxf",
     }
 )
-"""The files that are tried; a text that was run would make another."""
+"""Kinds of files that are tried; executing a text would create another file."""
 SHARES = (39, 10, 3, 7, 9, 8, 10, 4, 4, 3, 3)
-"""How many of a hundred files are of each kind."""
+"""Number of files of each kind in a hundred."""
 
 
 _DEEDS = "chmod chown link mkdir remove rename rmdir symlink truncate utime exec fork posix_spawn system"
 DEEDS = frozenset({*(f"os.{deed}" for deed in _DEEDS.split()), "subprocess.Popen", "socket.connect"})
-"""What Python tells of, besides opened files, that no file that is read may bring about."""
+"""Audit events of Python, besides opened files, that no input file may cause."""
 WRITING = os.O_WRONLY | os.O_RDWR | os.O_CREAT | os.O_TRUNC | os.O_APPEND
 
 
 @dataclass(slots=True)
 class Guard:
-    """What is done while the folder of an attempt stands here, but for what is kept for the next run."""
+    """Records actions during an attempt, except those on the cache kept for the next run."""
 
     folder: Path | None = None
     seen: list[str] = field(default_factory=list)
@@ -355,7 +355,7 @@ class Guard:
 
 @cache
 def guard() -> Guard:
-    """The guard of this process, which hears all that Python tells of."""
+    """Return the guard of this process, which receives all audit events of Python."""
     found = Guard()
     # What is loaded and made for the first time is no deed of a file.
     kept_in()
@@ -368,7 +368,7 @@ def guard() -> Guard:
 
 
 def attempt(number: int, seed: int, folder: Path) -> Outcome:
-    """What becomes of the file of this number; it depends on number and seed alone."""
+    """Return the outcome of the file with this number; it depends only on number and seed."""
     chance = random.Random(f"{seed}/{number}")
     kind = chance.choices(list(KINDS), SHARES)[0]
     came_to, wrong = "right", ""
@@ -393,13 +393,13 @@ def attempt(number: int, seed: int, folder: Path) -> Outcome:
 
 
 def late(outcome: Outcome) -> str:
-    """What is to be said of a file that took too long."""
+    """Return the message about a file that took too long."""
     most = MOST_SECONDS_OF_A_CLASS if outcome.kind == "spec" else MOST_SECONDS
     return f"took {outcome.seconds:.1f} s" if outcome.seconds > most else ""
 
 
 def main(cases: int = 20_000, seed: int = 1) -> int:
-    """Tries so many and shows what is wrong with which; 0 if nothing is."""
+    """Try `cases` files and print the errors; return 0 if there are none."""
     counts: Counter[str] = Counter()
     bad = 0
     with tempfile.TemporaryDirectory() as name:

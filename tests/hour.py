@@ -23,15 +23,15 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
 LONGEST = 600
-"""Seconds that a step may take."""
+"""Longest duration of a step in seconds."""
 WATCHED = 3
-"""Seconds for which the page is watched."""
+"""Duration for which the page is watched, in seconds."""
 STUDENTS = ("K225520103001", "K225520103004", "K225520103007")
-"""Of the class that comes with the program."""
+"""Some students of the class that comes with the program."""
 
 
 class StepError(Exception):
-    """A step that did not go as a newcomer may expect."""
+    """A step failed that a newcomer would expect to work."""
 
 
 def wanted(what: str, holds: object, found: object = "") -> None:
@@ -40,7 +40,7 @@ def wanted(what: str, holds: object, found: object = "") -> None:
 
 
 def done(command: Sequence[str | Path], cwd: Path, code: int = 0, env: Mapping[str, str] | None = None) -> str:
-    """What a command prints on both streams; it has to end with this exit code."""
+    """Return the output of a command on both streams; it must exit with this code."""
     print("$", *(Path(command[0]).name, *command[1:]), flush=True)
     found = subprocess.run(
         [str(part) for part in command],
@@ -58,14 +58,14 @@ def done(command: Sequence[str | Path], cwd: Path, code: int = 0, env: Mapping[s
 
 
 def environment(folder: Path) -> Path:
-    """A new environment of Python; the folder of its programs."""
+    """Create a new Python environment; return the folder of its programs."""
     venv.create(folder, with_pip=True)
     return folder / ("Scripts" if os.name == "nt" else "bin")
 
 
 @dataclass(frozen=True)
 class Newcomer:
-    """A desk with the installed program and nothing else: no TeX, no checkout, no settings."""
+    """A place with only the installed program: no TeX, no checkout, no settings."""
 
     programs: Path
     desk: Path
@@ -86,7 +86,7 @@ class Newcomer:
 
 
 def a_report(new: Newcomer) -> None:
-    """A file of one's own, a mistake in it, its report, sheets and page."""
+    """Create a file, a mistake in it, its report, sheets and page."""
     wanted("it tells its version", new.reportgen("--version").startswith("reportgen 1."))
     wanted("a slip is mended", "did you mean “shaper”" in new.reportgen("new", "shapr", code=2))
     new.reportgen("new", "shaper", "-o", "my-shaper.yaml")
@@ -110,7 +110,7 @@ def a_report(new: Newcomer) -> None:
 
 
 def watched(new: Newcomer, file: Path) -> None:
-    """The page is served, and Ctrl-C ends it."""
+    """Check that the page is served, and that Ctrl-C ends it."""
     print("$ reportgen watch", file.name, "--no-open")
     with subprocess.Popen(
         [new.programs / "reportgen", "watch", file.name, "--no-open"],
@@ -130,7 +130,7 @@ def watched(new: Newcomer, file: Path) -> None:
 
 
 def a_class(new: Newcomer) -> None:
-    """Variants of three students, their tasks, reports and keys, and the marks of the sheets they hand in."""
+    """Create variants for three students, their tasks, reports and keys, and mark the sheets that they submit."""
     new.reportgen("samples", "examples")
     demo = new.desk / "examples" / "class-demo"
     head, *rows = (demo / "roster.csv").read_text(encoding="utf-8-sig").splitlines()
@@ -150,7 +150,7 @@ def a_class(new: Newcomer) -> None:
 
 
 def an_example(new: Newcomer) -> None:
-    """What a checkout has in its folder of examples, and a school's words that are not in the package."""
+    """Build an example of a checkout, with a school's words that are not in the package."""
     new.reportgen("new", "engine-twin", "--from", "engine-twin-05", "-o", "twin.yaml")
     wanted("an example is in order", new.reportgen("check", "twin.yaml") == "")
     words = new.desk / "words"
@@ -163,7 +163,7 @@ def an_example(new: Newcomer) -> None:
 
 
 def with_tools(tools: Path, wheel: Path, place: Path) -> None:
-    """Without an installation of one's own, by uvx and by pipx."""
+    """Run the wheel without an installation, by uvx and by pipx."""
     done([tools / "pip", "install", "--quiet", "uv", "pipx"], place)
     for command in ([tools / "uvx", "--from", wheel], [tools / "pipx", "run", "--spec", wheel]):
         wanted("it runs", "kind: shaper" in done([*command, "reportgen", "new", "shaper"], place))

@@ -1,4 +1,4 @@
-"""The house in figures: its rooms, floors and arrows, and what must not creep back.
+"""Measure the package structure: its rooms, floors and imports, with limits that must not be exceeded.
 
     python -m tests.house
 
@@ -22,19 +22,19 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
 SHOWN = 8
-"""Places shown of a figure that has passed its limit."""
+"""Largest number of places shown for a figure that exceeds its limit."""
 ID_HEADS = (
     "v|a|seg|R|F|mu|drawn|l|m|J|h|M|dir|turn|omega|eps|phi|ic|plan|laid|p|f|G|Pqt|x|s|e|link|guide|rate|side"
     "|alpha|centre|k|share|way|cam"
 )
-"""What the ids of quantities begin with, before their first dot."""
+"""Prefixes of the ids of quantities, before their first dot."""
 _ID = re.compile(rf"({ID_HEADS})\.")
 _CAMEL_CASE = re.compile(r"[A-Z](?=.*[a-z])[A-Za-z0-9]*")
 VAGUE = {"one", "other", "found", "told", "way"}
-"""Names that say nothing of what they stand for."""
+"""Names without a meaning."""
 
 Graph = Mapping[str, frozenset[str]]
-"""What each node has arrows to."""
+"""The successors of each node."""
 
 
 @dataclass(frozen=True)
@@ -54,12 +54,12 @@ class Module:
 
     @property
     def parts(self) -> list[str]:
-        """Package, room, …."""
+        """The components of the name: package, room, …."""
         return self.name.split(".")
 
     @property
     def room(self) -> str:
-        """The folder or module directly in the package, or the package's own face."""
+        """The folder or module directly in the package, or the package itself."""
         return ".".join(self.parts[:2])
 
     def at(self, node: ast.expr | ast.stmt) -> str:
@@ -68,7 +68,7 @@ class Module:
 
 @dataclass(frozen=True)
 class House:
-    """A package with its templates and the text that describes it."""
+    """A package with its templates and its documentation."""
 
     root: Path
     package: str = "reportgen"
@@ -84,7 +84,7 @@ class House:
 
     @cached_property
     def imports(self) -> Graph:
-        """The modules that each module imports: inside functions and for types alone, too."""
+        """The modules that each module imports, including imports inside functions and for types alone."""
         return {name: frozenset(self._imported(module)) - {name} for name, module in self.modules.items()}
 
     def _imported(self, module: Module) -> Iterator[str]:
@@ -95,7 +95,7 @@ class House:
             elif isinstance(node, ast.ImportFrom):
                 assert not node.level, f"{module.at(node)}: an import says its whole name"
                 inner = [f"{node.module}.{alias.name}" for alias in node.names]
-                # What is no module itself is taken from the one that it is imported from.
+                # A name that is not a module itself belongs to the module that it is imported from.
                 names = [name if name in self.modules else str(node.module) for name in inner]
             yield from (name for name in names if name in self.modules)
 
@@ -110,7 +110,7 @@ class House:
 
     @cached_property
     def floors(self) -> Mapping[str, int]:
-        """The floor of each room, from 1; rooms of one circle share theirs."""
+        """The floor of each room, from 1; rooms of one cycle share theirs."""
         floors: dict[str, int] = {}
         for circle in strongly_connected(self.arrows):
             below = {other for room in circle for other in self.arrows[room]} - circle
@@ -119,7 +119,7 @@ class House:
 
 
 def strongly_connected(graph: Graph) -> list[frozenset[str]]:
-    """The sets of nodes that reach one another, each behind all that it has arrows to (Tarjan)."""
+    """Return the sets of nodes that reach one another, each after all its successors (Tarjan)."""
     found: list[frozenset[str]] = []
     number: dict[str, int] = {}
     lowest: dict[str, int] = {}
@@ -147,7 +147,7 @@ def strongly_connected(graph: Graph) -> list[frozenset[str]]:
 # --- what is counted --------------------------------------------------------------------------------
 
 Counted = int | Sequence[str]
-"""A number, or the places of which there are so many."""
+"""A number, or the list of places that are counted."""
 
 
 def rooms(house: House) -> Counted:
@@ -163,7 +163,7 @@ def arrows(house: House) -> Counted:
 
 
 def arrows_back_up(house: House) -> Counted:
-    """Arrows to a room that is no lower."""
+    """Return imports from a room that is not on a lower floor."""
     floor = house.floors
     return [
         f"{room} → {other}" for room, others in house.arrows.items() for other in others if floor[other] >= floor[room]
@@ -171,7 +171,7 @@ def arrows_back_up(house: House) -> Counted:
 
 
 def circles(house: House) -> Counted:
-    """Sets of modules that import one another."""
+    """Return sets of modules that import one another."""
     return [" ↔ ".join(sorted(circle)) for circle in strongly_connected(house.imports) if len(circle) > 1]
 
 
@@ -184,7 +184,7 @@ def words_of_architecture(house: House) -> Counted:
 
 
 def ids_by_f_string(house: House) -> Counted:
-    """f-strings that begin as the id of a quantity does: `f"v.{point}"`."""
+    """Return f-strings that begin like the id of a quantity: `f"v.{point}"`."""
     return [
         module.at(node)
         for module in house.modules.values()
@@ -195,7 +195,7 @@ def ids_by_f_string(house: House) -> Counted:
 
 
 def class_names_twice(house: House) -> Counted:
-    """Names of classes, but for those of one module alone (`_Name`), that mean several things.
+    """Return class names with several meanings, except private ones (`_Name`).
 
     Every kind has its `Parameters`: one meaning, a model each.
     """
@@ -209,17 +209,17 @@ def class_names_twice(house: House) -> Counted:
 
 
 MODELS_OF_KINDS = {"Parameters", "Indicator"}
-"""Names that the module of each kind gives to its models, for the catalogue to find them."""
+"""Names that the module of each kind must give to its models, so that the catalogue finds them."""
 
 
 def type_aliases_twice(house: House) -> Counted:
-    """Names of types (`Row = tuple[str, int]`), but for those of one module alone, that several modules define."""
+    """Return names of types (`Row = tuple[str, int]`) that several modules define, except private ones."""
     names = Counter(name for module in house.modules.values() for name in _aliases(module.tree))
     return sorted(name for name, count in names.items() if count > 1 and name not in MODELS_OF_KINDS)
 
 
 def _aliases(tree: ast.Module) -> set[str]:
-    """The public names in CamelCase that a module binds to a type expression or to another name of a type."""
+    """Return the public names in CamelCase that a module binds to a type expression or to another type name."""
     return {
         name
         for node in tree.body
@@ -230,7 +230,7 @@ def _aliases(tree: ast.Module) -> set[str]:
 
 
 def longest_positional_call(house: House) -> Counted:
-    """The most arguments that a call passes by their places alone; what goes into a list of any length is one."""
+    """Return the largest number of positional arguments of a call; a variable-length list counts as one."""
     listing = dict(_listing(house))
     return max(
         min(len(call.args), listing.get(_called(call), len(call.args)))
@@ -241,7 +241,7 @@ def longest_positional_call(house: House) -> Counted:
 
 
 def _listing(house: House) -> Iterator[tuple[str, int]]:
-    """Functions that take a list of any length (`*names`), with how many arguments that list and all before it make."""
+    """Return functions with a variable-length list (`*names`), and the number of arguments up to that list."""
     for module in house.modules.values():
         for node in ast.walk(module.tree):
             if isinstance(node, ast.FunctionDef) and node.args.vararg is not None:
@@ -257,7 +257,7 @@ def _called(call: ast.Call) -> str:
 
 
 def topic_names_elsewhere(house: House) -> Counted:
-    """Modules outside the topics that import a topic or name one, as an identifier or in a text without blanks.
+    """Return modules outside the topics that import a topic or name one, as an identifier or in a text without blanks.
 
     A word of the field that is also the name of a topic is left out: any machine moves.  So are `OFFERED`, the places
     where the program's public interface has such a word.
@@ -290,7 +290,7 @@ OFFERED: Mapping[str, frozenset[str]] = {
 
 
 def _identifiers(tree: ast.Module) -> Iterator[str]:
-    """Names, attributes, parameters, keywords, and texts without blanks that are no docstrings."""
+    """Return names, attributes, parameters, keywords, and texts without blanks that are not docstrings."""
     docstrings = {id(node.value) for node in ast.walk(tree) if isinstance(node, ast.Expr)}
     for node in ast.walk(tree):
         match node:
@@ -303,7 +303,7 @@ def _identifiers(tree: ast.Module) -> Iterator[str]:
 
 
 def vague_names(house: House) -> Counted:
-    """Variables, parameters and attributes with a vague name.
+    """Return variables, parameters and attributes with a vague name.
 
     It may stay in a comprehension or lambda that ends a line further on at most, and `other` in an operator.
     """
@@ -316,7 +316,7 @@ def vague_names(house: House) -> Counted:
 
 
 def _bound(node: ast.AST) -> Iterator[tuple[str, int]]:
-    """The names that are bound in a part of a module, with their lines; none in what is read at one glance."""
+    """Yield the names bound in a part of a module, with their lines; skip those in short expressions."""
     for inner in ast.iter_child_nodes(node):
         match inner:
             case ast.ListComp() | ast.SetComp() | ast.DictComp() | ast.GeneratorExp() | ast.Lambda():
@@ -349,7 +349,7 @@ LIMITS: Mapping[Callable[[House], Counted], int | None] = {
     longest_positional_call: 6,
     vague_names: None,
 }
-"""The most that each figure may reach; `None`: printed for information, without a limit."""
+"""Limit of each figure; `None`: printed for information, without a limit."""
 
 
 def main(root: Path = ROOT) -> int:

@@ -16,7 +16,7 @@ proof = pytest.mark.proof
 
 
 def matrix(cases: Iterable[Any], telling: Collection[Any]) -> list[Any]:
-    """Cases as parameters of a test, those that are not `telling` for `make proof`.
+    """Return cases as parameters of a test; those that are not `telling` are marked for `make proof`.
 
     A case of several parameters tells by all of them, as a tuple.  Raises `ValueError` for what tells and is no case.
     """
@@ -28,7 +28,7 @@ def matrix(cases: Iterable[Any], telling: Collection[Any]) -> list[Any]:
 
 
 def _values(case: Any) -> Any:
-    """The parameters of a case, alone if it is one."""
+    """Return the parameters of a case, unpacked if there is only one."""
     if not isinstance(case, _PARAMETERS):
         return case
     return case.values[0] if len(case.values) == 1 else tuple(case.values)

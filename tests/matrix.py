@@ -1,4 +1,4 @@
-"""Every kind of assignment and every sample coursework × every command: a new one of either enters by being there.
+"""Run every command on every kind of assignment and every sample coursework; new ones are included automatically.
 
 Kinds are the program's own list, each with its shortest example; courseworks are the samples with parts.  A command is
 a function of `COMMANDS`: it does with a `Desk` what a user types, and looks at what came of it.
@@ -42,22 +42,22 @@ from reportgen.page.live import LiveSession
 from tests.marking.filled import filled
 
 OWN: Language | Literal[""] = ""
-"""The language of the file."""
+"""Language; "" for that of the file."""
 CONTENT = {".pdf": b"%PDF-", ".xlsx": b"PK", ".docx": b"PK", ".html": b"<!DOCTYPE html>", ".dxf": b"  0\nSECTION"} | {
     ".svg": b"<",
     ".png": b"\x89PNG",
     ".eps": b"%!PS-Adobe-3.0 EPSF-3.0",
 }
-"""What files begin with."""
+"""First bytes of each type of file."""
 LONGEST_FORM = 64_000
-"""Bytes of a form; 4 kB of them are the keys by which a newer form finds the elements that it leaves in place."""
+"""Largest size (bytes) of a form, of which 4 kB are keys by which a newer form finds unchanged elements."""
 MOST = 8
-"""Cases that are kept at once: those of one coursework and its parts."""
+"""Number of cached cases: those of one coursework and its parts."""
 
 
 @cache
 def subjects() -> dict[str, Path]:
-    """The shortest example of each kind that is one alone, and each coursework, by name."""
+    """Return the shortest example of each kind that can be used alone, and each coursework, by name."""
     examples = {kind: [path for path in catalogue.examples(kind).values() if not _has_parts(path)] for kind in kinds()}
     alone = {kind: min(paths, key=lambda path: path.stat().st_size) for kind, paths in examples.items()}
     whole = {f"whole-{path.stem}": path for path in sorted(samples().rglob("*.yaml")) if _has_parts(path)}
@@ -71,7 +71,7 @@ def _has_parts(path: Path) -> bool:
 
 @dataclass(frozen=True)
 class Desk:
-    """An assignment file in a folder of its own, and how its user wants it."""
+    """An assignment file in its own folder, with the user's settings."""
 
     file: Path
     capture: pytest.CaptureFixture[str]
@@ -81,16 +81,16 @@ class Desk:
 
     @property
     def brief(self) -> bool:
-        """Whether one format of each command has to do: in the first lane, in the language of the file."""
+        """True if one format of each command is enough: in the first lane, in the language of the file."""
         return self.language == OWN
 
     def formats(self, known: Sequence[str], enough: str) -> str:
-        """Of the formats of a command those to be made: what no typesetter makes does not change with the engine."""
+        """Return the formats of a command to make: those without a typesetter do not depend on the engine."""
         return enough if self.brief else ",".join(known) if self.engine == "typst" else "pdf"
 
     @property
     def out(self) -> Path:
-        """A folder for each way of making: what was made otherwise is stale there, and would be told."""
+        """A separate folder for each combination of settings, so that no file counts as stale."""
         return self.file.parent / f"out-{self.language}-{self.engine}-{self.extent}"
 
     @property
@@ -102,7 +102,7 @@ class Desk:
         return Ask().of(_key(self.file, self.spoken))
 
     def run(self, command: str, *arguments: object) -> str:
-        """What a command prints that ends well and says nothing else; no library may warn of anything on its way."""
+        """Run a command and return its output; it must succeed without messages or library warnings."""
         lang = ("--lang", self.language) if self.language else ()
         with warnings.catch_warnings(category=RuntimeWarning, action="error"), pytest.raises(SystemExit) as end:
             app([command, *map(str, (*arguments, *lang))], prog_name="reportgen")
@@ -111,7 +111,7 @@ class Desk:
         return printed.out
 
     def made(self, command: str, *arguments: object) -> list[Path]:
-        """The files that a command names; each is there and is what its ending says."""
+        """Return the files that a command names, after checking that each exists and has the type of its suffix."""
         paths = [Path(line) for line in self.run(command, self.file, *arguments, "--out", self.out).splitlines()]
         assert paths
         for path in paths:
@@ -127,7 +127,7 @@ def _key(file: Path, language: Language) -> Key:
 
 @contextmanager
 def shared() -> Iterator[None]:
-    """Meanwhile what one command has worked out of an assignment need not be worked out again for the next."""
+    """Cache what one command computes of an assignment for the next ones."""
     plain, made = cases_module.opened, dict[str, Case]()
 
     def opened(assignment: Assignment) -> Case:
@@ -144,14 +144,14 @@ def shared() -> Iterator[None]:
 
 
 def _remembering(case: Case) -> Case:
-    """A case whose report is composed once, and what moves of it."""
+    """Return a case that composes its report and its moving figures only once."""
     for name in ("document", "animations"):
         object.__setattr__(case, name, cache(getattr(case, name)))
     return case
 
 
 def desk(subject: str, folder: Path, capture: pytest.CaptureFixture[str], **wanted: object) -> Desk:
-    """A subject's file with the files of its parts, copied into a folder."""
+    """Return a subject's file with the files of its parts, copied into a folder."""
     source = subjects()[subject]
     content, beside = inputs(source)
     for name, data in {**beside, source.name: content}.items():
@@ -163,14 +163,14 @@ def desk(subject: str, folder: Path, capture: pytest.CaptureFixture[str], **want
 
 
 def check(at: Desk) -> None:
-    """A sample is in order; it may have warnings and notes."""
+    """Check that a sample is valid; it may have warnings and notes."""
     with pytest.raises(SystemExit) as end:
         app(["check", str(at.file)])
     assert (end.value.code or 0, at.capture.readouterr().out) == (0, "")
 
 
 def solve(at: Desk) -> None:
-    """Tables with numbers in every column, for every part of a coursework."""
+    """Check the tables with numbers in every column, for every part of a coursework."""
     printed = at.run("solve", at.file)
     assert printed.count("┏") >= 1 + len(api.load(at.file).parts)
     rows = [[cell.strip() for cell in line.split("│")[1:-1]] for line in printed.splitlines() if line.startswith("│")]
@@ -186,7 +186,7 @@ def solve_json(at: Desk) -> None:
 
 
 def solve_format(at: Desk) -> None:
-    """Tables of a turn, here of few positions: a row a position in each of the formats."""
+    """Check the tables of a turn (with few positions): a row per position in each of the formats."""
     counted = catalogue.kind(api.load(at.file).kind).counts_positions
     paths = at.made("solve", "--format", ",".join(api.RESULT_FORMATS), *(("--positions", 8) if counted else ()))
     found = {path.name: path for path in paths}
@@ -195,7 +195,7 @@ def solve_format(at: Desk) -> None:
 
 
 def build(at: Desk) -> None:
-    """The report in every format."""
+    """Check the report in every format."""
     formats = at.formats(api.FORMATS, "pdf")
     paths = at.made("build", "--extent", at.extent, "--engine", at.engine, "--format", formats)
     assert ",".join(path.suffix[1:] for path in paths) == formats
@@ -213,7 +213,7 @@ def sheet(at: Desk) -> None:
 
 
 def figure(at: Desk) -> None:
-    """The first figure of its report; every one of what moves stands in the list, too."""
+    """Check the first figure of the report; the list also has every moving figure."""
     from reportgen.export.figures import MOVING, STILL
 
     case = open_case(at.file, at.language or None)
@@ -229,7 +229,7 @@ def figure(at: Desk) -> None:
 
 
 def plot(at: Desk) -> None:
-    """The first quantity that is a curve; what has none is told."""
+    """Check the first quantity that is a curve; a kind without curves reports it."""
     from reportgen.export.quantities import shown
 
     case = open_case(at.file, at.language or None)
@@ -251,7 +251,7 @@ def key(at: Desk) -> None:
 
 
 def task(at: Desk) -> None:
-    """Task and answer sheet as a batch makes them, and the data beside them, in one file."""
+    """Check task and answer sheet as a batch makes them, with the data in one file."""
     files = dict(api.task_files(at.file, at.engine, at.language or None))
     assert b"#" not in files.pop("assignment.yaml")
     starts = {name: data[:2] for name, data in files.items()}
@@ -259,13 +259,13 @@ def task(at: Desk) -> None:
 
 
 def compare(at: Desk) -> None:
-    """The sheet of a student who has everything right agrees."""
+    """Check that the sheet of a student with all values right agrees."""
     (at.file.parent / "mine.xlsx").write_bytes(filled(at.key))
     assert at.run("compare", at.file, at.file.parent / "mine.xlsx")
 
 
 def grade(at: Desk) -> None:
-    """The same student has all points."""
+    """Check that the same student gets all points."""
     handed = at.file.parent / "handed"
     handed.mkdir(exist_ok=True)
     (handed / f"{at.file.stem}.xlsx").write_bytes(filled(at.key))
@@ -279,7 +279,7 @@ def grade(at: Desk) -> None:
 
 
 def watch(at: Desk) -> None:
-    """The first page, before there is a report: what moves, and no fault."""
+    """Check the first page, before there is a report: moving figures and no fault."""
     watched = LiveSession(partial(open_case, at.file, at.language or None))
     watched.renew()
     assert watched.revision.fault == ""
@@ -289,7 +289,7 @@ def watch(at: Desk) -> None:
 
 
 def edit(at: Desk) -> None:
-    """The form of the file, without a fault and not too long; its first value changed and undone, byte for byte."""
+    """Check the form of the file, its size, and that changing and undoing its first value restores every byte."""
     session = EditSession(partial(open_case, at.file, at.spoken), at.spoken, path=at.file)
     before, form = at.file.read_bytes(), session.form()
     assert "data-goto" not in form
@@ -308,11 +308,11 @@ COMMANDS: tuple[Callable[[Desk], None], ...] = (
     *(check, solve, solve_json, solve_format, build, sheet, figure, plot, key, task, compare, grade, watch, edit),
 )
 BY_ENGINE, BY_EXTENT = {build, key, task, grade}, {build}
-"""Commands that typeset what they make, and that which makes it in two extents."""
+"""Commands that typeset their output, and the one that makes it in two extents."""
 
 
 def cases() -> Iterator[tuple[str, str, Language | Literal[""], api.Engine, Extent]]:
-    """Subject, command, language, engine, extent: each briefly in its file's language, then whatever there is.
+    """Yield subject, command, language, engine, extent: first briefly in the file's language, then all combinations.
 
     A language that no native speaker has read has the engine and extent that are the usual ones alone.
     """

@@ -38,13 +38,13 @@ LANGUAGES = ("vi", "en")
 ENGINES = ("typst", "latex")
 
 RELATIVE, ABSOLUTE = 1e-10, 1e-8
-"""Unrounded results (SI) may differ by rounding: another order of the same operations."""
+"""Largest differences of unrounded results (SI) from rounding: another order of the same operations."""
 JOINT = '"#"'
-"""Where two strings meet in typst's source: they read as one."""
+"""Boundary between two strings in typst's source, which read as one."""
 SHOWN = 12
-"""Differing lines shown of a file."""
+"""Largest number of differing lines shown for a file."""
 EVERY, WRONG = 17, 1.13
-"""Of a filled sheet the second and then each so many-th answer is wrong by this factor."""
+"""In a filled sheet, the second answer and then every `EVERY`-th is wrong by the factor `WRONG`."""
 
 PACKED = re.compile(r"(?<=\")[A-Za-z0-9+/]{400,}={0,2}(?=\")")
 """The packed samples of an animation."""
@@ -55,7 +55,7 @@ NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:[eE][-+]?\d+)?")
 
 
 def run(*arguments: str | Path) -> str:
-    """What a command prints; a fault of its own is part of it."""
+    """Return the output of a command, including its error messages."""
     from typer.testing import CliRunner
 
     from reportgen.cli import app
@@ -67,7 +67,7 @@ def run(*arguments: str | Path) -> str:
 
 
 def page_text(pdf: Path) -> str:
-    """The words and strokes of a PDF with their places, a line each, to a hundredth of a point."""
+    """Return the words and strokes of a PDF with their places, one per line, to a hundredth of a point."""
     import pymupdf
 
     def lines() -> Iterator[str]:
@@ -95,7 +95,7 @@ def _flat(part: object) -> Iterator[float]:
 
 
 def workbook_text(path: Path) -> str:
-    """The cells of a workbook, a line each, with their comments."""
+    """Return the cells of a workbook with their comments, one per line."""
     import openpyxl
 
     book = openpyxl.load_workbook(path)
@@ -109,7 +109,7 @@ def workbook_text(path: Path) -> str:
 
 
 def browser_text(path: Path) -> str:
-    """The elements of a page, a line each; the samples of its animation as numbers."""
+    """Return the elements of a page, one per line, with the samples of its animation as numbers."""
     text = path.read_text(encoding="utf-8").replace("><", ">\n<")
     return PACKED.sub(lambda found: " ".join(f"{number:.7g}" for number in _floats(found[0])), text)
 
@@ -120,7 +120,7 @@ def _floats(packed: str) -> Iterator[float]:
 
 
 def word_text(path: Path) -> str:
-    """The elements of the parts of a Word file, a line each; of pictures their digests."""
+    """Return the elements of the parts of a Word file, one per line, with digests of pictures."""
     with zipfile.ZipFile(path) as parts:
         return "".join(f"--- {name}\n{_part(name, parts.read(name))}\n" for name in sorted(parts.namelist()))
 
@@ -140,7 +140,7 @@ READERS: dict[str, Callable[[Path], str]] = {
 
 
 def take(folder: Path, out: Path) -> None:
-    """Put what a command left in `folder` into `out`, each file as text."""
+    """Write the files that a command left in `folder` to `out`, each as text."""
     for file in sorted(path for path in folder.rglob("*") if path.is_file()):
         target = out / file.relative_to(folder)
         target = target.with_name(f"{target.name}.txt")
@@ -150,7 +150,7 @@ def take(folder: Path, out: Path) -> None:
 
 
 def say(out: Path, name: str, text: str, place: Path) -> None:
-    """Keep what was printed, without the name of a temporary folder."""
+    """Write printed text without the name of a temporary folder."""
     out.mkdir(parents=True, exist_ok=True)
     text = text.replace(str(place), "DIR").replace(str(ROOT), "ROOT")
     (out / f"{name}.txt").write_text(text, encoding="utf-8")
@@ -204,7 +204,7 @@ def word(out: Path, file: Path, language: str, place: Path) -> None:
 
 
 def marks(out: Path, file: Path, language: str, place: Path) -> None:
-    """The answer sheet filled in from the key, some of it wrong: compared, then marked."""
+    """Fill in the answer sheet from the key with some errors, then compare and mark it."""
     assignments, made, marked = place / "assignments", place / "made", place / "marked"
     assignments.mkdir()
     shutil.copy(file, assignments)
@@ -292,12 +292,12 @@ def jobs(files: list[Path]) -> Iterator[tuple[str, Callable[..., None], tuple[ob
 
 
 def languages() -> list[str]:
-    """The languages of the templates, by their folders."""
+    """Return the languages of the templates, by their folders."""
     return sorted(path.parent.name for path in (ROOT / "templates").glob("*/language.yaml"))
 
 
 def first_of_each_kind(files: list[Path]) -> list[Path]:
-    """The first file of each kind; a file without a kind, a coursework of parts, counts as a kind."""
+    """Return the first file of each kind; a coursework of parts without a kind counts as a kind."""
     kinds: dict[str, Path] = {}
     for file in files:
         kind = re.search(r"^kind: *(\S+)", file.read_text(encoding="utf-8"), re.MULTILINE)
@@ -327,7 +327,7 @@ def write(out: Path, parts: list[str]) -> None:
 
 
 def alike(one: str, other: str) -> bool:
-    """Whether two lines say the same, numbers within rounding; strings of a source may be parted otherwise."""
+    """Return True if two lines agree, numbers within rounding; strings of a source may be split differently."""
     one, other = one.replace(JOINT, ""), other.replace(JOINT, "")
     if one == other:
         return True

@@ -1,4 +1,4 @@
-"""Files spoilt at random, as hands and disks spoil them: texts, parts of a package, lines of a drawing, bytes."""
+"""Spoil files at random as hands and disks do: texts, parts of a package, lines of a drawing, bytes."""
 
 from __future__ import annotations
 
@@ -42,14 +42,14 @@ SWITCHES = (
 
 
 def spoilt(text: str, chance: random.Random) -> str:
-    """The text with one to three changes."""
+    """Return the text with one to three changes."""
     for _ in range(chance.choice((1, 1, 1, 2, 3))):
         text = chance.choice(CHANGES)(text, chance)
     return text
 
 
 def scaled(text: str, chance: random.Random) -> str:
-    """A number is somewhat larger or smaller: the one change that often leaves a file right."""
+    """Make a number somewhat larger or smaller: the one change that often leaves a file valid."""
     return _at_a_number(text, chance, lambda old: f"{float(old) * chance.choice((0.5, 0.9, 0.99, 1.01, 1.1, 2)):.10g}")
 
 
@@ -66,7 +66,7 @@ def _at_a_number(text: str, chance: random.Random, new: Callable[[str], str]) ->
 
 
 def _zeros(text: str, chance: random.Random) -> str:
-    """All numbers of a line are 0."""
+    """Replace all numbers of a line by 0."""
     return _at_a_line(text, chance, lambda line: [NUMBER.sub("0", line)])
 
 
@@ -118,7 +118,7 @@ Change = Callable[[str, random.Random], str]
 
 
 def element(text: str, chance: random.Random) -> str:
-    """A tag is left out, there twice, or named as another."""
+    """Omit, duplicate or rename a tag."""
     tags = list(re.finditer(r"<(/?)([\w:]+)([^<>]*)>", text))
     if not tags:
         return text
@@ -128,7 +128,7 @@ def element(text: str, chance: random.Random) -> str:
 
 
 def value(text: str, chance: random.Random) -> str:
-    """An attribute has another value."""
+    """Change the value of an attribute."""
     values = list(re.finditer(r'(?<==")[^"]*', text))
     if not values:
         return text
@@ -139,7 +139,7 @@ def value(text: str, chance: random.Random) -> str:
 def spoilt_package(
     data: bytes, parts: str, changes: Sequence[Change], chance: random.Random, times: Sequence[int] = (1, 1, 3)
 ) -> bytes:
-    """A zip package with one of the parts whose names fit a pattern changed so many times."""
+    """Return a zip package in which one part whose name matches a pattern is changed several times."""
     made = io.BytesIO()
     with zipfile.ZipFile(io.BytesIO(data)) as old, zipfile.ZipFile(made, "w", zipfile.ZIP_DEFLATED) as new:
         changed = chance.choice([name for name in old.namelist() if re.search(parts, name)])
@@ -155,7 +155,7 @@ def spoilt_package(
 
 
 def spoilt_lines(data: bytes, chance: random.Random) -> bytes:
-    """A drawing with some lines of its text replaced."""
+    """Return a drawing with some lines of its text replaced."""
     lines = data.splitlines(keepends=True)
     for _ in range(chance.choice((1, 3, 20))):
         at = chance.randrange(len(lines))
@@ -164,7 +164,7 @@ def spoilt_lines(data: bytes, chance: random.Random) -> bytes:
 
 
 def spoilt_bytes(data: bytes, chance: random.Random, times: Sequence[int] = (1, 3, 20)) -> bytes:
-    """A file with some bytes changed."""
+    """Return a file with some bytes changed."""
     content = bytearray(data)
     for _ in range(chance.choice(times)):
         content[chance.randrange(len(content))] = chance.randrange(256)

@@ -1,4 +1,4 @@
-"""The bench measures what it says; how fast anything is, is not asserted."""
+"""The bench measures what its names say; no speeds are asserted."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ TINY = Size(pages=3, figures=1, labels=2, strokes=6, formulas=4, tables=1, rows=
 
 
 def same(found: np.ndarray, expected: np.ndarray) -> bool:
-    """Equal to 1e-9 of the quantity's own maximum: far above rounding, far below any error of a formula."""
+    """Return True if equal to 1e-9 of the quantity's own maximum: far above rounding, far below a formula's error."""
     return bool(np.abs(found - expected).max() <= 1e-9 * np.abs(expected).max())
 
 
@@ -169,7 +169,7 @@ def test_a_class_is_made_and_its_workers_memory_taken(tmp_path: Path) -> None:
 
 @pytest.mark.proof
 def test_a_command_is_taken_apart_into_steps() -> None:
-    """Each function that counts as a step is there and is come by; what no command here needs stays out."""
+    """Each function that counts as a step exists and is called; steps that no command here needs are excluded."""
     bench = Bench(SAMPLE, SAMPLE.parent, ())
     checked = json.loads(bench.ask("-m", "tests.bench.steps", "check", str(SAMPLE)))
     solved = json.loads(bench.ask("-m", "tests.bench.steps", "solve", str(SAMPLE)))
@@ -211,7 +211,7 @@ def test_the_efficiency_of_two_is_taken_round_by_round() -> None:
 
 
 def test_bytecode_is_kept_whatever_the_surroundings_say(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Else every build would compile the checkout anew, which an installed package never does."""
+    """Otherwise every build would compile the checkout again, which an installed package never does."""
     monkeypatch.setenv("PYTHONDONTWRITEBYTECODE", "1")
     bench = Bench(SAMPLE, tmp_path, ("typst",))
     measure.run((sys.executable, "-c", "import reportgen.base.errors"), tmp_path, bench.installed())

@@ -1,4 +1,4 @@
-"""The documents keep their word: commands run as shown, files work as printed, names exist."""
+"""The documentation is correct: commands run as shown, files work as printed, names exist."""
 
 from __future__ import annotations
 
@@ -30,16 +30,16 @@ from tests.lanes import matrix, proof
 
 ROOT = Path(__file__).parent.parent
 PAGES = ("README.md", "README.vi.md", *sorted(f"docs/{page.name}" for page in (ROOT / "docs").glob("*.md")))
-"""For users: each is read, and its commands are run, by itself."""
+"""Pages for users; each is read, and its commands are run, separately."""
 
 TELLING = ("README.md",)
-"""The page whose commands `make test` runs."""
+"""Pages whose commands `make test` runs."""
 
 DOCUMENTS = (*PAGES, "CONTRIBUTING.md", "ARCHITECTURE.md", "CHANGELOG.md")
 LARGEST_PICTURE = 150_000
-"""Bytes: a page that loads at once, also over a slow line."""
+"""Largest size (bytes) of a picture, so that a page loads quickly over a slow connection."""
 LARGEST_MOVING = 1_000_000
-"""The same of a picture that moves."""
+"""Largest size (bytes) of a moving picture."""
 
 _FENCE = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 _FILE = re.compile(r"`([\w./-]+\.\w+)`[^`\n]*:\n\n```\w+\n(.*?)^```$", re.MULTILINE | re.DOTALL)
@@ -55,7 +55,7 @@ def fences(document: str, language: str) -> list[str]:
 
 
 def section(text: str, heading: str) -> str:
-    """What stands between a heading and the next one of any level; one in a block of code is none."""
+    """Return the text between a heading and the next one of any level, ignoring headings in code blocks."""
     found = re.search(rf"^{re.escape(heading)}\n((?:^```.*?^```$|.)*?)(?=^##+ |\Z)", text, re.MULTILINE | re.DOTALL)
     assert found, heading
     return found[1]
@@ -63,7 +63,7 @@ def section(text: str, heading: str) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Command:
-    """A line of a console block and what it is said to print."""
+    """A line of a console block and its shown output."""
 
     line: str
     output: tuple[str, ...]
@@ -74,7 +74,7 @@ class Command:
 
     @property
     def runnable(self) -> str:
-        """Make only says what it would do: it would install and run all this again."""
+        """The command to run; make only does a dry run, because it would install and run everything again."""
         return self.line.replace("make ", "make -n ", 1) if self.is_make else self.line
 
     @property
@@ -92,7 +92,7 @@ def commands(document: str) -> Iterator[Command]:
 
 
 def agrees(shown: Sequence[str], printed: Sequence[str]) -> bool:
-    """Whether the lines are those printed; `…` stands for any text, alone on its line for any lines.
+    """Return True if the lines match the output; `…` stands for any text, or for any lines if alone on its line.
 
     Columns may be wider or narrower: blanks between words count as two.
     """
@@ -108,7 +108,7 @@ def agrees(shown: Sequence[str], printed: Sequence[str]) -> bool:
 
 
 def run(lines: Sequence[str], place: Path) -> list[tuple[list[str], int]]:
-    """What each command prints in one shell that knows `reportgen` and `python`, and how it ends.
+    """Return each command's output in one shell that knows `reportgen` and `python`, and its exit code.
 
     `$?` passes from one to the next.
     """
@@ -142,7 +142,7 @@ def run(lines: Sequence[str], place: Path) -> list[tuple[list[str], int]]:
 
 
 def copy_of_repository(place: Path) -> Path:
-    """The package as it is compiled here, too: each command is a process that would compile it anew."""
+    """Copy the package with its compiled files, since each command is a process that would compile it again."""
     for name in ("reportgen", "templates", "assignments"):
         # What another process is about to write has a name that will be gone.
         shutil.copytree(ROOT / name, place / name, ignore=shutil.ignore_patterns("*.pyc.*"))
@@ -153,7 +153,7 @@ def copy_of_repository(place: Path) -> Path:
 
 
 def follow(document: str, place: Path) -> list[str]:
-    """Write the files a document prints, run its commands in order; gives what differs from the document."""
+    """Write the files that a document prints and run its commands in order; return the differences."""
     for name, content in _FILE.findall(text_of(document)):
         file = place / name
         assert not file.exists(), f"{name} is there already"
@@ -169,7 +169,7 @@ def follow(document: str, place: Path) -> list[str]:
 
 
 def lint(place: Path, *files: str) -> str:
-    """What the style and the types of `make lint` have against new or changed files, "" for nothing."""
+    """Return the style and type errors of `make lint` for new or changed files, "" if there are none."""
     if (known := ROOT / ".mypy_cache").is_dir():
         # Where types were checked before, only these files are new.
         shutil.copytree(known, place / known.name, dirs_exist_ok=True)
@@ -231,7 +231,7 @@ for language in ("en", "vi"):
     words = load_words(search_path(language))
     print(words["mistakes"]["cosine-for-sine"], words["mistake_names"]["cosine-for-sine"], sep=": ")
 """
-"""Students of the tests take the cosine for the sine wherever it shows: what marking calls that."""
+"""Names in the marking for the mistake of the test students, who use the cosine for the sine wherever it shows."""
 
 
 @proof
@@ -317,7 +317,7 @@ found["off"] = float(by_positions["wear.h.12"].real[0] / scheme.ledger["wear.h.1
 found["positions"] = first_errors(scheme, by_positions)
 print(json.dumps(found))
 """
-"""What the reports, the key, the results and the marks say of the wear of pins."""
+"""Lines about the wear of pins in the reports, the key, the results and the marks."""
 
 
 @proof
@@ -362,7 +362,7 @@ def test_a_topic_added_as_described_is_in_all_that_is_made(tmp_path: Path) -> No
 
 
 def _pressures_follow_the_reactions(results: Any, dense: Any) -> None:
-    """p = R/(2rb) at each position, and h = k · 2π/ω₁ times the mean of p·v by the rectangle rule."""
+    """Check p = R/(2rb) at each position, and h = k · 2π/ω₁ times the mean of p·v by the rectangle rule."""
     pins = {"01": (0.020, 0.040), "12": (0.015, 0.030)}
     for entry in results["positions"]:
         for joint, (r, b) in pins.items():
@@ -385,7 +385,7 @@ def _pressures_follow_the_reactions(results: Any, dense: Any) -> None:
     ],
 )
 def test_what_is_added_has_the_files_that_the_table_says(what: str, document: str, heading: str, count: int) -> None:
-    """So many of its own, all that the page prints, and no file that was there before names it."""
+    """The page has the stated number of files, prints them all, and no existing file mentions them."""
     (row,) = (line for line in text_of("CONTRIBUTING.md").splitlines() if line.startswith(what))
     _, _, new, changed, _ = row.split("|")
     files = re.findall(r"`([\w/.-]+)`", new)
@@ -452,7 +452,7 @@ def test_the_readme_begins_with_the_two_commands_and_a_page() -> None:
 
 
 def test_the_readme_is_read_in_five_minutes() -> None:
-    """Between 900 and 1200 words, with three pictures; the table of speed has what was measured, in six rows."""
+    """It has 900 to 1200 words and three pictures; the table of speed has the measured values, in six rows."""
     text = text_of("README.md")
     assert 900 <= len(text.split()) <= 1200
     assert text.count("![") == 3
@@ -481,7 +481,7 @@ def test_every_machine_is_shown_and_all_its_keys_are_explained() -> None:
 
 
 def test_tables_of_keys_are_written_of_the_words() -> None:
-    """`make pictures` has written them: nothing is said twice."""
+    """`make pictures` has written them, so nothing is written twice."""
     spec = importlib.util.spec_from_file_location("keys", ROOT / "docs" / "keys.py")
     assert spec is not None
     assert spec.loader is not None

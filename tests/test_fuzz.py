@@ -1,4 +1,4 @@
-"""Hundreds of spoilt files of each kind, title blocks and templates among them: results or located faults."""
+"""Hundreds of spoilt files of each kind, including templates and title blocks, give results or located faults."""
 
 from __future__ import annotations
 
@@ -20,15 +20,15 @@ CASES, PARTS, SEED = 600, 6, 16
 @pytest.mark.parametrize("part", range(PARTS))
 @pytest.mark.filterwarnings("ignore::RuntimeWarning")
 def test_spoilt_files_come_to_results_or_faults(tmp_path: Path, part: int) -> None:
-    """No traceback, no nan in results, both torques the same to nine figures."""
+    """There is no traceback, no nan in results, and both torques agree to nine figures."""
     outcomes = [fuzz.attempt(number, SEED, tmp_path) for number in range(part, CASES, PARTS)]
     assert [(one.number, one.kind, one.wrong) for one in outcomes if one.wrong] == []
-    # Both ends are met, or the test would see little.
+    # Both outcomes must occur, or the test would check little.
     assert {"right", "fault"} <= {one.came_to for one in outcomes}
 
 
 def test_what_is_done_outside_is_heard(tmp_path: Path) -> None:
-    """A file written beside the folder, one read that nobody may see, a command: each is told of its file."""
+    """A file written outside the folder, a forbidden read, and a command are each reported with their file."""
     (tmp_path / "in").mkdir()
 
     def reaching(number: int, chance: random.Random, folder: Path) -> None:

@@ -1,4 +1,4 @@
-"""What the figures of the house count, on a little house."""
+"""The figures of the package structure, measured on a small package."""
 
 from __future__ import annotations
 

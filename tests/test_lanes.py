@@ -1,4 +1,4 @@
-"""What is left to `make proof` is what somebody meant to leave to it."""
+"""Only cases that are meant for `make proof` are left to it."""
 
 from __future__ import annotations
 

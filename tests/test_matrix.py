@@ -1,4 +1,4 @@
-"""Every kind and every sample coursework answers every command; see `tests/matrix.py`."""
+"""Every kind and every sample coursework works with every command; see `tests/matrix.py`."""
 
 from __future__ import annotations
 
@@ -20,18 +20,18 @@ CASES = list(matrix.cases())
 BRIEF = [case for case in CASES if case[2] == matrix.OWN]
 COMMANDS = {command.__name__ for command in matrix.COMMANDS}
 WITH_ALL = ("shaper", "cam")
-"""A machine and a kind of work that is none: in the first lane with all commands."""
+"""A machine and a kind that is not a machine: tested with all commands in the first lane."""
 SOON = {"build", "compare", "edit"}
-"""What each kind answers there: between them they make the report, the key, a sheet, its marks and the form."""
+"""Commands that each kind runs there: together they make the report, the key, a sheet, its marks and the form."""
 WHOLE = {("whole-shaper-whole", command) for command in ("check", "solve_json", "compare")}
-"""What a coursework with a part of each kind answers there."""
+"""Commands that a coursework with a part of each kind runs there."""
 TELLING = [
     case for case in BRIEF if case[0] in WITH_ALL or case[:2] in WHOLE or (case[0] in kinds() and case[1] in SOON)
 ]
 
 
 def named(case: tuple[str, ...]) -> str:
-    """A case by its file, so that those of one file are run by one process."""
+    """Return the file of a case, so that the cases of one file are run by one process."""
     subject, *others = filter(None, case)
     return "-".join((matrix.subjects()[subject].stem, *others))
 
@@ -44,7 +44,7 @@ def one_case() -> Iterator[None]:
 
 @pytest.fixture(scope="module")
 def folders(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Path]:
-    """The folder of each subject in the first lane: its case is that of a file in one place."""
+    """Return the folder of each subject in the first lane, because cases are cached by path."""
     return cache(lambda subject: tmp_path_factory.mktemp(subject))
 
 
@@ -66,7 +66,7 @@ def test_every_command_answers(
 
 
 def test_a_kind_enters_by_being_there() -> None:
-    """Each kind has a few commands in the first lane and each command a kind; the second has all of both."""
+    """Each kind has some commands in the first lane and each command a kind; the second lane has all of both."""
     told = {case[:2] for case in TELLING}
     assert told >= {(kind, command) for kind in kinds() for command in SOON}
     assert told >= {(kind, command) for kind in WITH_ALL for command in COMMANDS}

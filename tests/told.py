@@ -1,4 +1,4 @@
-"""The words of a document as plain text: a line a paragraph, a line a row of a table with its cells apart."""
+"""Convert a document into plain text: one line per paragraph or table row, with cells separated."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from reportgen.formula import plain
 
 
 def told(document: Document) -> str:
-    """All that a document says but for its figures."""
+    """Return the text of a document without its figures."""
     return "\n".join(_lines(document.blocks, document.language))
 
 
@@ -51,7 +51,7 @@ def _cell(cell: Cell, language: Language) -> str:
 
 
 def said(inlines: Iterable[Inline], language: Language) -> str:
-    """The text of inlines, formulas in a line."""
+    """Return the text of inlines, with formulas in one line."""
     parts = []
     for inline in inlines:
         match inline:

@@ -166,7 +166,7 @@ class _Judge:
         return first[long] % count, second[long] % count
 
     def by_chance(self, taken: Collection[int], left: int) -> float:
-        """Return the logarithm of the number of possible placements: free pairs of lines that meet, times plans left."""
+        """Return the logarithm of the number of possible placements: free pairs of meeting lines, times plans left."""
         free = np.zeros(len(self.lines.ends), dtype=bool)
         free[self.lines.without(taken)] = True
         first, second = self._long

@@ -20,7 +20,7 @@ FEWEST = 3
 """Smallest number of values that must distinguish the two positions."""
 
 MOST, NEARLY_ALL = 0.5, 0.9
-"""Required shares: values of the other position (more than), and values right or following after the exchange (at least)."""
+"""Required shares: more than this of the other position's values; at least this right or following when exchanged."""
 
 APART = 3.0
 """Number of tolerances by which the key's values must differ for a value to distinguish two positions."""

@@ -39,7 +39,7 @@ FRAME = r"\vrule width\heavyrulewidth"
 LEADING = 1.2
 """Distance of lines, in font sizes."""
 STOREYS, LONG, SHORT = 42, 28, 18
-"""Heights (mm) of words with a vector equation in two storeys, with one in one or a list's start, or with other rows."""
+"""Heights (mm) of words with a vector equation in two storeys, with one in one or a list's start, or with others."""
 ONE_STOREY = 6
 """Largest number of vectors in one storey."""
 CHARACTERS, TEXT_LINE = 85, 5.0
