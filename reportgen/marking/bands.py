@@ -244,8 +244,8 @@ def _on_paper(ledger: Ledger, id: str) -> Family:
 
 # --- integrals as they are worked out on paper -----------------------------------------------------
 # Integrals over the cycle by the trapezoid rule, from the positions alone.
-# The report integrates continuously. With some ten positions a student cannot, so the difference belongs to the
-# tolerance; where it is large, the quantity cannot be worked out from the positions and is not asked for.
+# The report integrates continuously. A student with about ten positions cannot, so the difference is part of the
+# tolerance. If it is large, the quantity cannot be computed from the positions and is not asked for.
 
 LARGE = 0.1
 """Largest error of the rule, as a share of a quantity's largest value."""

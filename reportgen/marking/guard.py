@@ -385,10 +385,10 @@ def _tail(chances: Sequence[float], met: int) -> float:
 
 
 # --- right values that the student's own do not give ----------------------------------------------
-# Nothing is taken for them, but both sides should know.
-# The drawing's tolerance is wide: a reaction may be right within ± 180 N, and yet not be the student's own length
-# times the own scale. What is worked out from values that all stand on the sheet can be held against them more
-# closely, and so can what is measured on a force plan of which all forces do.
+# No marks are deducted for them, but student and instructor should know.
+# The drawing's tolerance is wide: a reaction may be right within ± 180 N, and yet differ from the student's own length
+# times the own scale. A value computed from values on the sheet can be compared with them more closely. So can a
+# length measured on a force plan all of whose forces are on the sheet.
 
 ROOM = 2.0
 """Largest multiple of the rounding of all written values by which a value may differ from the computed one."""

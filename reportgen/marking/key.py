@@ -171,8 +171,8 @@ def is_open(values: np.ndarray, sense: str) -> bool:
 
 
 # --- what an answer sheet asks for ----------------------------------------------------------------
-# All that can be worked out, or a choice of it by sections and ids.
-# The key holds every quantity in any case; a choice only takes away cells to be filled in.
+# Everything that can be computed, or a selection of it by sections and ids.
+# The key always has every quantity; a selection only removes cells to be filled in.
 
 NOT = "-"
 """Prefix of a pattern that excludes rows."""

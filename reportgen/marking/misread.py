@@ -120,9 +120,9 @@ def _crossings(working: Working, id: str, places: Sequence[Place]) -> Iterator[t
 
 
 # --- behind single values -------------------------------------------------------------------------
-# A datum is sought by working backwards: the ledger is evaluated with many values of it at once, and the one
-# that meets the student's value counts if it is a number that somebody would have given: as round as the
-# right one.  A slip of arithmetic could otherwise nearly always be put down to some datum.
+# A datum is inferred backwards: the ledger is evaluated with many values of it at once. The one that gives the
+# student's value counts if it is a plausible given number, as round as the right one. Otherwise some datum could
+# explain almost any slip of arithmetic.
 
 
 @dataclass(frozen=True, slots=True)
@@ -308,9 +308,9 @@ def _fixed(values: np.ndarray) -> ChangeValue:
 
 
 # --- mistakes in drawing a plan -------------------------------------------------------------------
-# One vector reversed or left out moves every point behind it.
-# Nothing that the sheet shows holds such a mistake, and no value read from the plan stands on another one; so it is
-# sought in all values at once that are read there, and counts if it explains nearly all of them.
+# A reversed or omitted vector moves every point after it.
+# No value on the sheet shows such a mistake directly, and no value read from the plan depends on another one. So all
+# values read there are searched together, and a mistake counts if it explains nearly all of them.
 
 FEWEST_READ = 2
 """Smallest number of readings that must agree; one value alone may have been read wrongly."""

@@ -263,8 +263,8 @@ OF_WRITING = frozenset({"thousands-mark", "sign-reversed"})
 
 
 # --- slips of writing -----------------------------------------------------------------------------
-# Too few figures, a value in another cell, angles by another convention: nothing was worked out wrongly, so
-# they are found on the sheet alone, before mistakes of working are sought.
+# Too few figures, a value in another cell, angles by another convention: no calculation was wrong, so these slips
+# are found on the sheet alone, before mistakes in calculations are searched for.
 
 
 def slips_of_writing(working: Working, cells: Cells) -> dict[Place, Mistake]:
@@ -361,8 +361,8 @@ def _is_measured(cell: Marked, factor: float, summand: float) -> bool:
 
 # --- mistakes of working --------------------------------------------------------------------------
 # A mistake may have been made in the wrong quantity itself, or in one before it that the sheet does not show.
-# All of them are evaluated at once, [mistakes, positions]; the one that meets most of the wrong values of a
-# quantity, and meets them best, gives its name.
+# All of them are evaluated at once, [mistakes, positions]. The one that matches most of the wrong values of a
+# quantity, and matches them best, gives its name.
 
 
 def mistakes_of_working(working: Working, cells: Cells) -> dict[Place, Mistake]:

@@ -147,7 +147,7 @@ class _PolicyFile(Part):
 
 
 def read_policy(path: Path, language: Language | None = None) -> Policy:
-    """The policy of a YAML file; raises `AssignmentError` with all its faults, located.
+    """Return the policy of a YAML file; raise `AssignmentError` with all its faults, located.
 
     ask: ["*", "-seg.*"]     # sections and ids of the answer sheet; "-" leaves out, the last that fits decides
     by_section: false        # each section of the printed sheet on pages of its own
@@ -161,12 +161,12 @@ def read_policy(path: Path, language: Language | None = None) -> Policy:
       "seg.*": 0.5
       "M.eq": 5
     mark: {highest: 10, step: 0.1}
-    guard: true              # sheets that are not the student's own work are told
-    take:                    # by kind of what is told: whether it costs marks
+    guard: true              # report sheets that are not the student's own work
+    take:                    # whether each kind of finding costs marks
       other-data: false
     overrule:                # sheets that keep their marks, and why
       K225520103023: has shown the drawings
-    show_answers: true       # the feedback tells the right values
+    show_answers: true       # the feedback shows the right values
     parts:                   # what each part of a coursework counts; else as many points as values are asked for
       machine: 6
       cam: 4

@@ -179,10 +179,10 @@ def _answer_page(key: Key, name: str, note: str, by_section: bool) -> BookSheet:
 
 
 # --- a student's file → `Submission`: the sheet found by its words --------------------------------
-# Its values by quantity and position.
-# Rows and columns may have been moved, sorted or left out: a value's place is given by the id at the head of its row
-# and the label at the head of its column, in either language. Numbers may be written as students write them: with a
-# decimal comma or point, thousands apart, powers of ten, a unit behind.
+# Its values are read by quantity and position.
+# Rows and columns may have been moved, sorted or removed: a value's place is given by the id at the head of its row
+# and the label at the head of its column, in either language. Numbers may have a decimal comma or point, separated
+# thousands, powers of ten, or a unit.
 
 
 UNSETTLED = "?"

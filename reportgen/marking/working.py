@@ -285,8 +285,8 @@ def _column(scheme: MarkingScheme, row: KeyRow, submission: Submission) -> np.nd
 
 
 # --- at which scale a student drew a plan ---------------------------------------------------------
-# What was read from it tells, a scale written down, or the report's.
-# A length stands for a quantity at a scale that is the student's own choice; only sizes over lengths can be judged.
+# The scale follows from the values read from the plan, or is a written one, or the report's.
+# A length represents a quantity at a scale of the student's choice; only ratios of sizes to lengths can be judged.
 
 FURTHEST = 5.0
 """Factor from the report's scale beyond which a scale without lengths on the sheet is a slip in its unit."""
