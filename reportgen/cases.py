@@ -145,7 +145,7 @@ class MachineCase(MachineAnalysis):
 
     @property
     def driver_motion(self) -> DriverMotion:
-        """The motion of the driver; sliders on the frame are signed as in the report's curves."""
+        """The driver's motion; sliders on the frame have signed velocities and accelerations, as in the curves."""
 
         machine, points = self.analysis.machine, self.analysis.motion.points
         signed = {

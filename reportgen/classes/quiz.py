@@ -93,7 +93,7 @@ class _QuestionBlocks(Blocks):
         """The figures written so far as PNG, by the names that the text uses."""
 
     def given(self) -> str:
-        """Return the blocks of the document; empty elements are closed, and braces are escaped."""
+        """Return the blocks with empty elements closed, and with braces escaped, which would open an answer."""
         written = self.write(self._blocks)
         written = _ANCHOR.sub("", written).replace("<br>", "<br/>").replace("<wbr>", "<wbr/>")
         return written.replace("{", "&#123;").replace("}", "&#125;")

@@ -158,7 +158,7 @@ def _by_corners(shape: PlanShape, lines: Lines) -> tuple[np.ndarray, np.ndarray]
 
 
 def _meeting(shape: PlanShape) -> Iterator[tuple[complex, complex, complex]]:
-    """Yield each corner at which two vectors meet, and both vectors from it, the longer one first."""
+    """Yield each corner where two vectors meet, and both from it, the longer one first; collinear ones too."""
     touching: dict[int, list[complex]] = {}
     for vector in shape.vectors:
         start, end = complex(shape.corners[vector.start]), complex(shape.corners[vector.end])

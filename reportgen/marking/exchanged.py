@@ -20,7 +20,10 @@ FEWEST = 3
 """Smallest number of values that must distinguish the two positions."""
 
 MOST, NEARLY_ALL = 0.5, 0.9
-"""Required shares: more than this of the other position's values; at least this right or following when exchanged."""
+"""Required shares of the distinguishing values.
+
+More than `MOST` must equal the other position's; at least `NEARLY_ALL` must be right or follow after the exchange.
+"""
 
 APART = 3.0
 """Number of tolerances by which the key's values must differ for a value to distinguish two positions."""

@@ -58,7 +58,7 @@ CHANCE = 3e-4
 """Largest probability that an honest sheet is reported as copied; the test suite checks it to 1 in 1000."""
 
 NEAR, FAR = 0.3, 0.02
-"""Probabilities that a value equals a classmate's: for a value right within the drawing's tolerance; for a wrong one.
+"""Probabilities that a value equals a classmate's in all figures: right within the drawing's tolerance, or wrong.
 
 A length of 0.1 mm read to ± 0.3 mm equals another reading of it in one case of four. A wrong value may be any of about
 a hundred three-figure numbers nearby.

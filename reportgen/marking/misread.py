@@ -54,7 +54,7 @@ def misread_by_many(working: Working, cells: Cells) -> dict[Place, Mistake]:
 
 
 def _worked_out(working: Working, places: Sequence[Place]) -> Iterator[Mistake]:
-    """Yield named mistakes in unseen quantities before several of the places; they precede misread data."""
+    """Yield named mistakes in unseen quantities before several places; at equal counts they precede misread data."""
     scheme = working.scheme
     before = Counter(id for place in places for id in scheme.before[place[0]])
     for id in scheme.ledger.families:

@@ -265,7 +265,7 @@ def _says(cell: SheetCell, name: str) -> bool:
 
 
 def _sheets(pages: Sequence[Page]) -> list[tuple[Page, int]]:
-    """Return the answer pages with the indices of their head rows, the page with that name first."""
+    """Return the answer pages with the indices of their head rows: the so-named page first, then all with a head."""
     answers: dict[int, tuple[Page, int]] = {}
     called = [page for page in pages if page.name.strip().casefold() in _words("answers")]
     for page in (*called, *pages):

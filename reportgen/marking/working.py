@@ -180,7 +180,7 @@ class Working:
         return tuple(dict.fromkeys([*judged, *sizes, *self.values, *self.readings]))
 
     def entered_values(self, id: str, computed: np.ndarray, blank: np.ndarray) -> np.ndarray:
-        """Return a student's values (SI) [N], `blank` where missing, with the computed sign if it is not judged."""
+        """Return a student's values (SI) [N], `blank` where missing; an unjudged sign is the computed one."""
         if id in self.readings:
             reading = self.readings[id]
             return computed if reading.own else np.full(self.scheme.ledger[id].values.shape, reading.value)

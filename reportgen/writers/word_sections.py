@@ -59,7 +59,7 @@ def broken(blocks: Sequence[tree.Block]) -> Sequence[tree.Block]:
 
 
 def places(blocks: Sequence[tree.Block]) -> Iterator[tuple[str, Bookmark]]:
-    """Yield the target of the references to each key; a numbered heading is shown by its number."""
+    """Yield the target of the references to each key; a numbered heading shows its number, others the marked text."""
     for index, block in enumerate(_walk(blocks), start=1):
         if key := getattr(block, "key", ""):
             numbered = isinstance(block, tree.Section) and block.number and block.level <= CONTENTS_LEVEL

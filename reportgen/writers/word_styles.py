@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from jinja2 import Environment
 
 EQUATION_SIZE, KNOWN_SIZE = 12.0, 9.5
-"""Font sizes (points) of displayed formulas and of known data of vectors below them."""
+"""Font sizes (points) of displayed formulas, in which their lines are measured, and of known data of vectors below."""
 HEADINGS, BULLETS = 1, 2
 """Ids of the lists of headings and of unordered lists; ordered lists follow, one id each."""
 LIST_INDENT = 8.0
@@ -68,7 +68,7 @@ def numbering(starts: Sequence[tuple[int, int]]) -> str:
 
 
 def settings(language: Language) -> str:
-    """Return the part of settings: compatibility with Word 2013, the font of formulas, the language's marks."""
+    """Return the part of settings: compatibility with Word 2013 and later, the formula font, the language's marks."""
     own = setting_of(language)
     return _part("settings", code=own.code, decimal=own.decimal, separator=own.separator)
 
