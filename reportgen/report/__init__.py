@@ -1,5 +1,5 @@
-"""The report of a machine: what its templates can name, its equations, figures and tables.
+"""Build the report of a machine: names for its templates, equations, figures and tables.
 
-`outline.compose` makes the document.  `reportgen.document` has the tree that it returns and the rendering of templates,
-`reportgen.case` the data that it shows.
+`outline.compose` makes the document.  `reportgen.document` has the tree that it returns and renders the templates;
+`reportgen.case` has the data that the report shows.
 """

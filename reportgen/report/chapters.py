@@ -1,4 +1,4 @@
-"""What single chapters name: the lines that they set out, and the keys of the words that fit."""
+"""Functions that single chapters of a report name: their worked lines, and the keys of the matching words."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from reportgen.machine.loads import Applied
 from reportgen.report.report import Report
 
 UNIFORM = Number(12.0)
-"""What m l² of a uniform rod is divided by."""
+"""Divisor of m l² in the moment of inertia of a uniform rod."""
 
 
 def variant_words(report: Report) -> str:
@@ -27,7 +27,7 @@ def attached(report: Report) -> str:
 
 
 def signature(report: Report) -> tuple[Block, ...]:
-    """Place, date and name under the foreword; without a name the label stands over a line to sign."""
+    """Return place, date and name below the foreword; without a name, the label is above a line to sign."""
     student = f"{report.words['cover']['student']}: {report.assignment.report.student.name or '…' * 20}"
     return tuple(Paragraph((Text(line),), "right") for line in (report.place_and_date, student))
 
@@ -38,12 +38,12 @@ def started(report: Report) -> str:
 
 
 def begins_at(report: Report) -> str:
-    """Where the first position is: at the "dead_centre" of the first slider, or wherever it is "given"."""
+    """Return where the first position is: "dead_centre" (of the first slider) or "given"."""
     return "dead_centre" if report.machine.sliders and report.machine.sliders[0].phase == 0 else "given"
 
 
 def has_chosen_scale(report: Report) -> bool:
-    """Whether the length scale is chosen, rather than a drawn length."""
+    """Return True if the length scale is chosen, rather than a drawn length."""
     return "scale" in report.ledger
 
 
@@ -111,12 +111,12 @@ def crank_lines(report: Report) -> list[str]:
 
 
 def shares_pins(report: Report) -> bool:
-    """Whether several groups hang on one pin of the crank."""
+    """Return True if several groups are joined to the same pin of the crank."""
     return len(report.joined) > len(report.crank_pins)
 
 
 def lever_couples(report: Report) -> list[str]:
-    """What torques, which have no arm, contribute to the balance by virtual work."""
+    """Return the ids of the moments of torques, which have no arm, in the balance by virtual work."""
     return report.known(ids.lever_moment(torque.name) for torque in report.machine.torques)
 
 
@@ -132,7 +132,7 @@ def images(report: Report) -> Inlines:
 
 
 def theory_of(report: Report, what: str) -> list[str]:
-    """The parts of the theory that the plans of velocities ("v") or accelerations ("a") of this report stand on."""
+    """Return the parts of the theory that this report's plans of velocities ("v") or accelerations ("a") use."""
     points = [place for place in report.machine.linkage.points if place.link != DRIVER]
     if what == "v":
         return report.parts("theory-two-equations") if any(abs(place.local.imag) > 0 for place in points) else []

@@ -1,4 +1,4 @@
-"""What a table shows, for the sentences after it: where a quantity is greatest, where it is zero, and why.
+"""Remarks after a table: where a quantity is greatest, where it is zero, and why.
 
 Everything is read from the numbers as they are printed, so that a sentence and its table cannot disagree.
 """
@@ -49,17 +49,19 @@ class Peak:
 
     @property
     def place(self) -> str:
-        """Where it is greatest, with a space before the words; "" where it is the same everywhere."""
+        """Return where it is greatest, with a space before the words; "" if it is the same everywhere."""
         return "" if self.level else f" {self.where}"
 
 
 def worked_at(report: Report) -> str:
-    """Where a report works all out in full."""
+    """Return the positions that the report works out in full, in words."""
     return where(report, report.assignment.worked_positions)
 
 
 def reactions_at(report: Report) -> str | Inlines:
-    """Where a report finds the reactions: all over the cycle, at its instants, or where it works all out in full."""
+    """Return where the report finds the reactions: over the cycle, at its instants, or at the positions worked in
+    full.
+    """
     if report.instants:
         return at_positions(report)
     everywhere = str(report.words["reactions_at"]).format(count=report.cycle_count)
@@ -93,7 +95,7 @@ def where(report: Report, positions: Sequence[int]) -> str:
 
 
 def peak(report: Report, id: str, positions: Sequence[int]) -> Peak | None:
-    """How a quantity goes over positions; None where it is nothing at all of them."""
+    """Return the peak and the zeros of a quantity over positions; None if it is zero at all of them."""
     values = shown(report, id, positions)
     sizes = np.abs(values)
     if not np.nanmax(sizes, initial=0.0) > 0:
@@ -120,7 +122,9 @@ def peak(report: Report, id: str, positions: Sequence[int]) -> Peak | None:
 
 
 def peaks(report: Report, quantities: Iterable[str], cycle: bool = False) -> list[Peak]:
-    """How quantities go over one turn, or over the cycle, those that go alike together; nothing is left out."""
+    """Return the peaks of quantities over one turn, or over the cycle; equal courses are joined, zero ones are left
+    out.
+    """
     positions = report.all_positions if cycle else report.positions
     alike: dict[tuple[object, ...], list[Peak]] = {}
     for extreme in each_peak(report, quantities, positions):
@@ -129,7 +133,7 @@ def peaks(report: Report, quantities: Iterable[str], cycle: bool = False) -> lis
 
 
 def each_peak(report: Report, quantities: Iterable[str], positions: Sequence[int]) -> list[Peak]:
-    """How each quantity goes over positions; those that are nothing are left out."""
+    """Return the peak of each quantity over positions; quantities that are zero everywhere are left out."""
     peaks_found = (peak(report, id, positions) for id in report.known(quantities))
     return [one for one in peaks_found if one is not None]
 
@@ -155,7 +159,7 @@ class GuidedLink:
 
 
 def sliders(report: Report) -> tuple[GuidedLink, ...]:
-    """What slides along fixed guides, a sliding driver apart."""
+    """Return the links that slide along fixed guides, except a sliding driver."""
     slides = report.analysis.motion.slides
     both = ((link, group.Q) for group in report.groups for link in (group.i, group.j))
     return tuple(GuidedLink(link, pin) for link, pin in both if (GROUND, link) in slides)
@@ -180,7 +184,7 @@ def turning_rates(report: Report, what: str) -> list[str]:
 
 
 def reverses(report: Report, rate: Peak) -> bool:
-    """Whether a slider runs the other way after each position at which its velocity is zero."""
+    """Return True if a slider reverses after each position at which its velocity is zero."""
     return all(_reverses(report, slider.link) for slider in sliders(report) if ids.velocity(slider.pin) in rate.ids)
 
 
@@ -191,7 +195,7 @@ def _reverses(report: Report, link: int) -> bool:
 
 
 def at_rest(report: Report, rate: Peak) -> bool:
-    """Whether the point whose acceleration this is stands still wherever the acceleration is greatest."""
+    """Return True if the point with this acceleration is at rest wherever the acceleration is greatest."""
     velocities = [ids.velocity(found["point"]) for id in rate.ids if (found := ids.acceleration.read(id))]
     return all(bool(np.all(shown(report, id, rate.places) == 0)) for id in velocities)
 
@@ -217,7 +221,7 @@ def reaction_ids(report: Report) -> list[str]:
 
 
 def greatest(report: Report, quantities: Iterable[str]) -> list[Peak]:
-    """Which of the quantities take the greatest value of all over the cycle, and where."""
+    """Return the quantities that take the greatest value of all over the cycle, and where."""
     every = peaks(report, quantities, True)
     top = max((one.value.number.shown for one in every), default=0.0)
     return [one for one in every if one.value.number.shown == top]
@@ -249,7 +253,7 @@ class TorqueSigns:
     against: tuple[int, ...]
     none: tuple[int, ...]
     mean: str
-    """What the machine does with energy over the cycle: "taken", "given", or "even"."""
+    """Direction of the machine's mean energy over the cycle: "taken", "given", or "even"."""
 
 
 def balance_course(report: Report) -> TorqueSigns:
@@ -263,7 +267,7 @@ def balance_course(report: Report) -> TorqueSigns:
 
 
 def balance_senses(report: Report) -> list[Inlines]:
-    """What the balancing torque does to the motion, and at which positions."""
+    """Return sentences on the effect of the balancing torque on the motion, with the positions of each."""
     course, words = balance_course(report), report.words["remarks"]["balance"]
     positions_by_sense = {"against": course.against, "along": course.along, "none": course.none}
     motion = report.words["driven"][report.driver.kind]["motion_of"]
@@ -283,7 +287,7 @@ def balance_gaps(report: Report, *positions: Position) -> list[Peak]:
 
 
 def balance_mean(report: Report) -> Inlines:
-    """What the mean of the balancing torque says of the energy that the machine takes in or gives out."""
+    """Return what the mean of the balancing torque implies for the energy that the machine takes in or gives out."""
     if not report.cyclic:
         return ()
     words = report.words["remarks"]["mean"]
@@ -306,9 +310,9 @@ class Remark:
 
 @dataclass(frozen=True, slots=True)
 class Subject:
-    """What remarks are about: the ids, over one turn or the whole cycle, with a word on zeros or without.
+    """Subject of remarks: ids, over one turn or the whole cycle, with or without a remark on zeros.
 
-    `why` says of which of them the words give a reason.
+    `why` selects the peaks for which the words give a reason.
     """
 
     ids: Callable[[Report], Iterable[str]]
@@ -337,7 +341,7 @@ SUBJECTS = {
 
 
 def remarks(report: Report, *subjects: str) -> list[Remark]:
-    """How the quantities of some subjects go, those that go alike together; nothing is left out."""
+    """Return remarks on the quantities of some subjects; equal courses are joined, zero ones are left out."""
     return [_remark(report, name, one) for name in subjects for one in _peaks_of(report, SUBJECTS[name])]
 
 
@@ -360,5 +364,5 @@ def main_peaks(report: Report) -> list[Peak]:
 
 
 def top_reactions(report: Report) -> list[Peak]:
-    """Which joint reactions take the greatest value of all over the cycle, and where."""
+    """Return the joint reactions that take the greatest value of all over the cycle, and where."""
     return greatest(report, reaction_ids(report))

@@ -1,4 +1,4 @@
-"""The finished report of a machine: cover, contents and the sections that the machine's outline names."""
+"""Compose the finished report of a machine: cover, contents and the sections that the machine's outline names."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from reportgen.report.template_names import names
 LISTING = "symbols"
 """The section of what all others use."""
 OWN_LETTERS = "structure"
-"""The section of the formula of mobility, whose letters are its own and told below it: its W is no work."""
+"""Section of the symbols that all others use."""
 
 
 def compose(case: MachineAnalysis) -> Document:
@@ -47,6 +47,6 @@ def compose(case: MachineAnalysis) -> Document:
 
 
 def _plate_is_last(report: Report, plate: Plate) -> Paragraph:
-    """Says where a plate stands."""
+    """Return the sentence that refers the reader to a plate."""
     paper = PAPERS.get(min(plate.paper), "")
     return Paragraph(phrases.say(report, report.words["plate"], figure=(Reference(plate.key),), paper=paper))

@@ -28,7 +28,7 @@ from reportgen.report.report import Report
 
 
 def axis(report: Report, shown: Symbol, kind: str) -> Chain:
-    """What an axis shows, as the text calls it, and its unit in parentheses."""
+    """Return the label of an axis: the symbol that the text uses, and its unit in parentheses."""
     return Chain((shown,), report.ledger.printed_unit(KINDS[kind].unit))
 
 
@@ -95,7 +95,7 @@ def _positive(report: Report, title: Chain, sense: str) -> Chain:
 
 
 def _displacements(report: Report) -> list[ShownCurve]:
-    """How far (mm) each slider is from its dead centre, the one at the far end of its guide if it has no first."""
+    """Return the distance (mm) of each slider from its first dead centre, or else from the far end of its guide."""
     courses = {course.link: course for course in report.machine.sliders}
     moved, found = report.dense_cycle.motion, []
     for slider in sliders(report):
@@ -107,14 +107,14 @@ def _displacements(report: Report) -> list[ShownCurve]:
 
 
 def _marks(report: Report) -> tuple[int, ...]:
-    """Which samples of the dense cycle are the positions that are shown."""
+    """Return the indices of the samples of the dense cycle that are the positions shown."""
     shown = report.machine.cycle_angles[[k - 1 for k in report.all_positions]]
     places = np.searchsorted(report.dense_cycle.cycle_angle, shown)
     return tuple(map(int, places))
 
 
 def _across(report: Report) -> np.ndarray:
-    """Where the samples stand: the angle turned (degrees), of a sliding driver the way gone (mm)."""
+    """Return the abscissae of the samples: the angle turned (degrees), or the way of a sliding driver (mm)."""
     angle, span = report.dense_cycle.cycle_angle, report.machine.span
     return angle * (span * MM / FULL_TURN) if span else np.degrees(angle)
 
@@ -140,7 +140,7 @@ def over_the_cycle(report: Report, curves: Sequence[ShownCurve], title: Chain, h
 
 
 def torque(report: Report) -> FigureScenes:
-    """What balances the driver: a torque over the angle of a crank, a force over the way of a slider."""
+    """Draw the balancing load: a torque over the angle of a crank, or a force over the way of a slider."""
     return FigureScenes((torque_chart(report).scene,))
 
 

@@ -1,6 +1,6 @@
-"""What templates say in symbols: quantities, worked lines, vector equations.
+"""Equations for templates: quantities, worked lines, vector equations.
 
-All functions here are called by templates under their own names; they take everything from the ledger.
+Templates call all functions here under their own names; the functions take everything from the ledger.
 """
 
 from __future__ import annotations
@@ -48,9 +48,9 @@ def symbol(report: Report, id: str) -> Symbol:
 
 
 def math(report: Report, text: str) -> Symbol:
-    """What a template writes as `$…$`: a quantity's symbol by its id, else letters with what is lowered.
+    """Return the symbol that a template writes as `$…$`: a quantity's by its id, else letters with their index.
 
-    Raises `LookupError` for what begins with no letter: a formula has nothing that an index could hang on.
+    Raises `LookupError` if the text does not begin with a letter: a formula has no base for an index.
     """
     if text in report.ledger:
         return report.ledger.symbol(text)
@@ -87,7 +87,7 @@ def directions(report: Report, what: What, position: int) -> Inlines:
 
 
 def known(report: Report, id: str) -> bool:
-    """Whether the report has a quantity."""
+    """Return True if the report has a quantity."""
     return id in report.ledger
 
 
@@ -171,7 +171,7 @@ def by_moments(report: Report, group: GroupView, position: int) -> Inlines:
 
 
 def senses(report: Report, joints: Iterable[str], position: int) -> Inlines:
-    """Where the reactions of some joints point, in words and by their angles; those that are nothing left out."""
+    """Return the directions of the reactions of some joints, in words and as angles; zero reactions are left out."""
     shown: list[Inline] = []
     for digits in joints:
         if not report.is_zero(ids.reaction(digits), position):
@@ -192,7 +192,7 @@ def slider_ways(report: Report) -> Inlines:
 
 
 def _pointing(report: Report, angle: Number) -> Inlines:
-    """Where a vector points, in words, and its angle from +x."""
+    """Return the direction of a vector in words, and its angle from +x."""
     heading = heading_words(report, angle.shown)
     before, _, after = report.words["pointing"].format(heading=heading, angle=NO_LETTER).partition(NO_LETTER)
     return Text(f" {before}"), Value(angle), Text(after)
@@ -243,7 +243,7 @@ def lines(
 
 
 def _worked(report: Report, id: str, position: int | None, note: str) -> Chain:
-    """A worked line; one that comes to zero says why instead of showing its numbers."""
+    """Return a worked line; if the result is zero, the line gives the reason instead of its numbers."""
     chain = report.ledger.chain(id, position, note)
     result = chain.parts[-1]
     if not note and isinstance(result, Number) and result.value == 0 and report.ledger[id].definition:
@@ -298,7 +298,7 @@ THEORY: Mapping[str, tuple[Expression, ...]] = {
 
 
 def theory(report: Report, name: str) -> Equation:
-    """An equation that the plans stand on."""
+    """Return an equation on which the plans are based."""
     return Equation(tuple(report.named(row) if isinstance(row, Symbol) else row for row in THEORY[name]))
 
 
@@ -367,7 +367,7 @@ def _equation(report: Report, sides: Sequence[tuple[Term, ...]], rows: str, key:
 
 
 Known = Expression | str | None
-"""What is printed below a vector; None is the mark of an unknown."""
+"""Text below a vector; None marks an unknown."""
 
 
 def _term(
@@ -389,7 +389,7 @@ def _direction(report: Report, side: Side) -> str:
 
 
 def _slide(report: Report, how: str, side: Side) -> str:
-    """What lies "along" or "across" the slide of a side; of two guides each has the number of its slider."""
+    """Return the words for "along" or "across" the slide of a side; of two guides each has the number of its slider."""
     way = str(report.words["vector"][f"{how}_{side.way}"])
     return f"{way} {side.slide}" if side.alike else way
 
@@ -433,7 +433,7 @@ def _base(report: Report, side: Side, what: str) -> Term:
 
 
 def _on_crank(report: Report, name: str) -> bool:
-    """Whether a point's velocity is computed as that of a point of the crank."""
+    """Return True if a point's velocity is computed as that of a point of the crank."""
     definition = report.ledger[ids.velocity(name)].definition
     return definition is not None and "omega.1" in refs(definition)
 

@@ -1,4 +1,4 @@
-"""What a report of each extent contains, and what it goes without."""
+"""Contents of a report of each extent, and the sections that it leaves out."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from reportgen.assignment.common import Extent
 
 OPENING: Mapping[Extent, tuple[str, ...]] = {"full": (), "short": ("contents", "foreword")}
-"""The sections that stand before all others, whatever the order of the outline."""
+"""Sections before all others, whatever the order of the outline."""
 LEFT_OUT: Mapping[Extent, frozenset[str]] = {
     "full": frozenset(),
     "short": frozenset(
@@ -50,4 +50,4 @@ OF_A_TURN = frozenset(
         *("comments/reactions", "comments/torque"),
     )
 )
-"""What is not said of single instants."""
+"""Sections that a report of single instants leaves out."""

@@ -1,7 +1,7 @@
-"""Figures: their scale and looks; then those of the mechanism.
+"""Figures of the mechanism, and the scale and looks of all figures.
 
-A figure is a function of a report and of what it shows; its name in templates stands in the namespace.  Those
-of the mechanism are its scheme, groups and positions, the gas beside the cylinder, Coriolis acceleration.
+A figure is a function of a report and of what it shows; the namespace gives its name in templates.  The figures
+here are the scheme, groups and positions, the gas beside the cylinder, and the Coriolis acceleration.
 """
 
 from __future__ import annotations
@@ -50,9 +50,9 @@ HALF_PAGE = 100.0
 """The height (mm) up to which a figure leaves about half a page to the text."""
 REDUCTIONS = tuple(1.0 / step for step in (1, 2, 2.5, 4, 5, 6, 10, 20, 25, 40, 50, 100, 1000))
 SMALLER = (1.0, 2.0, 2.5, 4.0, 5.0)
-"""How many times smaller than to the scales of the text a plan may be shown."""
+"""Factors by which a plan may be smaller than to the scales of the text."""
 LEGIBLE = 0.4
-"""Of the scheme's size: groups drawn smaller yet would be hard to read."""
+"""Smallest size of drawn groups, as a share of the scheme's size; smaller ones would be hard to read."""
 SHOWN_AT = 1
 """The position (from 0) at which schemes are drawn: the first one away from the start."""
 
@@ -106,7 +106,7 @@ def scheme_scene(report: Report, factor: float) -> Scene:
 
 
 def groups(report: Report) -> FigureScenes:
-    """The driver and each group by itself, as large as the scheme, or smaller if they then stand in one row."""
+    """Draw the driver and each group separately, as large as the scheme, or smaller if they then fit in one row."""
     own = reduction(report)
     drawn = (_groups(report, factor) for factor in REDUCTIONS if own >= factor >= own * LEGIBLE)
     first = next(drawn)
@@ -140,10 +140,10 @@ def positions(report: Report) -> FigureScenes:
 
 
 def as_large_as_asked(report: Report, draw: Callable[[float], Scene]) -> FigureScenes:
-    """A drawing to μ_l, by which it is measured, or at the first reduction that leaves half a page to the text.
+    """Return a drawing true to μ_l, by which it is measured, or at the first reduction that fits half a page.
 
-    What no reduction brings into the text stands turned, as large as the page allows.  Where labels want more room, it
-    is the next larger one that has it.
+    If no reduction fits into the text, the drawing is turned and as large as the page allows.  If labels need more
+    room, the next larger size is used.
     """
     if report.parts("true-size"):
         return on_paper(draw(1.0))
@@ -160,7 +160,7 @@ def as_large_as_asked(report: Report, draw: Callable[[float], Scene]) -> FigureS
 
 
 def plan_in_text(report: Report) -> bool:
-    """Whether the position plan stands in the text, on no page of its own."""
+    """Return True if the position plan is in the text, not on a separate page."""
     return positions(report).paper is None
 
 
@@ -296,7 +296,7 @@ def _free_side(machine: Machine) -> complex:
 
 
 def _in_line(first: Piston, other: Piston) -> bool:
-    """Whether a piston moves on the line of the first one, where its positions are projected from."""
+    """Return True if a piston moves on the line of the first one, where its positions are projected from."""
     return abs(((other.top - first.top) / first.inward).imag) + abs((other.inward / first.inward).imag) < SAME_ANGLE
 
 
@@ -337,7 +337,9 @@ def similarity(report: Report) -> FigureScenes:
 
 
 def centre_state(report: Report, link: PlaneLink, k: int) -> str:
-    """How a link's centre lies: "found", "shift" (it does not turn), "rest" (at its base), "near" its base, "far"."""
+    """Return where a link's centre is: "found", "shift" (no turning), "rest" (at its base), "near" its base, or
+    "far".
+    """
     ledger = report.ledger
     if ledger[link.omega].at(k) == 0:
         return "shift"
@@ -355,9 +357,9 @@ def _place(report: Report, link: PlaneLink, k: int) -> complex:
 
 
 def centres(report: Report, k: int) -> FigureScenes:
-    """The mechanism at a position, true to μ_l: normals that meet in the centres, velocities and their angles.
+    """Draw the mechanism at a position, true to μ_l: normals that meet in the centres, velocities and their angles.
 
-    Centres stand together on a sheet as far as one holds them.
+    Centres share a sheet as far as there is room.
     """
     linkage, scale, motion = report.machine.linkage, drawing_scale(report), report.analysis.motion
     angles = [_plane_motion(report, link, k) for link in report.plane_links]

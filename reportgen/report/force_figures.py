@@ -45,7 +45,7 @@ class _Bodies:
         return drawing_scale(self.report) * self.share
 
     def at(self, name: str) -> complex:
-        """Where a point stands on paper (mm)."""
+        """Return the place of a point on paper (mm)."""
         return self.report.place(name, self.k) * self.scale
 
     def scene(self, forces: Sequence[Force], extra: Canvas | None = None, **more: Any) -> Scene:
@@ -160,7 +160,7 @@ def arm_of(report: Report, id: str, k: int, about: complex) -> ArmOf:
 
 
 def true_sense(report: Report, name: str, k: int) -> complex:
-    """How a reaction is drawn on a separated link: its direction, of length 1; 0 where it is nothing."""
+    """Return the direction (length 1) in which a reaction is drawn on a separated link; 0 if the reaction is zero."""
     vector = report.ledger[ids.force_vector(name)]
     return 0j if report.is_zero(vector.of, k) else complex(vector.at(k))
 
@@ -169,9 +169,9 @@ def true_sense(report: Report, name: str, k: int) -> complex:
 
 
 def bodies(report: Report, k: int, group: GroupView) -> FigureScenes:
-    """The group with all its forces, at half size; then each link that moments are taken of, with the arms.
+    """Draw the group with all its forces at half size, then each link whose moments are taken, with the arms.
 
-    Where not all is shown twice, a group whose links both stand by themselves is not drawn as a whole.
+    A group is not drawn as a whole if both its links are drawn separately and the report shows nothing twice.
     """
     return beside_one_another(*separated(report, k, group))
 
@@ -252,7 +252,7 @@ def separated_driver(report: Report, k: int) -> Scene:
 
 
 def _of_arc(torque: Symbol, value: float) -> Expression:
-    """What stands at the arc of a torque, which shows its true sense: one with a minus acts so with its size."""
+    """Return the label at the arc of a torque: the arc shows the true sense, so a negative torque shows its size."""
     return size(torque) if value < 0 else torque
 
 
@@ -261,12 +261,14 @@ def _has_force(report: Report, load: Load, k: int) -> bool:
 
 
 def _is_torque(report: Report, load: Load) -> bool:
-    """Whether a load has no force by its nature."""
+    """Return True if a load is a torque, without a force."""
     return any(torque.name == load.name for torque in report.machine.torques)
 
 
 def _acts_at(report: Report, load: Load, k: int) -> complex:
-    """Where a load is drawn: an inertia force at the constructed point Q, else where it acts alone."""
+    """Return the place where a load is drawn: the constructed point Q for an inertia force, else its own line of
+    action.
+    """
     for body in report.couples:
         if load.name == body.force:
             return percussion.percussion(report, body, k).at

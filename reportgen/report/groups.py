@@ -1,4 +1,4 @@
-"""The moving parts of a machine as templates, tables and figures see them, with the ids of their quantities.
+"""Views of a machine's moving parts for templates, tables and figures, with the ids of their quantities.
 
 Names of points are `NamedPoint`s, which templates print as symbols.
 """
@@ -96,7 +96,7 @@ class DriverView:
 @view("base", "omega", "epsilon")
 @dataclass(frozen=True, slots=True)
 class CarriedPoint:
-    """A point of a link that turns about `origin` without a segment of its own on the plan.
+    """Point of a link that turns about `origin`; the point has no segment of its own on the plan.
 
     `relative` is its name with the origin's, e.g. S2B; `still` says whether the origin is fixed to the
     frame, `swings` whether the link has an angular acceleration.
@@ -136,7 +136,7 @@ class Contact:
     place: str
     moments: list[str]
     displaced: bool
-    """Whether other forces have a moment about the pin, so that the reaction may act beside it."""
+    """True if other forces have a moment about the pin, so that the reaction may act beside it."""
 
     @property
     def reaction(self) -> str:
@@ -144,7 +144,7 @@ class Contact:
 
     @property
     def lines(self) -> list[str]:
-        """What is worked out for the moment and for the place."""
+        """Ids of the worked lines for the moment and for the place."""
         return [*self.moments, self.place]
 
 
@@ -193,7 +193,7 @@ class GroupView:
 
     @property
     def form(self) -> str:
-        """Its kind as the words for its plans tell them apart: the guide of an RRP may be fixed or "RRP-moving"."""
+        """Kind of the group in the words for its plans: "RRP-moving" for an RRP whose guide moves."""
         return "RRP-moving" if self.kind == "RRP" and not self.two.still else self.kind
 
     @property
@@ -209,7 +209,7 @@ class GroupView:
 
     @property
     def normal_by_segments(self) -> bool:
-        """Whether the plans' scales, those of a crank, let the normal acceleration of an RRP be drawn from segments."""
+        """Return True if the plans' scales, those of a crank, let segments give the normal acceleration of an RRP."""
         return self.by_crank and not self.one.still
 
     @property
@@ -235,7 +235,7 @@ class GroupView:
 
     @property
     def velocity_lines(self) -> list[str]:
-        """What is worked out from the velocity plan: points, relative velocities, rotations."""
+        """Ids of the lines worked out from the velocity plan: points, relative velocities, rotations."""
         return self._in_order(
             *(ids.velocity(side.base) for side in self.under),
             ids.velocity(self.M),
@@ -249,7 +249,7 @@ class GroupView:
 
     @property
     def acceleration_lines(self) -> list[str]:
-        """What is worked out from the acceleration plan."""
+        """Ids of the lines worked out from the acceleration plan."""
         return self._in_order(
             *(ids.acceleration(side.base) for side in self.under),
             ids.acceleration(self.M),
@@ -316,13 +316,13 @@ class GroupView:
         return self.ledger.known(segments)
 
     def base(self, what: str, side: Side, k: int) -> str:
-        """How the end of a base's vector comes on the plan: at the "pole", "drawn" before, or "new"."""
+        """Return how the end of a base's vector gets onto the plan: at the "pole", "drawn" before, or "new"."""
         if self.ledger.number(self.base_segment(what, side), k).value == 0:
             return "pole"
         return "new" if side.guided or side.base in self.on_driver else "drawn"
 
     def base_segment(self, what: str, side: Side) -> str:
-        """The segment of a plan that stands for the velocity or acceleration of a side's base."""
+        """Return the id of the plan's segment for the velocity or acceleration of a side's base."""
         return ids.segment(what, "p", image(side.base))
 
     @property
@@ -332,7 +332,7 @@ class GroupView:
 
     @property
     def relative_segment(self) -> str:
-        """The segment of the velocity plan that stands for the relative velocity of the rod's ends."""
+        """Id of the velocity plan's segment for the relative velocity of the rod's ends."""
         return ids.segment("v", image(self.P), image(self.Q))
 
     # --- forces
@@ -364,7 +364,7 @@ class GroupView:
 
     @property
     def reactions(self) -> list[str]:
-        """What is measured on the force plan, in the order of the construction."""
+        """Ids of the reactions measured on the force plan, in the order of the construction."""
         joints = {
             "RRR": ((self.outer, "n"), (self.guide, "n"), (self.outer,), (self.guide,), (self.inner,)),
             "RRP": ((self.outer, "n"), (self.guide,), (self.outer,), (self.inner,)),
@@ -402,12 +402,12 @@ class GroupView:
 
     @property
     def by_moments(self) -> list[str]:
-        """What moments give, each with a sign: its own moment balances those of the other forces."""
+        """Ids of the signed components that moments give: each one's moment balances those of the other forces."""
         return [*self.tangential, *self.ledger.known([ids.reaction(self.across, "s")])]
 
     @property
     def across_by_moments(self) -> bool:
-        """Whether moments give the whole force between the links, which is then laid off like a load."""
+        """Return True if moments give the whole force between the links, which is then laid off like a load."""
         return ids.reaction(self.across, "s") in self.ledger
 
     @property
@@ -417,11 +417,11 @@ class GroupView:
 
     @property
     def pulls_across(self) -> bool:
-        """Whether a tangential component is anything at some position, and so has a column."""
+        """Return True if a tangential component is not zero at some position, and so has a column."""
         return any(self.ledger[id].values.any() for id in self.tangential)
 
     def components(self, k: int) -> list[str]:
-        """What moments have given before the plan; none where all of it is zero."""
+        """Return the components that moments give before the plan; an empty list if all of them are zero."""
         components = self.by_moments
         return components if any(self.ledger.number(id, k).value != 0 for id in components) else []
 
@@ -448,7 +448,7 @@ class BodyView:
     start: NamedPoint
     ids: list[str]
     still: bool
-    """Whether that pin is fixed to the frame."""
+    """True if that pin is fixed to the frame."""
 
     @property
     def force(self) -> str:

@@ -1,4 +1,4 @@
-"""Guides that act with a couple: where the force in a prismatic joint is zero and a moment about its pin remains.
+"""Couples of guides: the force in a prismatic joint is zero and a moment about its pin remains.
 
 `M.03` is the moment of all other loads on link 3 about the pin; the couple of the guide is equal and opposite to it.
 """

@@ -1,4 +1,4 @@
-"""What is worked out of given data: loads that are read from a table, and lengths from coordinates of points."""
+"""Worked lines from given data: loads interpolated in a table, and lengths from coordinates of points."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The closed formulas of a machine as a program of its own."""
+"""The closed formulas of a machine as a standalone program."""
 
 from __future__ import annotations
 
@@ -31,10 +31,11 @@ CURVES = ("s", "v", "a", "M"), ("x", "y", "v", "a", "M"), ("ω", "ε")
 
 
 def program(report: Report) -> Listing:
-    """The closed formulas as a program of its own: given data, the formulas in their order, a table of all they give.
+    """Return the closed formulas as a program: given data, the formulas in order, and a table of their results.
 
-    It ends with their curves over the way of the driver.  Its quantities are in SI units and rad, none is rounded.
-    What no formula gives stands with its values.  Raises `NotOfferedError` for a machine without closed formulas.
+    It ends with their curves over the way of the driver.  Its quantities are in SI units and rad, not rounded.
+    A quantity without a formula is given by its values.  Raises `NotOfferedError` for a machine without closed
+    formulas.
     """
     ledger, kind = report.case.ledger, report.assignment.kind
     changing = [id for id, one in ledger.families.items() if one.chapter is Chapter.formulas and len(one.values) > 1]
@@ -80,7 +81,7 @@ def program(report: Report) -> Listing:
 
 
 def _curves(report: Report, names: Mapping[str, str]) -> Iterator[str]:
-    """What the curves of a program are drawn over, and which they are, by their units."""
+    """Yield the lines for the curves of a program: their abscissa, and the curves by unit."""
     ledger, machine = report.case.ledger, report.machine
     bases = {id: ledger.symbol(id).base for id in names}
     letters = next((one for one in CURVES if one[0] in bases.values()), CURVES[-1])

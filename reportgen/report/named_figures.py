@@ -1,4 +1,4 @@
-"""The figures of reports by their names in templates."""
+"""Registry of the figures of reports by their names in templates."""
 
 from __future__ import annotations
 
@@ -50,15 +50,15 @@ FIGURES: Mapping[str, tuple[str, Callable[..., FigureScenes]]] = {
     "polar": ("fig.polar", curves.polar),
     "torque": ("fig.M", curves.torque),
 }
-"""What the keys of a figure begin with, and who draws it; its caption stands in `words.yaml` under `captions`."""
+"""Beginning of a figure's key, and the function that draws it; its caption is in `words.yaml` under `captions`."""
 
 
 def figure(report: Report, name: str, *arguments: Any, words: str = "") -> tuple[Figure | Plate, ...]:
-    """A figure by its name: `figure(name, …)`, or `figure(name, key, caption, …)` with words of its own;
+    """Return a figure by its name: `figure(name, …)`, or `figure(name, key, caption, …)` with its own words;
     `words` names other ones of `words.yaml`.
 
-    A figure on plates is a block for each of them; the first has key and caption.  Raises `KeyError` for a
-    name that nobody draws.
+    A figure on plates is a block for each plate; the first has key and caption.  Raises `KeyError` for an
+    unknown name.
     """
     key, draw = _drawn(report, name)
     at = ""
@@ -92,5 +92,5 @@ def _drawn(report: Report, name: str) -> DrawnFigure:
 
 
 def smaller(report: Report, name: str) -> Inlines:
-    """What the text says of a figure by its name that is shown smaller than to the scales of the text."""
+    """Return the remark of the text on a named figure that is smaller than to the scales of the text."""
     return phrases.shown_smaller(report, _drawn(report, name)[1](report).smaller, name)

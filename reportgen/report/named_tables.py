@@ -1,4 +1,4 @@
-"""The tables of reports by their names in templates."""
+"""Registry of the tables of reports by their names in templates."""
 
 from __future__ import annotations
 
@@ -52,7 +52,9 @@ TABLES: Mapping[str, Callable[..., Any]] = {
     "M": QuantityTable(result_tables.balance, "all_positions"),
     "checks": RowTable(result_tables.checks, (110.0, 40.0)),
 }
-"""Who makes a table; its key is `tab.` and its name, its caption and head stand in `words.yaml` under `tables`."""
+"""Function that makes each table; its key is `tab.` and its name, its caption and head are in `words.yaml`:
+`tables`.
+"""
 
 
 def table(report: Report, name: str, *arguments: Any, words: str = "") -> Any:
