@@ -1,4 +1,4 @@
-"""The page of results at the front of a report, and its list of symbols."""
+"""Page of results at the front of a report, and its list of symbols."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ BESIDE = 2
 SET = (24.0, 34.0, 22.0)
 """Columns of one set (mm): the quantity, its greatest value, the positions."""
 EXAMPLES = 3
-"""Symbols of one kind that stand for all of it."""
+"""Largest number of symbols shown as examples of one kind."""
 MOST_PLACES = 12
 """Letters that a list of positions may have in its column."""
 
@@ -37,7 +37,9 @@ def extremes(report: Report, key: str, caption: str, head: Sequence[str]) -> Tab
 
 
 def _extremes(report: Report) -> Iterator[Peak]:
-    """Of points in translation, else of all that a plan seeks; then of links, then of joints."""
+    """Yield the peaks of points in translation, or else of all that a plan determines; then of links, then of
+    joints.
+    """
     for what, rotation in (("v", "omega"), ("a", "eps")):
         points = slider_rates(report, what) or report.known(ids.POINT_RATE[what](group.M) for group in report.groups)
         yield from each_peak(report, [*points, *turning_rates(report, rotation)], report.positions)
@@ -71,7 +73,9 @@ def of_kind(report: Report, name: str) -> str:
 
 
 def extreme_place(report: Report, id: str) -> Inlines:
-    """Where over the cycle `M.least` or `M.greatest` is: the crank's turn from position 1, a sliding driver's way."""
+    """Return the place of `M.least` or `M.greatest` in the cycle: the crank's turn from position 1, or a slider's
+    way.
+    """
     if id not in ("M.least", "M.greatest"):
         return ()
     (low, _), (high, _) = report.analysis.summary.extremes
@@ -103,9 +107,9 @@ def _some(shown: Sequence[Symbol]) -> Inlines:
 
 
 def symbol_kinds(report: Report) -> Mapping[str, list[str]]:
-    """The ids of the report's quantities under the meaning that `words.yaml` gives to their kind.
+    """Return the ids of the report's quantities by the meaning that `words.yaml` gives to their kind.
 
-    A quantity that no kind fits is explained where it stands.
+    A quantity that fits no kind is explained where it is used.
     """
     meanings: Mapping[str, str] = report.words["meanings"]
     kinds: dict[str, list[str]] = {name: [] for name in meanings.values()}

@@ -1,6 +1,7 @@
-"""The one force that stands for a link's inertia: its centre of percussion K, the point Q, and how its line is found.
+"""The single force equivalent to a link's inertia: its centre of percussion K, the point Q, and the line's
+construction.
 
-Which construction there is depends on the position: Q needs two lines that meet on the sheet.
+The construction depends on the position: Q needs two lines that meet on the sheet.
 """
 
 from __future__ import annotations
@@ -26,10 +27,11 @@ PercussionCase = Literal["none", "couple", "still", "pivot", "meet", "parallel",
 
 @dataclass(frozen=True, slots=True)
 class Percussion:
-    """How the line of a link's one inertia force is found at a position; points in m.
+    """Construction of the line of a link's single inertia force at a position; points in m.
 
-    Of its `state`, "none" has no couple and the force acts at S, "couple" no force; of "still" the pin is fixed, of
-    "pivot" it has no acceleration, so that the force passes through `K`.  Else the lines through S and K "meet" in
+    The `state` "none" means no couple, so that the force acts at S; "couple" means no force; "still" a fixed pin;
+    "pivot"
+    a pin without acceleration, so that the force passes through `K`.  Else the lines through S and K "meet" in
     `at`, are "parallel" or meet too "far" away; then `at` is the foot of S on the line, at the computed distance.
     """
 

@@ -1,7 +1,7 @@
-"""Words that follow from what is counted, from a sign or from a kind: `words.yaml` has them, a template names them.
+"""Phrases that depend on a count, a sign or a kind: `words.yaml` has them, a template names them.
 
-`{{ driven.balance }}` is what balances the driver that the report has, `{{ counted("each_group", groups) }}` speaks of
-one group or of several.  Gaps in braces are filled with members of what the phrase is said of.
+`{{ driven.balance }}` is the balancing load of the report's driver, `{{ counted("each_group", groups) }}` a phrase on
+one group or on several.  Gaps in braces are filled with members of the objects passed with the phrase.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ def say(report: Report, phrase: str, *about: Any, **gaps: Any) -> Inlines:
 
 
 def _gap(report: Report, name: str, how: str, about: Sequence[Any], gaps: Mapping[str, Any]) -> Inlines:
-    """What fills a gap: what is given for it, a member, a reference `@tab.dead`, else a quantity.
+    """Return the inlines for a gap: the given value, a member, a reference `@tab.dead`, else a quantity.
 
     A quantity is named as between dollar signs in a template: `{e}` is its symbol, `{e:value}` its number and
     `{e:quantity}` both.
@@ -84,7 +84,7 @@ def counted(report: Report, name: str, things: Collection[Any], **gaps: Any) -> 
 
 
 def form_of(count: int, forms: int) -> int:
-    """Which of two or three forms of a word goes with a number: 1, 21; 2, 3, 4, 22; 5, 11, 20."""
+    """Return the index of the word form, of two or three, for a number: 1, 21; 2, 3, 4, 22; 5, 11, 20."""
     if forms < 3:
         return int(count > 1)
     last, teen = count % 10, count // 10 % 10 == 1
@@ -92,7 +92,7 @@ def form_of(count: int, forms: int) -> int:
 
 
 def shown_smaller(report: Report, times: float, name: str) -> Inlines:
-    """What is said of a figure shown smaller than to μ_l by a factor; nothing for one that is not."""
+    """Return the remark on a figure smaller than to μ_l by a factor; empty if the factor is 1."""
     if times == 1.0:
         return ()
     scale = Chain((report.ledger.symbol("mu.l"), report.ledger.number("mu.l")))
@@ -106,7 +106,7 @@ def sign(report: Report, id: str, position: int | None = None) -> str:
 
 
 def stop(report: Report, loop: Mapping[str, Any], *further: Sized) -> str:
-    """What ends an item of a list: a full stop after the last one, if nothing `further` follows it."""
+    """Return the mark at the end of a list item: a full stop after the last one, if nothing `further` follows it."""
     return "." if loop["last"] and not any(map(len, further)) else ";"
 
 
@@ -142,7 +142,7 @@ def no_cycle(report: Report) -> Inlines:
 
 
 def acting(report: Report) -> str:
-    """What loads a machine on which nothing else acts."""
+    """Return the words for the loads of a machine on which nothing else acts."""
     return str(report.words["acting"]["weights" if report.weighed else "inertia"])
 
 
@@ -161,12 +161,12 @@ def study(report: Report) -> Mapping[str, Inlines]:
 
 
 def turning(report: Report) -> Mapping[str, Inlines]:
-    """What is said of the links that turn, if any does."""
+    """Return the phrases on links that turn; those for "none" if no link turns."""
     return _set(report, "turning", "links" if report.has_turning_links else "none")
 
 
 def lever(report: Report) -> Mapping[str, Inlines]:
-    """Words for the lever of a crank: its velocity plan has a round scale of its own, or the crank's."""
+    """Return words for the lever of a crank: its velocity plan has a separate round scale, or the crank's."""
     if not report.driver.centre:
         return {}
     symbols = {name: report.ledger.symbol(id) for name, id in (("ω", "omega.1"), ("μ_v", "mu.v"), ("μ_l", "mu.l"))}
@@ -211,14 +211,14 @@ def slider_convention(report: Report) -> Inlines:
 
 
 def balance_sign(report: Report, position: int) -> Inlines:
-    """What the sign of the balancing torque or force says."""
+    """Return the meaning of the sign of the balancing torque or force."""
     words = report.words["balance_signs"][report.driver.kind]
     sense = report.sense(report.ledger.number("M.eq", position).value)
     return say(report, words[sign(report, "M.eq", position)], M=report.ledger.symbol("M.eq"), sense=sense)
 
 
 def slide_reactions(report: Report) -> Inlines:
-    """Where the reactions of slides act, if there are any."""
+    """Return where the reactions of slides act, if there are any."""
     key = "none" if not report.has_slides else "displaced" if report.displaced_reactions else "at_pin"
     names = report.words["names"]
     parts = {"guide": names["guide"], "wall": names["wall"], "pin": names["pin"]}
@@ -226,7 +226,7 @@ def slide_reactions(report: Report) -> Inlines:
 
 
 def energy_key(report: Report) -> str:
-    """Which words on the balance of energy fit: of the gas, of a stroke, of a turn that is idle or not, or none."""
+    """Return the key of the words on the balance of energy: gas, a stroke, a turn (idle or not), or none."""
     if not (report.has_forces and report.cyclic):
         return "none"
     if report.has_gas or not report.driver.centre:
@@ -262,7 +262,9 @@ def constant_force(report: Report) -> Inlines:
 
 
 def first_position(report: Report) -> Inlines:
-    """Where the driver is in the first position: at its natural place, at an angle, or at a way along its guide."""
+    """Return where the driver is in the first position: at its natural place, at an angle, or at a way along its
+    guide.
+    """
     words, machine = report.words["first_position"], report.machine
     start, first = report.assignment.positions.start, machine.position(1)
     if report.instants:
@@ -294,9 +296,9 @@ def _plain(value: float) -> float:
 
 
 def strokes_at_start(report: Report) -> Inlines:
-    """On which stroke each piston leaves the first position, which tells in which of its turns it is.
+    """Return the stroke on which each piston leaves the first position, which identifies its turn.
 
-    Of single instants, on which stroke it is at each of them.
+    With single instants, return the stroke of each piston at each of them.
     """
     machine, strokes = report.machine, report.words["strokes"]
     words = report.words["strokes_at_instants" if machine.instants else "strokes_at_start"]
@@ -314,13 +316,13 @@ def strokes_at_start(report: Report) -> Inlines:
 
 
 def lettered(report: Report) -> bool:
-    """Whether positions between the equidistant ones are called a, b, …"""
+    """Return True if positions between the equidistant ones are called a, b, …"""
     machine = report.machine
     return not report.instants and any(k.label.isalpha() for k in machine.numbered(range(1, machine.count + 1)))
 
 
 def load_sense(report: Report, name: str) -> Inlines:
-    """What is said of the sense of a load that is constant or always against the motion."""
+    """Return the words for the sense of a load that is constant or always against the motion."""
     words = report.words["load_senses"]
     if any(load.name == name and load.law.kind == "opposing" for load in report.loads):
         return say(report, words["opposing"])
@@ -328,7 +330,7 @@ def load_sense(report: Report, name: str) -> Inlines:
 
 
 def drawn_group(report: Report, row: GroupRow) -> Inlines:
-    """How a group of a declared linkage is drawn: its rods, its outer joints, the inner one."""
+    """Return the words for drawing a group of a declared linkage: its rods, its outer joints, the inner one."""
     drawn = [value(report, ids.drawn(rod)) for rod, _ in row.lengths]
     rods = dict(zip(("first", "second"), drawn, strict=False))
     first, *others = map(NamedPoint, row.joints)
@@ -347,7 +349,7 @@ def _image(report: Report, what: str, name: str) -> Symbol:
 
 
 def start(report: Report, what: str, of: Side | CarriedPoint) -> Inlines:
-    """Where the vector relative to a base begins on a plan: in the pole, or at the end of the base's own vector."""
+    """Return where the vector relative to a base begins on a plan: in the pole, or at the end of the base's vector."""
     words = report.words["plan"]
     if of.still:
         return say(report, words["pole"], pole=math(report, POLES[what]))
@@ -355,7 +357,7 @@ def start(report: Report, what: str, of: Side | CarriedPoint) -> Inlines:
 
 
 def line_start(report: Report, what: str, side: Side) -> Inlines:
-    """Where the line of what is sought begins: at the end of the known relative acceleration, if there is one."""
+    """Return where the line of the unknown begins: at the end of the known relative acceleration, if there is one."""
     if what == "a" and side.part:
         return say(report, report.words["plan"]["end_of"], vector=a(report, side, side.part))
     return start(report, what, side)
@@ -376,7 +378,7 @@ def sought(report: Report, what: str, group: GroupView, side: Side) -> Symbol:
 
 
 def base_step(report: Report, what: str, group: GroupView, side: Side, position: int) -> Inlines:
-    """How the vector of a side's base comes on the plan."""
+    """Return the step that brings the vector of a side's base onto the plan."""
     return say(
         report,
         report.words["plan"]["base"][group.base(what, side, position)],
@@ -394,18 +396,18 @@ def known_sense(report: Report, side: Side) -> Inlines:
 
 
 def base_motion(report: Report, side: Side) -> Inlines:
-    """What is known of a side's base: that it is fixed, or its velocity."""
+    """Return the words for the known motion of a side's base: that it is fixed, or its velocity."""
     return say(report, report.words["plan"]["bases"][side.state], base=NamedPoint(side.base))
 
 
 def shows_coriolis(report: Report, group: GroupView, side: Side, position: int) -> bool:
-    """Whether a figure shows the turn that gives the Coriolis acceleration of a slot its sense."""
+    """Return True if a figure shows the turn that gives the Coriolis acceleration of a slot its sense."""
     moves = not any(report.is_zero(id, position) for id in (side.velocity, side.omega))
     return group.kind == "RPR" and moves and bool(report.parts("coriolis-turn"))
 
 
 def found_senses(report: Report, group: GroupView, position: int) -> Inlines:
-    """What the signs of the reactions say that moments gave."""
+    """Return the meaning of the signs of the reactions that moments gave."""
     words, figure = report.words["plan"]["found"], Reference(f"fig.bodies.{group}.{position}")
     signs = [(id, sign(report, id, position)) for id in group.by_moments]
     return tuple(

@@ -1,6 +1,6 @@
 """Plans of velocity, acceleration and force: the ledger's points on paper, in the order of construction.
 
-The ledger's plans are metres on paper; how they are drawn is in `reportgen/drawing/plan.py`.
+The ledger's plans are metres on paper; `reportgen/drawing/plan.py` draws them.
 """
 
 from __future__ import annotations
@@ -41,15 +41,15 @@ from reportgen.report.phrases import counted
 from reportgen.report.report import Report
 
 SHEET = (385.0, 232.0)
-"""What of an A3 page (landscape) plans may fill."""
+"""Width and height (mm) of an A3 page (landscape) that plans may fill."""
 SCALE_FIGURES = 6
 """Significant figures of the scale of a plan that is drawn smaller."""
 SHARES = (1.0, 0.5, 0.4, 0.25, 0.2, 0.1)
-"""How much smaller the plans of all positions may be drawn than the worked ones: scales stay in their series."""
+"""Factors by which the plans of all positions may be smaller than the worked ones: scales stay in their series."""
 LARGEST = 58.0
-"""What the longest extent of these plans may be without their labels (mm): about three stand side by side."""
+"""Largest extent of these plans without their labels (mm): about three fit side by side."""
 ROOM = (78.0, 75.0)
-"""What each of them may take with its labels (mm)."""
+"""Largest width and height of each of them with its labels (mm)."""
 LARGEST_OF_FORCES, LEAST_OF_FORCES = 50.0, 25.0
 """The longest extent of each force plan without its labels (mm): round scales are at most twofold apart."""
 ROOM_OF_FORCES = 78.0
@@ -57,9 +57,9 @@ ROOM_OF_FORCES = 78.0
 NOTHING_DRAWN = 0.5
 """A plan smaller than this (mm) is that of a position without forces."""
 FINER = 1e-6
-"""How little above a scale the search for the next coarser one begins."""
+"""Relative step above a scale at which the search for the next coarser one begins."""
 PANELS = 160.0, 60.0
-"""What of a page the panels of a construction's steps may take, all in one row (mm)."""
+"""Largest width and height (mm) on a page of the panels of a construction's steps, all in one row."""
 PANEL = 78.0
 """The width of one panel at most (mm)."""
 CLOSE_MARGIN = 2.0
@@ -68,7 +68,7 @@ CLOSE_MARGIN = 2.0
 POLE = "pole"
 """The corner that a plan of velocities or accelerations begins in; the ids of all others are in the ledger."""
 STAGES = 3
-"""Of a group in a plan of velocity or acceleration: what is known, the lines that meet, further points."""
+"""Number of stages of a group in a plan of velocity or acceleration: the known vectors, the lines that meet, points."""
 
 # --- velocity and acceleration
 
@@ -120,7 +120,7 @@ def positions_mirrored(report: Report, what: What) -> Mirrored:
 
 
 def mirror_images(report: Report, what: What) -> Inlines:
-    """What is said of the positions whose plans are not drawn again; nothing where all are drawn."""
+    """Return the remark on positions whose plans are not drawn again; empty if all are drawn."""
     mirror = positions_mirrored(report, what)
     drawn = ", ".join(str(report.machine.position(k)) for k in mirror.of)
     return counted(report, "mirrored", [report.machine.position(k) for k in mirror.at], drawn=drawn)
@@ -167,7 +167,7 @@ def _scale(report: Report, id: str, k: int | None = None) -> Chain:
 
 
 def _steps(group: GroupView, what: What) -> tuple[int, int, int]:
-    """How many steps of a group's construction, as the text counts them, each of its stages draws."""
+    """Return how many steps of a group's construction, as the text counts them, each of its stages draws."""
     bases = 1 if group.kind == "RRP" and group.two.still else len(group.moving)
     known = sum(bool(side.part) for side in group.sides) if what == "a" else 0
     return bases + known, len(group.sides), len(group.carried) + bool(group.similar(what))
@@ -341,9 +341,9 @@ def force_plates(report: Report, group: GroupView) -> FigureScenes:
 
 @dataclass(frozen=True, slots=True)
 class ForcePlans:
-    """The force plans of all positions, each to a round scale of its own, which is printed below it.
+    """Force plans of all positions, each to a separate round scale, which is printed below it.
 
-    Forces of a cycle differ by orders: to one scale some plans would be blots.
+    The forces of a cycle differ by orders of magnitude: to one scale some plans would be blots.
     """
 
     report: Report

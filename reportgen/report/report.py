@@ -1,6 +1,6 @@
-"""One report: what its templates, tables and figures share.
+"""One report: the data that its templates, tables and figures share.
 
-What of it templates may name stands in the namespace, with the functions, tables and figures made of it.
+The namespace lists the members that templates may name, with the functions, tables and figures made of them.
 """
 
 from __future__ import annotations
@@ -108,7 +108,7 @@ class Report:
     # --- how much it contains
 
     def parts(self, *names: str) -> list[str]:
-        """Those of the sections or parts of sections that a report of this extent has, in order."""
+        """Return the given sections or parts of sections that a report of this extent has, in order."""
         return [name for name in names if name not in self._left_out]
 
     @cached_property
@@ -140,7 +140,7 @@ class Report:
 
     @property
     def extent_words(self) -> str:
-        """Which extent is asked for, in a sentence."""
+        """Name of the requested extent, in a sentence."""
         return str(self.words["extents"][self.assignment.report.extent])
 
     # --- the assignment in words
@@ -172,22 +172,22 @@ class Report:
 
     @property
     def instants(self) -> bool:
-        """Whether the positions are single instants."""
+        """Return True if the positions are single instants."""
         return self.machine.instants
 
     @property
     def accelerated(self) -> bool:
-        """Whether the driver runs faster or slower at the positions."""
+        """Return True if the driver is accelerated at the positions."""
         return self.machine.acceleration != 0
 
     @property
     def cyclic(self) -> bool:
-        """Whether the driver runs through the whole cycle at constant speed, so that its means are known."""
+        """Return True if the driver runs through the whole cycle at constant speed, so that its means are known."""
         return self.machine.cyclic
 
     @property
     def weighed(self) -> bool:
-        """Whether weights act, rather than in a horizontal plane."""
+        """Return True if weights act; False in a horizontal plane."""
         return self.machine.linkage.gravity != 0
 
     @property
@@ -257,17 +257,17 @@ class Report:
 
     @property
     def own(self) -> Mapping[str, Any]:
-        """What only the words of this kind of machine name."""
+        """Names that only the words of this kind of machine use."""
         return self.machine.facts
 
     @cached_property
     def sheet(self) -> Mapping[str, list[str]]:
-        """What the machine's sheet sets out together, by name: `lines(sheet.velocity, k)`."""
+        """Ids of the lines that the machine's sheet sets out together, by name: `lines(sheet.velocity, k)`."""
         return {name: self.known(lines) for name, lines in self.ledger.lines.items()}
 
     @property
     def given_names(self) -> Mapping[str, str]:
-        """What is given, in words, by id; a declared linkage names its own quantities."""
+        """Given quantities, in words, by id; a declared linkage names its quantities itself."""
         if "quantities" not in self.own:
             names = dict(self.words.get("given", {}))
             beside = {**self.words["given_of_crank"], **self.words["given_of_topics"]}
@@ -297,7 +297,7 @@ class Report:
 
     @property
     def drawn_lines(self) -> list[str]:
-        """What those lengths are lengths of, by its ends."""
+        """Names of the lines that have those lengths, by their ends."""
         return [found["line"] for id in self.lengths if (found := ids.length.read(id))]
 
     @property
@@ -322,23 +322,23 @@ class Report:
 
     @property
     def speed_in_rpm(self) -> bool:
-        """Whether the driver's angular velocity follows from its speed in revolutions a minute."""
+        """Return True if the driver's angular velocity follows from its speed in revolutions per minute."""
         return "omega.1" in self.computed
 
     @property
     def has_gas(self) -> bool:
-        """Whether the pressure in any cylinder is other than that of the air outside."""
+        """Return True if the pressure in any cylinder differs from that of the outside air."""
         return any(piston.name not in self.machine.idle for piston in self.pistons)
 
     @property
     def all_zero(self) -> bool:
-        """Whether masses or loads are given, but are all zero."""
+        """Return True if masses or loads are given, but are all zero."""
         given = any(id in ids.weight or id in ids.mass for id in self.ledger.families)
         return not self.has_forces and (bool(self.machine.idle) or given)
 
     @property
     def loads_crank(self) -> bool:
-        """Whether any group hands a force on to the crank, at whatever position."""
+        """Return True if any group transmits a force to the crank, at any position."""
         edges = self.driver_polygon.edges if self.driver_polygon else ()
         reactions = (self.ledger[ids.of_force(edge.name)] for edge in edges if edge.is_reaction and not edge.unknown)
         return any(one.at(k) != 0 for one in reactions for k in range(1, self.cycle_count + 1))
@@ -354,27 +354,27 @@ class Report:
 
     @property
     def has_own_load(self) -> bool:
-        """Whether a force or a torque of the kind acts, beside which others are further ones."""
+        """Return True if a force or a torque specific to this kind acts, beside which others are further ones."""
         return any(load.name not in self.further for load in self.loads)
 
     @property
     def has_force(self) -> bool:
-        """Whether a working force of the kind acts, be it constant or not."""
+        """Return True if a working force specific to this kind acts, constant or not."""
         return any(force.name not in self.further for force in self.machine.applied)
 
     @property
     def has_forces(self) -> bool:
-        """Whether anything loads the machine, weights and inertia included."""
+        """Return True if anything loads the machine, weights and inertia included."""
         return "M.eq" in self.ledger
 
     @property
     def has_turning_links(self) -> bool:
-        """Whether any link of the groups turns, rather than all being in translation."""
+        """Return True if any link of the groups turns, rather than all being in translation."""
         return any(ids.signed("omega", link) in self.ledger for link in self.machine.linkage.links)
 
     @property
     def has_formulas(self) -> bool:
-        """Whether closed formulas check the plans, and the report shows them."""
+        """Return True if closed formulas check the plans, and the report shows them."""
         return bool(self.machine.closed_formulas.compared) and bool(self.parts("formulas-velocity"))
 
     @cached_property
@@ -385,11 +385,11 @@ class Report:
     # --- motion
 
     def place(self, point: str, k: int) -> complex:
-        """Where a point stands at a position (m)."""
+        """Return the place of a point at a position (m)."""
         return complex(self.ledger[ids.place(point)].at(k))
 
     def known(self, quantities: Iterable[str]) -> list[str]:
-        """Those of the ids that the ledger knows, each once."""
+        """Return the given ids that the ledger knows, each once."""
         return self.ledger.known(quantities)
 
     @cached_property
@@ -433,7 +433,7 @@ class Report:
 
     @property
     def displaced_reactions(self) -> bool:
-        """Whether the reaction of any slide may act beside its pin."""
+        """Return True if the reaction of any slide may act beside its pin."""
         joints = [joint for group in self.groups for joint in (group.outer, group.inner, group.guide)]
         return any(ids.reaction_couple(joint) in self.computed for joint in joints)
 
@@ -471,7 +471,7 @@ class Report:
 
     @property
     def has_reduced_inertia(self) -> bool:
-        """Whether moving links have mass, which the flywheel's calculation reduces to the crank."""
+        """Return True if moving links have mass, which the flywheel's calculation reduces to the crank."""
         return "J.r" in self.ledger
 
     # --- quantities and points by name

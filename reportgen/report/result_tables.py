@@ -1,4 +1,4 @@
-"""Tables of results: motion, forces, and the checks that do not repeat the calculation."""
+"""Tables of results: motion, forces, and independent checks of the calculation."""
 
 from __future__ import annotations
 
@@ -36,9 +36,9 @@ AGREED = -9
 
 
 def coordinates(report: Report, key: str, caption: str, head: Sequence[str]) -> tuple[Table, ...]:
-    """x and y of every moving point at the positions of one turn, in mm; several tables where they are many.
+    """Return x and y of every moving point at the positions of one turn, in mm; several tables if there are many.
 
-    A coordinate that a formula gives too stands as in the formula's line, any other as it is read from the plan.
+    A coordinate that a formula also gives is printed as in the formula's line, any other as it is read from the plan.
     """
     linkage, motion = report.machine.linkage, report.analysis.motion
     at = [k - 1 for k in report.positions]
@@ -72,13 +72,13 @@ def _as_written(report: Report, point: str, course: np.ndarray) -> list[Number]:
 
 
 def _two_decimals(value: float) -> Number:
-    """A number to two decimals, or as it is when it has no more than two."""
+    """Return a number with two decimals, or unchanged if it has no more than two."""
     short = abs(value * 100 - round(value * 100)) < 1e-7
     return Number(float(f"{value:.10g}")) if short else Number(value, 2)
 
 
 def dead_centres(report: Report) -> Iterator[Sequence[object]]:
-    """Where each slider turns back: crank's turn from position 1, the pin's distance from the crank centre."""
+    """Yield the dead centres of each slider: crank's turn from position 1, the pin's distance from the crank centre."""
     words = report.words["tables"]["dead"]
     for piston in report.machine.sliders:
         for name, angle, place in (
@@ -303,7 +303,7 @@ def _share(differences: Iterable[np.ndarray], values: Iterable[np.ndarray]) -> f
 
 
 def _closure(report: Report) -> float:
-    """How far a distance of two points of a link is from its length at any position, as a share of the longest one."""
+    """Return the largest error of a distance between two points of a link, as a share of the longest distance."""
     motion, families = report.analysis.motion, report.case.ledger.families
     pairs = [(group.P, group.Q) for group in report.groups]
     pairs += [(group.T, group.Q) for group in report.groups if group.kind == "RRR"]

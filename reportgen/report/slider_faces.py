@@ -1,4 +1,4 @@
-"""Wide sliders in the figures of a report: their faces, and the reactions at both ends where they tilt."""
+"""Wide sliders in the figures of a report: their faces, and the reactions at both ends if they tilt."""
 
 from __future__ import annotations
 
@@ -22,13 +22,13 @@ def wide_sliders_of(report: Report) -> Mapping[int, Faces]:
 
 
 def tilts(report: Report, digits: str, k: int) -> bool:
-    """Whether a slider tilts at a position, as it is printed."""
+    """Return True if a slider tilts at a position, according to the printed values."""
     first = ids.face_reaction(digits, 1)
     return first in report.ledger and bool(np.isfinite(report.ledger[first].at(k)))
 
 
 def ends_of(report: Report, link: int, k: int) -> tuple[complex, complex]:
-    """Where the face of a slider begins and ends (m)."""
+    """Return the places of the two ends of a slider's face (m)."""
     wide, motion = wide_sliders_of(report)[link], report.analysis.motion
     along = complex(motion.slides[carriers(report.machine.linkage)[link], link].direction[k - 1])
     first, last = (x - 1j * wide.below for x in (wide.first, wide.last))

@@ -1,7 +1,7 @@
-"""Tables of what is given, and of quantities at positions.
+"""Tables of given data, and of quantities at positions.
 
-A table is a function of a report, its key, caption and head, and of what it shows; its name in templates stands
-in the namespace.
+A table is a function of a report, its key, caption and head, and of what it shows; the namespace gives its name in
+templates.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ TITLES = 40.0
 TABLE_SIZE = 10.0
 """The size of type in tables, points."""
 PADDING = 2.2
-"""The white beside what stands in a column (mm)."""
+"""White space beside the contents of a column (mm)."""
 LENGTHS = (ids.length, ids.drawn)
 """The two rows of a table of lengths."""
 
@@ -55,7 +55,7 @@ def bare(report: Report, id: str, position: int | None, size: bool = False) -> I
 
 
 def head_symbol(report: Report, id: str) -> Expression:
-    """The symbol over a column: |v| over magnitudes, read from plans, of what has a direction of its own."""
+    """Return the symbol over a column: |v| over magnitudes, read from plans, of vectors."""
     symbol = report.ledger.symbol(id)
     return size(symbol) if any(id in rate for rate in ids.POINT_RATE.values()) else symbol
 
@@ -95,7 +95,7 @@ def tables(
 
 
 def column_width(report: Report, id: str, at: Iterable[int | None]) -> float:
-    """What a quantity's numbers and its symbol need across (mm), with the white beside them."""
+    """Return the width (mm) of a quantity's numbers and symbol, with the white space beside them."""
     numbers = (replace(report.ledger.number(id, k), unit="") for k in at)
     shown = (head_symbol(report, id), *(number for number in numbers if math.isfinite(number.value)))
     return max(box(one, TABLE_SIZE).width for one in shown) + PADDING
@@ -112,7 +112,7 @@ def given_data(
 
 
 def given_table(report: Report, key: str, caption: str, names: Mapping[str, str]) -> Table:
-    """All given quantities of the machine that `names` describes; what is derived is left out."""
+    """Return a table of the machine's given quantities that `names` describes; derived ones are left out."""
     heads = report.words["table"]
     rows = [
         (name, report.ledger.symbol(id), _as_typed(report, id))
@@ -212,7 +212,7 @@ def _law_table(
 
 
 def joints(report: Report) -> Iterator[Sequence[object]]:
-    """All joints: number, place, links, type."""
+    """Yield all joints: number, place, links, type."""
     for number, joint in enumerate(report.mobility.joints, start=1):
         acting, acted_on = joint.links
         yield str(number), vocabulary.point(joint.point), f"{acting} – {acted_on}", report.words["joints"][joint.kind]

@@ -1,4 +1,4 @@
-"""What the templates of a report may name: properties, values without parentheses, functions with them."""
+"""Registry of the names in templates of a report: properties, values without parentheses, functions with them."""
 
 from __future__ import annotations
 
@@ -135,7 +135,7 @@ VALUES: Mapping[str, Callable[[Report], Any]] = {
     "plan_in_text": figures.plan_in_text,
     "shares_pins": chapters.shares_pins,
 }
-"""What functions make of a report."""
+"""Values that functions compute from a report."""
 
 FUNCTIONS: Mapping[str, Callable[..., Any]] = {
     "figure": named_figures.figure,

@@ -1,4 +1,4 @@
-"""What a topic adds to the report of a machine: names for its words, figures, tables, passages in shared chapters."""
+"""Additions of a topic to a machine's report: names for its words, figures, tables, passages in shared chapters."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ DrawnFigure = tuple[str, Callable[..., FigureScenes]]
 
 
 def always(*sections: str) -> Passages:
-    """Return passages that stand wherever the machine has the topic."""
+    """Return passages that appear whenever the machine has the topic."""
     return lambda report: sections
 
 
@@ -27,18 +27,18 @@ def _no_residuals(report: Report) -> Mapping[str, float]:
 
 @dataclass(frozen=True)
 class ViewHooks:
-    """What templates may name of a topic, by the names in templates."""
+    """Names that a topic adds to templates, by kind."""
 
     values: Mapping[str, Callable[[Report], object]] = field(default_factory=dict)
     functions: Mapping[str, Callable[..., object]] = field(default_factory=dict)
     figures: Mapping[str, DrawnFigure] = field(default_factory=dict)
     tables: Mapping[str, Callable[..., object]] = field(default_factory=dict)
     passages: Mapping[str, Passages] = field(default_factory=dict)
-    """What the topic adds to shared chapters, by the names of the places there."""
+    """Passages that the topic adds to shared chapters, by the names of the places there."""
     residuals: Callable[[Report], Mapping[str, float]] = _no_residuals
     """Independent checks with the largest residual of each as a share of the greatest value."""
     letters: str = ""
-    """Letters of diagrams that stand for nothing of the machine."""
+    """Letters of diagrams that denote nothing of the machine."""
 
 
 VIEWS = HookModule("views", ViewHooks)
