@@ -1,4 +1,4 @@
-"""The tree of a finished document: blocks, and the inlines that they are made of.
+"""The tree of a finished document: blocks, and the inlines inside them.
 
 Everything that makes or writes a document uses these types.  The package knows blocks and words, but no machine and no
 case.  Texts are plain strings exactly as they appear in print; writers escape them.  Lengths are in millimetres.  A
@@ -82,7 +82,7 @@ class Equation:
 
 
 TEXT_WIDTH = 160.0
-"""What of an A4 page text takes across (mm)."""
+"""Width of the text on an A4 page (mm)."""
 FIRST_COLUMN = 16.0
 """The column of a table that names the positions (mm)."""
 
@@ -101,10 +101,10 @@ class Cell:
 
 @dataclass(frozen=True, slots=True)
 class Table:
-    """A ruled table; where it continues on the next page, its number and its `head` rows repeat.
+    """Ruled table; where it continues on the next page, its number and its `head` rows repeat.
 
-    A cell spans columns only; one across the whole table heads the rows below it.  One that is `framed` has a frame
-    around its head and rows, as a boxed answer has.  Where it runs over pages, `last` rows at least stand on the last.
+    A cell spans columns only; one across the whole table heads the rows below it.  A `framed` table has a frame
+    around its head and rows, as a boxed answer has.  If it runs over pages, the last page has at least `last` rows.
     """
 
     columns: tuple[Column, ...]
@@ -121,8 +121,8 @@ class Table:
 class Figure:
     """One scene, or several side by side in rows as they fit, with one caption, in true size.
 
-    Where the page has no room for it, the text runs on to the end of the page before it.  One that is `turned` by 90°
-    has a page for itself.  `at` is the label of the position that it shows, if it shows one.  One that stands `here`
+    If the page has no room for it, the text continues to the end of the page before it.  A figure `turned` by 90°
+    has a page for itself.  `at` is the label of the position that it shows, if it shows one.  A figure marked `here`
     keeps its place between tables that run over pages.
     """
 
@@ -134,14 +134,14 @@ class Figure:
     at: str = ""
     here: bool = False
     rest: str = ""
-    """The number of the table that has what its drawings tell and more, filled in by numbering if there is one."""
+    """Number of the table that has the facts of its drawings and more; numbering fills it in if there is one."""
 
 
 @dataclass(frozen=True, slots=True)
 class Plate:
-    """A figure on a page of its own paper size (mm), for what the A4 text block cannot hold in true size either way.
+    """Figure on a separate page of its paper size (mm), too large for the A4 text block in true size either way.
 
-    Plates stand together at the end of their chapter.
+    Plates are collected at the end of their chapter.
 
     With `continues` it is a further page of the figure before it, whose number it shares.  `at` is the label of the
     position that it shows, if it shows one; `rest` is as that of a figure.
@@ -171,9 +171,9 @@ class Cover:
 
 @dataclass(frozen=True, slots=True)
 class Contents:
-    """The table of contents with true page numbers: levels 1 to 3, or `brief`, levels 1 and 2.
+    """Table of contents with true page numbers: levels 1 to 3, or `brief`, levels 1 and 2.
 
-    It stands on pages of its own unless it is not `alone`: then what follows goes on below it.
+    It has separate pages unless `alone` is False: then the document continues below it.
     """
 
     title: str
@@ -190,7 +190,7 @@ class BlankLine:
 
 @dataclass(frozen=True, slots=True)
 class Listing:
-    """Lines of a program, set as they stand in letters of one width."""
+    """Lines of a program, printed verbatim in a monospaced font."""
 
     lines: tuple[str, ...]
 
@@ -214,19 +214,19 @@ class Words:
     contents: str
     page: str
     continued: str
-    """Stands behind the number of a table or plate that goes on from the page before."""
+    """Printed after the number of a table or plate that continues from the page before."""
     part: str
-    """Which of several a part of a figure is, its later ones, on whatever page: part 2."""
+    """Label of a later part of a figure, on any page: part 2."""
     save: str
-    """What the buttons below a figure do on a page."""
+    """Label of the buttons below a figure on a page."""
     speech: Mapping[str, Any] = field(default_factory=dict, repr=False)
-    """How formulas are said, units by their printed signs."""
+    """Spoken words of formulas; units by their printed signs."""
     phrases: Mapping[str, str] = field(default_factory=dict, repr=False)
-    """The phrases of what drawings tell, by their names."""
+    """Phrases of the descriptions of drawings, by name."""
 
     @classmethod
     def among(cls, words: Mapping[str, Any], language: Language) -> Self:
-        """Those of all words of a language, in which a school may have more."""
+        """Return the document's words from all words of a language; a school may add more."""
         speech, printed = words["speech"], UnitNames({**setting_of(language).units, **words["units"]})
         units = {printed.get(unit, unit): said for unit, said in speech["units"].items()}
         own = words["document"] | {"speech": {**speech, "units": units}, "phrases": words["told"]}
@@ -247,13 +247,13 @@ class Document:
     words: Words
     blocks: tuple[Block, ...] = field(default=())
     close: bool = False
-    """Whether it is set in smaller type with less room between lines and blocks."""
+    """True if it is set in smaller type with less room between lines and blocks."""
     date: datetime.date | None = None
     """When it was written, as far as its file says it."""
 
 
 def text_of(document: Document) -> str:
-    """All text of a document, a line for each heading, paragraph, row and formula."""
+    """Return all text of a document, a line for each heading, paragraph, row and formula."""
     return "\n".join(line for block in document.blocks for line in lines_of(block, document)) + "\n"
 
 

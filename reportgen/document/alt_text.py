@@ -21,11 +21,11 @@ from reportgen.formula.setting import PRIMES, parted
 MOST = 600
 """Characters of the text of a drawing."""
 DECIMALS = 2
-"""Of a length that is measured on paper (mm)."""
+"""Largest number of characters in the text of a drawing."""
 
 
 class Spoken(Plain):
-    """Formulas in a line to be heard: what stands above or below a letter follows it after a space."""
+    """Formulas in a line for speech: an index or exponent follows its letter after a space."""
 
     def symbol(self, node: Symbol) -> str:
         letters, above = parted(node)
@@ -47,7 +47,7 @@ def figure_text(block: Figure | Plate, scene: Scene, words: Words, language: Lan
 
 
 def sentences(description: Description, words: Mapping[str, str], language: Language) -> Iterator[str]:
-    """What a drawing says of itself, one thing after the other; what it would say twice in a row, once.
+    """Yield the facts of a drawing's description as sentences; a fact repeated in a row appears once.
 
     Raises `KeyError` for a phrase without words.
     """
@@ -57,7 +57,7 @@ def sentences(description: Description, words: Mapping[str, str], language: Lang
 
 
 def within(head: str, facts: Iterable[str], language: Language, rest: str = "") -> str:
-    """Head and facts as one text of `MOST` characters, with the language's marks; the `rest` tells what is left out."""
+    """Join head and facts into a text of at most `MOST` characters; `rest` says where the facts left out are."""
     kept, facts = [], list(facts)
     room = MOST - len(head) - 3
     whole = "; ".join(facts)

@@ -1,8 +1,8 @@
 """The template language: names, members, calls, conditions, loops and included sections; nothing else.
 
 A template is checked when it is read: syntax outside this language is a fault with its line.  The rest works only on
-the values of a template (`values.py`), and loops and texts have size limits.  Functions of this module replace what
-Jinja would do by itself: join texts, iterate over lists, look up a section.
+the values of a template (`values.py`), and loops and texts have size limits.  Functions of this module replace Jinja's
+default operations: join texts, iterate over lists, look up a section.
 """
 
 from __future__ import annotations
@@ -37,9 +37,9 @@ SIGNS = frozenset(
         *(nodes.Compare, nodes.Operand, nodes.Concat, nodes.Add, nodes.Sub, nodes.Neg),
     )
 )
-"""All that a template may be made of."""
+"""Node types that a template may contain."""
 OF_JINJA = frozenset(("self", "super", "caller", "varargs", "kwargs"))
-"""Names by which Jinja gives objects of its own."""
+"""Names by which Jinja gives access to its internal objects."""
 
 
 class TooMuchError(Exception):
@@ -77,7 +77,7 @@ class Dialect(Environment):
         return self.getitem(obj, attribute)
 
     def getitem(self, obj: Any, argument: Any) -> Any:
-        """A member or an entry of what a token stands for, an item of a list or a text."""
+        """Return a member or an entry of a token's value, or an item of a list or a text."""
         try:
             if isinstance(obj, Token):
                 return held.get().member(obj, argument)
@@ -90,14 +90,14 @@ class Dialect(Environment):
         return self.undefined(hint=f"there is no {_said(argument)} here", name=_said(argument))
 
     def call(self, _context: Context, called: Any, /, *arguments: Any, **named: Any) -> Any:
-        """What a function of the table gives; Jinja adds the variables of a loop, which no function takes."""
+        """Return the result of a function of the table; the variables of a loop, which Jinja adds, are removed."""
         for variables in ("_loop_vars", "_block_vars"):
             named.pop(variables, None)
         return held.get().call(called, arguments, named)
 
 
 def _is_known(node: nodes.Node, filters: Container[str]) -> bool:
-    """Whether a sign is in the language."""
+    """Return True if a node is in the language."""
     match node:
         case nodes.Call():
             named = isinstance(node.node, (nodes.Name, nodes.Getattr))
@@ -121,7 +121,7 @@ def _is_known(node: nodes.Node, filters: Container[str]) -> bool:
 
 
 class _Rewriting(NodeTransformer):
-    """What Jinja would do with any object is done by the functions in `OWN`, whose names no template can write."""
+    """Replace Jinja's operations on objects by the functions in `OWN`, whose names no template can write."""
 
     def __init__(self, environment: Environment) -> None:
         self.environment = environment
@@ -196,7 +196,7 @@ def short(text: str) -> str:
 
 
 def _joined(parts: Iterable[Any]) -> str:
-    """`a ~ b`: texts, whole numbers, and what has a text of its own."""
+    """Return `a ~ b`: texts, whole numbers, and values that have a text are joined."""
     return short("".join(map(held.get().text, parts)))
 
 
@@ -236,7 +236,7 @@ def _difference(of: tuple[Any, Any]) -> int:
 
 
 def _items(of: Any) -> tuple[Any, ...]:
-    """What a loop goes through; counts its steps."""
+    """Return the items that a loop iterates over, and count its steps."""
     values = held.get()
     items = values.items(of)
     values.steps += len(items)
@@ -312,7 +312,7 @@ def _length(of: Any) -> int:
 
 
 def _with(of: Any, name: str) -> tuple[Any, ...]:
-    """Those items of a list of which a member counts as true."""
+    """Return the items of a list for which a member counts as true."""
     return tuple(one for one in _listed(of) if held.get().member(one, name))
 
 

@@ -1,4 +1,4 @@
-"""The inlines that a line consists of: texts, formulas, values and references.
+"""The inlines of a line: texts, formulas, values and references.
 
 Texts are plain strings exactly as they appear in print; writers escape them.
 """
@@ -63,7 +63,7 @@ class Blank:
 
 
 DOTS = "……"
-"""What a blank shows."""
+"""Text printed for a blank."""
 
 Inline = Text | Emph | Strong | InlineMath | Value | Reference | LineBreak | Blank
 Inlines = tuple[Inline, ...]

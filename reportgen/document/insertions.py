@@ -12,9 +12,10 @@ from reportgen.formula import Expression, Number, vocabulary
 
 
 def inlines(of: Any) -> Inlines:
-    """What fills a gap: points as symbols, numbers with their unit, formulas, inlines, else text.
+    """Return the inlines for a value in a gap: points as symbols, numbers with their unit, formulas, inlines, else
+    text.
 
-    Raises `TypeError` for what has no place in a text.
+    Raises `TypeError` for a value that cannot be shown in a text.
     """
     if isinstance(of, NamedPoint):
         return (InlineMath(vocabulary.point(of)),)

@@ -32,9 +32,9 @@ SCENE_GAP = 4.0
 ABREAST = 8.0
 """Between two short rows of an equation side by side, mm."""
 TEXT_SIZE = 12.0
-"""Of running text and formulas, points."""
+"""Size of running text and formulas, points."""
 CLOSE_SIZE = 11.0
-"""Of those of a document that is set close."""
+"""Size of the same in a document that is set close."""
 CERTAIN = 0.96
 """Rows are measured to about so much: one that is too wide for its pair would part all others."""
 
@@ -63,11 +63,11 @@ UNBROKEN = re.compile(f"{UNIT.pattern}|{FILE.pattern}")
 """Either of them."""
 
 TITLE = 5.0
-"""What the titles of a row of scenes take below it (mm)."""
+"""Height that the titles of a row of scenes take below it (mm)."""
 FIGURE_HEIGHT = 241.0
-"""What of an A4 page a figure may fill above its caption (mm)."""
+"""Height of an A4 page that a figure may fill above its caption (mm)."""
 TOGETHER_HEIGHT = 155.0
-"""Rows of a figure that are together higher than this (mm) stand in two parts, the later one as its continuation."""
+"""Rows of a figure that are together higher than this (mm) are split in two parts, the later one as continuation."""
 NEARLY_A_PAGE = 200.0
 """Rows that are together higher than this (mm) fill a page of their own, of which halves would make two half empty."""
 
@@ -75,16 +75,16 @@ NEARLY_A_PAGE = 200.0
 
 
 CERTAIN_ROOM = TEXT_WIDTH - 16.0
-"""What parts of a row may take (mm) that surely have room in a line: beside a number, or in a list."""
+"""Width (mm) in which parts of a row certainly fit in a line: beside a number, or in a list."""
 
 
 def fits(parts: Sequence[Part]) -> bool:
-    """Whether parts of a displayed row surely have room beside each other in a line."""
+    """Return True if parts of a displayed row certainly fit beside each other in a line."""
     return Boxes(TEXT_SIZE * POINT, displayed=True).part(MathRow(tuple(parts))).width <= CERTAIN_ROOM
 
 
 def room_for(room: float, close: bool) -> float:
-    """How broad a room (mm) is for rows measured in the usual type: the smaller type of close documents has more."""
+    """Return the room (mm) for rows measured in the usual type: the smaller type of close documents has more."""
     return room * TEXT_SIZE / CLOSE_SIZE * CERTAIN if close else room
 
 
@@ -113,7 +113,7 @@ def in_groups(rows: Sequence[Expression], room: float) -> list[tuple[Expression,
 
 
 def lines(rows: Sequence[Expression], room: float) -> int:
-    """How many lines the rows of an equation take in a room (mm), short ones two abreast."""
+    """Return the number of lines that the rows of an equation take in a room (mm), short ones two abreast."""
     groups = in_groups(rows, room)
     return sum(-(-len(one) // 2) if all(_is_short(row, room) for row in one) else len(one) for one in groups)
 
@@ -143,7 +143,8 @@ def contents(title: str, blocks: Iterable[Block], brief: bool) -> Contents:
 
 
 def leads(block: Block, following: Block | None, language: Language) -> bool:
-    """Whether a block must stay with the next one: a text that ends in a colon or whose sentence goes on there.
+    """Return True if a block must stay with the next one: a text that ends in a colon, or whose sentence continues
+    there.
 
     A vector equation stays with the text that says how it is solved, and any equation with a table that sums it up.
     """
@@ -165,7 +166,7 @@ def leads(block: Block, following: Block | None, language: Language) -> bool:
 
 
 def held(table: Table) -> tuple[int, ...]:
-    """How many rows of a table stay on one page, group by group: all of a short one, a heading and what it heads."""
+    """Return the number of rows of each group that stays on one page: a short table, or a heading and what it heads."""
     count = len(table.rows)
     if count <= max(WHOLE_TABLE, TOGETHER + table.last):
         return (count,)
@@ -180,7 +181,7 @@ def held(table: Table) -> tuple[int, ...]:
 
 
 def stays(table: Table) -> list[bool]:
-    """Of each row of a table whether it stands on one page with the next one."""
+    """Return for each row of a table whether it stays on one page with the next one."""
     return [row < size - 1 for size in held(table) for row in range(size)]
 
 
@@ -191,7 +192,7 @@ def parted(block: List) -> tuple[List, ...]:
 
 
 def height(rows: Sequence[Sequence[Scene]]) -> float:
-    """Of a figure's rows with their titles and the white between them (mm)."""
+    """Return the height of a figure's rows with their titles and the white between them (mm)."""
     titles = sum(TITLE for row in rows if any(scene.title for scene in row))
     return sum(max(scene.height for scene in row) for row in rows) + titles + SCENE_GAP * (len(rows) - 1)
 
@@ -229,9 +230,10 @@ def in_rows(scenes: Sequence[Scene]) -> list[list[Scene]]:
 
 
 def plates_last(blocks: Iterable[Block], said: Callable[[Plate], Paragraph]) -> Iterator[Block]:
-    """Yield the blocks with the plates of each chapter at its end; where one was called for, `said` tells that.
+    """Yield the blocks with the plates of each chapter at its end; `said` makes the reference at a plate's original
+    place.
 
-    A page of text ends early before a plate: so once in a chapter at most.
+    A page of text ends early before a plate, and in this way at most once in a chapter.
     """
     plates: list[Plate] = []
     for block in blocks:

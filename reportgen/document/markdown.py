@@ -58,7 +58,7 @@ class Rendered:
 _BLOCKS = get_args(tree.Block)
 _DEEPEST = 4
 MOST_NESTED = 12
-"""Lists and what else stands in another; the parser itself reads no more than 20."""
+"""Largest nesting of lists and other blocks; the parser itself reads no more than 20 levels."""
 
 _UNKNOWN = {
     "code_inline": "inline code",
@@ -80,7 +80,7 @@ class _Piece:
 
 
 _Item = str | tree.Inline | _Piece
-"""Of a line being read: static text, an inline made of markup, or what a token stands for."""
+"""Item of a line being read: static text, an inline made of markup, or the value of a token."""
 
 
 def blocks(rendered: Rendered) -> tuple[tree.Block, ...]:
@@ -93,7 +93,7 @@ def blocks(rendered: Rendered) -> tuple[tree.Block, ...]:
 
 
 def _too_deep(tokens: Sequence[Token]) -> int | None:
-    """The line in which more stands within one another than may; None where nothing does."""
+    """Return the line with deeper nesting than allowed; None if there is none."""
     level = line = 0
     for token in tokens:
         line = token.map[0] if token.map else line
@@ -191,7 +191,7 @@ class _Reader:
         return item
 
     def items(self, node: SyntaxTreeNode) -> list[_Item]:
-        """What the line of a paragraph, heading or emphasis consists of."""
+        """Return the items of a paragraph's, heading's or emphasis's line."""
         result: list[_Item] = []
         text = ""
         for child in node.children[0].children if node.type in ("paragraph", "heading") else node.children:

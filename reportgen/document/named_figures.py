@@ -11,9 +11,9 @@ from reportgen.document import Block, Document, Figure, List, Plate, plain
 from reportgen.drawing import Scene
 
 _FIGURE = re.compile(r"(^|\.)fig\.")
-"""What says in the key of a block that it is a figure, behind the name of its part: cam.fig.law."""
+"""Part of a block's key that marks a figure, after the name of its part: cam.fig.law."""
 _UNSAFE = re.compile(r"[^\w.′″-]+")
-"""What no name of a file needs."""
+"""Characters that no file name needs."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,7 +57,7 @@ class NamedFigure:
 
 
 def named_figures(document: Document) -> tuple[NamedFigure, ...]:
-    """All figures of a report in their order; one on several pages is one."""
+    """Return all figures of a report in their order; a figure on several pages is returned once."""
     figures: list[NamedFigure] = []
     for block in _figures(document.blocks):
         scenes = block.scenes if isinstance(block, Figure) else (block.scene,)
@@ -71,7 +71,7 @@ def named_figures(document: Document) -> tuple[NamedFigure, ...]:
 
 
 def figure_name(block: Figure | Plate) -> str:
-    """What a figure is called: its key without what says that it is one, or its number."""
+    """Return the name of a figure: its key without the mark of a figure, or its number."""
     return _FIGURE.sub(r"\1", block.key, count=1) or block.number
 
 

@@ -1,7 +1,9 @@
 """Number a finished tree and resolve its cross-references, in one last pass for all writers.
 
-Parts (level 1) count 1, 2, …; sections below them 1.1 and 1.1.1; equations, tables and figures count by part, each kind
-by itself.  In a part without a number they count 1, 2, … through the whole document.  These never equal the number of a
+Parts (level 1) count 1, 2, …; sections below them 1.1 and 1.1.1; equations, tables and figures count by part, each
+kind
+separately.  In a part without a number they count 1, 2, … through the whole document.  These never equal the number of
+a
 counted part, which has two members.
 """
 
@@ -61,7 +63,7 @@ def unreferenced(document: tree.Document) -> tuple[str, ...]:
 
 @dataclass(slots=True)
 class _Count:
-    """What the pass has met so far."""
+    """State of the numbering pass."""
 
     path: tuple[int, ...] = ()
     """Numbers of the section now open, () in a part that is not counted."""
@@ -70,9 +72,9 @@ class _Count:
     of_kinds: Counter[tuple[tuple[int, ...], _Kind]] = field(default_factory=Counter)
     times: Counter[str] = field(default_factory=Counter)
     shown: dict[str, str] = field(default_factory=dict)
-    """What a reference to a key prints."""
+    """Printed text of a reference, by key."""
     titles: dict[str, tree.Inlines] = field(default_factory=dict)
-    """Of sections without a number, by key."""
+    """Titles of sections without a number, by key."""
     last_figure: str = ""
     equations: list[str] = field(default_factory=list)
     faults: list[str] = field(default_factory=list)
@@ -134,9 +136,9 @@ def _dotted(numbers: tuple[int, ...]) -> str:
 
 
 def _with_rest(block: tree.Block, shown: Mapping[str, str]) -> tree.Block:
-    """A figure with the number of the table of its name, or of the longest beginning of its name that has one.
+    """Return a figure with the number of the table of its name, or of the longest beginning of its name that has one.
 
-    The values of fig.v.stages.23.4 stand in tab.v.
+    The values of fig.v.stages.23.4 are in tab.v.
     """
     if not isinstance(block, tree.Figure | tree.Plate):
         return block

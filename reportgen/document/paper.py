@@ -1,4 +1,4 @@
-"""Scenes on paper: in the text if they fit there in true size, else turned, else on a page of their own."""
+"""Placement of scenes on paper: in the text if they fit in true size, else turned, else on a separate page."""
 
 from __future__ import annotations
 
@@ -18,22 +18,22 @@ LARGER = tuple(
 """Sheets A2, A1, A0, lying and standing."""
 PLATES = (A3_ACROSS, A3_UPRIGHT, *LARGER)
 FIGURE_ROOM = (TEXT_WIDTH, FIGURE_HEIGHT)
-"""What of an A4 page a figure may fill."""
+"""Width and height of an A4 page that a figure may fill."""
 TURNED_ROOM = (254.0, 150.5)
-"""What of it a figure may fill that is turned by 90°."""
+"""Width and height that a figure turned by 90° may fill."""
 PAPERS = {297.0: "A3", 420.0: "A2", 594.0: "A1", 841.0: "A0"}
 """The names of sheets by their shorter side (mm)."""
 WHITE = (34.0, 64.0)
-"""What of a plate's page (mm) its margins, header and caption take."""
+"""Margins, header and caption of a plate's page (mm)."""
 CLOSE = 5.5
-"""What of their margins (mm) scenes of one figure give up to stand side by side."""
+"""Part of their margins (mm) that scenes of one figure give up to fit side by side."""
 LEAST_MARGIN = 0.5
 """The white (mm) that remains around a scene."""
 
 
 @dataclass(frozen=True, slots=True)
 class FigureScenes:
-    """The scenes of a figure; `paper` (mm) asks for a page of its own for each, `turned` for one of A4 across."""
+    """Scenes of a figure; `paper` (mm) requests a separate page for each, `turned` an A4 landscape page."""
 
     scenes: tuple[Scene, ...]
     paper: tuple[float, float] | None = None
@@ -41,16 +41,16 @@ class FigureScenes:
     """A scale to print behind the caption."""
     turned: bool = False
     smaller: float = 1.0
-    """How many times smaller than to the scales of the text it is shown, which its caption says."""
+    """Factor by which it is smaller than to the scales of the text; its caption says so."""
 
 
 def in_text(*scenes: Scene) -> bool:
-    """Whether a figure is one scene that fits a text block in true size."""
+    """Return True if a figure is one scene that fits a text block in true size."""
     return len(scenes) == 1 and scenes[0].width <= FIGURE_ROOM[0] and scenes[0].height <= FIGURE_ROOM[1]
 
 
 def across(scene: Scene) -> bool:
-    """Whether a scene fits a text block that is turned by 90°."""
+    """Return True if a scene fits a text block that is turned by 90°."""
     return scene.width <= TURNED_ROOM[0] and scene.height <= TURNED_ROOM[1]
 
 
@@ -65,7 +65,7 @@ def close(scene: Scene) -> Scene:
 
 
 def fits(width: float, height: float, paper: tuple[float, float]) -> bool:
-    """Whether a drawing of a width and height (mm) has room on a plate."""
+    """Return True if a drawing of a width and height (mm) has room on a plate."""
     return width <= paper[0] - WHITE[0] and height <= paper[1] - WHITE[1]
 
 

@@ -90,7 +90,9 @@ class ProofReader:
                 yield Text(_MARKUP.sub("", part))
 
     def _value(self, expression: str) -> Inlines:
-        """What stands in braces, or their text where this machine has nothing there or it is no part of a line."""
+        """Return the value of an expression in braces, or its text if this machine has no value or it is no part of a
+        line.
+        """
         try:
             value = self.environment.compile_expression(expression, undefined_to_none=False)(**self.names)
             # What is referred to stands in no proof sheet.
@@ -167,7 +169,7 @@ def _section(
 
 
 def _has_words(line: Inlines) -> bool:
-    """Whether there is anything to read: a line may be a table or a figure alone."""
+    """Return True if there is anything to read: a line may be a table or a figure alone."""
     inner = (part.of if isinstance(part, Strong) else (part,) for part in line)
     return any(isinstance(one, Text) and re.search(r"[^\W\d_]", one.text) for parts in inner for one in parts)
 

@@ -68,11 +68,11 @@ _PIECE = re.compile(
 
 
 NUMBER = b"271828182845904523"
-"""Stands in the marks of a template that is kept; as long as that of a process."""
+"""Number in the marks of a kept template; as long as that of a process."""
 
 
 _values: ContextVar[list[Emitted]] = ContextVar("values")
-"""What the templates being rendered have emitted so far."""
+"""Values that the templates being rendered have emitted so far."""
 
 
 LONGEST_SECTION = 4_000_000
@@ -80,9 +80,9 @@ LONGEST_SECTION = 4_000_000
 MARKS = 8
 """So many times as long a text may be with its marks, of which a short piece has more than words."""
 LONGEST_TOLD = 200
-"""Characters of an error that are told."""
+"""Largest number of characters of an error message that are printed."""
 ENVIRONMENTS = 8
-"""How many search paths (language, kind, school) keep their compiled templates."""
+"""Number of search paths (language, kind, school) whose compiled templates are kept."""
 
 
 @shown("__str__")
@@ -120,7 +120,8 @@ class Prose:
         return (replace(first, opens=name), *blocks[1:]) if isinstance(first, Section) else blocks
 
     def inlines(self, words: str) -> Inlines:
-        """What a macro, `caller()` or a `{% set %}` block made, as inlines: a caption written in a template.
+        """Return the result of a macro, `caller()` or a `{% set %}` block as inlines: a caption written in a
+        template.
 
         For functions called by a template while it is rendered; a plain string becomes plain text.
         """
@@ -274,7 +275,7 @@ def _finalize(context: Context, value: object) -> str:
 
 
 def _emit(value: object) -> str:
-    """The text that stands for a value in the Markdown; raises `TypeError` for what has no place in words."""
+    """Return the text that represents a value in the Markdown; raise `TypeError` for a value without one."""
     match value:
         case FunctionToken():
             raise TypeError("a function has no place in words")

@@ -1,4 +1,4 @@
-"""A program that works out formulas and draws their curves, line by line."""
+"""Python lines of a program that computes formulas and draws their curves."""
 
 from __future__ import annotations
 
@@ -70,7 +70,7 @@ def python_name(id: str, taken: Collection[str]) -> str:
 
 
 def given_values(values: np.ndarray, count: int) -> str:
-    """Values as they stand; angles that go round evenly by their law."""
+    """Return values as a literal; evenly increasing angles of whole turns as a formula."""
     if len(values) == 1:
         return repr(float(values[0].real))
     for turn in (1, -1):

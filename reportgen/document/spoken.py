@@ -27,7 +27,7 @@ from reportgen.formula.speech import Speech
 
 
 def speech(document: Document) -> Speech:
-    """How the formulas of a document are said."""
+    """Return the speech for the formulas of a document."""
     return Speech(document.language, document.words.speech, symbols(document.blocks))
 
 

@@ -1,4 +1,4 @@
-"""Tables by their cells: in columns side by side, free ones, long and wide ones folded."""
+"""Build tables from their cells: in columns side by side, free ones, and folded ones if they are long and wide."""
 
 from __future__ import annotations
 

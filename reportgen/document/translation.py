@@ -32,9 +32,9 @@ TABLES = frozenset({SECTION, FIELDS, CHOICES, MESSAGES_SECTION})
 MESSAGES = frozenset({"messages.yaml", "help.yaml", "fields.yaml"})
 """Files whose words come in the language of reference where another one does not have them."""
 MOBILITY = "mobility_line()"
-"""What sets the formula of mobility, whose letters are the language's own."""
+"""Call that prints the formula of mobility, whose letters depend on the language."""
 LETTERED = frozenset({"symbol()", "letters()"})
-"""What prints the letter of a quantity as the language has it, where the reference has a formula."""
+"""Calls that print the letter of a quantity in the language, where the reference has a formula."""
 GRAMMAR = frozenset({"loop", "lowered", "turn_words", "words"})
 """Names that only fit a word into a sentence."""
 FREE_LISTS = frozenset({"columns", "dates", "judgements", "counted", "hidden_names"})
@@ -47,17 +47,17 @@ _HEADING = re.compile(r"(?m)^(#+) ")
 _LETTERS = re.compile(r"[^\W\d_]{2}")
 _IN_BRACES = re.compile(r"\{[{%#].*?[%}#]\}", re.DOTALL)
 ENDINGS = (0, 0, 0, 0, 1, 1, 2, 2, 3, 3, 3, 4, 4, 5)
-"""How many letters of a word may be an ending, by its length."""
+"""Number of letters of a word that may be an ending, by the word's length."""
 
 MissingLetters = Callable[[str], str]
-"""Those of some letters that no font has."""
+"""Function that returns the given letters that no font has."""
 
 
 def faults(folder: Path, lacking: MissingLetters | None = None) -> Iterator[Fault]:
-    """What a language's folder does not say as the language of reference does.
+    """Yield the differences of a language's folder from the language of reference.
 
     Files of kinds and of topics that are not begun are no fault; one that is begun is compared whole.  Raises
-    `TemplateError` for what cannot be read.
+    `TemplateError` for files that cannot be read.
     """
     letters = frozenset((*read_setting(folder / LANGUAGE_FILE).mobility.letters, *MobilityNotation().letters))
     reference = templates() / REFERENCE
@@ -77,7 +77,9 @@ def faults(folder: Path, lacking: MissingLetters | None = None) -> Iterator[Faul
 
 
 def _untranslated(fault: Fault) -> Fault:
-    """What is missing of the program's own messages comes in the language of reference."""
+    """Return the fault with the code for a missing message of the program, which appears in the language of
+    reference.
+    """
     return replace(fault, code="words-untranslated") if fault.code == "words-missing" else fault
 
 
@@ -87,7 +89,7 @@ def _files(folder: Path) -> set[str]:
 
 
 def _differences(what: str, own: Set[str], wanted: Set[str], mark: Mark) -> Iterator[Fault]:
-    """What of some names is missing here, and what the language of reference does not have."""
+    """Yield faults for names that are missing here, and for names that the language of reference does not have."""
     for code, names in (("words-missing", wanted - own), ("words-beyond", own - wanted)):
         if names:
             yield Fault(code, mark, {"expected": f"{what} of words", "place": ", ".join(sorted(names))})
@@ -97,7 +99,7 @@ def _differences(what: str, own: Set[str], wanted: Set[str], mark: Mark) -> Iter
 
 
 def _sections(file: Path, model: Path, terms: Terms, free: Set[str]) -> Iterator[Fault]:
-    """What differs between two files of sections; letters that are `free` stand in the formula of mobility."""
+    """Yield the differences between two files of sections; `free` letters are those of the formula of mobility."""
     own, wanted = sections(file), sections(model)
     yield from _differences("section", own.keys(), wanted.keys(), Mark(str(file)))
     for name in (name for name in wanted if name in own):
@@ -111,7 +113,7 @@ def _sections(file: Path, model: Path, terms: Terms, free: Set[str]) -> Iterator
 
 
 def _compared(here: Passage, there: Passage, free: Set[str]) -> Iterator[Fault]:
-    """What differs between a section and that of reference."""
+    """Yield the differences between a section and that of reference."""
     mark, own, wanted = Mark(str(here.file), here.line), SectionContents.of(here), SectionContents.of(there)
     if MOBILITY not in wanted.calls:
         free = frozenset()
@@ -133,7 +135,7 @@ def _marks(levels: Iterable[int]) -> str:
 
 @dataclass(frozen=True, slots=True)
 class SectionContents:
-    """What a section has whatever its language, and the words that stand in its braces, by their lines."""
+    """Language-independent contents of a section, and the words inside its braces, by their lines."""
 
     calls: frozenset[str]
     names: frozenset[str]
@@ -183,7 +185,7 @@ def parsed(section: Passage) -> nodes.Template:
 
 
 def _names(part: nodes.Node) -> Iterator[nodes.Name]:
-    """The names that are shown, without those of conditions: a language may tell other cases apart."""
+    """Yield the names that are shown, without those of conditions: a language may distinguish other cases."""
     if isinstance(part, nodes.Name):
         yield part
     shown = (part.expr1, part.expr2) if isinstance(part, nodes.CondExpr) else part.iter_child_nodes()
@@ -249,7 +251,7 @@ def _plain(source: Source) -> Mapping[str, Any]:
 
 
 def _tables(own: Source, wanted: Source, above: int = 0) -> Iterator[Fault]:
-    """What differs between two tables of words; the first begins below line `above` of its file."""
+    """Yield the differences between two tables of words; the first begins below line `above` of its file."""
     if own.top is not None and wanted.top is not None:
         yield from _node(own.top, wanted.top, (), above)
 
@@ -261,7 +263,9 @@ def _node(
     above: int,
     around: tuple[Set[str], ...] = (frozenset(), frozenset()),
 ) -> Iterator[Fault]:
-    """What differs at a place of two tables; `around` are the gaps of what lies about it in that of reference."""
+    """Yield the differences at a place of two tables; `around` are the gaps of the surrounding texts in each of
+    them.
+    """
     mark = Mark(own.mark.file, own.mark.line + above, own.mark.column)
     match own, wanted:
         case MappingNode(), MappingNode():
@@ -314,7 +318,7 @@ def _gaps(said: Scalar, mark: Mark) -> frozenset[str]:
 
 
 MOST_LETTERS = 12
-"""Where a file has more letters that no font has, a font is missing: that is told once."""
+"""Largest number of letters without a font that are reported singly; with more, a font is missing: reported once."""
 
 
 def _lines_of(file: Path, lacking: MissingLetters) -> Iterator[Fault]:
@@ -334,8 +338,9 @@ def _lines_of(file: Path, lacking: MissingLetters) -> Iterator[Fault]:
 
 @dataclass(frozen=True, slots=True)
 class Terms:
-    """What a language calls the terms of the glossary: for each the name in the language of reference, as it is found
-    in a text, and its own names, any of which will do."""
+    """Terms of the glossary in a language: for each, its name in the language of reference, as it is found in a
+    text, and the language's names, any of which will do.
+    """
 
     names: Mapping[str, tuple[re.Pattern[str], Mapping[str, re.Pattern[str]]]]
 
@@ -362,7 +367,9 @@ def _terms(language: str) -> Terms:
 
 
 def _inflected(name: str) -> re.Pattern[str]:
-    """A name in any of its forms: long words may end otherwise, and up to three words may stand between two."""
+    """Return a pattern for any form of a name: long words may have other endings, up to three words may lie between
+    two.
+    """
     stems = [re.escape(word[: len(word) - ENDINGS[min(len(word), len(ENDINGS) - 1)]]) for word in name.split()]
     begins = r"\b" if name[:1] < "\u2e80" else ""
     return re.compile(begins + r"\w*\W+(?:\w+\W+){0,3}?".join(stems), re.IGNORECASE)

@@ -16,7 +16,7 @@ from reportgen.document import inlines as tree
 from reportgen.formula import Symbol
 
 _NARROW, _FORMULAS, _WIDE = 0xF0000, 0xF8000, 0x100000
-"""Where the private characters begin that stand for inlines other than text, by what they begin and end with."""
+"""First private characters that represent inlines other than text, by how the inlines begin and end."""
 _W = "\u2e80-\u303f\u3400-\u4dbf\u4e00-\u9fff\uf900-\ufaff\uff01-\uff5e\U00100000-\U0010fffd"
 """Han letters, and marks as wide as these."""
 _HELD = "\U000f0000-\U000fffef"
@@ -49,7 +49,7 @@ def set_out(inlines: tree.Inlines, language: Language) -> tree.Inlines:
 
 
 def _set(line: str, symbols: set[str]) -> str:
-    """The text of a line, in which private characters stand for what is no text, with its marks."""
+    """Return the text of a line with its marks; private characters represent the inlines that are not text."""
 
     def parenthesis(match: re.Match[str]) -> str:
         around = line[: match.start()][-1:] + match[1] + line[match.end() :][:1]
@@ -70,7 +70,7 @@ def _set(line: str, symbols: set[str]) -> str:
 
 
 def _letters(inline: tree.Inline, held: list[tree.Inline]) -> str:
-    """What stands for an inline in the text of its line: its letters, or one private character."""
+    """Return the text for an inline in its line: its letters, or one private character."""
     if isinstance(inline, tree.Text):
         return inline.text
     begins = _FORMULAS if isinstance(inline, (tree.InlineMath, tree.Value)) else _NARROW

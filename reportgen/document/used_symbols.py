@@ -44,15 +44,15 @@ def used_symbols(blocks: Iterable[Block]) -> frozenset[Symbol]:
 
 
 def explained(blocks: Iterable[Block]) -> frozenset[Symbol]:
-    """The symbols that are named where they stand: in a sentence, or in a row of a table that has words.
+    """Return the symbols that are named where they are used: in a sentence, or in a row of a table that has words.
 
-    Of one that is named for both wheels, without their numbers, both are.
+    A symbol named for both wheels, without their numbers, explains both.
     """
     return frozenset(_named(blocks))
 
 
 def is_explained(symbol: Symbol, known: frozenset[Symbol]) -> bool:
-    """Whether it is among the symbols explained, itself or without the number of its wheel."""
+    """Return True if the symbol is explained, itself or without the number of its wheel."""
     return symbol in known or replace(symbol, sub=symbol.sub.rstrip("0123456789")) in known
 
 
@@ -74,7 +74,7 @@ def _named(blocks: Iterable[Block]) -> Iterator[Symbol]:
 
 
 def _symbol(expression: Expression) -> Symbol | None:
-    """What an expression is about: a symbol by itself, or that of which a value is told."""
+    """Return the subject of an expression: a symbol, or the symbol whose value it gives."""
     first = expression.parts[0] if isinstance(expression, Chain) else expression
     return first if isinstance(first, Symbol) else None
 

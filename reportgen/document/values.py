@@ -28,7 +28,7 @@ PLAIN = frozenset((str, int, float, bool, type(None)))
 
 
 class Token:
-    """Stands for a value of the program: only functions take it, or the page on which it is printed."""
+    """Number that represents a value of the program: only functions accept it, or the page on which it is printed."""
 
     __slots__ = ("number", "truth")
 
@@ -43,13 +43,13 @@ class Token:
 
 
 class FunctionToken(Token):
-    """Stands for what a template may call."""
+    """Token of a function that a template may call."""
 
     __slots__ = ()
 
 
 class Values:
-    """What the tokens of a report stand for."""
+    """Values behind the tokens of a report."""
 
     def __init__(self) -> None:
         self._held: list[Any] = []
@@ -69,7 +69,7 @@ class Values:
         return {name: known[name][1] for name in names}
 
     def plain(self, value: Any) -> Any:
-        """What a template holds for a value: the value itself, a tuple, or a token."""
+        """Return the template's form of a value: the value itself, a tuple, or a token."""
         kind = type(value)
         if kind in PLAIN:
             return value
@@ -95,7 +95,7 @@ class Values:
         return self._token(value, Token)
 
     def own(self, value: Any) -> Any:
-        """What the program has for what a template holds.  Raises `UndefinedError` for a name that is none."""
+        """Return the program's value behind a template's value.  Raises `UndefinedError` for an undefined name."""
         if isinstance(value, Token):
             return self._held[value.number]
         if isinstance(value, tuple):
@@ -103,7 +103,7 @@ class Values:
         return str(value) if isinstance(value, Undefined) else value
 
     def member(self, of: Token, name: Any) -> Any:
-        """A shown member, or an entry, of what a token stands for.  Raises `LookupError`."""
+        """Return a shown member, or an entry, of a token's value.  Raises `LookupError`."""
         return self.plain(shown.member(self.own(of), self.own(name)))
 
     def members(self, of: Token) -> Iterable[Any]:
@@ -112,7 +112,9 @@ class Values:
         return held if isinstance(held, Mapping) else shown.members(type(held)) - {"__str__"}
 
     def items(self, of: Any) -> tuple[Any, ...]:
-        """What a loop goes through: the items of a list, or the keys of a mapping.  Raises `TypeError`."""
+        """Return the items that a loop iterates over: those of a list, or the keys of a mapping.  Raises
+        `TypeError`.
+        """
         held = self.own(of) if isinstance(of, Token) else of
         if isinstance(held, Mapping):
             return tuple(map(self.plain, held))
@@ -121,11 +123,11 @@ class Values:
         return held
 
     def text(self, value: Any) -> str:
-        """How a value stands in a text.  Raises `TypeError` for one that has no text."""
+        """Return a value as text.  Raises `TypeError` for a value that has no text."""
         return shown.text(self.own(value))
 
     def call(self, called: Any, arguments: Iterable[Any], named: Mapping[str, Any]) -> Any:
-        """What a function gives.  Raises `SecurityError` for what is none, `TypeError` for what it does not take."""
+        """Call a function.  Raises `SecurityError` if it is not a function, `TypeError` for wrong arguments."""
         if not isinstance(called, FunctionToken):
             self.own(called)
             raise SecurityError("not a function")
@@ -146,7 +148,7 @@ class Values:
 
 
 def _counts(value: Any) -> bool:
-    """Whether a value counts as true in a condition."""
+    """Return True if a value counts as true in a condition."""
     try:
         return bool(value)
     except ValueError:  # an array of several
