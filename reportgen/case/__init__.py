@@ -1,8 +1,8 @@
-"""A case: an assignment solved, as the data that every output is made from.
+"""Cases: an assignment with its solution, as the data that every output is made from.
 
 Code that writes files, marks answers or draws variants for a class works with a `Case` and never asks for its kind.
-`reportgen.cases` has the case of a machine; every other kind of work has its own in its package, and a new kind changes
-no shared code.
+`reportgen.cases` has the case of a machine; every other kind of work has its case in its package, and a new kind
+changes no shared code.
 """
 
 from __future__ import annotations
@@ -43,15 +43,17 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Misconceptions:
-    """What of an assignment is easily taken for something else; marking looks for it.
+    """Common misconceptions about an assignment, which marking looks for.
 
     `applied` are the given loads by name, `loads` all of them, each of which may be forgotten or reversed.  `readings`
-    are for a quantity that is read from a diagram the values [N] that it has when it is read wrongly, with the
-    mistake's name.  `whole` is for a length from one end of a rod the length of the whole rod, by ids.  `changed` are
-    for a quantity other definitions that are often used, with the mistake's name; `ways` other definitions that are as
-    right as its own, of quantities that do not stand on it.  `approximations` are for a quantity definitions that books
-    use in place of the exact one, with their names.  `designs` are for a datum that a design is found by what other
-    data are with another value of it (SI), in each way in which one may go on; none where there is no design.
+    give, for a quantity read from a diagram, its values [N] if it is read wrongly, with the mistake's name.  `whole`
+    maps a length from one end of a rod to the length of the whole rod, by ids.  `changed` gives other definitions of a
+    quantity that are often used, with the mistake's name; `ways` other definitions that are equally right, of
+    quantities
+    that do not depend on it.  `approximations` gives definitions that books use in place of the exact one, with their
+    names.  `designs` gives, for a datum that a design determines from other data, the data with another value of it
+    (SI),
+    in each way to continue; empty if there is no design.
     """
 
     applied: frozenset[str] = frozenset()
@@ -83,11 +85,12 @@ def with_another(families: Mapping[str, Family], instead: Mapping[str, Operand])
 
 @dataclass(frozen=True, slots=True)
 class DriverMotion:
-    """How a driver goes through the positions of a cycle, at constant speed.
+    """Motion of a driver through the positions of a cycle, at constant speed.
 
-    `gone` is how far it has gone since the first of them [N], `whole` its way through the cycle (rad, or m of one that
-    `slides`, which does not begin anew), `called` what this way is with its unit, in words, `speed` that of its motion
-    (rad/s or m/s), if it has one.  `signed` are by their ids the values [N] of the sizes of vectors along a line,
+    `gone` is its way since the first of them [N], `whole` its way through the cycle (rad, or m of one that
+    `slides`, which does not begin anew), `called` the name of this way with its unit, in words, `speed` that of its
+    motion
+    (rad/s or m/s), if it has one.  `signed` gives by id the values [N] of the sizes of vectors along a line,
     counted in the direction of a unit vector.
     """
 
@@ -101,20 +104,20 @@ class DriverMotion:
 
 @dataclass(frozen=True)
 class AskedFor:
-    """What a task asks for, as its words name it."""
+    """Questions of a task, as its words name them."""
 
     answers: tuple[Block, ...]
     """The empty answer sheet."""
     positions: tuple[str, ...]
     """The labels of the positions at which something is asked for."""
     known: tuple[Block, ...]
-    """What is given at each position."""
+    """Given data at each position."""
     scales: bool
-    """Whether scales are to be chosen."""
+    """True if the student chooses scales."""
     by_section: bool = False
-    """Whether each section of the sheet begins a page."""
+    """True if each section of the sheet begins a page."""
     self_check: bool = True
-    """Whether the student has what a sheet is checked by."""
+    """True if the student has the data to check a sheet."""
 
 
 @dataclass(frozen=True)
@@ -135,12 +138,12 @@ class Case(ABC):
     @property
     @abstractmethod
     def title(self) -> str:
-        """What its kind is called, in its language."""
+        """Name of its kind, in its language."""
 
     @property
     @abstractmethod
     def course(self) -> str:
-        """What its course is called, in its language."""
+        """Name of its course, in its language."""
 
     # --- its numbers
 
@@ -157,7 +160,7 @@ class Case(ABC):
     @property
     @abstractmethod
     def entries(self) -> ResultEntries:
-        """What holds at each of its positions, and besides."""
+        """Entries at each of its positions, and those for all of them."""
 
     @property
     def span(self) -> Span:
@@ -165,22 +168,22 @@ class Case(ABC):
         return INSTANT
 
     def sense(self, id: str) -> str:
-        """Which sense of a quantity counts as positive, in words; "" for what is a size or follows the general rule."""
+        """Return the positive sense of a quantity in words; "" for a size or if the general rule applies."""
         return ""
 
     @property
     def families(self) -> Mapping[str, Family]:
-        """What is worked out at its positions."""
+        """Families of the quantities computed at its positions."""
         return self.ledger.families
 
     @property
     def speed(self) -> float | None:
-        """Of its driver (rad/s or m/s); None where nothing drives it."""
+        """Speed of its driver (rad/s or m/s); None if it has no driver."""
         return None
 
     @property
     def driver_motion(self) -> DriverMotion | None:
-        """How its driver goes through its positions; None where these are none of a driver's."""
+        """Motion of its driver through its positions; None if they are not positions of a driver."""
         return None
 
     @property
@@ -195,7 +198,7 @@ class Case(ABC):
 
     @property
     def misconceptions(self) -> Misconceptions:
-        """What marking looks for beside the mistakes that any formula may have."""
+        """Misconceptions that marking looks for, beside the mistakes possible in any formula."""
         return Misconceptions()
 
     def fault(self) -> str:
@@ -214,15 +217,19 @@ class Case(ABC):
 
     @property
     def used(self) -> Collection[Symbol] | None:
-        """The symbols that its report uses, of quantities, points and general formulas; None where it alone tells."""
+        """Symbols that its report uses, of quantities, points and general formulas; None if only the report itself
+        shows them.
+        """
         return None
 
     def animations(self) -> tuple[Animation, ...]:
-        """What moves on its page, an animation a part; none where nothing does."""
+        """Return the animations of its page, one for each part; empty if nothing moves."""
         return ()
 
     def plates(self, sets: Collection[str] = (), every: bool = False) -> Mapping[str, Sequence[DrawingPlate]]:
-        """What its drawing sheets show, by the names of the sets; `every` plate or those usually handed in."""
+        """Return the plates of its drawing sheets, by the names of the sets; `every` plate or those usually handed
+        in.
+        """
         return {}
 
     @property
@@ -231,7 +238,7 @@ class Case(ABC):
         return None
 
     def true_sizes(self) -> Sequence[DrawingSheet]:
-        """What is drawn 1:1 on paper of its own, without a frame."""
+        """Return the drawings in true size (1:1), each on a separate sheet without a frame."""
         return ()
 
     # --- its parts
@@ -244,7 +251,7 @@ class Case(ABC):
 
 @dataclass(frozen=True)
 class CaseOfParts(Case):
-    """A case made of cases: how what is made of each becomes one, with ids, letters and titles of its own."""
+    """Case made of cases: it joins the outputs of its parts, with ids, letters and titles for each part."""
 
     @abstractmethod
     def joined_key(self, keys: Sequence[Key]) -> Key:
@@ -256,7 +263,7 @@ class CaseOfParts(Case):
 
     @abstractmethod
     def joined_plates(self) -> Mapping[str, Sequence[DrawingPlate]]:
-        """What the drawing sheets of the parts show that follow its machine."""
+        """Return the plates of the drawing sheets of the parts that follow its machine."""
 
 
 # --- an assignment opened once with its words -----------------------------------------------------
@@ -267,9 +274,9 @@ Made = TypeVar("Made")
 
 
 def bounded(assignment: Assignment, make: Callable[..., Made], *arguments: Any) -> Made:
-    """What `make`, named in a module, makes of arguments that can be pickled.
+    """Return the result of `make`, a module-level function, for arguments that can be pickled.
 
-    Under a school's templates that is done in a process that can be ended.  Raises `TemplateError` where it was.
+    With a school's templates, it runs in a process with limits.  Raises `TemplateError` if a limit ended the process.
     """
     if assignment.school is None:
         return make(*arguments)
@@ -297,9 +304,10 @@ class LoadedAssignment(Case):
     """The folder of its templates; None where it is the program's own."""
 
     def bounded(self, make: Callable[[Self], Made]) -> Made:
-        """What `make`, named in a module, makes of this case and its words.
+        """Return the result of `make`, a module-level function, for this case and its words.
 
-        A school's templates are rendered in a process that can be ended.  Raises `TemplateError` where that was done.
+        A school's templates are rendered in a process with limits.  Raises `TemplateError` if a limit ended the
+        process.
         """
         if self.assignment.school is None:
             return make(self)
@@ -307,7 +315,7 @@ class LoadedAssignment(Case):
 
     @property
     def places(self) -> tuple[Path, ...]:
-        """Where the words of this language, machine and school are looked for."""
+        """Folders that are searched for the words of this language, machine and school."""
         assignment = self.assignment
         return search_path(assignment.language, assignment.kind, assignment.school or "", self.root)
 
@@ -331,7 +339,7 @@ class LoadedAssignment(Case):
 
     @property
     def place_and_date(self) -> str:
-        """As they stand on the cover; what is not given is dotted."""
+        """Place and date as on the cover; dots replace one that is not given."""
         labels, report = self.words["cover"], self.assignment.report
         place, day = report.place or "……………………", report.date
         if day is None:
@@ -377,7 +385,7 @@ class LoadedAssignment(Case):
 
     @abstractmethod
     def question(self, asked: AskedFor) -> tuple[Sequence[Block], Sequence[Block]]:
-        """What a student is handed, from the given data to the empty answer sheet: the title, and what follows it."""
+        """Return the task from the given data to the empty answer sheet: the title, and the blocks below it."""
 
     @property
     def variant_line(self) -> str:
@@ -424,7 +432,7 @@ class MachineAnalysis(LoadedAssignment):
 
     @cached_property
     def entries(self) -> ResultEntries:
-        """What holds at each of its positions."""
+        """Entries at each of its positions."""
         return entries_of(self.analysis)
 
     @property

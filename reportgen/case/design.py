@@ -1,4 +1,4 @@
-"""Case and report of a design (a cam, a gear pair, a planetary train) with sections and words of its own."""
+"""Case and report of a design (a cam, a gear pair, a planetary train) with separate sections and words."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ Designed = TypeVar("Designed", bound=LoadedAssignment)
 
 @dataclass(frozen=True)
 class DesignCase(LoadedAssignment):
-    """What is designed, as a case: its numbers are one sheet, its papers one page of templates."""
+    """Case of a design: its numbers are one sheet, its papers one page of templates."""
 
     PAGE: ClassVar[type[DesignPage[Any]]]
     SAME: ClassVar[tuple[tuple[str, ...], ...]] = ()
@@ -108,7 +108,7 @@ class DesignPage(ABC, Generic[Designed]):
     case: Designed
 
     NAME: ClassVar[str]
-    """What its words stand under."""
+    """Key of its words."""
     TASK: ClassVar[str]
     """The section with its task."""
     SUMMARY: ClassVar[str]
@@ -127,15 +127,15 @@ class DesignPage(ABC, Generic[Designed]):
         return self.case.assignment.report.extent == "full"
 
     def has(self, section: str) -> bool:
-        """Whether a design like this has a section."""
+        """Return True if a design like this has a section."""
         return True
 
     @abstractmethod
     def names(self) -> dict[str, Any]:
-        """All that the templates may name."""
+        """Return all names that the templates may use."""
 
     def asked(self, asked: AskedFor) -> dict[str, Any]:
-        """What the task may name besides, of what is asked for."""
+        """Return the further names that the task may use, from its questions."""
         return {}
 
     def scenes(self, name: str) -> Iterable[Scene]:
@@ -151,7 +151,7 @@ class DesignPage(ABC, Generic[Designed]):
     # --- symbols and lines
 
     def math(self, text: str) -> Symbol:
-        """What a template writes as `$…$`: a quantity by its id, else letters with what is lowered."""
+        """Return the symbol that a template writes as `$…$`: a quantity's by its id, else letters with their index."""
         if text in self.case.printed:
             return self.case.printed.symbol(text)
         base, _, sub = text.partition("_")

@@ -32,7 +32,7 @@ def headed_chapters() -> tuple[Chapter, ...]:
 
 
 class Role(StrEnum):
-    """What a row is to the student: printed on the task, to be worked out, or a scale of his or her own choice."""
+    """Role of a row for the student: printed on the task, to be computed, or a scale of his or her choice."""
 
     given = "given"
     asked = "asked"
@@ -66,15 +66,15 @@ class KeyRow:
     size: str = ""
     """The id of the size of a signed rotation."""
     what: str = ""
-    """What it is in words: normal acceleration of B about A."""
+    """Name of the quantity in words: normal acceleration of B about A."""
     positive: str = ""
-    """Which sense counts as positive, in words; "" where there is none, or where the general rule says it."""
+    """Positive sense in words; "" if there is none, or if the general rule defines it."""
     open_sense: bool = False
-    """Whether its sign is not judged, because the papers do not say which sense is positive."""
+    """True if its sign is not judged, because the papers do not define the positive sense."""
     plans: tuple[str, ...] = ()
-    """The ids of the scales of the plans that its value is read from, itself or what it stands on."""
+    """Ids of the scales of the plans from which its value, or a value that it depends on, is read."""
     by_rule: bool = False
-    """Whether its bands hold what the trapezoid rule over the positions misses of an integral over the cycle."""
+    """True if its bands include the error of the trapezoid rule over the positions, for an integral over the cycle."""
     formula: Expression | None = None
     """The formula in symbols of what is defined by it alone, as the papers say it: w of w = s′ − e."""
 
@@ -84,12 +84,12 @@ class KeyRow:
 
     @property
     def named(self) -> str:
-        """What it is and which sense of it counts as positive."""
+        """Name of the quantity and its positive sense."""
         return capitalised("; ".join(filter(None, (self.what, self.positive))))
 
     @property
     def described(self) -> Inlines:
-        """The same with its formula, if it is told by one, as they stand beside the row."""
+        """The same with its formula, if it has one, as printed beside the row."""
         if self.formula is None:
             return (Text(self.named),)
         formula = InlineMath(Chain((self.symbol, self.formula)), slashed=True)
@@ -97,7 +97,7 @@ class KeyRow:
         return (Text(f"{capitalised(self.what)}; "), formula, *sense)
 
     def has(self, position: int) -> bool:
-        """Whether the quantity has a value at a position: from 1, or 0 for a single value."""
+        """Return True if the quantity has a value at a position: from 1, or 0 for a single value."""
         return self.single == (position == 0)
 
     def at(self, position: int) -> int:
@@ -107,9 +107,9 @@ class KeyRow:
 
 @dataclass(frozen=True)
 class Key:
-    """All rows of an assignment; `labels` [N] are what its positions are called, `students` fields of its student.
+    """All rows of an assignment; `labels` [N] are the names of its positions, `students` fields of its student.
 
-    Of very many positions only those in `printed` stand in the document.
+    If there are very many positions, only those in `printed` appear in the document.
     """
 
     id: str
@@ -124,7 +124,7 @@ class Key:
     """The parts of a coursework in the order of their rows."""
 
     def label(self, position: int, id: str = "") -> str:
-        """What a position (from 1) of a quantity is called; "" for 0, the one of single values."""
+        """Return the label of a position (from 1) of a quantity; "" for 0, the position of single values."""
         labels = self.part(id).labels if id else self.labels
         return labels[position - 1] if position else ""
 
@@ -144,7 +144,9 @@ class Key:
 
     @property
     def pages(self) -> tuple[tuple[str, Key], ...]:
-        """The parts by their titles, each with its rows as they stand here; what has none is one part without title."""
+        """Return the parts by their titles, each with its rows of this key; a key without parts is one without
+        title.
+        """
         if not self.parts:
             return (("", self),)
         first = 0
@@ -183,7 +185,7 @@ class PartOfKey:
     head: str = ""
 
     def own(self, id: str) -> str:
-        """The id that a quantity has in the part by itself."""
+        """Return the id of a quantity within the part."""
         return self.head + id.removeprefix(self.name) if self.head and id else id
 
     def full(self, id: str) -> str:
@@ -193,9 +195,9 @@ class PartOfKey:
 
 @dataclass(frozen=True, slots=True)
 class Span:
-    """The positions that a key has: those of the cycle by their labels, `count` of them in a turn.
+    """Positions of a key: those of the cycle by their labels, `count` of them in a turn.
 
-    Those in `worked` are written out in full; of very many only those in `printed` stand in the document.
+    Those in `worked` are written out in full; if there are very many, only those in `printed` appear in the document.
     """
 
     labels: tuple[str, ...]
@@ -209,5 +211,5 @@ INSTANT = Span(("1",), 1, (1,))
 
 
 def capitalised(text: str) -> str:
-    """A phrase as it stands at the head of a row."""
+    """Return a phrase with a capital, as at the head of a row."""
     return text[:1].upper() + text[1:]

@@ -1,4 +1,4 @@
-"""What a case comes to besides its ledger: what holds at each position, and what holds for all of them, by name."""
+"""Results of a case besides its ledger: entries for each position, and entries for all of them, by name."""
 
 from __future__ import annotations
 
@@ -93,6 +93,6 @@ def load_entries(loads: tuple[Load, ...], k: int) -> Entries:
 
 
 def _slides(analysis: Analysis, name: str) -> bool:
-    """Whether a reaction acts in a prismatic joint."""
+    """Return True if a reaction acts in a prismatic joint."""
     acting, on = ids.links_of(name)
     return (acting, on) in analysis.motion.slides or (on, acting) in analysis.motion.slides

@@ -1,4 +1,4 @@
-"""What a topic adds to the results of a machine."""
+"""Additions of a topic to the results of a machine."""
 
 from __future__ import annotations
 

@@ -18,14 +18,14 @@ from reportgen.formula import Expression, Symbol, ids, refs, vocabulary
 from reportgen.formula.ledger import Ledger
 
 MAGNITUDE = "magnitude"
-"""Stands in place of a phrase where the sign of a quantity says nothing."""
+"""Marker in place of a phrase if the sign of a quantity has no meaning."""
 FORMULA, EITHER_SIGN = "formula", "formula, either sign"
-"""Stand there where the formula tells what the quantity is; the other where it may be set up with the opposite sign."""
+"""Markers for a quantity defined by its formula; with the second, the opposite sign is also allowed."""
 BY_FORMULA, OPEN = frozenset({FORMULA, EITHER_SIGN}), frozenset({MAGNITUDE, EITHER_SIGN})
 
 
 def phrase(id: str, ledger: Ledger, words: Mapping[str, Any]) -> str:
-    """What a quantity is, without a capital; "" where the words have no phrase for it."""
+    """Return the name of a quantity in words, without a capital; "" if the words have no phrase for it."""
     if given := words.get("given", {}).get(id):
         return _uncapitalised(str(given))
     phrases: Mapping[str, str] = words["quantities"]
@@ -44,12 +44,12 @@ def _body(link: str, phrases: Mapping[str, str]) -> str:
 
 
 def _uncapitalised(text: str) -> str:
-    """A name of the given data as it stands in a sentence; what begins with an abbreviation stays."""
+    """Return a name of the given data in the form for a sentence; one that begins with an abbreviation is unchanged."""
     return text if text[1:2].isupper() else text[:1].lower() + text[1:]
 
 
 def _symbol(id: str) -> Symbol:
-    """The symbol of a vector that has no row of its own."""
+    """Return the symbol of a vector that has no separate row."""
     try:
         return vocabulary.symbol(id)
     except KeyError:
@@ -60,9 +60,9 @@ def _symbol(id: str) -> Symbol:
 
 
 def positive_sense(id: str, ledger: Ledger, words: Mapping[str, Any], ways: Mapping[str, str] | None = None) -> str:
-    """The phrase of a quantity or what stands in its place, as `MAGNITUDE`; "" where no words say anything.
+    """Return the phrase for the positive sense of a quantity, or a marker such as `MAGNITUDE`; "" without words.
 
-    `ways` say of sliders, by their points, where their motion counts as positive.
+    `ways` gives the positive direction of the motion of sliders, by their points.
     """
     family = ledger[id]
     known = _points(id, ledger) | _way(id, ways or {})
@@ -99,7 +99,7 @@ def definition_of(ledger: Ledger, id: str) -> Expression:
 
 
 def _way(id: str, ways: Mapping[str, str]) -> dict[str, str]:
-    """Where a slider's motion counts as positive, in words."""
+    """Return the positive direction of a slider's motion, in words."""
     names = ids.formula_velocity.read(id) or ids.formula_acceleration.read(id)
     return {"way": ways[names["point"]]} if names and names["point"] in ways else {}
 

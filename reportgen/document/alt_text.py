@@ -21,7 +21,7 @@ from reportgen.formula.setting import PRIMES, parted
 MOST = 600
 """Characters of the text of a drawing."""
 DECIMALS = 2
-"""Largest number of characters in the text of a drawing."""
+"""Decimals of a length that is measured on paper (mm)."""
 
 
 class Spoken(Plain):

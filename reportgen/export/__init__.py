@@ -1,1 +1,1 @@
-"""Figures and numbers to take along: figures as files, quantities as curves, whatever kind of work they are of."""
+"""Export of figures and numbers for any kind of work: figures as files, quantities as curves."""

@@ -1,4 +1,4 @@
-"""Quantities as curves over the way of the driver or over time, of several files, beside what was measured."""
+"""Plot quantities of several files as curves over the way of the driver or over time, beside measured values."""
 
 from __future__ import annotations
 
@@ -25,11 +25,11 @@ from reportgen.workbook import SheetCell, read
 
 Over = Literal["phi", "time"]
 POINTS = 360
-"""Of a turn."""
+"""Number of points per turn."""
 AXES: Mapping[str, Over] = {"phi": "phi", "φ": "phi", "t": "time"}
-"""What the first column of a table is headed."""
+"""Head of a table's first column, and the abscissa that it means."""
 _HEAD = re.compile(r"\s*(.+?)\s*(?:\(([^()]*(?:\([^()]*\)[^()]*)*)\))?\s*")
-"""What a column is headed: an id, and its unit in parentheses."""
+"""Head of a column: an id, and its unit in parentheses."""
 
 
 def dense(assignment: Assignment, count: int = POINTS) -> Assignment:
@@ -94,7 +94,9 @@ def _diagram(cases: Sequence[Case], ids: Sequence[str], over: Over, measured: Se
 
 
 def curve(found: Found, over: Over, told: str, language: Language) -> PlottedCurve:
-    """A quantity over the driver's way (degrees, or mm) or over time (s), through the whole cycle; `told` behind it."""
+    """Return a quantity over the driver's way (degrees, or mm) or over time (s), for the whole cycle; `told` is
+    appended.
+    """
     motion, values = found.over(language), found.values / found.family.how.scale
     gone = motion.gone
     if not motion.slides:

@@ -1,7 +1,7 @@
-"""Figures of a case as files of their own: those of its report, and what moves on its page.
+"""Export figures of a case as separate files: those of its report, and the animations of its page.
 
-A figure of the report goes by its key without what says that it is one: v.4, motion, cam.law.  What moves goes by the
-name of its drawing, machine, v, R23, that of a part behind the part's name, cam.cam.
+The name of a report's figure is its key without the mark of a figure: v.4, motion, cam.law.  An animation has the
+name of its drawing: machine, v, R23; that of a part comes after the part's name: cam.cam.
 """
 
 from __future__ import annotations
@@ -25,14 +25,14 @@ from reportgen.drawing.animation import LAYERS, Animation, Pane, Track
 from reportgen.drawing.stills import sample_at, stills
 
 FORMATS = names("figures")
-"""What a figure can be written as."""
+"""File formats of figures."""
 MOVING = tuple(row.name for row in rows("figures") if row.moves)
 """The formats of what moves alone."""
 STILL = tuple(name for name in FORMATS if name not in MOVING)
 SHOWN = LAYERS[:1]
-"""What is drawn on a machine besides, as its page has it at first."""
+"""Layers drawn on a machine by default, as its page first shows it."""
 FRAMES = 60
-"""Of a turn."""
+"""Number of frames per turn."""
 MOVING_DPI = 110
 """Dots an inch of what moves."""
 
@@ -61,7 +61,7 @@ class MovingFigure:
         )
 
     def _goes_on(self, layers: Collection[str]) -> bool:
-        """Whether something is shown that does not repeat from turn to turn."""
+        """Return True if something is shown that does not repeat from turn to turn."""
         shown = (item for item in self.pane.items if not item.layer or item.layer in layers)
         return any(
             track.values.size > self.animation.knots.size
@@ -73,9 +73,9 @@ class MovingFigure:
 
 @dataclass(frozen=True, slots=True)
 class FigureQuery:
-    """Which figures are wanted and how: all without `names`; those of a position that goes by `labels`, the first best.
+    """Selection of figures and their form: all without `names`; with `labels`, those of the first matching position.
 
-    What moves shows `layers` besides; pictures have `dpi` dots an inch, as many as is usual for 0.
+    Animations also show `layers`; pictures have `dpi` dots per inch, the usual number for 0.
     """
 
     names: Sequence[str] = ()
@@ -91,7 +91,7 @@ def listed(case: Case) -> tuple[tuple[NamedFigure, ...], tuple[MovingFigure, ...
 
 
 def moving(case: Case) -> tuple[MovingFigure, ...]:
-    """What moves, of all parts."""
+    """Return the animations of all parts."""
     return tuple(
         MovingFigure(f"{one.name}.{pane.key}" if one.name else pane.key, one, pane)
         for one in case.animations()
@@ -133,12 +133,12 @@ def figure_files(case: Case, query: FigureQuery) -> Mapping[str, bytes]:
 def drawn(
     scenes: Sequence[Scene], language: Language, formats: Sequence[str] = STILL[:1], dpi: int = 0
 ) -> dict[str, list[bytes]]:
-    """Scenes in some of the formats that stand still."""
+    """Return scenes in some of the still formats."""
     return {row.name: row.load()(scenes, language, dpi) for row in chosen("figures", formats)}
 
 
 def _described(svg: bytes, text: str) -> bytes:
-    """A picture that says what it shows to whoever does not see it."""
+    """Return a picture with a description for readers who do not see it."""
     head, end, rest = svg.partition(b">")
     return head + end + f"<desc>{escape(text)}</desc>".encode() + rest if text else svg
 
@@ -156,9 +156,9 @@ def drawings(
     movable: Callable[[], Sequence[MovingFigure]],
     language: Language,
 ) -> Iterator[tuple[str, Scene]]:
-    """The drawings of what is wanted that stand still, by the names of their files; what is `movable`, if need be.
+    """Yield the requested still drawings, by the names of their files; from `movable` ones if necessary.
 
-    Raises `UnknownNameError`, `NotOfferedError` where nothing shows the position that is wanted.
+    Raises `UnknownNameError`, or `NotOfferedError` if no figure shows the requested position.
     """
     if not query.names:
         shown = [one.shown_at(query.labels) for one in figures] if query.labels else figures
@@ -181,7 +181,7 @@ def drawings(
 
 
 def _wanted(case: Case, query: FigureQuery, movable: Sequence[MovingFigure]) -> Iterator[MovingFigure]:
-    """What moves of all that is wanted."""
+    """Yield the requested animations."""
     language, by_name = case.assignment.language, {one.name: one for one in movable}
     if not by_name:
         raise NotOfferedError(word("nothing_moves", language))

@@ -1,4 +1,4 @@
-"""Quantities of a case by their ids: arrays that know what they are, over the way of the driver."""
+"""Quantities of a case by their ids: arrays with their metadata, over the way of the driver."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from reportgen.formula.sheet import Family
 from reportgen.formula.vocabulary import KINDS
 
 _IN_SI = {"°": "rad", "%": "", "cm": "m", "cm²": "m²", "N/cm²": "Pa", "N/(cm²·mm)": "Pa/m"}
-"""Of units in which values are printed, but for those in mm."""
+"""SI units of printed units, except for those in mm."""
 
 
 def si_unit(kind: str) -> str:
@@ -53,7 +53,7 @@ class QuantityArray(np.ndarray):
         super().__setstate__(values)
 
     def __array_wrap__(self, array: Any, context: Any = None, return_scalar: bool = False) -> Any:
-        """What is computed of it is a plain array: it has another unit."""
+        """Return the result of a computation as a plain array, because its unit differs."""
         plain = np.asarray(array)
         return plain[()] if return_scalar else plain
 
@@ -80,7 +80,7 @@ class Found:
         return QuantityArray.of(self.values, self.family)
 
     def over(self, language: Language) -> DriverMotion:
-        """How the driver goes; raises `NotOfferedError` of what is no curve over its way."""
+        """Return the driver's motion; raise `NotOfferedError` if the quantity is not a curve over its way."""
         over = self.case.driver_motion
         if over is None or len(self.family.values) != len(over.gone):
             raise NotOfferedError(word("no_curve", language, text=self.id))

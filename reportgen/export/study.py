@@ -1,9 +1,10 @@
-"""Quantities over a range of parameters: the ledger evaluated once with one more axis, for the values in front.
+"""Quantities over a range of parameters: the ledger is evaluated once with one more axis, in front, for the values.
 
-That needs every number that a quantity stands on to be given, to have a formula, or to be the same for all values.
-What else it may stand on, the load of a stroke that becomes longer, no formula of the ledger tells: then each value has
-a case of its own, as a file of its own would have.  The scales of plans may be any: what is laid off to one is measured
-to the same.
+This requires that every number on which a quantity depends is given, has a formula, or is the same for all values.
+Other dependencies, such as the load of a stroke that becomes longer, have no formula in the ledger: then each value
+has
+a separate case, as a separate file would have.  The scales of plans may be any: lengths are laid off and measured
+to the same scale.
 """
 
 from __future__ import annotations
@@ -24,9 +25,9 @@ from reportgen.formula.ledger import Ledger
 from reportgen.formula.sheet import Family
 
 SAME = 1e-13
-"""What differs by a smaller share is the same number worked out twice."""
+"""Relative difference below which two numbers are the same number computed twice."""
 PROBED = 5
-"""So many values of the range, its ends among them, tell whether a number changes with it."""
+"""Number of values of the range, its ends included, that show whether a number changes with it."""
 
 
 @dataclass(frozen=True)
@@ -74,7 +75,9 @@ class Study:
 
     @cached_property
     def _given(self) -> Mapping[str, np.ndarray]:
-        """What a file gives, or its machine works out of it, for each sound value, by ids: [values, 1 or positions]."""
+        """Values that a file gives, or its machine computes from it, for each sound value, by ids: [values, 1 or
+        positions].
+        """
         machine = getattr(catalogue.module(self._sound[0].kind), "machine", None)
         if machine is None or self._sound[0].parts:
             return {}
@@ -87,13 +90,15 @@ class Study:
         }
 
     def _needed(self, id: str) -> frozenset[str]:
-        """A quantity with all that it stands on, the corner of its plan among them if it has a sign along a line."""
+        """Return a quantity with all its dependencies, including the corner of its plan if it has a sign along a
+        line.
+        """
         ledger, signed = self._base.ledger, self._signed(id)
         own = [id] if signed is None else [id, *signed[:2]]
         return frozenset(other for one in own for other in (one, *ledger.ancestors(one)))
 
     def _signed(self, id: str) -> tuple[str, str, complex] | None:
-        """Of what has a sign along a line: the corner of its plan, the plan's scale, the direction."""
+        """Return the corner of the plan, the plan's scale and the direction of a quantity with a sign along a line."""
         motion = self._base.driver_motion
         if motion is None or id not in motion.signed:
             return None
@@ -101,7 +106,9 @@ class Study:
         return ids.plan_point(rate, image(point)), ids.scale(rate), motion.signed[id][1]
 
     def is_told(self, id: str) -> bool:
-        """Whether formulas and given data tell a quantity for every value, from what does not change besides."""
+        """Return True if formulas and given data determine a quantity for every value, without other changing
+        numbers.
+        """
         family = self._base.ledger[id]
         if not self._given or family.is_plane or family.kind == "segment" or _is_scale(family):
             return False
@@ -111,7 +118,7 @@ class Study:
         return len(ways) <= 1 and all(self._is_same(one, ledgers) for one in self._needed(id))
 
     def _is_same(self, id: str, ledgers: Sequence[Ledger]) -> bool:
-        """Whether a number is worked out in one way for all values or, if no formula tells it, is one for all."""
+        """Return True if a number has one formula for all values or, without a formula, is the same for all."""
         first, *others = ledgers
         if not all(id in ledger for ledger in others):
             return False
@@ -150,5 +157,5 @@ class Study:
 
 
 def _is_scale(family: Family) -> bool:
-    """Whether it is the scale of a plan, which is chosen and changes by jumps."""
+    """Return True if it is the scale of a plan, which is chosen and changes by jumps."""
     return family.kind.endswith(("scale", "on paper"))

@@ -21,7 +21,7 @@ from reportgen.report.template_names import names
 LISTING = "symbols"
 """The section of what all others use."""
 OWN_LETTERS = "structure"
-"""Section of the symbols that all others use."""
+"""Section of the formula of mobility, whose letters are explained below it: its W is not the work."""
 
 
 def compose(case: MachineAnalysis) -> Document:

@@ -171,7 +171,7 @@ def true_sense(report: Report, name: str, k: int) -> complex:
 def bodies(report: Report, k: int, group: GroupView) -> FigureScenes:
     """Draw the group with all its forces at half size, then each link whose moments are taken, with the arms.
 
-    A group is not drawn as a whole if both its links are drawn separately unless the report shows everything twice.
+    A group whose links are both drawn separately is drawn as a whole only if the report shows everything twice.
     """
     return beside_one_another(*separated(report, k, group))
 

@@ -1,4 +1,4 @@
-"""From a report to its drawing sheets: plates on paper, frame and title block."""
+"""Make the drawing sheets of a report: plates on paper, frame and title block."""
 
 from __future__ import annotations
 
@@ -33,10 +33,11 @@ STEPS = 20
 def drawing_sheets(
     case: Case, size: str = "", sets: Collection[str] = (), block: Path | None = None, every: bool = False
 ) -> list[DrawingSheet]:
-    """The finished drawing sheets of a case, with `every` plate or those usually handed in, then its true sizes.
+    """Return the finished drawing sheets of a case, with `every` plate or those usually handed in, then its true
+    sizes.
 
-    `sets` are some of `Set` of a machine, all if none is named.  The parts that follow a machine stand on sheets as
-    large as its own, on no larger ones than A1 if these hold them.  Raises `SheetError` where there is nothing to draw,
+    `sets` are some of `Set` of a machine, all if none is named.  The parts that follow a machine are on sheets as
+    large as its own, not larger than A1 if that size is enough.  Raises `SheetError` if there is nothing to draw,
     and as `on_sheets` does.
     """
     plates = case.plates(sets, every)

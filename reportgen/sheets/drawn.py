@@ -1,4 +1,4 @@
-"""What plates of drawing sheets are made from: a report, the same drawn small, scenes with their words, tables."""
+"""Sources of the plates of drawing sheets: a report, the same drawn small, scenes with their words, tables."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from reportgen.report.groups import GroupView
 from reportgen.report.report import Report
 
 WIDEST, MOST_ROWS = 180.0, 24
-"""A table is so wide (mm) and has so many positions at most; then another stands beside it."""
+"""Largest width (mm) and number of positions of a table; then another is placed beside it."""
 
 
 SEGMENT = 2
@@ -26,9 +26,9 @@ SEGMENT = 2
 
 @dataclass(frozen=True)
 class Sources:
-    """What plates are drawn from: a report, and the same one whose figures are drawn small, to be enlarged.
+    """Sources of plates: a report, and the same one whose figures are drawn small, to be enlarged.
 
-    Of `every` plan there is a plate, those of velocities and accelerations to the scales of the worked ones.
+    With `every`, each plan has a plate, those of velocities and accelerations to the scales of the worked ones.
     """
 
     report: Report

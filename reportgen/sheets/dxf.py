@@ -1,7 +1,7 @@
-"""Drawing sheets → DXF: the items of the PDF, as a CAD program draws them; ezdxf writes the file.
+"""Write drawing sheets as DXF: the items of the PDF, as a CAD program draws them; ezdxf writes the file.
 
-Everything stands 1:1 in model space, in millimetres, one sheet beside another's file; a paper-space layout
-shows it.  Layers go by meaning, a plate is a named group, and the same sheet gives the same bytes.
+Everything is 1:1 in model space, in millimetres, one file for each sheet; a paper-space layout
+shows it.  Layers follow the meaning of lines, a plate is a named group, and the same sheet gives the same bytes.
 """
 
 from __future__ import annotations
@@ -62,7 +62,7 @@ ATTACHMENT: dict[Anchor, int] = {
     "bottom-right": 9,
 }
 HALIGN = {"left": 0, "center": 1}
-"""Where a line of text stands at its place; in the middle of its height."""
+"""Horizontal alignment of a line of text at its place; vertically it is centred."""
 ORDERS = frozenset("%^\\")
 """Signs that begin an order in a line of text."""
 SHADE = 254
@@ -76,7 +76,7 @@ REALS = range(10, 60)
 FURTHER = 40
 PLACE_DECIMALS, REAL_DECIMALS = 5, 8
 HUGE = 1e9
-"""What an empty drawing has for its extents is more."""
+"""Limit of the extents; those of an empty drawing are larger."""
 STACK = 0.7
 """Size of indices beside the letters they belong to."""
 _PAIR = re.compile("%(?=%)")
@@ -123,7 +123,7 @@ def _rounded(text: str) -> str:
 
 
 def _draw(document: Drawing, part: PlacedScene, texts: MText) -> None:
-    """The items of a part in model space, as one named group; each named vector is one by itself, too: "9.1 pb"."""
+    """Draw the items of a part in model space as one named group; each named vector is also a group: "9.1 pb"."""
     groups: dict[str, list[Any]] = {part.name: []}
     for item in part.scene.items:
         entities = list(_entities(document, item, part, texts))
@@ -223,7 +223,7 @@ def _smooth(points: tuple[complex, ...], closed: bool) -> list[list[complex]]:
 
 
 def _spline(model: Any, points: list[tuple[float, float]]) -> Any:
-    """The cubic B-spline through points, on a layer of its own."""
+    """Return the cubic B-spline through points, on a separate layer."""
     from ezdxf.math import global_bspline_interpolation
 
     degree = min(3, len(points) - 1)

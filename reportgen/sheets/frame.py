@@ -36,7 +36,7 @@ SIZES: Mapping[str, tuple[float, float]] = {
 
 HEAVY, FINE, EDGE = Pen(0.7), Pen(0.35), Pen(0.18)
 CENTRING = 5.0
-"""How far a centring mark reaches into the frame, mm."""
+"""Length of a centring mark inside the frame, mm."""
 HEIGHTS = (7.0, 5.0, 3.5, 2.5, 1.8)
 """Heights of capital letters, mm; the last in narrow cells of a title block only."""
 NARROW = 0.75
@@ -47,7 +47,7 @@ LEADING = 1.6
 """From line to line, in heights of capitals."""
 
 LINE = 1.3
-"""Of a line with what reaches below it, in heights of capitals."""
+"""Height of a line with its descenders, in heights of capitals."""
 
 Align = Literal["left", "center"]
 
@@ -66,7 +66,7 @@ class BlockCell:
     align: Align = "center"
     heavy: bool = False
     turned: bool = False
-    """Whether the text goes upwards."""
+    """True if the text goes upwards."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,7 +82,7 @@ FRAME = "frame"
 
 
 def room(size: str, block: TitleBlock) -> Room:
-    """What the frame and the title block leave free on a sheet."""
+    """Return the room that the frame and the title block leave free on a sheet."""
     low, high = _frame(size, block.margins)
     return Room(low, high, complex(*block.size))
 
@@ -148,10 +148,10 @@ def _corners(low: complex, high: complex) -> tuple[complex, ...]:
 
 
 def _letters(cell: BlockCell) -> Iterator[Label]:
-    """The cell's text in the largest letters, not above its own, with which it has room.
+    """Yield the cell's text in the largest letters that fit, not above the cell's own.
 
-    It may stand in several lines; letters that need not be narrower come first.  Of the smallest ones none is left out:
-    they are as narrow as they must be.
+    It may take several lines; sizes at which letters need not be narrower come first.  In the smallest size the whole
+    text is kept: its letters are as narrow as necessary.
     """
     along, across = (cell.height, cell.width) if cell.turned else (cell.width, cell.height)
     heights = [height for height in HEIGHTS if height <= cell.letters] or [HEIGHTS[-1]]
@@ -275,11 +275,11 @@ class TitleBlock:
     margins: Margins
     cells: tuple[BlockCell, ...]
     below: str = ""
-    """What is printed below the frame: the format."""
+    """Text below the frame: the format."""
     beside: tuple[BlockCell, ...] = ()
     """Columns beside the frame."""
     designation: str = ""
-    """How a sheet is designated where the assignment does not say it."""
+    """Designation of a sheet if the assignment does not give it."""
     following: TitleBlock | None = None
     """The block of all sheets but the first, if they have another one."""
 
@@ -295,9 +295,9 @@ def _filled(text: str, fields: Mapping[str, str]) -> str:
 
 
 def blocks(school: Path | str = "", language: Language | None = None) -> dict[str, Path]:
-    """The blocks that come with the program and those of a school, by name.
+    """Return the title blocks of the program and those of a school, by name.
 
-    One may have a file of its own for a language, whose code is in the file's name: gb.zh.yaml.
+    A block may have a separate file for a language, whose code is in the file's name: gb.zh.yaml.
     """
     folders = [templates() / "frames" / FOLDER, *([templates() / school / FOLDER] if school else [])]
     files = [(path.stem.partition("."), path) for folder in folders for path in sorted(folder.glob("*.yaml"))]
@@ -332,7 +332,7 @@ def _cells_of(cells: Sequence[_Cell]) -> tuple[BlockCell, ...]:
 
 
 def _findings(block: _Block, at: Where) -> Iterator[Finding]:
-    """What is wrong with the cells of a block beside their single values."""
+    """Yield the faults of a block's cells, except those of their single values."""
     for index, cell in enumerate(block.cells):
         where = (*at, "cells", index)
         if cell.x + cell.width > block.width or cell.y + cell.height > block.height:
@@ -380,7 +380,7 @@ def numbered(sheets: Sequence[DrawingSheet], form: TitleBlock, designation: str)
 
 
 def fields_of(case: Case, block: TitleBlock, number: int) -> dict[str, str]:
-    """What the assignment says for the title block of a sheet; who lays the sheets out adds their count and format."""
+    """Return the assignment's fields for the title block of a sheet; the layout adds the sheets' count and format."""
     given, variant = case.assignment.report, case.assignment.variant
     organisation = ", ".join(part for part in (given.university, given.faculty, given.department) if part)
     student, date = given.student, given.date

@@ -1,7 +1,8 @@
-"""Where plates stand on drawing sheets: in columns, in the order of the work, with heads in line and even gutters.
+"""Packing of plates on drawing sheets: in columns, in the order of the work, with aligned heads and even gutters.
 
-A column is rows of plates: beside one that leaves room stands the next.  Columns begin at the top, with one distance
-between rows and one between columns all over the sheet; those above the title block are so much shorter.
+A column is rows of plates: the next plate is placed beside one that leaves room.  Columns begin at the top, with one
+distance between rows and one between columns all over the sheet; those above the title block are shorter by its
+height.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ from reportgen.drawing.plates import DUST, Arranged, DrawingPlate
 from reportgen.drawing.sheet import GAP, PlacedScene, Room, TooLargeError
 
 MOST = 20.0
-"""Rows stand no farther apart than this, mm."""
+"""Largest distance between rows, mm."""
 SHARES = (1.0, 0.9, 0.8, 0.7, 0.6, 0.5)
 """Columns are tried this share as high as a sheet."""
 STEP = 4.0
@@ -52,11 +53,11 @@ class PlateColumn:
 
     @cached_property
     def height(self) -> float:
-        """Of all rows (mm), without what is between them."""
+        """Height of all rows (mm), without the space between them."""
         return sum(map(_height, self.rows))
 
     def fits(self, high: float) -> bool:
-        """Whether it has a height (mm), white above, below and between the rows included."""
+        """Return True if it fits a height (mm), white above, below and between the rows included."""
         return self.height + GAP * (len(self.rows) + 1) <= high + DUST
 
     def placed(self, corner: complex, apart: float) -> Iterator[PlacedScene]:
@@ -142,7 +143,7 @@ class Packing:
         raise TooLargeError(plate.title, plate.arrangements[0].width, plate.arrangements[0].height)
 
     def _together(self, plates: Sequence[DrawingPlate], count: int) -> int:
-        """How many plates a sheet takes so that it divides no family which has room on the next one."""
+        """Return the number of plates on a sheet, reduced so that no family is divided that fits on the next one."""
         if count == len(plates) or not plates[count].family:
             return count
         family = [plate for plate in plates if plate.family == plates[count].family]
@@ -192,7 +193,7 @@ class Packing:
             corner += column.width + across
 
     def _apart(self, columns: Sequence[PlateColumn]) -> tuple[float, float]:
-        """How far apart columns stand if they fill the width of a sheet, and their rows if they fill its height."""
+        """Return the distances of columns that fill the width of a sheet, and of rows that fill its height."""
         rights = list(accumulate(column.width for column in columns))
         free = [(self.wide - rights[-1]) / (len(columns) + 1)]
         free += [
@@ -210,5 +211,5 @@ class Packing:
 
 
 def _count(columns: Sequence[PlateColumn]) -> int:
-    """How many plates stand in some columns."""
+    """Return the number of plates in some columns."""
     return sum(len(row) for column in columns for row in column.rows)

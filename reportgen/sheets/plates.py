@@ -1,7 +1,7 @@
-"""What drawing sheets show: the report's own figures, to its own scales, with the numbers that it prints.
+"""Plates of drawing sheets: the report's figures, to its scales, with the numbers that it prints.
 
-A figure is drawn small and then enlarged with its letters, so that these are as high as a drawing's are, and its lines
-as long as the report says.
+A figure is drawn small and then enlarged with its letters, so that the letters are as high as on a drawing, and its
+lines as long as the report says.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ from reportgen.sheets.drawn import Drawn, Sources, bare, table_of, unit_of
 from reportgen.sheets.topic_plates import PLATES, DrawPlates, PlateHooks
 
 LARGER_FORCES = (2.0, 3.0)
-"""How many times larger than in the report the force plans of all positions may be drawn."""
+"""Factors by which the force plans of all positions may be larger than in the report."""
 ONE_LINE = 1e-6
 """Directions that differ by no more (radians) are one."""
 
@@ -185,13 +185,15 @@ def _indicator(sources: Sources) -> Iterator[Drawn]:
 
 
 def _indicator_of_several(sources: Sources) -> Iterator[Drawn]:
-    """That of several cylinders, which stands with their positions: their links alone fill the sheet of forces."""
+    """Yield the indicator diagram of several cylinders, together with their positions: their links fill the force
+    sheet.
+    """
     if sources.report.has_gas and len(sources.report.pistons) > 1:
         yield Drawn("indicator", "indicator", indicator(sources.small).scenes)
 
 
 def _worked_forces(sources: Sources) -> Iterator[Drawn]:
-    """Of each group, as they are solved, its separated links and its force plan; the same of the driver; the lever."""
+    """Yield, in the order of solution, each group's separated links and force plan; those of the driver; the lever."""
     report, small = sources.report, sources.small
     for k in report.worked_forces:
         for group in reversed(report.groups):
@@ -278,7 +280,7 @@ def applied(report: Report) -> list[str]:
 
 
 def on_sheet(case: Case, steps: int) -> FigureSize:
-    """How large a sheet shows a figure of a report, by so many standard scales larger."""
+    """Return the size of a figure of a report on a sheet, larger by a number of standard scales."""
     return FigureSize(steps, ENLARGED, case.words["plates"]["report"], case.assignment.language)
 
 
@@ -289,7 +291,7 @@ def drawn(table: Table, language: Language) -> Scene:
 
 
 def _content(inlines: Inlines, language: Language) -> Content:
-    """What stands in a cell, as a label has it."""
+    """Return the content of a cell as a label."""
     match inlines:
         case (InlineMath(expression),):
             return expression
@@ -318,6 +320,6 @@ OF_MOTION: tuple[DrawPlates, ...] = (
 )
 """The set of the motion, in the order of the work."""
 FURTHER = frozenset({_centres, _force_plates, _polar})
-"""What is shown only where every plate is asked for."""
+"""Plates that appear only if every plate is requested."""
 RESULTS = frozenset({_velocity_table, _acceleration_table, _reaction_table, _load_table})
 """Tables that else fill what is left of a sheet."""

@@ -1,4 +1,4 @@
-"""What a topic adds to the drawing sheets of a machine."""
+"""Additions of a topic to the drawing sheets of a machine."""
 
 from __future__ import annotations
 
@@ -14,17 +14,17 @@ DrawPlates = Callable[[Sources], Iterator[Drawn]]
 
 @dataclass(frozen=True)
 class PlateHooks:
-    """The plates of a topic: among those of the forces, and in a set of its own that is called like the topic."""
+    """Plates of a topic: among those of the forces, and in a separate set with the topic's name."""
 
     before_bodies: tuple[DrawPlates, ...] = ()
-    """Stand in the set of forces before the separated links."""
+    """Plates in the set of forces before the separated links."""
     after_bodies: tuple[DrawPlates, ...] = ()
-    """Stand in the set of forces behind the separated links."""
+    """Plates in the set of forces after the separated links."""
     curves: tuple[DrawPlates, ...] = ()
-    """Stand in the set of forces behind the curves."""
+    """Plates in the set of forces after the curves."""
     own_set: tuple[DrawPlates, ...] = ()
     further: frozenset[DrawPlates] = frozenset()
-    """Those that are shown only where every plate is asked for."""
+    """Plates that appear only if every plate is requested."""
 
 
 PLATES = HookModule("plates", PlateHooks)
