@@ -1,4 +1,4 @@
-"""A drawing as data: a sheet of paper in millimetres and the items on it.
+"""Drawings as data: a sheet of paper in millimetres and the items on it.
 
 Points are complex numbers in mm, x to the right and y up, with the origin at the sheet's lower left
 corner.  Items are painted in order.  A scene knows no machine; a writer knows no figure.
@@ -35,9 +35,9 @@ class Line:
 
 @dataclass(frozen=True, slots=True)
 class Arrow:
-    """A straight arrow whose tip lies exactly on `end`; `head` is the head's length in mm.
+    """Straight arrow whose tip lies exactly on `end`; `head` is the head's length in mm.
 
-    `name` (e.g. "pb") identifies the arrow to whoever measures the drawing; it is not printed.
+    `name` (e.g. "pb") identifies the arrow for measurements of the drawing; it is not printed.
     """
 
     start: complex
@@ -106,7 +106,7 @@ class Label:
     turn: int = 0
     """Degrees anticlockwise, 0 or 90."""
     background: bool = False
-    """White paper under the box, for a label that must stand on a line."""
+    """White paper under the box, for a label that must be placed on a line."""
     narrow: float = 1.0
     """The width of its letters, as a share of the usual one."""
 
@@ -126,10 +126,10 @@ class Scene:
     margin: float = 0.0
     """The white around what is drawn, mm each side."""
     crowded: bool = False
-    """Whether its labels want more room than so small a drawing has."""
+    """True if its labels need more room than so small a drawing has."""
     at: str = ""
     """The position that it shows, of several scenes of a figure; it is not printed."""
     diagram: Diagram | None = field(default=None, compare=False, repr=False)
-    """What it is painted of, if it is a chart."""
+    """Diagram that it shows, if it is a chart."""
     description: Description = field(default=(), compare=False, repr=False)
-    """What it tells a reader who does not see it."""
+    """Description for readers who do not see it."""

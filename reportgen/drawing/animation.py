@@ -1,4 +1,4 @@
-"""Drawings that move: their items, and where each of them is at every sample of a turn.
+"""Animated drawings: their items, and the place of each item at every sample of a turn.
 
 Nothing here is computed twice: a place is a `Track`, an array over the samples, and an item names the tracks that
 it follows.  A machine is drawn once, each link in its own frame; plans are arrows between two tracks.
@@ -33,9 +33,9 @@ MARGIN = 7.0
 FEET = (-2.6 - 5j, 2.6 - 5j)
 """From a fixed pivot to the feet of its support (mm)."""
 SMALL = 6.0
-"""The name of a point in a block that reaches no farther from it (mm) stands outside."""
+"""Reach (mm) of a block around a point below which the point's name is placed outside the block."""
 MACHINE = 120 + 110j
-"""What a machine takes of a screen, about (mm): letters and arrows of a larger one grow as it shrinks."""
+"""Approximate room of a machine on a screen (mm): letters and arrows of a larger one grow as it shrinks."""
 MOST = 4.0
 """They never grow more than so many times."""
 PANEL = 96 + 78j
@@ -47,11 +47,11 @@ BAR = 0.3
 NO_UNITS: Mapping[str, str] = MappingProxyType({})
 """Units that are written as they are."""
 TOGETHER = 1e-6
-"""Values that differ by no more of their greatest are one that stands still."""
+"""Values that differ by no more than this share of the greatest are one constant value."""
 
 
 class Track:
-    """Values over the samples of a turn or of the cycle, real or complex; one that stands still has one."""
+    """Values over the samples of a turn or of the cycle, real or complex; a constant track has one value."""
 
     def __init__(self, values: np.ndarray) -> None:
         array = np.atleast_1d(np.asarray(values))
@@ -65,7 +65,7 @@ class Track:
 
 @dataclass(frozen=True, slots=True)
 class Still:
-    """What does not move."""
+    """Items that do not move."""
 
     items: tuple[Item, ...]
     layer: str = ""
@@ -73,7 +73,7 @@ class Still:
 
 @dataclass(frozen=True, slots=True)
 class MovingBody:
-    """What moves with a frame: drawn about its origin, which goes along `at` and turns by `angle` (radians)."""
+    """Items that move with a frame: drawn about its origin, which follows `at` and turns by `angle` (radians)."""
 
     items: tuple[Item, ...]
     at: Track
@@ -108,7 +108,7 @@ class MovingName:
 
 @dataclass(frozen=True, slots=True)
 class Spot:
-    """A named point that tells its motion when it is pointed at: its places in m, its rates in SI units."""
+    """Named point that shows its motion when the pointer is on it: its places in m, its rates in SI units."""
 
     name: str
     on_stage: Track
@@ -122,7 +122,7 @@ MovingItem = Still | MovingBody | MovingVector | MovingName
 
 @dataclass(frozen=True, slots=True)
 class BarScale:
-    """What a millimetre of a drawing stands for, in SI units, of a kind of quantity; of interest with its `layers`."""
+    """Value of a millimetre of a drawing, in SI units, for a kind of quantity; shown with its `layers`."""
 
     per: float
     kind: str
@@ -159,7 +159,7 @@ class Pane:
 
 
 BARS, STRIP, UP = 2, 7.0, 1.5
-"""How many scale bars stand side by side, in strips so high (mm), so far above the lower edge of theirs (mm)."""
+"""Number of scale bars side by side, height of their strips (mm), height above the lower edge of theirs (mm)."""
 TICK = 0.8
 """Half the strokes at the ends of a scale bar (mm)."""
 
@@ -231,22 +231,22 @@ class MomentValue:
 
 @dataclass(frozen=True, slots=True)
 class Errors:
-    """What drawing straight lines between samples costs at most."""
+    """Largest errors from straight lines between samples."""
 
     place: float
-    """Of drawn points (mm)."""
+    """Error of drawn points (mm)."""
     crank: float
     """The drawn crank (mm), or the way of a sliding driver."""
     share: float
-    """Of velocities, accelerations and forces: the share of their greatest value."""
+    """Error of velocities, accelerations and forces: the share of their greatest value."""
 
 
 @dataclass(frozen=True, slots=True)
 class Animation:
-    """All that moves in a panel of a page.
+    """Animation in a panel of a page.
 
-    `knots` are the samples of one turn in degrees, from 0 to 360; tracks of the cycle go on through all `turns`.
-    That of a coursework's part has the part's `name` and `title`.
+    `knots` are the samples of one turn in degrees, from 0 to 360; tracks of the cycle continue through all `turns`.
+    An animation of a coursework's part has the part's `name` and `title`.
     """
 
     knots: np.ndarray
@@ -262,7 +262,7 @@ class Animation:
     values: tuple[MomentValue, ...]
     errors: Errors
     layers: tuple[str, ...] = field(default=())
-    """What can be switched on, in the order of `LAYERS`, then of the topics."""
+    """Layers that can be switched on, in the order of `LAYERS`, then of the topics."""
     name: str = ""
     title: str = ""
     runs: tuple[TimedRun, ...] = ()
@@ -270,7 +270,7 @@ class Animation:
     units: Mapping[str, str] = field(default_factory=dict)
     """Units as the language writes them; one that is not here is written as it is."""
     instants: tuple[float, ...] = ()
-    """Of single instants, which stand at even knots, where the driver is at each (degrees, or mm of a slide)."""
+    """Position of the driver at each single instant, which is at even knots (degrees, or mm of a slide)."""
 
 
 LAYERS = (*("paths", "velocities", "accelerations", "centres", "loads", "inertia", "weights", "reactions"),)
@@ -345,7 +345,7 @@ def _crank_circle(linkage: Linkage, bones: Skeleton) -> list[MovingItem]:
 
 
 def _reach(name: str, bones: Skeleton, looks: Looks) -> float:
-    """How far a point's own sign reaches from it (mm): its joint, or a small block about it."""
+    """Return the reach of a point's sign (mm): its joint, or a small block about it."""
     blocks = (max(looks.block(slide.link)) / 2 for slide in bones.slides if abs(slide.at - bones.points[name]) < 1.0)
     return max((reach for reach in blocks if reach < SMALL), default=style.JOINT)
 

@@ -1,7 +1,7 @@
-"""From drafts to finished scenes.
+"""Turn drafts into finished scenes.
 
-Every figure makes a `Canvas` in mm about any origin; drafts with the same origin can be added, and so is what they
-tell.  `finish` places the labels, crops to the content and gives the `Scene`.
+Every figure makes a `Canvas` in mm about any origin; drafts with the same origin can be added, together with their
+descriptions.  `finish` places the labels, crops to the content and gives the `Scene`.
 """
 
 from __future__ import annotations
@@ -23,7 +23,9 @@ MARGIN = 6.0
 
 @dataclass(frozen=True, slots=True)
 class Canvas:
-    """Items in the order of painting, the labels still to be placed, and what a reader who does not see it is told."""
+    """Draft: items in the order of painting, labels still to be placed, and the description for readers who do not
+    see it.
+    """
 
     items: tuple[Item, ...] = ()
     requests: tuple[Request, ...] = ()
@@ -50,9 +52,10 @@ def finish(
     margin: float = MARGIN,
     frame: tuple[complex, complex] | None = None,
 ) -> Scene:
-    """The scene: labels placed, `notes` (the figure's scale) below, told last, cropped with `margin` mm around.
+    """Return the scene: labels placed, `notes` (the figure's scale) below and last described, cropped with `margin`
+    mm.
 
-    `frame` (lower left, upper right) is kept even where nothing is drawn, so that several scenes get
+    `frame` (lower left, upper right) is kept even if nothing is drawn there, so that several scenes get
     the same paper.
     """
     labels = place(draft.items, draft.requests)
@@ -68,7 +71,7 @@ def finish(
 
 
 def _is_scale(note: Content) -> bool:
-    """Whether a note says a scale, μ of something, and no other quantity."""
+    """Return True if a note gives a scale, μ of something, and no other quantity."""
     first = note.parts[0] if isinstance(note, Chain) else note
     return isinstance(first, Symbol) and first.base == "μ"
 

@@ -41,18 +41,18 @@ WIDTH, HEIGHT = 128.0, 62.0
 LOW = 46.0
 """The height of that area where curves are drawn low, mm."""
 SHEET_WIDTH, SHEET_HEIGHT = 90.0, 45.0
-"""Of that area on a drawing sheet at most, mm."""
+"""Largest size of that area on a drawing sheet, mm."""
 HALF_WIDTH, HALF_HEIGHT = 78.0, 46.0
-"""Of a chart with its text and of the area inside its axes, where two charts stand side by side, mm."""
+"""Width of a chart with its text, height of the area inside its axes, for two charts side by side, mm."""
 CHART_MARGIN = 1.5
 AXIS_NAME = 8.0
-"""What the turned name of an axis takes beside its figures, mm."""
+"""Width that the turned name of an axis takes beside its figures, mm."""
 LINE = 4.5
 """From one line of that name to the next, mm."""
 POLAR_SIZE = 84.0
-"""Of a polar diagram by itself at most, either way, mm."""
+"""Largest size of a single polar diagram, either way, mm."""
 POLAR_PAIRS = 58.0, 54.0, 50.0
-"""Of one that stands beside another if it is narrow enough then, mm."""
+"""Sizes of one beside another if it is then narrow enough, mm."""
 PENS = (
     Pen(0.4, style.BLUE),
     Pen(0.4, style.RED, style.DASHED),
@@ -64,7 +64,7 @@ GRID = Pen(0.1, style.PALE)
 EDGE = Pen(0.25)
 MEAN = Pen(0.25, style.BLACK, (4.0, 1.0, 0.8, 1.0))
 BEYOND = 4.0
-"""What the horizontal of an angle is longer than its arc, mm."""
+"""Length of the horizontal of an angle beyond its arc, mm."""
 MARK, DOT = 0.75, 0.45
 """Radius of the circle at a marked point, and of one that was measured, mm."""
 TICKS = 6
@@ -76,7 +76,7 @@ BETWEEN = 1.0
 """White between the figures of an axis at least, mm."""
 
 STEPS = (1.0, 2.0, 2.5, 5.0)
-"""Of the ticks of curves, times a power of ten."""
+"""Steps of the ticks of curves, times a power of ten."""
 CLOSE = 0.025
 """Points of a curve so close (mm) to the line through others are left out: a sixteenth of the pen."""
 TINY = 1e-12
@@ -127,7 +127,7 @@ class _Window:
 
 @dataclass(frozen=True, slots=True)
 class Plotted:
-    """A chart with what places on it mean: the corners of its axes on the scene (mm), and what they stand for."""
+    """Chart with its coordinates: the corners of its axes on the scene (mm), and the values there."""
 
     scene: Scene
     low: complex
@@ -142,9 +142,9 @@ def chart(diagram: Diagram, *, half: bool = False, area: Area | None = None) -> 
 
 
 def plotted(diagram: Diagram, *, half: bool = False, height: float = HEIGHT, area: Area | None = None) -> Plotted:
-    """A diagram on paper.  An angle has the ticks of `angle_ticks`.
+    """Draw a diagram on paper.  An angle has the ticks of `angle_ticks`.
 
-    With `half` two charts stand side by side; with an `area` both scales are round and printed.  Raises `ValueError`
+    With `half` two charts fit side by side; with an `area` both scales are round and printed.  Raises `ValueError`
     if no value is finite.
     """
     series, turn, levels = diagram.curves, diagram.turn, diagram.levels
@@ -266,7 +266,7 @@ def _scale(label: Content, ends: tuple[float, float], length: float, mm: str, de
 
 
 def _beside(x_ticks: Sequence[float], y_ticks: Sequence[float]) -> float:
-    """What figures and the turned name of a chart take left and right of its frame (mm)."""
+    """Return the width that figures and the turned name of a chart take left and right of its frame (mm)."""
     widest = max(box(_figure(tick, y_ticks, ""), style.SMALL).width for tick in y_ticks)
     last = box(_figure(x_ticks[-1], x_ticks, "°"), style.SMALL).width
     return widest + AXIS_NAME + last / 2 + 2 * CHART_MARGIN
@@ -299,7 +299,7 @@ def _around(low: float, high: float, step: float) -> list[float]:
 
 
 def _frame(window: _Window, x_ticks: Sequence[float], y_ticks: Sequence[float], unit: str) -> list[Item]:
-    """The frame with its grid and the figures at it; the line of y = 0 stands out."""
+    """Return the frame with its grid and its figures; the line of y = 0 is emphasised."""
     items: list[Item] = []
     figured = _with_room(window, x_ticks, unit)
     for tick in x_ticks:
@@ -410,7 +410,7 @@ def _marked(series: PlottedCurve, vertices: Vertices, pen: Pen, items: list[Item
 
 
 def _inclined(window: _Window, angle_drawn: Inclination) -> tuple[list[Item], Request]:
-    """The arc of an angle from the horizontal, and where its label stands."""
+    """Return the arc of an angle from the horizontal, and the request for its label."""
     corner = window.at(angle_drawn.x, angle_drawn.y)
     across, up = window.at(1.0, 0.0) - window.at(0.0, 0.0), window.at(0.0, angle_drawn.slope) - window.at(0.0, 0.0)
     angle = cmath.phase(across + up)
@@ -423,7 +423,7 @@ def _inclined(window: _Window, angle_drawn: Inclination) -> tuple[list[Item], Re
 
 
 def _places(vertices: Vertices) -> list[complex]:
-    """Places along a curve where its label may stand: the highest and lowest first, then all over."""
+    """Return places along a curve for its label: the highest and lowest first, then all over."""
     finite = vertices[np.isfinite(vertices).all(axis=1)]
     spread = finite[np.linspace(0, len(finite) - 1, 17).astype(int)]
     ends = finite[[first_greatest(finite[:, 1]), first_least(finite[:, 1])]]

@@ -19,9 +19,9 @@ from reportgen.machine.coils import Coil
 from reportgen.machine.motion import Motion
 
 LEAD, TEETH, SIDE = 0.18, 8, 1.7
-"""Straight pieces at both ends (shares of the length), corners between them, and how far these stand out (mm)."""
+"""Straight pieces at both ends (shares of the length), corners between them, and their offset (mm)."""
 TURNS, INNER, OUTER = 2.25, style.JOINT, 5.6
-"""Of the spiral about a pin: its turns, its radii (mm)."""
+"""Turns and radii (mm) of the spiral about a pin."""
 PER_TURN = 24
 MOUNT = 4.6
 """Half the strip of ground at which a spring hangs (mm), as broad as that below a pivot."""
@@ -45,7 +45,7 @@ def spiral() -> Polyline:
 
 
 def named(coil: Coil) -> Symbol:
-    """What a spring is called in figures: by its stiffness."""
+    """Return the name of a spring in figures: the symbol of its stiffness."""
     return Symbol("c", str(coil.number))
 
 
@@ -63,7 +63,7 @@ def mounts(coil: Coil, linkage: Linkage, start: complex, end: complex, pivots: C
 def coil_symbols(
     coils: Sequence[Coil], linkage: Linkage, motion: Motion, index: int, scale: float, pivots: Collection[str]
 ) -> Canvas:
-    """All springs at position `index`, `scale` mm of paper per m, with what they are called."""
+    """Draw all springs at position `index`, `scale` mm of paper per m, with their names."""
     items: list[Item] = []
     requests: list[Request] = []
     facts: list[Fact] = []

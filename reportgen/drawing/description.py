@@ -53,7 +53,7 @@ def fact(phrase: str, *values: Told) -> Fact:
 
 
 def enlarged(description: Description, by: float) -> Description:
-    """What a drawing tells that is drawn so many times as large."""
+    """Return the description of a drawing enlarged by a factor."""
     return tuple(
         replace(one, values=tuple(PaperLength(v.value * by) if isinstance(v, PaperLength) else v for v in one.values))
         for one in description
@@ -96,7 +96,9 @@ def angle(name: Told, size: float) -> Fact:
 
 
 def of_chart(diagram: Diagram, x: tuple[float, float], y: tuple[float, float]) -> Iterator[Fact]:
-    """What a chart tells whose axes show these ranges: axes, extremes of each curve and where, zeros, levels."""
+    """Yield the facts of a chart whose axes show these ranges: axes, extremes of each curve and where, zeros,
+    levels.
+    """
     unit = "°" if diagram.turn else ""
     for phrase, name, ends, of in (("across", diagram.x, x, unit), ("up", diagram.y, y, "")):
         yield fact(phrase, name, *(_read(end, of) for end in ends))
@@ -107,7 +109,7 @@ def of_chart(diagram: Diagram, x: tuple[float, float], y: tuple[float, float]) -
 
 
 def of_hodograph(diagram: Diagram, x: tuple[float, float], y: tuple[float, float]) -> Iterator[Fact]:
-    """What curves of vectors about a pole tell: the axes, and of each curve the longest and the shortest vector."""
+    """Yield the facts of curves of vectors about a pole: the axes, and each curve's longest and shortest vector."""
     for phrase, name, ends in (("across", diagram.x, x), ("up", diagram.y, y)):
         yield fact(phrase, name, *map(_read, ends))
     for curve in diagram.curves:
@@ -121,7 +123,7 @@ def of_hodograph(diagram: Diagram, x: tuple[float, float], y: tuple[float, float
 
 
 def of_curve(curve: PlottedCurve, unit: str = "") -> Iterator[Fact]:
-    """What a curve tells over an axis of a unit: its extremes and where they are, its zeros if they are few."""
+    """Yield the facts of a curve over an axis of a unit: its extremes and where they are, its zeros if they are few."""
     x, y = np.asarray(curve.x, dtype=np.float64), np.asarray(curve.y, dtype=np.float64)
     # Across a gap, as of a radius that goes through infinity, a curve meets no zero.
     zeros = [] if curve.dots else crossings(x, y)
@@ -148,7 +150,9 @@ def _label(curve: PlottedCurve) -> tuple[Content, ...]:
 
 
 def crossings(x: ArrayLike, y: ArrayLike) -> list[float]:
-    """Where a broken line through points x, y [K] meets zero, each place once; a point that is nan is a gap."""
+    """Return the places where a broken line through points x, y [K] meets zero, each once; a point that is nan is a
+    gap.
+    """
     x, y = np.asarray(x, dtype=np.float64), np.asarray(y, dtype=np.float64)
     greatest = float(np.abs(y[np.isfinite(y)]).max(initial=0.0))
     places: NDArray[np.float64] = np.where(np.abs(y) <= SAME * greatest, 0.0, y)
@@ -177,5 +181,5 @@ def listed(contents: Iterable[Content]) -> tuple[Content, ...]:
 
 
 def names_of(contents: Sequence[Content]) -> Told:
-    """One content by itself, several as a list."""
+    """Return a single content alone, several as a list."""
     return contents[0] if len(contents) == 1 else tuple(contents)

@@ -1,4 +1,4 @@
-"""A chart as data: what is plotted over what, to be painted on paper (`drawing.charts`) or on axes of matplotlib."""
+"""A chart as data: curves, axes and labels, to be painted on paper (`drawing.charts`) or on axes of matplotlib."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from reportgen.drawing.mathtext import MathText
 from reportgen.formula import Expression
 
 Content = Expression | str
-"""What a label prints: an expression, or plain text."""
+"""Content of a label: an expression, or plain text."""
 WIDE = 450.0
 """More degrees than these have ticks at multiples of 90, not of 45."""
 MEAN = {"linestyle": "-.", "linewidth": 0.8, "color": "black"}
 BESIDE = {"textcoords": "offset points", "xytext": (3, 3), "fontsize": "small"}
-"""How a level is drawn on axes, and where a name stands there."""
+"""Matplotlib style of the name at a level, and its offset."""
 
 
 @dataclass(frozen=True, slots=True)

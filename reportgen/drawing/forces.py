@@ -162,7 +162,7 @@ NORMAL_SHARE, TANGENT_SHARE = 0.5, 0.3
 TRIANGLE = {"B": 0j, "C": 42 + 6j, "E": 15 + 27j}
 """Points of a link (mm)."""
 RATE = {"v": 0.9j, "a": 0.9 * (-1 + 0.6j)}
-"""What makes of a line on the link (mm) that on its plan: iω, and −ω² + iε with the same ε/ω²."""
+"""Factor from a line on the link (mm) to that on its plan: iω, and −ω² + iε with the same ε/ω²."""
 OF_B = {"v": 34 + 10j, "a": -20 - 12j}
 """The velocity and the acceleration of B on paper (mm)."""
 
@@ -301,7 +301,7 @@ def _parallel(u: complex, v: complex) -> bool:
 
 
 def _tips(forces: Sequence[Force]) -> list[complex]:
-    """Where the arrows end: the later of two that would coincide is drawn longer."""
+    """Return the ends of the arrows: the later of two that would coincide is drawn longer."""
     tips: list[complex] = []
     for n, force in enumerate(forces):
         before = sum(
@@ -321,7 +321,7 @@ def _lies_along(force: Force, bars: Sequence[tuple[complex, complex]]) -> bool:
 
 
 def _aside(shaft: tuple[complex, complex], drawn: Sequence[tuple[complex, complex]]) -> complex:
-    """By how much (mm) an arrow stands beside its line, so that it lies on none that is drawn."""
+    """Return the offset (mm) of an arrow from its line, so that it lies on no arrow already drawn."""
     step = -1j * unit(shaft[1] - shaft[0]) * style.BESIDE
     shifts = (step * number for number in range(len(drawn) + 1))
     return next(

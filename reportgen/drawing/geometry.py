@@ -65,7 +65,7 @@ def segments(items: Iterable[Item]) -> Complexes:
 
 
 def _stacked(parts: Iterable[Sequence[complex] | Complexes]) -> Complexes:
-    """All points of the parts in a row; most parts are a few points, of which an array each would take long."""
+    """Return all points of the parts in a row; most parts are a few points, for which separate arrays would be slow."""
     few: list[complex] = []
     many: list[Complexes] = []
     for part in parts:
@@ -174,18 +174,18 @@ def clipped(start: complex, end: complex, low: complex, high: complex) -> tuple[
 
 @dataclass(frozen=True, slots=True)
 class HalfPlane:
-    """What lies on the side of `inward` of a line through `at`."""
+    """Half-plane on the side of `inward` of a line through `at`."""
 
     at: complex
     inward: complex
 
     def depth(self, point: complex) -> float:
-        """How deep a point lies in the half-plane (mm); negative outside."""
+        """Return the depth of a point in the half-plane (mm); negative outside."""
         return ((point - self.at) * self.inward.conjugate()).real
 
 
 def region(planes: Sequence[HalfPlane], box: Sequence[complex]) -> list[complex]:
-    """What of a convex polygon (mm) lies in all half-planes (Sutherland–Hodgman)."""
+    """Return the part of a convex polygon (mm) that lies in all half-planes (Sutherland–Hodgman)."""
     corners = list(box)
     for plane in planes:
         kept: list[complex] = []
@@ -228,7 +228,9 @@ def coincident(parts: Iterable[Part], reach: float, at: Callable[[Part], complex
 
 
 def on_one_line(longer: tuple[complex, complex], shorter: tuple[complex, complex], apart: float, least: float) -> bool:
-    """Whether two segments lie within `apart` mm of the longer one's line and cover more than `least` mm of it."""
+    """Return True if two segments lie within `apart` mm of the longer one's line and share more than `least` mm of
+    it.
+    """
     longer, shorter = sorted((longer, shorter), key=lambda ends: -abs(ends[1] - ends[0]))
     u = unit(longer[1] - longer[0])
     ends = [(end - longer[0]) * u.conjugate() for end in shorter]
@@ -257,7 +259,7 @@ def rectangle(centre: complex, length: float, width: float, angle: float = 0.0) 
 
 
 def overlap(centres: Complexes, half: Complexes, strokes: Complexes, clearance: float) -> Flags:
-    """Whether boxes [K] (centre, half size as width + i height) touch segments [S, 2]: flags [K, S].
+    """Return whether boxes [K] (centre, half size as width + i height) touch segments [S, 2]: flags [K, S].
 
     The separating axes of a box and a segment are x, y and the segment's normal.
     """
@@ -276,9 +278,9 @@ def overlap(centres: Complexes, half: Complexes, strokes: Complexes, clearance: 
 
 
 class Ink:
-    """The strokes of a figure in cells of paper, and how many inked cells lie to the lower left of each corner.
+    """Strokes of a figure in cells of paper, with the number of inked cells to the lower left of each corner.
 
-    Whether a box touches a stroke is told by its four corners, however many strokes there are.
+    Four corners show whether a box touches a stroke, however many strokes there are.
     """
 
     def __init__(self, strokes: Complexes) -> None:
@@ -297,11 +299,11 @@ class Ink:
         self.inked = np.cumsum(inked, axis=0, out=inked)
 
     def touches(self, centres: Complexes, half: Complexes) -> Flags:
-        """Which boxes [N], by centres and half sizes (mm), touch a stroke, to half a cell."""
+        """Return flags of the boxes [N], by centres and half sizes (mm), that touch a stroke, to half a cell."""
         return np.asarray(self.covered(centres, half) != 0)
 
     def covered(self, centres: Complexes, half: Complexes) -> NDArray[np.uint16]:
-        """How many inked cells each box covers [N], by centres and half sizes (mm)."""
+        """Return the number of inked cells that each box covers [N], by centres and half sizes (mm)."""
         low, high = settled(centres - half - self.low) / CELL, settled(centres + half - self.low) / CELL
         x0, x1 = (np.clip(np.rint(at.real), 0, self.size[0]).astype(np.intp) for at in (low, high))
         y0, y1 = (np.clip(np.rint(at.imag), 0, self.size[1]).astype(np.intp) for at in (low, high))

@@ -33,11 +33,11 @@ STROKES = (
     Pen(0.5, style.RED),
     Pen(0.35, style.BLACK, style.DASHED),
 )
-"""Pens of the branches in their order, told apart by dashes and width as well as by colour."""
+"""Pens of the branches in their order, distinguished by dashes and width as well as by colour."""
 WIDTH = 80.0
-"""Of the diagram at most, mm."""
+"""Largest width of the diagram, mm."""
 AWAY = 0.94
-"""How far beside the cylinder it stands, in its widths."""
+"""Distance from the cylinder, in the diagram's widths."""
 AXIS_PEN = Pen(0.2)
 TICK = 1.0
 READ = 4
@@ -64,12 +64,12 @@ class Reading:
 
 
 ReadingGroup = Sequence[Reading]
-"""Readings whose numbers stand side by side in one label."""
+"""Readings whose numbers are side by side in one label."""
 
 
 @dataclass(frozen=True, slots=True)
 class Frame:
-    """Where the diagram stands, in mm: its stroke axis runs from `top` to `bottom`, pressure along `side`.
+    """Place of the diagram, in mm: its stroke axis runs from `top` to `bottom`, pressure along `side`.
 
     `scale` is μ_p, pressure per mm; `axis` and `note` are the label of the pressure axis and the
     printed scale.
@@ -140,10 +140,10 @@ MOST_TOGETHER = 6
 
 
 def all_numbered(draw: Callable[[Sequence[ReadingGroup]], Scene], frame: Frame, readings: Sequence[Reading]) -> Scene:
-    """A scene that shows the number of every reading: one without room stands with its neighbours'.
+    """Return a scene that shows the number of every reading: one without room joins its neighbours' label.
 
-    `draw` makes it of groups of readings that share a label.  What has no room joins the nearest group that has and
-    that is not full, again and again, until every number stands or none can move.
+    `draw` makes it of groups of readings that share a label.  A group without room joins the nearest placed group that
+    is not full, again and again, until every number is placed or none can move.
     """
     groups = clusters(readings, TOGETHER, frame.of)
     while True:
@@ -166,7 +166,7 @@ def all_numbered(draw: Callable[[Sequence[ReadingGroup]], Scene], frame: Frame, 
 
 
 def _branch_facts(frame: Frame, branches: Sequence[Branch]) -> Iterator[Fact]:
-    """What the diagram tells: its axis and scale, and where the pressure of each branch begins and ends."""
+    """Yield the facts of the diagram: its axis and scale, and each branch's pressure at its beginning and end."""
     if frame.axis:
         yield fact("pressure", frame.axis)
     for branch in branches:

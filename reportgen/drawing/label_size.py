@@ -1,4 +1,4 @@
-"""How much paper a label takes, from a table of glyph sizes.
+"""Size of labels on paper, from a table of glyph sizes.
 
 The box of a label is the extent of its ink: advance widths, the tallest height above the baseline and the greatest
 depth below it.  Scripts are set at 0.7 of the size, as both typesetters do.
@@ -25,7 +25,7 @@ SMALL_CUT = 1.17
 SUPER_SHIFT, SUB_SHIFT = 0.38, 0.18
 """Shift of the scripts' baselines, in font sizes."""
 OVER = 0.25
-"""What an arrow or a bar above takes, in font sizes."""
+"""Height of an arrow or a bar above, in font sizes."""
 RELATION = 0.56
 """Width of the space on both sides of a relation or a sign, in font sizes (thick spaces)."""
 GAPS: Mapping[setting.Role, float] = {"product": RELATION, "separator": 0.5}
@@ -33,7 +33,7 @@ GAPS: Mapping[setting.Role, float] = {"product": RELATION, "separator": 0.5}
 BESIDE, BESIDE_HAN = 250, re.compile("(?<=[\u4e00-\u9fff])(?=[0-9A-Za-z])|(?<=[0-9A-Za-z])(?=[\u4e00-\u9fff])")
 """Between letters of Chinese and of another script, in thousandths of the font size, and where that is."""
 SQUARE = (1000, 860, 200)
-"""Of a letter of East Asia, each of which fills a square, and of its punctuation."""
+"""Sizes of an East Asian letter, each of which fills a square, and of its punctuation."""
 THIN = 0.17
 """Between a function and what it is applied to, in font sizes."""
 
@@ -104,7 +104,7 @@ def _symbol(symbol: Symbol, em: float) -> Box:
 
 
 def _letters(text: str, em: float) -> Box:
-    """Letters of formulas, digits that stand below them in the size of scripts."""
+    """Return the box of letters of formulas; digits are set below them in the size of scripts."""
     whole = NOTHING
     for letters, digits in runs(text):
         below = _text(digits, SCRIPT * em)

@@ -1,10 +1,10 @@
-"""Where labels stand: near their point, clear of every stroke and of each other.
+"""Placement of labels: near their point, clear of every stroke and of each other.
 
 Each label tries spots around its point, the preferred directions first, nearest first, and never one that is nearer
 to a point that another label names.  The label with the fewest free spots chooses first.  If no spot nearby is free,
-the label moves out and a short leader, which crosses no other, ties it to its point.  One that finds no room so
-chooses first in a new attempt, said shorter if it can be; if that is not enough it breaks gray lines of construction,
-as a dimension's figure does, where it hides least of them.  No two labels ever become one.
+the label moves out and a short leader, which crosses no other, ties it to its point.  A label still without room
+chooses first in a new attempt, shortened if possible; if that is not enough it breaks gray lines of construction,
+as a dimension's figure does, where it hides least of them.  Labels are never merged.
 The same figure always gets the same labels.
 """
 
@@ -42,11 +42,11 @@ from reportgen.drawing.style import Segment
 FIRST = 72
 """This many spots are tested at once; the others only if none of these is free."""
 FIGURES = 16
-"""Of so many figures the labels are kept: some are drawn once to see whether they fit and then again."""
+"""Number of figures whose labels are cached: some are drawn once to see whether they fit and then again."""
 HIDING = 0.05
-"""What it costs to hide a cell of gray lines: four of them as much as to stand a millimetre farther off."""
+"""Cost of hiding a cell of gray lines: four of them cost as much as a millimetre of distance."""
 ASIDE, BY = 1.6, 0.9
-"""What a label that only its leader ties to its point keeps from points of others, and its leader does (mm)."""
+"""Distances (mm) from other labels' points: of a label that only its leader ties to its point, and of the leader."""
 LED = 2
 """So often a label finds no room before its leader alone ties it to its point."""
 APART = 0.7
@@ -77,13 +77,13 @@ def label(
     each: bool = False,
     short: Sequence[Content] | None = None,
 ) -> Request:
-    """A label whose `parts` stand in a row on one baseline, near the point `at`.
+    """Return a request for a label whose `parts` are in a row on one baseline, near the point `at`.
 
-    Of several points (places along an arrow, say) it belongs to the first, but may stand at any.  `prefer` are
-    directions in radians, any where empty; `gap` is the distance in mm kept from the point itself (the radius of the
-    circle drawn there).  A `ring` goes round a link's number, which stands on a leader.  A label that names its point,
-    or `each` of several, stands nearer to it than to any point that another label names.  Where there is no room for
-    it, what is `short` stands there: less, nothing, or the number of a `KEY`.
+    Of several points (places along an arrow, say) it belongs to the first, but may be placed at any.  `prefer` are
+    directions in radians, any if empty; `gap` is the distance in mm kept from the point itself (the radius of the
+    circle drawn there).  A `ring` goes round a link's number, which is on a leader.  A label that names its point,
+    or `each` of several, is nearer to it than to any point that another label names.  If it has no room, `short`
+    replaces it: less, nothing, or the number of a `KEY`.
     """
     points = tuple(at) if isinstance(at, Sequence) else (at,)
     named = points if each or len(points) == 1 else ()
@@ -94,7 +94,7 @@ def label(
 KEY = ("№",)
 """Short for a label: a number, which a line below the figure explains."""
 LEFT_OUT = ()
-"""Short for one of many marks of a curve: on a leader it may stand past others; without room it is left out."""
+"""Short for one of many marks of a curve: on a leader it may be beyond others; without room it is left out."""
 
 
 def joined(contents: Iterable[Content], by: str = ", ") -> list[Content]:
@@ -104,7 +104,7 @@ def joined(contents: Iterable[Content], by: str = ", ") -> list[Content]:
 
 
 def label_row(at: complex, parts: Sequence[Content], size: float, over: bool = False) -> tuple[Label, ...]:
-    """Labels side by side on a baseline, their common box centred on `at` (mm); `over` lines they stand on paper."""
+    """Return labels side by side on a baseline, their common box centred on `at` (mm); with `over`, on white paper."""
     boxes = [box(part, size) for part in parts]
     total = reduce(Box.beside, boxes)
     x = at.real - total.width / 2
@@ -121,7 +121,7 @@ class _Taken:
     """The labels already placed, as boxes, and the leaders of some of them."""
 
     def __init__(self, frames: Sequence[tuple[complex, complex]], further: int) -> None:
-        """The boxes of labels that stand where they are, with room for `further` ones."""
+        """Collect the boxes of fixed labels, with room for `further` ones."""
         self.count = len(frames)
         boxes = np.zeros((self.count + further, 2), dtype=np.complex128)
         boxes[: self.count] = np.reshape(frames, (-1, 2))
@@ -130,7 +130,7 @@ class _Taken:
 
     @property
     def centres(self) -> Complexes:
-        """The middles of all labels and leaders that stand (mm) [N]."""
+        """Centres of all placed labels and leaders (mm) [N]."""
         return self._centres[: self.count]
 
     @property
@@ -146,7 +146,7 @@ class _Taken:
             self.leaders.append(leader)
 
     def clear(self, centres: Complexes, half: complex) -> Flags:
-        """Which of the boxes [N] (mm) keep apart from every label and leader."""
+        """Return flags of the boxes [N] (mm) that are clear of every label and leader."""
         apart, room = centres[:, None] - self.centres, self.halves + (half + APART * (1 + 1j))
         free: Flags = np.asarray(((np.abs(apart.real) >= room.real) | (np.abs(apart.imag) >= room.imag)).all(axis=1))
         if self.leaders:
@@ -154,7 +154,7 @@ class _Taken:
         return free
 
     def crossed(self, leaders: Complexes) -> Flags:
-        """Which leaders [K, 2] (mm) run through a label or another leader."""
+        """Return flags of the leaders [K, 2] (mm) that run through a label or another leader."""
         through: Flags = np.asarray(overlap(self.centres, self.halves, leaders, 0.2).any(axis=0))
         if self.leaders:
             through |= crossings(leaders, np.array(self.leaders)) > 0
@@ -162,7 +162,7 @@ class _Taken:
 
 
 class _Field:
-    """What is on paper before labels are placed: strokes, and the points that labels name, each with its label."""
+    """Paper before labels are placed: strokes, and the points that labels name, each with its label."""
 
     def __init__(self, items: Sequence[Item], requests: Sequence[Request]) -> None:
         self.items = items
@@ -187,12 +187,16 @@ class _Field:
         return {i: _Spots(self, i, requests[i], half, centres, flags) for (i, (half, centres)), flags in rows}
 
     def nearest(self, centres: Complexes, half: Complexes, labels: Indices) -> Flags:
-        """Where boxes [K] of labels are nearer to a point of their own than to any that another label names."""
+        """Return flags of the boxes [K] of labels nearer to a point of their own than to any that another label
+        names.
+        """
         to_own, to_others = self.away(centres, half, labels)
         return np.asarray((to_own <= to_others) | np.isinf(to_own))
 
     def away(self, centres: Complexes, half: Complexes, labels: Indices) -> tuple[Floats, Floats]:
-        """How far boxes [K] of labels are from the nearest of their own points, and of those of others (mm)."""
+        """Return the distances of boxes [K] of labels from the nearest of their own points, and of those of others
+        (mm).
+        """
         apart = centres[:, None] - self.points
         aside, above = np.abs(apart.real) - half.real[:, None], np.abs(apart.imag) - half.imag[:, None]
         away = settled(np.hypot(np.maximum(aside, 0.0), np.maximum(above, 0.0)))
@@ -203,7 +207,7 @@ class _Field:
 
 @dataclass
 class _Spots:
-    """The spots a label may stand at, in the order of preference, and which of the first are free of strokes."""
+    """Possible spots of a label, in the order of preference, and flags of the first ones that are free of strokes."""
 
     field: _Field
     number: int
@@ -216,7 +220,7 @@ class _Spots:
 
     @property
     def room(self) -> int:
-        """How many of the first spots are free of strokes."""
+        """Number of the first spots that are free of strokes."""
         return int(np.count_nonzero(self.first))
 
     def best(self, taken: _Taken) -> complex | None:
@@ -229,14 +233,14 @@ class _Spots:
         return None
 
     def free(self, centres: Complexes, nearest: bool = True) -> Flags:
-        """Which spots [N] (mm) are free of strokes and nearest to their own point."""
+        """Return flags of the spots [N] (mm) that are free of strokes and nearest to their own point."""
         free: Flags = ~self.field.ink.touches(centres, np.array(self.half + CLEAR * (1 + 1j)))
         if nearest:
             free[free] = self.nearest(centres[free])
         return free
 
     def nearest(self, centres: Complexes) -> Flags:
-        """Where [N] the label is nearer to its own point (mm) than to any that another label names."""
+        """Return flags [N] of the places nearer to the label's own point (mm) than to any that another label names."""
         return self.field.nearest(centres, np.array([self.half]), np.array([self.number]))
 
     def beyond(self, at: complex) -> tuple[Complexes, Complexes]:
@@ -263,9 +267,10 @@ class _Spots:
         return complex(centres[some[0]]), None if near[some[0]] else (complex(first), complex(last))
 
     def _over(self, led: bool) -> tuple[Complexes, Complexes, Flags]:
-        """Spots that touch gray lines alone, those that hide least first, their leaders [K, 2], which need none.
+        """Return spots that touch gray lines alone, those that hide least first, and their leaders [K, 2], with
+        flags.
 
-        One that is `led` stands nearer to another's point, but clear of it, and no other point is near its leader.
+        With `led`, a spot is nearer to another's point, but clear of it, and no other point is near its leader.
         """
         field, half, points = self.field, self.half, self.request.points
         offsets, cost, ways = around(half, self.request.gap, self.request.prefer)
@@ -287,7 +292,7 @@ class _Spots:
 
 
 def _breakable(item: Item) -> bool:
-    """Whether an item is a line of construction, which letters may break."""
+    """Return True if an item is a line of construction, which letters may break."""
     match item:
         case Line(stroke=stroke) | Arc(stroke=stroke, head=0.0):
             return stroke.colour == style.GRAY
@@ -367,9 +372,9 @@ def _place_in(
     frames: Sequence[tuple[complex, complex]],
     pressed: Mapping[int, int],
 ) -> tuple[dict[int, tuple[Item, ...]], list[int]]:
-    """The labels placed one after the other, and those for which no place is free.
+    """Place the labels one after the other; return them, and those for which no place is free.
 
-    One that was `pressed` may break lines, one that was so twice may stand nearer to another's point.
+    A label `pressed` once may break lines, one pressed twice may be nearer to another's point.
     """
     taken = _Taken(frames, len(order))
     placed: dict[int, tuple[Item, ...]] = {}
@@ -422,7 +427,7 @@ def _away(spot: _Spots, taken: _Taken) -> tuple[complex, Segment | None] | None:
 
 
 def _least_touched(spot: _Spots, taken: _Taken) -> tuple[complex, Segment]:
-    """Where none is free: the cheapest spot farther out, off all labels if any is, then off strokes."""
+    """Return, if no spot is free, the cheapest spot farther out: off all labels if possible, then off strokes."""
     at, half = spot.request.points[0], spot.half
     offsets, cost, ways = beyond(half, spot.request.gap, spot.request.prefer)
     centres = at + offsets

@@ -1,4 +1,4 @@
-"""Formulas → mathtext, the letters between dollar signs that matplotlib sets in labels and legends."""
+"""Convert formulas to mathtext, which matplotlib sets between dollar signs in labels and legends."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from reportgen.formula.setting import NAMED, Fence, Sign, Written, is_tall, part
 from reportgen.formula.vocabulary import numbered, runs
 
 MEANT = {sign: f"\\{sign}" for sign in "$%_#&{}"} | {"\\": r"\backslash ", "^": r"\hat{}", " ": r"\ ", ",": "{,}"}
-"""What letters are written as that mean something in mathematics."""
+"""Escapes of letters that have a meaning in mathematics."""
 
 _EXPONENT = re.compile("([⁺⁻⁰¹²³⁴-⁹]+)")
 _LEVEL = str.maketrans("⁺⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "+-0123456789")
@@ -29,7 +29,7 @@ class MathText(TextSetter):
     SIGNS: ClassVar = {"·": r"\cdot ", "×": r"\times ", "−": "-"}
 
     def label(self, content: Expression | str) -> str:
-        """A label of matplotlib: plain text, or mathematics, behind which a note stands as text."""
+        """Return a label of matplotlib: plain text, or mathematics, followed by a note as text."""
         if isinstance(content, str):
             return content.replace("$", r"\$")
         if isinstance(content, Chain) and content.note:

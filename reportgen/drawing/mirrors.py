@@ -1,4 +1,4 @@
-"""Plans that are mirror images of others and are told, not drawn again.
+"""Plans that are mirror images of others; the report mentions them and does not draw them again.
 
 The positions k and N + 2 − k of a centric slider-crank mirror each other in the line of its slide.
 """
@@ -30,7 +30,7 @@ class Mirrored:
 
 
 def mirrored(plans: Mapping[int, Plan]) -> Mirrored:
-    """Which of the plans, at their positions, mirror one at an earlier position in parallel lines.
+    """Return the plans, by position, that mirror one at an earlier position in parallel lines.
 
     Of several such lines the one with most pairs counts; a single pair, as of the two dead centres, is drawn.
     """
@@ -53,7 +53,7 @@ def mirrored(plans: Mapping[int, Plan]) -> Mirrored:
 
 
 def _turn(ends: np.ndarray, mirrored_ends: np.ndarray) -> complex | None:
-    """What turns the conjugates of some points into others, if anything does; None if both are one without it."""
+    """Return the factor that turns the conjugates of points into others; None without one, or if both are the same."""
     if not ends.size or abs(ends - mirrored_ends).max() < SAME_END:
         return None
     largest = int(abs(ends).argmax())

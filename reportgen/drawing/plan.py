@@ -24,30 +24,30 @@ from reportgen.drawing.labels import KEY, Request, label
 
 VectorStyle = Literal["known", "relative", "found"]
 Titles = Callable[[range, int], str]
-"""What stands below a panel, of the stages that it draws and its own number from 0."""
+"""Title below a panel, from the stages that it draws and its number from 0."""
 PENS: dict[VectorStyle, Pen] = {"known": style.KNOWN, "relative": style.RELATIVE, "found": style.FOUND}
 
 SAME_POINT = 0.05
 """Points nearer than this (mm) look like one point and share a label joined by ≡."""
 CROWDED, CLOSE_BY = 1.2, 2.4
-"""Points nearer than this share a label joined by commas; an inset tells them apart.  The second on small plans."""
+"""Points nearer than this share a label joined by commas; an inset separates them.  The second is for small plans."""
 BEYOND = 6.0
-"""How far (mm) an auxiliary direction goes on beyond its ends."""
+"""Length (mm) of an auxiliary direction beyond its ends."""
 
 TINY = 3.0
 """Vectors drawn shorter than this (mm) get an enlarged inset."""
 DOT = 0.1
-"""What is shorter than this (mm), a dot of a pencil, gets no inset: it would need more than 100:1."""
+"""Vectors shorter than this (mm), a dot of a pencil, get no inset: it would need more than 100:1."""
 INVISIBLE = 0.01
-"""What is shorter than this (mm), the last digit of a measured length, is a point on any paper and not drawn."""
+"""Vectors shorter than this (mm), the last digit of a measured length, are points on any paper and not drawn."""
 TARGET = 20.0
 """The longest vector of an inset is enlarged to at most this (mm)."""
 SPACE = 8.0
-"""White between the figure and what stands beside it: its insets, a small mechanism; mm."""
+"""White space between the figure and the insets or small mechanism beside it; mm."""
 CLOSE = 2.0
 """The white margin of a plan that fills its width, mm."""
 LABELS = 5.0
-"""How far labels stand out to the right of what they name, mm."""
+"""Extent of labels to the right of the points that they name, mm."""
 ROOM = 6.0
 """White inside an inset's frame around the enlarged vectors, mm."""
 NEIGHBOUR = 3.0
@@ -62,7 +62,7 @@ Placed = TypeVar("Placed")
 
 @dataclass(frozen=True, slots=True)
 class PlanVector(Generic[Corner]):
-    """An arrow of a plan; `label` is printed beside it, `name` identifies it to whoever measures."""
+    """Arrow of a plan; `label` is printed beside it, `name` identifies it for measurements."""
 
     name: str
     start: Corner
@@ -71,7 +71,7 @@ class PlanVector(Generic[Corner]):
     label: Content | None = None
     stage: int = 0
     lettered: bool = False
-    """Whether its label is not printed: on paper it is known by the letters of its ends."""
+    """True if its label is not printed: on paper the letters of its ends identify it."""
 
     @property
     def middle(self: PlanVector[complex]) -> complex:
@@ -123,7 +123,7 @@ class Construction(Generic[Corner]):
 
     @property
     def corners(self) -> tuple[Corner, ...]:
-        """All corners, each once."""
+        """Return all corners, each once."""
         ends = [(v.start, v.end) for v in self.vectors] + [(k.start, k.end) for k in self.lines]
         return tuple(dict.fromkeys((*(p.at for p in self.points), *chain.from_iterable(ends))))
 
@@ -174,7 +174,7 @@ Plan = Construction[complex]
 
 
 def lettered(stages: range, number: int) -> str:
-    """a), b), …: panels that are told in the text one after another."""
+    """Return the title a), b), … of panels that the text describes one after another."""
     return f"{chr(ord('a') + number)})"
 
 
@@ -187,10 +187,10 @@ def plan(
     enlarged: bool = True,
     margin: float = MARGIN,
 ) -> Scene:
-    """The scene of a plan in true size; `enlarged` repeats vectors under 3 mm in insets.
+    """Return the scene of a plan in true size; `enlarged` repeats vectors under 3 mm in insets.
 
-    The drawings `beside` it, their labels placed, and the insets are stacked to its right; where that would be
-    wider than `width` (mm), they stand in rows below it.
+    The drawings `beside` it, their labels placed, and the insets are stacked to its right; if that would be
+    wider than `width` (mm), they are in rows below it.
     """
     vectors = drawing.drawn()
     draft = Canvas(
@@ -268,13 +268,13 @@ def kept_stages(drawing: Plan) -> list[int]:
 
 
 def vector_facts(vectors: Sequence[PlanVector[complex]]) -> Description:
-    """What vectors tell: name, length and direction of each, or that none is longer than a point."""
+    """Return the facts of vectors: name, length and direction of each, or that none is longer than a point."""
     facts = (arrow(v.name if v.label is None else v.label, v.end - v.start) for v in vectors)
     return tuple(facts) or (fact("no-vectors"),)
 
 
 def _line_facts(drawing: Plan, stage: int) -> Description:
-    """What the auxiliary directions of a stage tell: where each begins, and its direction."""
+    """Return the facts of a stage's auxiliary directions: where each begins, and its direction."""
     names = {point.at: point.label for point in drawing.points}
     return tuple(
         fact("direction", names.get(line.start, ""), direction(line.end - line.start))
@@ -300,7 +300,7 @@ def _lines(drawing: Plan, stage: int | None = None) -> list[Item]:
 
 
 def _arrows(vectors: Sequence[PlanVector[complex]], pens: Sequence[Pen] = ()) -> list[Item]:
-    """The arrows; one that would lie on an earlier one stands beside it, thin lines from its ends to their places."""
+    """Return the arrows; one that would lie on an earlier one is drawn beside it, with thin lines to its true ends."""
     result: list[Item] = []
     pens = pens or [PENS[v.style] for v in vectors]
     for v, by, pen in zip(vectors, set_apart(vectors), pens, strict=True):
@@ -322,7 +322,7 @@ def set_apart(vectors: Sequence[PlanVector[complex]]) -> list[complex]:
 
 
 def _on_one_line(first: PlanVector[complex], second: PlanVector[complex]) -> bool:
-    """Whether two vectors, long enough to see, cover a part of one line that is longer than an arrow's head."""
+    """Return True if two vectors, long enough to see, share a part of one line that is longer than an arrow's head."""
     shorter, longer = sorted((abs(first.end - first.start), abs(second.end - second.start)))
     if shorter < TINY or _across(first, second) > 2 * style.ON_LINE * longer:
         return False
@@ -333,7 +333,7 @@ def _on_one_line(first: PlanVector[complex], second: PlanVector[complex]) -> boo
 
 
 def _across(vector: PlanVector[complex], along: PlanVector[complex]) -> float:
-    """How far one vector leads away from the line of another, times the length of that."""
+    """Return the distance of one vector's end from the line of another, times the length of the other."""
     return abs(((vector.end - vector.start).conjugate() * (along.end - along.start)).imag)
 
 

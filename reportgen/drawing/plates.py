@@ -1,4 +1,4 @@
-"""A plate of a drawing sheet: one drawing, or several that belong together and stand in rows below one head."""
+"""Plates of drawing sheets: one drawing, or several that belong together, in rows below one head."""
 
 from __future__ import annotations
 
@@ -42,18 +42,18 @@ class DrawingPlate:
     further: str = ""
     number: int = 0
     first: int = 1
-    """The number of the first scene: others may stand on the sheet before."""
+    """Number of the first scene: others may be on the sheet before."""
     larger: Callable[[], DrawingPlate | None] | None = None
     """The same plate at the next larger standard scale, if it may be drawn at one."""
 
     @cached_property
     def top(self) -> Scene:
-        """Its head by itself."""
+        """Its head alone."""
         return headed(f"{self.number}. {self.title}", *self.lines)
 
     @property
     def area(self) -> float:
-        """Of its scenes, mm²."""
+        """Area of its scenes, mm²."""
         return sum(scene.width * scene.height for scene in self.scenes)
 
     @cached_property
@@ -83,7 +83,7 @@ class DrawingPlate:
         return Arranged(width, self.top.height + sum(heights) + GAP * (len(rows) - 1), tuple(map(tuple, rows)))
 
     def within(self, width: float) -> int:
-        """How many of the arrangements are not wider (mm); the last of them is the lowest."""
+        """Return the number of arrangements that are not wider (mm); the last of them is the lowest."""
         return bisect_right(self.arrangements, width + DUST, key=lambda one: one.width)
 
     def divided(self, count: int) -> tuple[DrawingPlate, DrawingPlate]:

@@ -34,20 +34,20 @@ VELOCITY, ANGLE = 20.0, 11.0
 LEAST_ANGLE = 0.03
 """A smaller angle (radians) has no arc that can be seen."""
 ARC_OVER = 9.0
-"""How far (mm) an arc through a point goes on to either side."""
+"""Length (mm) of an arc on either side of its point."""
 BEYOND_BOTH = 0.7
-"""Where on the way to the nearer end the arc of a small angle is drawn."""
+"""Place of the arc of a small angle on the way to the nearer end."""
 BEYOND = 3.0
-"""How far (mm) a normal goes on beyond the centre."""
+"""Length (mm) of a normal beyond the centre."""
 
 
 @dataclass(frozen=True, slots=True)
 class PositionPlan:
-    """What a position plan shows.
+    """Contents of a position plan.
 
     `numbered` are points labelled with each position's number (A₁ … A₈), `paths` points whose curves are
     drawn from a dense motion, `emphasised` the index (from 0) of the position drawn heavy, if any;
-    `labels` replaces the positions' numbers; the drawing is `enlarged` so many times afterwards.
+    `labels` replaces the positions' numbers; the drawing is `enlarged` by this factor afterwards.
     """
 
     numbered: tuple[str, ...]
@@ -57,7 +57,7 @@ class PositionPlan:
     enlarged: float = 1.0
 
     def label(self, k: int) -> str:
-        """What the position of index `k` (from 0) is called."""
+        """Return the label of the position of index `k` (from 0)."""
         return self.labels[k] if self.labels else str(k + 1)
 
 
@@ -122,7 +122,7 @@ def position_plan(
 
 
 def _position_facts(linkage: Linkage, motion: Motion, shows: PositionPlan, count: int) -> Description:
-    """What a position plan tells: how many positions, what is numbered at them, which curves, what is drawn heavy."""
+    """Return the facts of a position plan: number of positions, numbered points, curves, the emphasised position."""
     facts = [fact("positions", Number(count), listed(map(vocabulary.point, shows.numbered)))]
     if shows.paths:
         facts.append(fact("paths", listed(map(vocabulary.point, shows.paths))))
@@ -219,7 +219,7 @@ def _inclined(bones: Skeleton, moving: Sequence[PlaneMotion]) -> Canvas:
 
 @dataclass(frozen=True, slots=True)
 class SwingMarks:
-    """How both ends of a pin's way are found: the crank's `centre`, the rocker's `pivot`, the pin's `ends` (m).
+    """Construction of both ends of a pin's way: the crank's `centre`, the rocker's `pivot`, the pin's `ends` (m).
 
     Angles with their names are those between the lines to the ends; `seen_from` is the centre of a circle through
     the ends and the crank's centre, with its name, where it is constructed.
@@ -261,7 +261,7 @@ def swing_marks(marks: SwingMarks, scale: float) -> Canvas:
 
 
 def _covers(curve: Complexes, covered: Complexes) -> bool:
-    """Whether a curve lies on another one."""
+    """Return True if a curve lies on another one."""
     starts, ways = curve[:-1], np.diff(curve)
     sizes = np.where(np.abs(ways) > 0, np.abs(ways) ** 2, 1.0)
     off = covered[:, None] - starts

@@ -1,4 +1,4 @@
-"""Other letters in a finished drawing: labels that they make wider go on to where the paper is white."""
+"""Replace letters in a finished drawing: labels that become wider move to white paper."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ Frame = tuple[complex, complex]
 STEPS = sorted(
     (complex(along, up) for up in range(-3, 4) for along in range(-3, 4)), key=lambda step: (abs(step), step.imag)
 )
-"""Where a row may go, in shares of half of what it has grown by: not far, along its line first."""
+"""Steps that a row may move, in shares of half of its growth: short ones and those along its line first."""
 TOUCHING = 1e-6
 """Labels no farther apart (mm) are parts of one row."""
 WHITE = 0.5
-"""What remains at least between a label and the edge of its drawing (mm)."""
+"""Least distance between a label and the edge of its drawing (mm)."""
 
 
 def respelled(scene: Scene, spell: Callable[[Content], Content]) -> Scene:
@@ -49,7 +49,7 @@ def respelled(scene: Scene, spell: Callable[[Content], Content]) -> Scene:
 
 
 def _rows(items: Iterable[Item]) -> Iterator[list[tuple[int, Label]]]:
-    """Labels with their places among the items, those together that stand side by side as parts of one text."""
+    """Yield labels with their places among the items; adjacent labels are grouped as parts of one text."""
     row: list[tuple[int, Label]] = []
     for n, item in enumerate(items):
         if isinstance(item, Label):
@@ -85,7 +85,7 @@ def _side_by_side(old: Sequence[Label], new: Sequence[Label]) -> tuple[list[Labe
 
 
 def _touched(labels: Sequence[Frame], by: complex, strokes: Complexes, others: Sequence[Frame]) -> int:
-    """How many strokes and other labels those of a row come too close to, moved by so much."""
+    """Return how many strokes and other labels the labels of a row come too close to, after a move."""
     centres, halves = (np.array(parts) for parts in zip(*labels, strict=True))
     met = int(overlap(centres + by, halves, strokes, CLEAR).sum())
     for middle, reach in others:

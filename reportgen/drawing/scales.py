@@ -1,4 +1,4 @@
-"""The scale of a figure: the report's own, or on a drawing sheet a larger standard one with the report's beside it."""
+"""Scale of a figure: the report's, or on a drawing sheet a larger standard one with the report's beside it."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ NEXT = 1 - 1e-9
 
 @dataclass(frozen=True, slots=True)
 class FigureSize:
-    """How large a figure is drawn: so many standard scales larger than in a report, then `enlarged` with its letters.
+    """Size of a figure: a number of standard scales larger than in a report, then `enlarged` with its letters.
 
-    `beside` says the report's scale on a sheet, as "report: {scale}"; in a report there is nothing to say.
+    `beside` is the phrase for the report's scale on a sheet, as "report: {scale}"; empty in a report.
     """
 
     steps: int = 0
@@ -36,7 +36,7 @@ class FigureSize:
         return usual
 
     def fitting(self, points: Sequence[complex], room: complex) -> tuple[float, float]:
-        """The scale at which points fit a room (mm) of a report, and how many mm of the figure stand for a unit."""
+        """Return the scale at which points fit a room (mm) of a report, and the figure's mm per unit."""
         array = np.array(points)
         size = complex(np.ptp(array.real), np.ptp(array.imag))
         usual = nice_up(max(size.real / room.real, size.imag / room.imag))
@@ -47,7 +47,9 @@ class FigureSize:
         return 1 / (self.scale(usual) * self.enlarged)
 
     def note(self, symbol: Expression, usual: float, unit: str = RATIO) -> Chain:
-        """The scale as it stands below the figure; on a sheet also as a ratio of lengths, and what the report has."""
+        """Return the scale as printed below the figure; on a sheet also as a ratio of lengths, and the report's
+        scale.
+        """
         shown = self.scale(usual)
         return self.told(symbol, _number(shown, unit), _number(usual, unit), _ratio(shown) if unit == RATIO else 0)
 
@@ -70,5 +72,5 @@ def _number(value: float, unit: str = "") -> Number:
 
 
 def _ratio(scale: float) -> float:
-    """Of paper to what is drawn, without the dust of floats."""
+    """Return the ratio of paper to the drawn object, without rounding errors of floats."""
     return float(f"{1 / scale:.9g}")

@@ -38,7 +38,7 @@ class Slide:
     low: complex
     high: complex
     turns: bool
-    """Whether the block is a link of its own, pinned at its middle, and not an end of a longer one."""
+    """True if the block is a separate link, pinned at its middle, and not an end of a longer one."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -155,7 +155,7 @@ def _axis(motion: Motion, guide: Guide | Dyad) -> tuple[int, Floats, Complexes]:
 
 @dataclass(frozen=True, slots=True)
 class Looks:
-    """How a machine is drawn.
+    """Looks of a drawn machine.
 
     `blocks` gives the length (along the guide) and width of a slider's block in mm of paper (a piston's
     bore, say); `centres` are points drawn as mass centres; `scale` is the figure's own μ_l, printed below.  The whole
@@ -169,7 +169,7 @@ class Looks:
 
     @property
     def notes(self) -> tuple[Content, ...]:
-        """What is printed below the figure."""
+        """Notes printed below the figure."""
         return () if self.scale is None else (self.scale,)
 
     def block(self, link: int) -> tuple[float, float]:
@@ -196,15 +196,15 @@ def groups(
 
 
 LEGS = math.cos(math.radians(75))
-"""The arrow of ω1 keeps so far (75°) from straight down, where the pivot stands."""
+"""Least angle (75°) of the arrow of ω1 from straight down, where the pivot is."""
 CLEAR = 1.0
 """The arrow of ω1 keeps so far from the links that the crank moves (mm)."""
 TURNS = 0.0, 0.15, 0.3, 0.45, 0.6, 0.75, 0.9
-"""Where along its turn (rad) the arrow of ω1 is asked how far it is from them."""
+"""Places along the turn (rad) of the arrow of ω1 where its distance from them is checked."""
 NUMBER = 6.0
-"""What the number of a link takes beside its bar, mm."""
+"""Room of a link's number beside its bar, mm."""
 THUMBNAIL = 34.0, 40.0
-"""What a small mechanism beside a plan fills at most, across and upwards, mm."""
+"""Largest width and height of a small mechanism beside a plan, mm."""
 
 
 def thumbnail(linkage: Linkage, motion: Motion, index: int) -> Canvas:
@@ -270,7 +270,7 @@ def mechanism(bones: Skeleton, shown: Sequence[int], looks: Looks) -> Canvas:
 
 
 def link_facts(bones: Skeleton, shown: Sequence[int]) -> Iterator[Fact]:
-    """What the shown links tell: their bars from joint to joint, their blocks and ways, the pivots on the ground."""
+    """Yield the facts of the shown links: their bars from joint to joint, blocks and ways, the pivots on the ground."""
     for link in shown:
         first, *others = bones.bars.get(link, ()) or ("",)
         for name in others:
@@ -298,7 +298,7 @@ class LinkShape:
 
 
 def parts_of(bones: Skeleton, link: int, looks: Looks, origin: complex, angle: float) -> LinkShape:
-    """What of a link moves with it, seen from its frame, which lies at `origin` (mm) under `angle`."""
+    """Return the parts that move with a link, seen from its frame, which lies at `origin` (mm) under `angle`."""
     u = polar(angle)
     slides = tuple(
         replace(
@@ -364,7 +364,7 @@ def _bars(bones: Skeleton, shown: Sequence[int], looks: Looks) -> list[tuple[com
 
 
 def _carried(slide: Slide, size: tuple[float, float]) -> tuple[complex, complex]:
-    """The ends of the line that stands for a guide on a moving link."""
+    """Return the ends of the line that represents a guide on a moving link."""
     on = polar(slide.angle) * (size[0] / 2 + 3.0)
     return slide.low - on, slide.high + on
 
@@ -407,7 +407,7 @@ def _marked(bones: Skeleton, link: int, looks: Looks) -> list[str]:
 
 
 def _on_block(bones: Skeleton, name: str, shown: Sequence[int]) -> bool:
-    """Whether a joint is the middle of a block that is shown."""
+    """Return True if a joint is the middle of a block that is shown."""
     return any(slide.name == name and slide.link in shown and slide.turns for slide in bones.slides)
 
 
@@ -430,7 +430,7 @@ def _number(bones: Skeleton, link: int, looks: Looks, slides: Sequence[Slide]) -
 
 
 def _near_block(at: complex, slide: Slide, looks: Looks) -> bool:
-    """Whether a number beside a place would stand in a block."""
+    """Return True if a number beside a place would overlap a block."""
     length, width = looks.block(slide.link)
     off = (at - slide.at) / polar(slide.angle)
     return abs(off.real) < length / 2 + NUMBER and abs(off.imag) < width / 2 + NUMBER

@@ -65,7 +65,7 @@ class DrawingSheet:
 
 @dataclass(frozen=True, slots=True)
 class Room:
-    """What a frame leaves free: from corner `low` to `high`, without the box from `low`'s height up at the right.
+    """Room inside a frame: from corner `low` to `high`, without the box from `low`'s height up at the right.
 
     `block` (width, height) is the title block in the lower right corner.
     """
@@ -97,7 +97,7 @@ HEADING = 5.0
 WIDE, NARROW = 0.7, 0.35
 """Widths of lines, mm."""
 OUTLINE = 0.28
-"""What a report draws with a pen of this width (mm) or a wider one is wide on a sheet."""
+"""Least width (mm) of a report's pen whose lines are wide on a sheet."""
 HEAD = 5.5
 """Length of every arrowhead, mm."""
 
@@ -113,13 +113,13 @@ def font_size(height: float) -> float:
 
 
 ENLARGED = font_size(LEAST) / (SCRIPT * style.SMALL)
-"""How many times a sheet shows a figure larger than a report: the indices of its smallest letters are 2.5 mm high."""
+"""Enlargement of a figure on a sheet relative to a report: the indices of its smallest letters are 2.5 mm high."""
 LETTERS = ENLARGED * style.SMALL
 """Font size of all letters, in points."""
 
 
 def lettered(scene: Scene) -> Scene:
-    """A figure of a report, drawn small, as a sheet shows it, `ENLARGED` times as large; its title stands below it."""
+    """Return a report's figure, drawn small, as on a sheet: `ENLARGED` times as large, with its title below it."""
     items = [_standard(enlarged(item, ENLARGED)) for item in scene.items]
     facts = description.enlarged(scene.description, ENLARGED)
     width, height = ENLARGED * scene.width, ENLARGED * scene.height
@@ -208,16 +208,16 @@ Part = TypeVar("Part")
 TITLE_HEIGHT = 4.5
 NOTE_HEIGHT = 6.0
 TRIM = 3.5
-"""What of a drawing's white margin (mm, each side) its neighbours on a sheet may use."""
+"""Part of a drawing's white margin (mm, each side) that its neighbours on a sheet may use."""
 
 
 def sheets(
     scenes: Sequence[Scene], width: float, height: float, note: Content | None = None, trim: float = TRIM
 ) -> tuple[Scene, ...]:
-    """The scenes in true size on as many sheets of `width` × `height` mm as they need.
+    """Return the scenes in true size on as many sheets of `width` × `height` mm as they need.
 
-    Rows are filled in order and spread over the width; each scene's title stands below it and `note` (the
-    common scale) below all.  Of each scene's margin `trim` mm are given up.  A scene larger than the sheet
+    Rows are filled in order and spread over the width; each scene's title is below it and `note` (the
+    common scale) below all.  `trim` mm of each scene's margin are given up.  A scene larger than the sheet
     gets one of its own size.
     """
     foot = NOTE_HEIGHT if note is not None else 0.0
@@ -229,7 +229,7 @@ def sheets(
         return max(scene.height for scene in row) - 2 * trim + TITLE_HEIGHT
 
     def sheet(rows: Sequence[Sequence[Scene]]) -> Scene:
-        """As high as its rows; the scenes of a row stand on a common base line."""
+        """Return a sheet as high as its rows; the scenes of a row share a base line."""
         across = max(width, *(sum(map(wide, row)) for row in rows))
         top = full = foot + sum(map(high, rows))
         items: list[Item] = []

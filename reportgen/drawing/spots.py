@@ -1,4 +1,4 @@
-"""Spots for a label around a point: where they are, what they cost, which leaders tie them to it."""
+"""Spots for a label around a point: their places, their costs, and the leaders that tie them to it."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ NEAR = (0.0, 0.7, 1.6)
 """Extra distances (mm) at which a label still reads as belonging to its point."""
 FAR = (2.6, 3.6, 4.8, 6.0, 7.2, 8.4, 9.6, 10.8, 12.0)
 ALL = (0.0, 0.4, 0.8, 1.2, 1.6, *np.arange(2.0, 12.0, 0.4))
-"""Where a label is tried that breaks lines, in `FINE` directions, the first `LEADERLESS` of them without a leader."""
+"""Distances of labels that break lines, in `FINE` directions, the first `LEADERLESS` of them without a leader."""
 LEADERLESS = 5
 LONGEST = 12.0
 """A longer leader (mm) is not followed."""
@@ -29,7 +29,7 @@ CLEAR = 0.55
 KEPT = 1024
 """For so many sizes of labels and sets of preferred directions the spots are cached."""
 PLACES = np.linspace(0.15, 0.95, 9)
-"""Where on a leader it is seen whether it meets strokes, in shares of its length."""
+"""Places on a leader that are checked against strokes, in shares of its length."""
 
 
 def ring(half: complex, distances: Floats, directions: Complexes = DIRECTIONS) -> Complexes:
@@ -55,7 +55,9 @@ def ranking(prefer: tuple[float, ...], anchors: int) -> Indices:
 
 
 def turned(prefer: tuple[float, ...], directions: Complexes = DIRECTIONS) -> Floats:
-    """How far each direction [N] is from the nearest preferred one: 1 − cos of the angle (rad) between them."""
+    """Return the distance of each direction [N] from the nearest preferred one: 1 − cos of the angle (rad) between
+    them.
+    """
     if not prefer:
         # Free choice: up and to the right reads best.
         return settled(np.asarray(0.35 * (1 - (directions * np.exp(-0.25j * np.pi)).real)))
@@ -65,7 +67,7 @@ def turned(prefer: tuple[float, ...], directions: Complexes = DIRECTIONS) -> Flo
 
 @lru_cache(maxsize=KEPT)
 def around(half: complex, gap: float, prefer: tuple[float, ...]) -> tuple[Complexes, Floats, Complexes]:
-    """All spots, the near ones first, seen from their point: centres, costs and leaders [K, 2]."""
+    """Return all spots, the near ones first, seen from their point: centres, costs and leaders [K, 2]."""
     centres = ring(half, np.asarray(ALL) + gap, FINE).ravel()
     cost = settled((np.asarray(ALL)[:, None] * 0.2 + turned(prefer, FINE)).ravel())
     return centres, cost, leaders_to(gap, centres, half)
@@ -73,7 +75,7 @@ def around(half: complex, gap: float, prefer: tuple[float, ...]) -> tuple[Comple
 
 @lru_cache(maxsize=KEPT)
 def beyond(half: complex, gap: float, prefer: tuple[float, ...]) -> tuple[Complexes, Floats, Complexes]:
-    """Of the spots farther out, the cheapest first, seen from their point: centres, costs and leaders [K, 2]."""
+    """Return the spots farther out, the cheapest first, seen from their point: centres, costs and leaders [K, 2]."""
     centres = ring(half, np.asarray(FAR) + gap).ravel()
     cost = settled((np.asarray(FAR)[:, None] * 0.2 + turned(prefer)).ravel())
     leaders = leaders_to(gap, centres, half)
@@ -83,7 +85,7 @@ def beyond(half: complex, gap: float, prefer: tuple[float, ...]) -> tuple[Comple
 
 
 def touched(centres: Complexes, half: complex, strokes: Complexes) -> Flags:
-    """Which boxes [N] (mm) come too close to any stroke."""
+    """Return flags of the boxes [N] (mm) that come too close to any stroke."""
     return np.asarray(overlap(centres, np.array([half]), strokes, CLEAR).any(axis=1), dtype=np.bool_)
 
 
@@ -97,7 +99,7 @@ def leaders_to(gap: float, centres: Complexes, half: complex) -> Complexes:
 
 
 def crossings(leaders: Complexes, strokes: Complexes) -> Floats:
-    """How many strokes each leader [K] crosses; ends in mm."""
+    """Return the number of strokes that each leader [K] crosses; ends in mm."""
 
     def side(a: Complexes, b: Complexes, p: Complexes) -> Floats:
         return settled(np.asarray(((b - a).conj() * (p - a)).imag))
@@ -109,7 +111,7 @@ def crossings(leaders: Complexes, strokes: Complexes) -> Floats:
 
 
 def distances(leaders: Complexes, points: Complexes) -> Floats:
-    """How far points are from leaders, mm [K, P]."""
+    """Return the distances of points from leaders, mm [K, P]."""
     start, direction = leaders[:, :1], leaders[:, 1:] - leaders[:, :1]
     share = np.clip(((points - start) / direction).real, 0.0, 1.0)
     return settled(np.asarray(np.abs(points - start - share * direction)))

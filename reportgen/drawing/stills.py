@@ -1,7 +1,7 @@
-"""A drawing that moves, as it stands at some of its samples: scenes, of which animations are made frame by frame.
+"""Still scenes of an animated drawing at some of its samples, from which animations are made frame by frame.
 
-Labels stand as they do on a page: where fewest lines run through them, on no other label, and from one scene to the
-next where they were, as long as that is hardly worse.  One that has no place is left out.
+Labels are placed as on a page: where fewest lines run through them, on no other label, and from one scene to the
+next at the same place, as long as that is hardly worse.  A label without a place is left out.
 """
 
 from __future__ import annotations
@@ -34,17 +34,17 @@ NOTHING = 0.02
 SHORT = 3.0
 """One shorter than this (mm) has no label."""
 SHARES = (0.5, 0.38, 0.62, 0.27, 0.73)
-"""Where along a vector its label may stand."""
+"""Places along a vector for its label."""
 BESIDE = (0.9, 2.2)
 """White between a vector and its label (mm)."""
 ABOUT = tuple(eighth * math.pi / 4 for eighth in (0, 1, -1, 2, -2, 3, -3, 4))
-"""Where about a point its name may stand, from its free side on (radians)."""
+"""Directions from a point for its name, counted from its free side (radians)."""
 FURTHER = (0.0, 1.2, 3.0)
-"""How much further from it (mm)."""
+"""Additional distances from it (mm)."""
 BALANCED = 0.35
-"""Of the sum of unit vectors: a point that is joined to others on all sides has no free one."""
+"""Limit of the sum of unit vectors: a point that is joined to others on all sides has no free side."""
 RANK, STAYS = 0.06, 0.3
-"""What a later place costs and staying is worth, beside a line through the label."""
+"""Cost of a later place and bonus for staying, relative to a line through the label."""
 CLEAR = 0.25
 """White between two labels (mm)."""
 
@@ -57,7 +57,7 @@ class Moment:
     sample: int
 
     def of(self, track: Track) -> complex:
-        """A track's value (mm, rad): of one that stands still, that repeats from turn to turn, or of the cycle."""
+        """Return a track's value (mm, rad), for a constant track, one that repeats every turn, or one of the cycle."""
         turn = self.animation.knots.size - 1
         if track.values.size == 1:
             return complex(track.values[0])
@@ -98,7 +98,7 @@ def stills(animation: Animation, pane: Pane, samples: Sequence[int], layers: Col
 
 
 def _drawn(item: MovingItem, now: Moment, zoom: float, enlargement: float) -> Iterator[Item]:
-    """What an item draws, but for its label."""
+    """Yield the drawn items of an item, except its label."""
     match item:
         case Still(items):
             yield from items
@@ -122,7 +122,7 @@ def _drawn(item: MovingItem, now: Moment, zoom: float, enlargement: float) -> It
 
 @dataclass(frozen=True, slots=True)
 class _Request:
-    """A label that is wanted, its places from the best on, and whether it is told before others."""
+    """Requested label, its places in order of preference, and whether it is placed before others."""
 
     label: Label
     places: Sequence[complex]

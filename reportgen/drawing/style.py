@@ -33,7 +33,7 @@ CONSTRUCTION = Pen(0.13, GRAY, (1.6, 1.0))
 """Auxiliary directions of a plan, which go a little beyond their end."""
 LEADER = Pen(0.1, GRAY)
 SOLID, DASHED, CHAIN, DOTTED = (), (2.4, 0.9), (3.6, 0.8, 0.6, 0.8), (0.9, 0.7)
-"""What tells lines apart that are printed without colour, beside their widths."""
+"""Dashes that distinguish lines printed without colour, beside their widths."""
 KNOWN = Pen(0.35)
 RELATIVE = Pen(0.3, BLUE, CHAIN)
 FOUND = Pen(0.3, RED, DASHED)
@@ -45,7 +45,7 @@ PATH = Pen(0.3, BLUE, CHAIN)
 NORMAL = Pen(0.18, RED, (1.8, 1.0))
 """A normal to a velocity, through an instant centre."""
 NEW = Pen(0.5, BLUE)
-"""What a stage of a construction adds."""
+"""Pen of the parts that a stage of a construction adds."""
 OLD = Pen(0.2, GRAY)
 DIMENSION = Pen(0.13)
 

@@ -73,9 +73,7 @@ def of_kind(report: Report, name: str) -> str:
 
 
 def extreme_place(report: Report, id: str) -> Inlines:
-    """Return the place of `M.least` or `M.greatest` in the cycle: the crank's turn from position 1, or a slider's
-    way.
-    """
+    """Return where `M.least` or `M.greatest` is: the turn from position 1, or the way of a sliding driver."""
     if id not in ("M.least", "M.greatest"):
         return ()
     (low, _), (high, _) = report.analysis.summary.extremes
