@@ -14,11 +14,11 @@ from reportgen.drawing.label_size import box
 from reportgen.formula import Number
 
 COUNT_WIDTH = 148.0
-"""Of a figure of bars or a histogram with its text, mm."""
+"""Size of a figure of bars or a histogram with its text, mm."""
 COLUMN_HEIGHT = 55.0
-"""Of a histogram, mm."""
+"""Size of a histogram, mm."""
 LENGTH = 100.0
-"""Of the axis of bars at least, mm."""
+"""Least length of the axis of bars, mm."""
 ROW, BAR = 6.0, 4.0
 """From one horizontal bar to the next, and their thickness, mm."""
 OUTLINE = Pen(0.3, style.BLUE)

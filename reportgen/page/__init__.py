@@ -1,4 +1,4 @@
-"""Case → page: the report for a browser, what moves above it."""
+"""Make the browser page of a case: its report, below its animations."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from reportgen.page.html import Live, Panel
 
 
 def panels(case: Case) -> tuple[Panel, ...]:
-    """What moves on the page of a case: a panel for the machine, one for each part that follows it."""
+    """Return the animated panels of a case's page: one for the machine, one for each part that follows it."""
     animations = case.animations()
     if not animations:
         return ()

@@ -1,4 +1,4 @@
-"""The page on which a kind is chosen, with its scheme, before there is a file to edit."""
+"""Page for choosing a kind, with its scheme, before there is a file to edit."""
 
 from __future__ import annotations
 

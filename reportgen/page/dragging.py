@@ -1,7 +1,7 @@
-"""Samples of a machine while one of its values is drawn: those of the same animation, without a new page.
+"""Samples of a machine while one of its values is dragged: those of the same animation, without a new page.
 
-The animation keeps its structure, its knots, scales and boxes; what no sample depends on is that of the machine as it
-was.  Only samples that have changed go to the page, as numbers of four bytes.
+The animation keeps its structure, its knots, scales and boxes; data without samples remain those of the original
+machine.  Only samples that have changed are sent to the page, as numbers of four bytes.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from reportgen.page.panel import PanelWriter, samples
 from reportgen.page.sampling import Samples
 
 KEPT = "words", "written", "printed"
-"""What is worked out of a case once and is not needed of a value that is being drawn: its words, ledgers, symbols."""
+"""Members of a case that are computed once and not needed for a dragged value: its words, ledgers, symbols."""
 
 
 SAME = 1e-6
@@ -49,17 +49,18 @@ class Resident:
         return cls(machine, number) if isinstance(machine, MachineAnalysis) and machine.animations() else None
 
     def bodies(self, pane: Pane) -> list[str]:
-        """What is drawn of each item of a pane about its own origin; "" of arrows and names."""
+        """Return the drawing of each item of a pane about its own origin; "" for arrows and names."""
         solid = (item.items if isinstance(item, MovingBody | Still) else () for item in pane.items)
         return list(map(self.painter.items, solid))
 
     def sampled(self, assignment: Assignment) -> bytes:
-        """What another assignment changes: as JSON `bodies` of other shape by their places and `runs`, then samples.
+        """Return the changes of another assignment: JSON with `bodies` of other shape by place and `runs`, then
+        samples.
 
         It is a change `of` the machine with this number.  A run is the place of a sample among all and the number of
-        those from it on.  The length of the JSON stands in front of it, in four bytes, blanks behind it up to the next
-        four.  Nothing comes where the animation would have other parts.  Raises what solving raises for a machine that
-        cannot be.
+        those from it on.  The length of the JSON precedes it, in four bytes; blanks follow it up to a multiple of
+        four.  Returns nothing if the animation would have other parts.  Raises the errors of solving for an impossible
+        machine.
         """
         case = type(self.case)(replace(assignment, parts=()))
         case.__dict__.update({name: getattr(self.case, name) for name in KEPT})
@@ -86,7 +87,9 @@ class Resident:
         return b"".join((len(head).to_bytes(4, "little"), head, *(values[run].tobytes() for run in runs)))
 
     def _runs(self, values: np.ndarray) -> list[slice]:
-        """Where samples are others than those of the machine as it is: whole tracks, those side by side in one."""
+        """Return the runs of samples that differ from those of the current machine: whole tracks, adjacent ones
+        joined.
+        """
         other = np.logical_or.reduceat(values.view("<u4") != self.values.view("<u4"), self.starts[:-1])
         edges = np.flatnonzero(np.diff(np.concatenate(([False], other, [False]))))
         return [slice(int(first), int(end)) for first, end in self.starts[edges].reshape(-1, 2)]
@@ -117,7 +120,7 @@ class Resident:
 
 
 def _alike(samples: np.ndarray, others: np.ndarray) -> bool:
-    """Whether samples are the same but for what four bytes hold of their greatest."""
+    """Return True if samples are equal to the precision of four bytes relative to their greatest."""
     greatest = float(np.nanmax(np.abs(samples), initial=0.0))
     return bool(np.allclose(samples, others, rtol=0.0, atol=SAME * greatest, equal_nan=True))
 

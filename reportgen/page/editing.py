@@ -1,7 +1,7 @@
-"""A file that is edited on its page: the form of the file as it stands, changes put into its text, undone and redone.
+"""Edit a file on its page: the form of the current file, changes put into its text, undo and redo.
 
-The file is the truth.  A change goes by its place to the newest text, whoever wrote that; where that very value has
-become another one meanwhile, nothing is written and both are told.
+The file is the only source.  A change is applied by its place to the newest text, whoever wrote it; if that value has
+changed meanwhile, nothing is written and both values are reported.
 """
 
 from __future__ import annotations
@@ -51,13 +51,13 @@ from reportgen.page.making import Maker
 from reportgen.page.ownership import owners
 
 PART_KEYS = "kind", "parameters"
-"""What is begun of a part."""
+"""Keys with which a new part begins."""
 MOST_STEPS = 500
 """So many changes can be undone."""
 REST = 0.3
-"""A hand that draws a value has come to rest after so long (s)."""
+"""Time (s) without change after which a dragged value is at rest."""
 PATIENCE = 10.0
-"""What can wait waits no longer (s)."""
+"""Longest delay (s) of work that can wait."""
 HERE = Mark("")
 SCRIPTS = "live.js", "drafts.js", "redraw.js", "tables.js", "edit.js", "owned.js"
 STYLES = "live.css", "edit.css"
@@ -75,9 +75,9 @@ class Change:
 
 
 class RefusedChangeError(Exception):
-    """What is asked for cannot be done; the key of the words that say why, and what fills them.
+    """Request that cannot be carried out; the key of the words for the reason, and their arguments.
 
-    Of what the system refuses the reason is the name of its number, which has words, else what the system says.
+    For an error of the system, the reason is the name of its number if that has words, else the system's message.
     """
 
     def __init__(self, key: str, system: OSError | None = None, /, **arguments: str) -> None:
@@ -103,7 +103,7 @@ class EditSession(LiveSession):
     of_part: Callable[[Path], EditSession] | None = None
     """Begins the form of a part's file; None where none is opened."""
     whole: Path | None = None
-    """Of a part, the coursework's file, from whose machine it takes what that says."""
+    """Coursework's file of a part, whose machine gives values to the part."""
     lock: threading.RLock = field(default_factory=threading.RLock)
     done: list[Change] = field(default_factory=list)
     undone: list[Change] = field(default_factory=list)
@@ -111,7 +111,7 @@ class EditSession(LiveSession):
     _resident: tuple[int, Resident | None] = 0, None
     """The machine as it moves, by the number of its revision."""
     _form: tuple[object, str, int] = None, "", 0
-    """What the form was written of last, the form, and how many others there were before."""
+    """Input of the form written last, the form, and how many others there were before."""
     _forming: threading.Lock = field(default_factory=threading.Lock)
     _drawn: float = 0.0
     """When a value was drawn last (s)."""
@@ -154,9 +154,9 @@ class EditSession(LiveSession):
         return {"edit.json": self.edit, "drag.json": self.drag, "make.json": self.make}
 
     def below(self, name: str) -> EditSession | None:
-        """The session of a part's file by its number: of one that the file names as it stands, in its folder or below.
+        """Return the session of a part's file by its number: a file that the text names now, in its folder or below.
 
-        No request names a file: where it stands is asked of the coursework's text each time.
+        No request names a file: its place is read from the coursework's text each time.
         """
         allowed = self._part_files() if self.of_part is not None else []
         with self._opening:
@@ -240,10 +240,10 @@ class EditSession(LiveSession):
         return written
 
     def owners(self) -> Mapping[str, Any]:
-        """Which bars and points are each value's own, by the place of its field; where fixed points are drawn (mm).
+        """Return each value's own bars and points, by the place of its field; and where fixed points are drawn (mm).
 
-        That can wait: the report is written first, and what is drawn meanwhile goes before.  Of a machine that is no
-        longer the newest nothing more is looked for.
+        This can wait: the report is written first, and dragging goes before.  The search ends when the machine is no
+        longer the newest.
         """
         with self.dragging:
             resident = self._resident_machine()
@@ -267,7 +267,9 @@ class EditSession(LiveSession):
         return {"fields": fields, "ground": ground}
 
     def _is_over(self, number: int) -> bool:
-        """Whether a machine, by the number of its revision, is no longer the newest, or nobody looks any more."""
+        """Return True if a machine, by the number of its revision, is no longer the newest, or the session is
+        closed.
+        """
         return self.closed or self.revision.moving != number
 
     def _resident_machine(self) -> Resident | None:
@@ -331,7 +333,7 @@ class EditSession(LiveSession):
         return written_at(at(read_text(changed).top, where))
 
     def _same(self, text: str, place: Where, was: str, wanted: str) -> None:
-        """Raise where another value stands at a place than the page shows, and than it asks for."""
+        """Raise if the value at a place is neither the page's value nor the requested one."""
         there = written_at(at(read_text(text).top, place))
         if there not in (was, wanted):
             raise RefusedChangeError("meanwhile", there=there, here=wanted)
@@ -457,7 +459,7 @@ def part_kinds() -> tuple[str, ...]:
 
 
 def _the_same(text: str, place: Where, key: str) -> str:
-    """What stands at a place in the unit of another key beside it; "" where that is of another dimension."""
+    """Return the value at a place in the unit of another key beside it; "" if that has another dimension."""
     top = read_text(text).top
     old, kind = at(top, place), at(top, ("kind",))
     if not isinstance(old, Scalar) or not isinstance(kind, Scalar) or kind.text not in kinds():
@@ -485,7 +487,7 @@ def converted(text: str, unit: str) -> str:
 
 
 def _by_place(problems: list[Problem], source: Source) -> dict[Where, list[Problem]]:
-    """The faults by the places of the fields beside which they stand: of an item of a list of values, its list."""
+    """Return the faults by the places of the fields that show them: for an item of a list of values, its list."""
     places: dict[Where, list[Problem]] = {}
     for problem in problems:
         where = problem.where

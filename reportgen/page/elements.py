@@ -1,4 +1,4 @@
-"""Scene → inline SVG whose unit is the millimetre, so that a print at 100 % is true to scale.
+"""Convert scenes to inline SVG in millimetres, so that a print at 100 % is true to scale.
 
 Pens are classes, defined once for the whole page in its style sheet: colours there follow light and dark.  Labels
 are text, set in the reader's fonts at the places that the report's fonts would take.
@@ -51,16 +51,16 @@ COLOURS = {
 }
 """The colours of figures by the names that the style sheet has for them; any other stays as it is."""
 SUB, SUPER = 0.2, -0.38
-"""Where the base lines of indices lie below and above that of their letter, in font sizes."""
+"""Offsets of the base lines of indices below and above that of their letter, in font sizes."""
 OVER = 0.09
-"""How far an arrow or a bar is above a letter, in font sizes."""
+"""Distance of an arrow or a bar above a letter, in font sizes."""
 
 
 @dataclass(frozen=True, slots=True)
 class Run:
     """Letters of one label that look alike: italic or not, their size and their base line's drop in font sizes.
 
-    They stand so far `back` from the end of those before them, in their own font size.
+    They begin at a distance `back` before the end of the previous run, in their own font size.
     """
 
     text: str
@@ -114,7 +114,7 @@ class Painter:
         self.pens = pens
 
     def scene(self, scene: Scene, name: str) -> str:
-        """A drawing in true size; `name` is what a reader who does not see it is told."""
+        """Return a drawing in true size; `name` is its description for readers who do not see it."""
         width, height = decimal(scene.width), decimal(scene.height)
         body = self.items(scene.items, scene.height)
         return (
@@ -216,7 +216,7 @@ class Painter:
         return self.items((Arrow(start, start + width, stroke, 0.28 * em),), height)
 
     def text(self, content: Content) -> str:
-        """What a label says as the content of a text element."""
+        """Return a label as the content of a text element."""
         shown, drop = [], 0.0
         for run in Runs(self.language).content(content):
             # A shift counts in the font size of the run that it moves.
@@ -368,7 +368,7 @@ class MathmlFormulas(TextSetter):
         return f'<mo form="{form}"{size}>{mark.of}</mo>'
 
     def fence(self, fence: Fence) -> str:
-        """What stands in parentheses, which are as high as it is."""
+        """Return an expression in parentheses, which are as high as it is."""
         inner = self.part(fence.of)
         match fence.left:
             case "":
@@ -407,7 +407,7 @@ class MathmlFormulas(TextSetter):
         return [self.part(first), *(self.part(MathRow((EQUALS, side))) for side in others)]
 
     def row(self, node: Expression) -> tuple[str, list[str]]:
-        """A displayed row: what stands left of its first "=", and the pieces between which the rest may break.
+        """Return a displayed row: the part left of its first "=", and the pieces between which the rest may break.
 
         A row without a relation has nothing on its left.
         """
@@ -426,7 +426,7 @@ class MathmlFormulas(TextSetter):
         ]
 
     def leading(self, signs: tuple[Sign, ...]) -> str:
-        """What stands before a term in its column: a minus alone is that of the term."""
+        """Return the signs before a term in its column: a minus alone is that of the term."""
         form = "prefix" if [sign.of for sign in signs] == [NEGATIVE.of] else "infix"
         return "".join(f'<mo form="{form}">{sign.of}</mo>' for sign in signs)
 

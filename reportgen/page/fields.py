@@ -1,4 +1,4 @@
-"""What a form asks for a file: its fields in order, by what the schema lets stand at each place and what stands there.
+"""Form fields of a file in order, from the schema's alternatives at each place and the file's value there.
 
 No field is made by hand: unit, bounds, choices and defaults come from the readers of the keys, rules of several keys
 from the checks, names and remarks from the words.
@@ -29,7 +29,7 @@ NEVER = ("kind",)
 
 @dataclass(frozen=True)
 class FieldLine:
-    """What a form asks at one place: by one line (`text`, `quantity`, `number`, `choice`, `list`, `date`)."""
+    """Field at one place, on one line (`text`, `quantity`, `number`, `choice`, `list`, `date`)."""
 
     where: Where
     words: FieldWords
@@ -47,7 +47,7 @@ class FieldLine:
     most: int | None = None
     """A list takes no more items."""
     taken: bool = False
-    """Whether the text does not stand in the file: a part takes it from the machine."""
+    """True if the text is not in the file: a part takes it from the machine."""
 
     @property
     def key(self) -> str:
@@ -71,7 +71,7 @@ class FieldGroup:
     can_grow: bool = False
     required: bool = False
     file: str = ""
-    """The file of its own that a part stands in."""
+    """Separate file of a part."""
 
     @property
     def id(self) -> str:
@@ -79,12 +79,12 @@ class FieldGroup:
 
     @property
     def present(self) -> tuple[FieldLine | FieldGroup, ...]:
-        """What is asked at once: what stands in the file, and what must."""
+        """Return the entries shown at once: those in the file, and required ones."""
         return tuple(inner for inner in self.entries if inner.there or _is_asked(inner))
 
     @property
     def absent(self) -> tuple[FieldLine | FieldGroup, ...]:
-        """What may be added."""
+        """Return the entries that may be added."""
         return tuple(inner for inner in self.entries if not (inner.there or _is_asked(inner)))
 
 
@@ -94,13 +94,13 @@ def _is_asked(inner: FieldLine | FieldGroup) -> bool:
 
 @dataclass(frozen=True)
 class Form:
-    """All that is asked for a file of one kind in a language."""
+    """Form of a file of one kind in a language."""
 
     kind: Kind
     language: Language
     top: MappingNode
     own: Node | None = None
-    """Of a part, the nodes of its file without what it takes."""
+    """Nodes of a part's file, without those it takes from the machine."""
     root: Schema = field(init=False)
     words: Mapping[str, FieldWords] = field(init=False)
 
@@ -137,7 +137,7 @@ class Form:
     def _at(
         self, where: Where, path: str, about: Schema, node: Node | None, required: bool
     ) -> FieldLine | FieldGroup | None:
-        """What is asked at a place, by the alternatives that its schema has and the node that stands there."""
+        """Return the field or group at a place, from the alternatives of its schema and the node there."""
         allowed = list(alternatives(about, self.root))
         tables = [schema for schema in allowed if "properties" in schema]
         names = [inner for schema in allowed for inner in _by_name(schema)]
@@ -216,7 +216,7 @@ class Form:
         return alternatives_to(self.kind, (*path, str(entry.where[-1])))
 
     def _must(self, where: Where, entry: FieldLine) -> bool:
-        """Whether one of several keys that say the same has to stand there."""
+        """Return True if one of several equivalent keys is required there."""
         checks = (check for check in self.kind.all_checks if isinstance(check, OneOf) and check.where == where)
         return any(entry.key in check.names and check.required for check in checks)
 
@@ -263,7 +263,7 @@ class Form:
         )
 
     def _parts(self, node: Node | None) -> FieldGroup:
-        """The parts of a coursework: each in place as the form of its own kind, one in its own file by its name."""
+        """Return the parts of a coursework: each as the form of its own kind, one in a separate file by its name."""
         from reportgen import catalogue
 
         words, made = self._words(PARTS), []
@@ -360,7 +360,7 @@ def _by_name(schema: Schema) -> Iterator[Schema]:
 
 
 def _tag(tables: Sequence[Schema]) -> str:
-    """The key by whose value tables of several forms are told apart; "" where there is one form."""
+    """Return the key whose value distinguishes tables of several forms; "" if there is one form."""
     if len(tables) < 2:
         return ""
     keys = [key for key, about in tables[0]["properties"].items() if "const" in about]
@@ -391,7 +391,7 @@ def _bounds(schema: Mapping[str, float]) -> dict[str, float | None]:
 
 
 def written_at(node: Node | None) -> str:
-    """What stands at a place as it is typed there."""
+    """Return the value at a place as it is typed there."""
     match node:
         case Scalar(text, null=null):
             return "" if null else text

@@ -1,7 +1,7 @@
-"""Document → one page for a browser, which needs no other file and loads none.
+"""Write a document as one page for a browser, which needs no other file and loads none.
 
 The frame `templates/frames/html/` holds the looks and the few scripts; this module puts the parts together and
-states, by their hashes, which styles and scripts the page may use: nothing else runs on it, whatever it says.
+lists, by their hashes, the styles and scripts that the page may use: nothing else runs on it.
 """
 
 from __future__ import annotations
@@ -35,9 +35,11 @@ if TYPE_CHECKING:
 STYLES, SCRIPTS = ("page.css",), ("page.js", "save.js")
 """Files of the frame that every page has."""
 FEED, GIVES, EXTENDED = "feed.js", "  return { root, own,", "const extended = new Map();"
-"""What a form needs of each panel, where it is put into the panel's script, and where the panels then have it."""
+"""Script that a form needs of each panel, where it is put into the panel's script, and where the panels then have
+it.
+"""
 MOVING_STYLES, MOVING_SCRIPTS = ("moving.css",), ("moving.js",)
-"""Those that serve panels."""
+"""Styles and scripts for panels."""
 
 
 @dataclass(frozen=True)
@@ -50,7 +52,7 @@ class WrittenReport:
 
 @dataclass(frozen=True)
 class Panel:
-    """What moves on a page by itself: its title, its elements, their rules, the samples as JSON.
+    """Animated panel of a page: its title, its elements, their rules, the samples as JSON.
 
     Its ids begin with its `own` name, "" for the machine's.
     """
@@ -64,7 +66,7 @@ class Panel:
 
 @dataclass(frozen=True)
 class Live:
-    """What a page has that is renewed while it is read: words of its own (`live` in `words.yaml`), its revisions."""
+    """Data of a page that is renewed while it is read: its words (`live` in `words.yaml`), its revisions."""
 
     words: Mapping[str, str]
     moving: int
@@ -88,7 +90,7 @@ def report(document: tree.Document) -> WrittenReport:
 
 
 def running(document: tree.Document) -> str:
-    """What printed sheets have above and below their text, as the PDF has it."""
+    """Return the rules for text above and below that of printed sheets, as in the PDF."""
     left, right = document.header
     below, word = document.footer
     texts = {
@@ -228,13 +230,13 @@ class Blocks:
         self.papers: dict[str, tuple[float, float]] = {}
         """Paper sizes (mm) of plates by the names that the style sheet has for them."""
         self.below = int(any(isinstance(block, tree.Cover) for block in document.blocks))
-        """The title of a cover stands above all parts."""
+        """Level shift: the title of a cover is above all parts."""
         sections = [block for block in document.blocks if isinstance(block, tree.Section)]
         self.sections = [section for section in sections if section.level <= CONTENTS_LEVEL]
         self._places = {id(section): f"s-{index}" for index, section in enumerate(sections)}
 
     def write(self, blocks: Sequence[tree.Block], room: float = tree.TEXT_WIDTH) -> str:
-        """The blocks in order; a run-in heading stands at the head of the paragraph behind it."""
+        """Return the blocks in order; a run-in heading begins the paragraph after it."""
         lines: list[str] = []
         run_in = ""
         for block, following in pairwise((*blocks, None)):
@@ -331,7 +333,7 @@ class Blocks:
     # --- inlines ----------------------------------------------------------------------------------
 
     def inlines(self, inlines: tree.Inlines) -> str:
-        """Inlines in a row; a mark stays with the formula that it stands at, where a browser would part them."""
+        """Return inlines in a row; a mark stays with its formula, where a browser would separate them."""
         shown: list[str] = []
         behind_formula = False
         for inline in inlines:
@@ -471,7 +473,7 @@ class Blocks:
 
 
 def save_buttons(file: str, told: str) -> str:
-    """What saves the drawing before it to a file of this name; all its letters are of the style sheet."""
+    """Return buttons that save the preceding drawing to a file of this name; the style sheet has their labels."""
     buttons = "".join(
         f'<button type="button" data-save="{kind}" aria-label="{kind.upper()}"></button>' for kind in ("svg", "png")
     )

@@ -1,7 +1,7 @@
-"""What a reader of a watched file sees: the latest revisions of the moving part, of the report, and of a fault.
+"""Live view of a watched file: the latest revisions of the animation, of the report, and of a fault.
 
-The moving part is made first and stands at once; the report follows, made of the same case in another thread.  A
-change meanwhile is taken up as soon as it comes: what is made of an older file is dropped.
+The animation is made first and shown at once; the report follows, made of the same case in another thread.  A
+change meanwhile is processed at once: results from an older file are dropped.
 """
 
 from __future__ import annotations
@@ -22,16 +22,16 @@ from reportgen.page import html, panels
 from reportgen.page.html import Live, Panel, WrittenReport
 
 NOBODY = "–"
-"""What stands on the page of a file that was never right."""
+"""Title on the page of a file that was never valid."""
 PART = "part/"
-"""Below it are the pages of parts that stand in files of their own."""
+"""Path of the pages of parts that are in separate files."""
 AHEAD = 0.2
 """The time (s) that the moving part has to itself before the report is begun."""
 
 
 @dataclass(frozen=True)
 class Revision:
-    """What is to be shown; `moving` and `report` count how often each of them has changed."""
+    """Current content of a page; `moving` and `report` count how often each of them has changed."""
 
     language: Language
     words: Mapping[str, Any]
@@ -39,20 +39,20 @@ class Revision:
     report: WrittenReport | None = None
     document: tree.Document | None = None
     case: Case | None = None
-    """What moves: that of the file as it was right last."""
+    """Animated case: that of the last valid state of the file."""
     fault: str = ""
     moving: int = 0
     reports: int = 0
     reads: int = 0
-    """How often the file was read: a fault that stays the same may be that of another text."""
+    """Number of times the file was read: an unchanged fault may be that of another text."""
     busy: bool = False
-    """Whether a report of the file as it stands is still to come."""
+    """True if a report of the current file is still to come."""
     making: Mapping[str, Any] = field(default_factory=dict)
-    """What is being made of the file, or was made last."""
+    """Product that is being made of the file, or was made last."""
 
     @property
     def news(self) -> Mapping[str, Any]:
-        """What a page is told at once; it asks for the rest where it has an older one."""
+        """State that a page receives at once; it requests the rest if it has an older one."""
         return {
             "moving": self.moving,
             "report": self.reports,
@@ -102,7 +102,7 @@ class LiveSession:
             return self.revision
 
     def renew(self) -> None:
-        """Make the moving part of the file as it stands, and leave the report to its thread."""
+        """Make the moving part of the current file, and leave the report to its thread."""
         self._asked += 1
         number = self._asked
         try:
@@ -147,7 +147,7 @@ class LiveSession:
                     self._publish(fault=self._in_words(error), busy=False)
 
     def _overtaken(self, wanted: tuple[int, Case]) -> bool:
-        """Whether another report is to be written than this one, or none."""
+        """Return True if another report than this one is to be written, or none."""
         return self.closed or self._to_write is not wanted
 
     def _publish(self, **news: Any) -> None:
@@ -174,19 +174,19 @@ class LiveSession:
 
     @property
     def answers(self) -> Mapping[str, Callable[[], Mapping[str, Any]]]:
-        """What a page may ask for, by names."""
+        """Requests that a page may make, by names."""
         return {"moving.json": self.moving, "report.json": self.report}
 
     @property
     def takes(self) -> Mapping[str, Callable[[Mapping[str, Any]], Mapping[str, Any] | bytes]]:
-        """What a page may send, by names: nothing, where a file is only watched.
+        """Messages that a page may send, by names: none if a file is only watched.
 
-        What is sent is no fault of the program: `ValueError`, `KeyError` and `TypeError` refuse it.
+        Bad messages are no fault of the program: `ValueError`, `KeyError` and `TypeError` refuse them.
         """
         return {}
 
     def page(self) -> str:
-        """The whole page as it stands; where no report is finished yet, an empty one."""
+        """Return the whole current page; with an empty document if no report is finished yet."""
         now = self.revision
         document = now.document or empty_document(now)
         live = Live(now.words["live"], now.moving, now.reports)
@@ -206,6 +206,6 @@ class LiveSession:
 
 
 def empty_document(revision: Revision) -> tree.Document:
-    """What stands on the page of a file that has had no report yet."""
+    """Return the document of a file without a report yet."""
     words = tree.Words.among(revision.words, revision.language)
     return tree.Document(revision.language, NOBODY, "", ("", ""), ("", ""), words)

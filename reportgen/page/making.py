@@ -1,4 +1,4 @@
-"""What is made of a file on its page: one product after another, each by a process of its own that can be ended."""
+"""Make the products of a file on its page: one after another, each by a separate process that can be ended."""
 
 from __future__ import annotations
 
@@ -15,20 +15,20 @@ from typing import Any
 from reportgen.base.steps import ASKED, MARK
 
 LAST_LINES = 12
-"""Of what a process complains so many lines are told."""
+"""Number of lines of a process's error output that are reported."""
 PATIENCE = 5.0
 """A process that was asked to end has so long (s) to tidy up."""
 
 
 @dataclass
 class Maker:
-    """Makes products by commands that print the paths of their files; `tell` hears of each step."""
+    """Makes products by commands that print the paths of their files; `tell` is called with each step."""
 
     commands: Mapping[str, Sequence[str]]
     """The command of each product, by its name."""
     tell: Callable[[Mapping[str, Any]], None]
     files: dict[str, Path] = field(default_factory=dict)
-    """What has been made, by the names under which a page may ask for it."""
+    """Files made, by the names under which a page may request them."""
     _process: subprocess.Popen[str] | None = None
     _lock: threading.Lock = field(default_factory=threading.Lock)
     _ended: bool = False

@@ -1,7 +1,7 @@
-"""Which drawn parts a value of the file belongs to, found by moving it a little: no table by hand.
+"""Find the drawn parts that a value of the file controls, by changing it a little: without a table.
 
-What a machine is made of says itself what has changed: lengths of crank and rods, fixed points, guides, masses.
-A load is the value's own where the linkage has stayed the same.
+The parts of a machine show the changes: lengths of crank and rods, fixed points, guides, masses.
+A load belongs to the value if the linkage is unchanged.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ SHARE = 1.01
 """A value is moved by this factor, one that is 0 by `STEP` in its own unit."""
 STEP = 0.5
 SAME = 1e-9
-"""What differs by a smaller share has not changed."""
+"""Relative difference below which nothing has changed."""
 SAMPLES = 13
 MOST_VALUES = 120
 """So many values of a file are looked at."""
@@ -48,7 +48,7 @@ class Owned:
 
 
 def owners(machine: Machine, top: MappingNode, source: Source) -> Iterator[tuple[Where, Owned]]:
-    """What each value of the machine's data owns, by its place; nothing, of one that moves nothing that is drawn."""
+    """Yield the bars and points of each value of the machine's data, by its place; empty if it moves nothing drawn."""
     data = top.find("parameters")
     leaves = _leaves(data[1], ("parameters",)) if data else iter(())
     for (where, scalar), _ in zip(leaves, range(MOST_VALUES), strict=False):
@@ -88,7 +88,7 @@ def moved(text: str) -> str | None:
 
 
 def difference(machine: Machine, changed: Machine) -> Owned:
-    """What two machines of one kind do not have in common, as bars and points."""
+    """Return the difference between two machines of one kind, as bars and points."""
     before, after = machine.linkage, changed.linkage
     bars = [*_bars(before, after)]
     points = [*_points(before, after)]

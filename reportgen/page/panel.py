@@ -1,7 +1,7 @@
 """The machine in motion as elements of a page, and its samples as compact data.
 
-Everything that moves is drawn here once, about its own origin, and named by its number (`data-i`); the data say for
-each number which tracks it follows.  The script of the frame does nothing but read tracks between two samples.
+Everything that moves is drawn here once, about its own origin, and named by its number (`data-i`); the data give
+each number the tracks that it follows.  The script of the frame only reads tracks between two samples.
 """
 
 from __future__ import annotations
@@ -43,11 +43,11 @@ from reportgen.page.elements import MathmlFormulas, Painter, Pens
 from reportgen.page.html import Panel, data, save_buttons, template
 
 SPEEDS = (0.1, 0.25, 0.5, 1.0, 2.0)
-"""Of the motion shown: shares of its usual one."""
+"""Speeds of the motion shown: shares of the usual one."""
 LINE = 0.42
 """Half the height of a line of letters, in font sizes."""
 HIT = 4.0
-"""How near (mm) a pointer must come to a point."""
+"""Largest distance (mm) from the pointer to a point that it selects."""
 HEADS = ("x (m)", "y (m)", "v_x (m/s)", "v_y (m/s)", "v (m/s)", "a_x (m/s²)", "a_y (m/s²)", "a (m/s²)")
 """Heads of the table of a point's motion, behind that of the driver's way."""
 
@@ -58,7 +58,7 @@ def panel(animation: Animation, language: Language, words: Mapping[str, Any]) ->
 
 
 SAMPLE = 2.0**-22
-"""The step of samples as a share of the greatest one: no more than numbers of four bytes show."""
+"""Step of samples as a share of the greatest one: the resolution of numbers of four bytes."""
 AXIS_DIGITS = 9
 """Significant figures of the ends of an axis."""
 NOTHING = 2.0**-20
@@ -83,7 +83,7 @@ def _step(greatest: float) -> float:
 
 
 class Tracks:
-    """All tracks of a page, each once: numbers of its parts, and their values one behind the other."""
+    """Tracks of a page, each once: numbers of its parts, and their values one after the other."""
 
     def __init__(self) -> None:
         self._numbers: dict[tuple[bytes, ...], int] = {}
@@ -102,17 +102,17 @@ class Tracks:
 
     @property
     def values(self) -> np.ndarray:
-        """All values, one track behind the other."""
+        """Return all values, one track after the other."""
         return np.frombuffer(b"".join(self._values), "<f4")
 
     def packed(self) -> str:
-        """All values as numbers of four bytes, in letters."""
+        """Return all values as numbers of four bytes, in base 64."""
         return base64.b64encode(b"".join(self._values)).decode()
 
 
 @dataclass(frozen=True, slots=True)
 class _Drawn:
-    """A pane as the frame prints it; lengths are mm, in texts as they stand in attributes."""
+    """Printed pane of the frame; lengths are mm, texts are escaped for attributes."""
 
     key: str
     title: str
@@ -131,7 +131,7 @@ class _Charted:
     """A chart as the frame prints it."""
 
     text: str
-    """What a reader who does not see it hears."""
+    """Text for readers who do not see it."""
     width: str
     height: str
     body: str
@@ -142,14 +142,14 @@ class PanelWriter:
     def __init__(self, animation: Animation, language: Language, words: Mapping[str, Any]) -> None:
         self.animation, self.language, self.words = animation, language, words["page"]
         self.phrases: Mapping[str, str] = words["told"]
-        """What drawings tell."""
+        """Phrases of the descriptions of drawings."""
         self.own = f"{animation.name}-" if animation.name else ""
         self.pens, self.tracks = Pens(f"{self.own}m"), Tracks()
         self.painter, self.formulas = Painter(language, self.pens), MathmlFormulas(language)
         self.items: list[dict[str, Any]] = []
-        """What each numbered element follows."""
+        """Data of each numbered element with the tracks that it follows."""
         self.enlargement = 1.0
-        """How much larger letters, arrowheads and pens of arrows are than in figures."""
+        """Factor by which letters, arrowheads and pens of arrows are larger than in figures."""
 
     def unit(self, unit: str) -> str:
         return self.animation.units.get(unit, unit)
@@ -179,7 +179,7 @@ class PanelWriter:
         return Panel(self.own, title, body, self.pens.rules(), data(self.data()))
 
     def data(self) -> Mapping[str, Any]:
-        """What the script reads; numbers are those of tracks."""
+        """Return the data that the script reads; numbers are those of tracks."""
         animation, words, number = self.animation, self.words, self.tracks.number
         return {
             "knots": [float(f"{knot:.8g}") for knot in animation.knots],
@@ -215,7 +215,7 @@ class PanelWriter:
         }
 
     def instants(self) -> list[tuple[str, float]]:
-        """What is told of each single instant, and where the driver stands."""
+        """Return the label of each single instant, and the place of the driver."""
         unit = " mm" if self.animation.span else "°"
         places = [float(f"{place:.9g}") for place in self.animation.instants]
         labels = (label for label, _ in self.animation.positions)
@@ -225,7 +225,7 @@ class PanelWriter:
         ]
 
     def accuracy(self) -> str:
-        """What drawing straight lines between samples costs, in words."""
+        """Return the errors from straight lines between samples, in words."""
         errors = self.animation.errors
         if self.animation.instants:
             return str(self.words["instants"])
@@ -340,7 +340,7 @@ class PanelWriter:
         )
 
     def axes(self, chart: Chart) -> Mapping[str, Any]:
-        """The box of a chart's axes (mm, y downwards), what it stands for, and the tracks of its curves."""
+        """Return the box of a chart's axes (mm, y downwards), their ranges, and the tracks of its curves."""
         drawn = chart.plotted
         return {
             "box": list(_rounded(_turned_over(drawn.low, drawn.high, drawn.scene.height))),

@@ -1,4 +1,4 @@
-"""What a panel is made of, as it is shown: drawings and charts under their titles, numbers in their units."""
+"""Panes of a panel as they are shown: drawings and charts under their titles, numbers in their units."""
 
 from __future__ import annotations
 

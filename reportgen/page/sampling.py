@@ -1,8 +1,8 @@
-"""The machine in motion, for a page: its samples by the solver, and what is drawn and told of them.
+"""Samples of the machine in motion for a page, from the solver, with their drawings and descriptions.
 
 A turn is sampled at 360 even angles, at the numbered positions, and on both sides of every jump of a load.  Plans
 have the corners of the report's plans, from the same definitions at the samples, so that at a numbered position both
-are one.  Motion repeats from turn to turn; forces go on through the cycle.
+agree.  Motion repeats from turn to turn; forces continue through the cycle.
 """
 
 from __future__ import annotations
@@ -64,7 +64,7 @@ SAMPLES = 360
 SAME_SAMPLE = 1e-7
 """Samples nearer than this (rad) are one."""
 BESIDE = 2e-5
-"""How far from a jump of a load (rad) its two sides are sampled."""
+"""Distance (rad) from a jump of a load at which its two sides are sampled."""
 JUMP = 1e-3
 """A load that changes there by a smaller share of its greatest value does not jump."""
 ARROW = 34.0
@@ -78,7 +78,7 @@ LEVER, LONGER = 0.45, 0.2
 
 
 def animation(case: MachineAnalysis) -> Animation:
-    """All that moves on the page of a case."""
+    """Return the animation on the page of a case."""
     return Samples(case).animation()
 
 
@@ -94,7 +94,7 @@ class Samples:
     kept: dict[str, Any] = field(default_factory=dict)
 
     def chosen(self, name: str, choice: Callable[[], Any]) -> Any:
-        """What was chosen by this name, else the choice."""
+        """Return the value kept under this name, or else make and keep it."""
         if name not in self.kept:
             self.kept[name] = choice()
         return self.kept[name]
@@ -194,7 +194,7 @@ class Samples:
         )
 
     def turn(self, values: np.ndarray) -> Track:
-        """What repeats from turn to turn: its first one [knots]."""
+        """Return a track that repeats from turn to turn, from its first turn [knots]."""
         return Track(values[: self.knots.size] if values.size > 1 else values)
 
     # --- drawings
@@ -310,7 +310,7 @@ class Samples:
         return items
 
     def _forces(self, scale: float) -> tuple[list[MovingItem], float]:
-        """All forces as arrows where they act, and their scale (N/mm); reactions each once."""
+        """Return all forces as arrows at their points, and their scale (N/mm); reactions each once."""
         analysis = self.analysis
         arrows: list[tuple[str, str, np.ndarray, np.ndarray]] = []
         groups: tuple[tuple[str, Sequence[Load]], ...] = (

@@ -1,4 +1,4 @@
-"""A server for one page on this machine: a few fixed addresses under a secret one, and news as they come.
+"""Local server for one page: a few fixed addresses under a secret one, and events as they come.
 
 Other machines cannot reach it; other pages in the same browser do not know the token, and a request under another
 name of this machine is refused, so that no site can pose as this one.
@@ -29,7 +29,7 @@ REQUEST = 10.0
 MADE = "made/"
 """Below it are the files that were made on a page."""
 RESPITE = 0.2
-"""Where no connection can be accepted, the server looks again after so long (s)."""
+"""Delay (s) before the server retries if no connection can be accepted."""
 HEADERS = {
     "Cache-Control": "no-store",
     "X-Content-Type-Options": "nosniff",
@@ -40,7 +40,7 @@ HEADERS = {
 
 
 class Server(ThreadingHTTPServer):
-    """Serves the revisions of a live session on a free port, each request in a thread of its own."""
+    """Serves the revisions of a live session on a free port, each request in a separate thread."""
 
     daemon_threads = True
 
@@ -76,7 +76,7 @@ class Server(ThreadingHTTPServer):
 
 
 class _InTime(io.RawIOBase):
-    """What a connection sends until its time is up; then reading raises `TimeoutError`, however much has come."""
+    """Data of a connection until its time is up; then reading raises `TimeoutError`, however much has arrived."""
 
     def __init__(self, connection: socket.socket) -> None:
         self._connection = connection
@@ -177,7 +177,7 @@ class _Request(BaseHTTPRequestHandler):
                 self._send(json.dumps(answer, ensure_ascii=False).encode(), "application/json")
 
     def _known(self) -> bool:
-        """Whether a request is for this server by its own name, and from no other page."""
+        """Return True if a request is for this server by its own name, and from no other page."""
         own = {f"{HOST}:{self.server.server_port}", f"localhost:{self.server.server_port}"}
         origin = self.headers.get("Origin")
         return self.headers.get("Host") in own and (origin is None or origin.removeprefix("http://") in own)
@@ -195,7 +195,7 @@ class _Request(BaseHTTPRequestHandler):
         self.wfile.write(body)
 
     def _tell(self, session: LiveSession) -> None:
-        """Tell each revision as it appears, until the page goes or the server ends."""
+        """Send each revision as it appears, until the page closes or the server ends."""
         self.close_connection = True
         self.send_response(HTTPStatus.OK)
         self.send_header("Content-Type", "text/event-stream")

@@ -1,4 +1,4 @@
-"""What a topic adds to the moving page of a machine."""
+"""Additions of a topic to the animated page of a machine."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ class LayerHooks:
     layers: tuple[str, ...] = ()
     """The layers of the topic."""
     force_layers: tuple[str, ...] = ()
-    """Those whose arrows have the scale of the forces."""
+    """Layers whose arrows have the scale of the forces."""
     with_forces: Callable[[Report, Analysis, float, float, int], Iterator[MovingItem]] = _no_items
     shown: Callable[[Report, Motion, float, float, Chosen], tuple[Sequence[MovingItem], Sequence[BarScale]]] = (
         _nothing_shown

@@ -34,7 +34,7 @@ QUIET, LONGEST = 20, 200
 LOOKING = 0.05
 """From one look at the file to the next (s)."""
 HEARING = 0.5
-"""How long (s) an interruption may have to wait."""
+"""Longest delay (s) of an interruption."""
 _ONE_AT_A_TIME = threading.Lock()
 
 
@@ -66,9 +66,9 @@ def watch(
     port: int = 0,
     stream: TextIO = sys.stdout,
 ) -> None:
-    """Serve the page of a file and renew it until the program is interrupted; `tell` of each finished report.
+    """Serve the page of a file and renew it until the program is interrupted; call `tell` with each finished report.
 
-    A faulty file has a page that tells its faults.  Raises `AssignmentError` if there is no file, `OutputError`.
+    A faulty file has a page that shows its faults.  Raises `AssignmentError` if there is no file, `OutputError`.
     """
     if not path.is_file():
         # A name mistyped is no file to wait for, nor is a pipe.
@@ -227,7 +227,7 @@ def _follow(states: Callable[[], object], session: LiveSession, stop: threading.
 
 
 def _states(path: Path, *beside: Path) -> tuple[tuple[float, ...], ...]:
-    """What changes with a file and with the files of its parts, and with further ones."""
+    """Return values that change with a file and with the files of its parts, and with further ones."""
     own = _state(path)
     return own, *map(_state, (*_beside(path, own), *beside))
 
@@ -239,7 +239,7 @@ def _beside(path: Path, _: tuple[float, ...]) -> tuple[Path, ...]:
 
 
 def _state(path: Path) -> tuple[float, ...]:
-    """What changes with a file, or with what its path leads to; nothing where it leads nowhere."""
+    """Return values that change with a file, or with the target of its path; empty if there is none."""
     try:
         about = path.stat()
     except OSError:
