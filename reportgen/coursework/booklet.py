@@ -1,6 +1,6 @@
-"""Reports of several cases as one booklet: one cover, task, contents and conclusion, the parts' chapters numbered on.
+"""Join the reports of several cases into one booklet: one cover, task, contents and conclusion, numbered throughout.
 
-Each report is a finished tree.  What begins with its task, its symbols or its conclusion says so itself
+Each report is a finished tree.  A section that begins the task, symbols or conclusion is marked
 (`Section.opens`); numbering is a pass over a tree, so the joined one is numbered again.
 """
 
@@ -36,19 +36,20 @@ from reportgen.document.layout import contents
 from reportgen.document.numbering import Blocks, number
 
 RUN_IN = 4
-"""The level of a heading that stands in its paragraph."""
+"""Level of a run-in heading, which is in its paragraph."""
 SYMBOLS = (34.0, 96.0, 30.0)
 """Widths (mm) of the columns of the parts' symbols."""
 NAMED = (Section, Equation, Table, Figure, Plate, Reference)
-"""What has a key or refers to one."""
+"""Types that have a key or refer to one."""
 
 
 @dataclass(frozen=True)
 class PartReport:
-    """The report of a part: its `name` among the parts, its title, its finished tree.
+    """Report of a part: its `name` among the parts, its title, its finished tree.
 
-    `taken` says what it has from the machine, `lettered` which letters have its index; `symbols` are rows of those of
-    its quantities that nothing explains where they stand: symbols, meaning, unit; `summary` are its main results.
+    `taken` lists the data from the machine, `lettered` the letters with the part's index; `symbols` are rows of those
+    of
+    its quantities that are not explained where they are used: symbols, meaning, unit; `summary` are its main results.
     """
 
     name: str
@@ -60,7 +61,7 @@ class PartReport:
     summary: Blocks = ()
 
     def group(self, what: str) -> Blocks:
-        """What stands below the heading that opens a section, "" for the chapters, their headings included."""
+        """Return the blocks below the heading that opens a section; "" for the chapters, their headings included."""
         blocks: list[Block] = []
         for group in self._groups:
             if topic(group[0]) == what:
@@ -108,7 +109,7 @@ def booklet(machine: Document, parts: Sequence[PartReport], words: Mapping[str, 
 
 
 def handout(machine: Document, parts: Sequence[PartReport]) -> Document:
-    """One handout: that of the machine, then those of the parts, each from a page of its own and without its head."""
+    """Return one handout: that of the machine, then those of the parts, each on a new page and without its head."""
     blocks = list(machine.blocks)
     for part in parts:
         head, *below = renamed(part.document.blocks, part.name)
@@ -120,7 +121,7 @@ def handout(machine: Document, parts: Sequence[PartReport]) -> Document:
 
 
 def groups(blocks: Iterable[Block]) -> Iterator[Blocks]:
-    """What stands before the first heading of level 1, then each such heading with all below it."""
+    """Yield the blocks before the first heading of level 1, then each such heading with all below it."""
     group: list[Block] = []
     for block in blocks:
         if isinstance(block, Section) and block.level == 1 and group:
@@ -132,7 +133,7 @@ def groups(blocks: Iterable[Block]) -> Iterator[Blocks]:
 
 
 def topic(block: Block) -> str:
-    """What a heading begins, whatever kind of work it is of: given, symbols, conclusion, …."""
+    """Return the topic that a heading opens, for any kind of work: given, symbols, conclusion, …."""
     return block.opens.rpartition("-")[2] if isinstance(block, Section) else ""
 
 

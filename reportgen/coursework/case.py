@@ -1,4 +1,4 @@
-"""A coursework as a case: what a machine's case and its parts' cases come to together."""
+"""Coursework as a case: the joint results of a machine's case and its parts' cases."""
 
 from __future__ import annotations
 
@@ -40,14 +40,14 @@ MACHINE = "machine"
 
 @dataclass(frozen=True)
 class PartCase:
-    """A part with its case, as it is by itself."""
+    """Part with its case, unchanged by the coursework."""
 
     part: AssignedPart
     case: Case
 
     @cached_property
     def document(self) -> Document:
-        """Its report by itself."""
+        """Report of the part alone."""
         return self.case.document()
 
     @cached_property
@@ -75,7 +75,7 @@ class PartCase:
 
     @property
     def index(self) -> str:
-        """What its symbols have as an index where others have them too: the word of its kind, numbered as its name."""
+        """Index of its symbols that others also use: the word of its kind, numbered as its name."""
         return f"{self.case.words['index']}{self.name.removeprefix(self.part.head)}"
 
     def id(self, own: str) -> str:
@@ -166,7 +166,7 @@ class Coursework(CaseOfParts):
 
     @property
     def entries(self) -> ResultEntries:
-        """What its machine comes to; each part has its own."""
+        """Entries of its machine; each part has its own."""
         return self.machine.entries
 
     @property
@@ -192,7 +192,7 @@ class Coursework(CaseOfParts):
 
     @cached_property
     def letters(self) -> Mapping[str, Letters]:
-        """Of each part the symbols of quantities that are other ones in the coursework.
+        """Return, for each part, the renamed symbols of quantities whose letters have another meaning before.
 
         Keys and answer sheets need them too, and do without the machine's report.
         """
@@ -208,7 +208,7 @@ class Coursework(CaseOfParts):
         return letters_of_parts
 
     def _points(self, member: PartCase) -> list[Symbol]:
-        """Those among the points of a part whose names an earlier part has for something else."""
+        """Return the points of a part whose names an earlier part uses for something else."""
         earlier = takewhile(lambda one: one is not member, (self.first, *self.members))
         taken = {one for before in earlier for one in nodes(before.document.blocks, Symbol)}
         own = {one.symbol for one in member.case.printed.families.values() if not one.hidden and not one.is_plane}
@@ -227,7 +227,7 @@ class Coursework(CaseOfParts):
         return booklet(self.documents[MACHINE], parts, self.words, tuple(self._senses()))
 
     def _senses(self) -> Iterator[Block]:
-        """Which way the shafts turn, where the machine's driver does."""
+        """Yield the senses in which the shafts turn, if the machine's driver turns."""
         unit = str(self.machine.printed.units.get("rpm", "rpm"))
         parts = [
             PartShafts(
@@ -254,7 +254,7 @@ class Coursework(CaseOfParts):
         return PartReport(member.name, member.title, document, taken, lettered, symbols=rows, summary=summary)
 
     def _said(self, letters: Letters, member: PartCase) -> Iterator[Paragraph]:
-        """Which symbols of a part have its index, and which points are others than those of the same name before."""
+        """Yield the symbols of a part with its index, and its points that differ from earlier ones of the same name."""
         words = self.words["coursework"]
         for key, symbols in (("letters", list(letters.values())), ("points", self._points(member))):
             if symbols:
@@ -262,7 +262,7 @@ class Coursework(CaseOfParts):
                 yield Paragraph((Text(lead), *listed(map(InlineMath, symbols)), Text(".")))
 
     def _taken(self, member: PartCase) -> Iterator[Paragraph | Equation]:
-        """What a part has from the machine: n_cam = 1/2 · n = 45 rpm."""
+        """Yield the data that a part takes from the machine: n_cam = 1/2 · n = 45 rpm."""
         chains = []
         for datum in member.part.taken:
             own, of = self._taken_symbols(member, datum)
@@ -284,7 +284,7 @@ class Coursework(CaseOfParts):
         )
 
     def _symbols(self, member: PartCase) -> Iterator[tuple[Inlines, Inlines, Inlines]]:
-        """A row for the symbols of one meaning that the part's report uses and does not explain where they stand."""
+        """Yield a row for the symbols of one meaning that the part's report uses without an explanation."""
         ledger, letters = member.case.printed, self.letters[member.name]
         blocks = member.document.blocks
         used, known = used_symbols(blocks), explained(blocks)
@@ -328,7 +328,7 @@ class Coursework(CaseOfParts):
         return PartReport(member.name, member.title, own, tuple(self._taken(member)))
 
     def animations(self) -> tuple[Animation, ...]:
-        """Those of the machine, then those of the parts by their names and titles."""
+        """Return the animations of the machine, then those of the parts by their names and titles."""
         parts = (
             replace(relettered(animation, self.letters[member.name]), name=member.name, title=member.title)
             for member in self.members
@@ -337,7 +337,7 @@ class Coursework(CaseOfParts):
         return (*self.first.animations, *parts)
 
     def plates(self, sets: Collection[str] = (), every: bool = False) -> Mapping[str, Sequence[DrawingPlate]]:
-        """Those of its machine."""
+        """Return the plates of its machine."""
         return self.machine.plates(sets, every)
 
     @property
@@ -370,17 +370,17 @@ class Coursework(CaseOfParts):
 
 
 def _names_a_point(symbol: Symbol) -> bool:
-    """Whether a symbol is a capital, perhaps with a number: so points are called."""
+    """Return True if a symbol is a capital, perhaps with a number, which names a point."""
     return symbol in (Symbol(symbol.base), Symbol(symbol.base, symbol.sub)) and (
         len(symbol.base) == 1 and "A" <= symbol.base <= "Z" and (symbol.sub or "0").isdecimal()
     )
 
 
 def _datum(case: Case, key: str, head: str = "") -> str:
-    """The id of what a key of the parameters gives, "" if no quantity of the ledger is it.
+    """Return the id of the quantity that a key of the parameters gives; "" if the ledger has none.
 
-    Most ids are the key with points between its pieces: z1 is gears.z.1, n_in is train.n.in.  Of a datum that is
-    called otherwise, as a length by its points, the value tells which it is, if it is that of one datum alone.
+    Most ids are the key with points between its pieces: z1 is gears.z.1, n_in is train.n.in.  A datum with another
+    name, as a length by its points, is identified by its value, if only one datum has it.
     """
     given = {id: one for id, one in case.printed.families.items() if one.definition is None and len(one.values) == 1}
     wanted = f"{head}.{key}" if head else key

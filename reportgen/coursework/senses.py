@@ -1,4 +1,4 @@
-"""Which way the shafts of a coursework turn: machine, trains, gears and cams, all as the machine is drawn."""
+"""Senses of rotation of a coursework's shafts: machine, trains, gears and cams, as the machine is drawn."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ def turning(part: PartShafts, driver: Shaft) -> Iterator[TurningShaft]:
 
 
 def _is_driver(shaft: Shaft, taken: Mapping[str, str], driver: Shaft) -> bool:
-    """Whether a shaft is the driver's: by what its speed is taken from, else by that speed."""
+    """Return True if a shaft is the driver's: by the source of its speed, else by that speed."""
     if shaft.datum in taken:
         return taken[shaft.datum] == driver.datum
     if shaft.speed is None or driver.speed is None or shaft.fixed:

@@ -1,6 +1,6 @@
-"""Letters with one meaning: what a part of a coursework calls as an earlier one calls something else gets its index.
+"""Give each letter one meaning: a symbol of a part that an earlier part uses for something else gets an index.
 
-A part's pages, key, animation and sheets are trees of frozen nouns, in which a symbol is a symbol wherever it stands:
+A part's pages, key, animation and sheets are trees of frozen nouns that use the same type of symbol:
 so one change of symbols serves them all.
 """
 
@@ -16,7 +16,7 @@ from reportgen.formula import Symbol
 
 Tree = TypeVar("Tree")
 Letters = Mapping[Symbol, Symbol]
-"""What stands in place of some symbols."""
+"""Replacements of some symbols."""
 
 
 def changed(tree: Tree, kind: type | tuple[type, ...], change: Callable[[Any], Any]) -> Tree:
@@ -45,7 +45,7 @@ def _changed(node: Any, kind: type | tuple[type, ...], change: Callable[[Any], A
 
 
 def nodes(tree: Any, kind: type) -> Iterator[Any]:
-    """All nodes of a kind in a tree."""
+    """Yield all nodes of a kind in a tree."""
     if isinstance(tree, kind):
         yield tree
     elif isinstance(tree, (tuple, list)):

@@ -48,7 +48,7 @@ def bars(names: Sequence[Content], counts: Sequence[int], x_label: Content) -> S
 
 
 def histogram(counts: Sequence[int], edges: Sequence[float], x_label: Content, y_label: Content) -> Scene:
-    """How many values lie between each two of the `edges` [K+1], which are evenly spaced; `counts` [K]."""
+    """Draw a histogram: `counts` [K] of the values between each two of the evenly spaced `edges` [K+1]."""
     if len(edges) != len(counts) + 1 or not counts:
         raise ValueError("a histogram has one more edge than counts")
     step, most = _whole_steps(max(counts))

@@ -1,6 +1,7 @@
-"""What a drawing tells a reader who does not see it, as data: names of phrases and what stands in them.
+"""Descriptions of drawings as data, for readers who do not see them: names of phrases and their values.
 
-Whoever draws something says it; the phrases are the language's words, and the report puts them together.
+Each drawing function also yields its description; the phrases come from the language's words, and the report joins
+them.
 """
 
 from __future__ import annotations

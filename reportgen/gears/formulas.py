@@ -1,7 +1,7 @@
-"""The formulas of a pair of external spur gears (ISO 21771), each written once.
+"""Formulas of a pair of external spur gears (ISO 21771), each written once.
 
-A sheet with them is printed as the report of a pair, and evaluated over arrays of shifts where shifts are sought, where
-their region is drawn, and where teeth are: no number of a pair comes from anywhere else.
+A sheet with them is printed as the report of a pair, and evaluated over arrays of shifts to choose shifts, to draw
+their region, and to place teeth: every number of a pair comes from them.
 """
 
 from __future__ import annotations

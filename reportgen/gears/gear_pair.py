@@ -1,4 +1,4 @@
-"""The kind `gear-pair`: its file, which pairs cannot be, and what of one is hardly meant."""
+"""The kind `gear-pair`: its file, faults of impossible pairs, and warnings of improbable ones."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 TURNS = 1
 PART = "gears"
-"""What its ids begin with, in a coursework too."""
+"""Beginning of its ids, in a coursework too."""
 HAS_POSITIONS = False
 TOP = ("parameters",)
 FIND = "find"
@@ -70,7 +70,7 @@ class Shifts(Part):
 
 
 class LimitsOfPair(Part):
-    """What a pair is held to."""
+    """Limits that a pair must keep."""
 
     epsilon: Annotated[float, Decimal(Interval(least=1, most=2))] = 1.2
     tip: Annotated[float, Decimal(Interval(least=0, most=1))] = 0.25
@@ -78,7 +78,7 @@ class LimitsOfPair(Part):
 
 
 class Parameters(Part):
-    """A pair of external spur gears; `find` stands where shifts or the centre distance are sought."""
+    """Pair of external spur gears; `find` requests that shifts or the centre distance are chosen."""
 
     m: Annotated[Given, quantity("mm", least=0.1, most=100)]
     z1: PairTeeth
@@ -169,7 +169,7 @@ def _mesh(given: Parameters) -> Iterator[Finding]:
 
 
 def check(given: Parameters) -> Iterator[Finding]:
-    """Keys first, then what the pair comes to."""
+    """Yield the faults of the keys, or else those of the resulting pair."""
     faults = list(_keys(given))
     yield from faults or _mesh(given)
 

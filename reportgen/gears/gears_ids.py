@@ -1,4 +1,4 @@
-"""The ids of a gear pair, which begin with `gears`, and what they say."""
+"""Ids of a gear pair, which begin with `gears`, and their meaning."""
 
 from __future__ import annotations
 

@@ -21,13 +21,15 @@ from reportgen.gears import gears_ids
 from reportgen.gears.formulas import Rack, pair_sheet
 
 CHORD = 1e-6
-"""How far a polyline of a profile may lie from it (m)."""
+"""Largest distance of a profile's polyline from it (m)."""
 SPREAD, CURVED = 1.5, 6.0
 """A fillet turns by less than this (rad), and its radius of curvature is less than so many modules."""
 
 
 def crossing(function: Callable[[float], float], low: float, high: float) -> float:
-    """Where (in its unit) a function below 0 at `low` and above at `high` is 0, to the last bit: by bisection."""
+    """Return the zero (in its unit) of a function below 0 at `low` and above at `high`, to the last bit: by
+    bisection.
+    """
     while low != (middle := (low + high) / 2) and middle != high:
         low, high = (middle, high) if function(middle) < 0 else (low, middle)
     return middle
@@ -106,7 +108,9 @@ class Wheel:
 
     @cached_property
     def join(self) -> tuple[float, float]:
-        """Where fillet and flank meet: direction ψ (rad) and radius (m); they touch unless the tooth is undercut."""
+        """Meeting point of fillet and flank: direction ψ (rad) and radius (m); they touch unless the tooth is
+        undercut.
+        """
         α, begun = self.rack.alpha, self._blank[3]
         if begun >= 0:
             return -α, math.hypot(self.r_b, begun)
@@ -145,6 +149,6 @@ class Wheel:
         return np.concatenate((left, left[-2::-1].conjugate()))
 
     def outline(self, chord: float = CHORD) -> Complexes:
-        """All teeth, clockwise, as a closed polyline (m) [N]."""
+        """Return all teeth, clockwise, as a closed polyline (m) [N]."""
         turns = np.exp(-1j * self.pitch * np.arange(self.z))
         return np.asarray((turns[:, None] * self.tooth(chord)[:-1]).ravel())

@@ -1,6 +1,6 @@
-"""A pair of external spur gears over its profile shifts, by the formulas of its report, and how shifts are chosen.
+"""Pair of external spur gears over its profile shifts, by the formulas of its report, and the choice of shifts.
 
-What both wheels have is an array whose first axis is the wheel; `[::-1]` is the mate.
+Values of both wheels are an array whose first axis is the wheel; `[::-1]` is the mate.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ COMMON = (
     "gears.g",
     *(gears_ids.of_wheel(one, wheel) for one in ("alpha_a", "rho_p") for wheel in WHEELS),
 )
-"""What nearly all quantities of a pair stand on."""
+"""Quantities on which nearly all others of a pair depend."""
 USUAL, LARGEST, STEP = 1.5, 3.0, 0.5
 """Shifts are sought up to the usual greatest, and further, step by step, as long as the limits still hold there."""
 
@@ -54,7 +54,7 @@ class PairLimits:
 
 @dataclass(frozen=True)
 class PairCondition:
-    """What is asked of a wheel (1, 2), or of the pair (0): `actual` [...] is no less than `least` [...].
+    """Condition of a wheel (1, 2), or of the pair (0): `actual` [...] is no less than `least` [...].
 
     Lengths are compared by a `unit`, the module.
     """
@@ -87,7 +87,7 @@ class GearPair:
 
     @cached_property
     def _known(self) -> dict[str, Value]:
-        """What has been worked out so far, by its id; from the beginning what nearly all the rest stands on."""
+        """Values computed so far, by id; initially those on which nearly all others depend."""
         shifts = {gears_ids.of_wheel("x", wheel): x for wheel, x in zip(WHEELS, self.x, strict=True)}
         return shifts | model(self.sheet, COMMON, **shifts)
 
@@ -126,14 +126,14 @@ class GearPair:
 
     @property
     def to_pitch_point(self) -> Floats:
-        """How far (m) the pitch point lies from N₁ and from N₂ on the line of action [2], r_b tan α_w."""
+        """Distances (m) of the pitch point from N₁ and from N₂ on the line of action [2], r_b tan α_w."""
         rolled: Floats = self["d_b"] / 2 * np.tan(self["alpha_w"])
         return rolled
 
     # --- what is asked of it
 
     def conditions(self, limits: PairLimits) -> Iterator[PairCondition]:
-        """Of each wheel undercut, thickness of the tip and interference, then the contact ratio."""
+        """Yield undercut, thickness of the tip and interference of each wheel, then the contact ratio."""
         begun = np.maximum(self["rho_f"], 0.0)
         for i, wheel in enumerate(WHEELS):
             yield PairCondition("undercut", wheel, self.x[i], self["x_min"][i])
@@ -142,7 +142,7 @@ class GearPair:
         yield PairCondition("epsilon", 0, self["epsilon"], np.asarray(limits.epsilon))
 
     def keeps(self, limits: PairLimits) -> np.ndarray:
-        """Where [...] the pair keeps all conditions."""
+        """Return flags [...] of the pairs that keep all conditions."""
         return np.asarray(np.all([condition.margin >= -ROUNDING for condition in self.conditions(limits)], axis=0))
 
     def wheel(self, number: int) -> Wheel:
@@ -190,9 +190,9 @@ def balanced(pair: GearPair, total: float) -> Floats:
 
 
 def least_sliding(pair: GearPair, limits: PairLimits) -> Floats:
-    """Of shifts [2] in hundredths of the module within limits those of the least greater |λ|, λ₁ ≈ λ₂.
+    """Return the shifts [2] in hundredths of the module within limits with the least greater |λ|, λ₁ ≈ λ₂.
 
-    Raises `NoPairError` where none keep the limits.
+    Raises `NoPairError` if no shifts keep the limits.
     """
     low = np.maximum(np.ceil(np.round(pair["x_min"] / HUNDREDTH, 9)), -1 / HUNDREDTH)
     best: Floats | None = None
@@ -226,11 +226,11 @@ class Chosen:
 
     @property
     def follows(self) -> bool:
-        """Whether x₂ follows from the centre distance."""
+        """Return True if x₂ follows from the centre distance."""
         return self.a_w is not None
 
     def broken(self) -> Iterator[tuple[str, int, float, float]]:
-        """What does not hold: its name, the wheel (1, 2, or 0 for both), what it is, its limit (ratios, or modules)."""
+        """Yield the broken conditions: name, wheel (1, 2, or 0 for both), actual value, limit (ratios, or modules)."""
         pair, most = self.pair, self.limits.sliding
         for wheel in (*WHEELS, 0):
             for one in pair.conditions(self.limits):

@@ -101,11 +101,11 @@ class PairCase(SolvedPair):
 
 SAMPLES = 720
 FILM_ROOM = 120 + 110j
-"""What both wheels may fill (mm)."""
+"""Largest width and height of both wheels (mm)."""
 NEAR_ROOM, PITCHES = 90.0, 4.0
 """The mesh from near: so wide (mm), with so many pitches across."""
 SHARP = 0.02
-"""How far their polylines may be off there (mm)."""
+"""Largest error of their polylines there (mm)."""
 
 
 def _animation(case: PairCase) -> Animation:
@@ -178,7 +178,7 @@ DrawPair = Callable[[PairCase, FigureSize], Scene]
 # --- drawing sheets ---------------------------------------------------------------------------------
 
 AREAS = ((90.0, 80.0), (120.0, 110.0), (180.0, 150.0))
-"""What the curves of sliding and the diagram of shifts may fill (mm), the least first."""
+"""Areas of the curves of sliding and the diagram of shifts (mm), the smallest first."""
 MARGIN = 15.0
 """White around a wheel in true size (mm)."""
 AXES = Pen(0.18, style.GRAY, (5.0, 1.0, 0.8, 1.0))

@@ -38,7 +38,7 @@ from reportgen.gears.pair import GearPair, PairLimits
 from reportgen.gears.pair_solution import SolvedPair
 
 MESH_ROOM = 150 + 168j
-"""What the drawing of the mesh may fill on a page (mm)."""
+"""Largest width and height of the drawing of the mesh on a page (mm)."""
 HIGHEST, LEAST_WITH_ENDS = 50.0, 20.0
 """A tooth is no higher on paper (mm), and both ends of the line of action are shown where it is at least so high."""
 SHOWN = (-1, 0, 1)
@@ -69,9 +69,9 @@ LETTERS = {"d_a": "a", "d_w": "w", "d": "", "d_b": "b", "d_f": "f"}
 
 
 def turned(pair: GearPair, number: int, rolled: float) -> float:
-    """By how much a wheel (0 or 1) is turned, whose middle tooth touches where wheel 1's flank has rolled so far (m).
+    """Return the angle of a wheel (0 or 1) whose middle tooth touches where wheel 1's flank has rolled so far (m).
 
-    Wheel 1 stands below, wheel 2 above it; wheel 1 turns anticlockwise and drives with its left flanks.
+    Wheel 1 is below, wheel 2 above it; wheel 1 turns anticlockwise and drives with its left flanks.
     """
     first, second = pair.wheel(0), pair.wheel(1)
     base = float(first.half_angle(np.array(first.r_b)))
@@ -149,7 +149,9 @@ def mesh(case: SolvedPair, size: FigureSize = IN_REPORT) -> Scene:
 
 
 def _mesh_facts(pair: GearPair, at: float) -> Iterator[Fact]:
-    """What the mesh tells: numbers of teeth, radii of the circles (mm), the line of action and its active part."""
+    """Yield the facts of the mesh: numbers of teeth, radii of the circles (mm), the line of action and its active
+    part.
+    """
     yield fact("mesh", *(Number(int(z)) for z in pair.teeth), Symbol("P"))
     yield angle(Symbol("α", "w"), float(pair["alpha_w"]))
     ends = (on_line(pair, float(rho)) * at for rho in (pair["rho_p"][0], pair["rho_a"][0]))
@@ -200,9 +202,10 @@ def _circles(
 def _construction(
     pair: GearPair, number: int, at: float, box: tuple[complex, complex], items: list[Item], requests: list[Request]
 ) -> None:
-    """The involute through the pitch point: equal arcs of the base circle, laid off on the tangents at their ends.
+    """Draw the involute through the pitch point: equal arcs of the base circle, laid off on the tangents at their
+    ends.
 
-    Of a large wheel no more than lies in the box of the teeth.
+    For a large wheel, only the part in the box of the teeth is drawn.
     """
     low, high = box[0] - BEYOND * (1 + 1j), box[1] + BEYOND * (1 + 1j)
     o, r_b = centre(pair, number), float(pair["d_b"][number]) / 2
@@ -277,13 +280,13 @@ FRAME = 112 + 100j
 LONG = 15.0
 """A line of a limit is named from this length on (mm)."""
 APART = 8.0
-"""Figures on an axis stand no nearer (mm)."""
+"""Least distance between figures on an axis (mm)."""
 AROUND = 0.15
 """White around the region (modules)."""
 OUTER = (-1.5, 3.0)
 """Shifts beyond are not looked at."""
 HARD_LIMITS = PairLimits(epsilon=1.0, tip=0.0)
-"""What any pair must keep: without undercut, not pointed, no interference, ε ≥ 1."""
+"""Limits for any pair: without undercut, not pointed, no interference, ε ≥ 1."""
 HARD, SOFT = Pen(0.45), Pen(0.25, style.BLUE, style.DASHED)
 ALIKE = Pen(0.25, style.RED, style.CHAIN)
 

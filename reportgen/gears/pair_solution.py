@@ -1,6 +1,6 @@
-"""A gear pair as a ledger: every number by its id, worked out from those above it, as the report prints it.
+"""Gear pair as a ledger: every number by its id, computed from those above it, as the report prints it.
 
-The points of the active path of contact at which sliding is worked out are rows.
+The points of the active path of contact at which sliding is computed are rows.
 """
 
 from __future__ import annotations
@@ -23,13 +23,13 @@ from reportgen.gears.pair import Chosen, GearPair, PairLimits
 POINTS = 9
 """Sliding is worked out at so many points, evenly from one end of the active path to the other."""
 MESH = ("u", "a", "inv", "inv_w", "alpha_w", "x_sum", "x.2", "a_w", "y", "dy", "h", "p", "p_b")
-"""What the report sets out of the pair in mesh,"""
+"""Quantities that the report sets out for the pair in mesh,"""
 DIMENSIONS = ("d", "d_b", "d_w", "h_a", "d_a", "d_f", "s", "s_w", "alpha_a", "inv_a", "s_a", "tip")
 """of each wheel,"""
 OF_BOTH = {"undercut": ("x_min",), "contact": ("rho_a", "rho_p"), "fillets": ("rho_f",), "sliding": ("rho", "lambda")}
 """and of both wheels together."""
 ALIKE = ("x_min", *DIMENSIONS, "rho_a", "rho_p", "rho_f", "lambda")
-"""What both wheels have with as many decimals; ρ₂ = g − ρ₁ goes on from that of the other one."""
+"""Quantities of both wheels with equal decimals; ρ₂ = g − ρ₁ continues from that of the other wheel."""
 
 
 @dataclass(frozen=True)

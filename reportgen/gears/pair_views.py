@@ -1,4 +1,4 @@
-"""A gear pair as its report and its task show it: what the templates name, tables, worked lines, figures."""
+"""Views of a gear pair for its report and its task: names for templates, tables, worked lines, figures."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ PAIR = (68.0, 22.0, 35.0, 35.0)
 CHECKS = (70.0, 18.0, 28.0, 26.0, 18.0)
 SLIDING = (16.0, 28.0, 28.0, 28.0, 28.0, 28.0)
 SHARED = ("alpha_w", "a_w", "y", "dy", "h", "p", "p_b", "epsilon", "g", "g_a")
-"""What the table of the pair has for both wheels,"""
+"""Rows of both wheels together in the table of the pair,"""
 OWN = ("x", "d", "d_b", "d_w", "d_a", "d_f", "h_a", "s", "s_w", "s_a", "alpha_a", "rho_p", "rho_a")
 """and for each of them."""
 
@@ -69,7 +69,7 @@ class PairPage(DesignPage[SolvedPair]):
 
     @property
     def sought(self) -> bool:
-        """Whether the shifts are to be chosen."""
+        """Return True if the shifts are to be chosen."""
         return self.case.chosen.rule != "given"
 
     # --- symbols and lines
@@ -90,7 +90,7 @@ class PairPage(DesignPage[SolvedPair]):
         return self.table(name, columns, (heads,), rows)
 
     def _said(self, id: str) -> Inlines:
-        """What a quantity is, in words; that of a wheel goes for both."""
+        """Return the name of a quantity in words; that of a wheel serves for both."""
         text = phrase(id, self.case.ledger, self.case.words)
         return (Text(text[:1].upper() + text[1:]),)
 
@@ -132,7 +132,7 @@ class PairPage(DesignPage[SolvedPair]):
 
     @property
     def checks(self) -> Table:
-        """What is required of each wheel and of the pair, what there is, and whether it holds."""
+        """Return the requirements of each wheel and of the pair, the actual values, and whether they are met."""
         words, ledger, chosen = self.words["checks"], self.case.printed, self.case.chosen
         broken = {(name, wheel) for name, wheel, _, _ in chosen.broken()}
         rows: list[tuple[Inlines, ...]] = []

@@ -1,4 +1,4 @@
-"""The kind `planetary-train`: which trains cannot be, and what of one is hardly meant."""
+"""The kind `planetary-train`: faults of impossible trains, and warnings of improbable ones."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 Parameters = train_file.Parameters
 TURNS = 1
 PART = "train"
-"""What its ids begin with, in a coursework too."""
+"""Beginning of its ids, in a coursework too."""
 HAS_POSITIONS = False
 TOP = ("parameters",)
 

@@ -1,9 +1,9 @@
 """Planetary trains with one carrier: the ratio by Willis, and all tooth numbers that can be built.
 
-Wheel 1 meshes with satellite 2, satellite 2′ on the same shaft with wheel 3, which stands still; the carrier H bears
-the satellites.  Of a single satellite 2′ is 2.  Seen from the carrier all shafts stand still, so that
+Wheel 1 meshes with satellite 2, satellite 2′ on the same shaft with wheel 3, which is fixed; the carrier H bears
+the satellites.  With a single satellite, 2′ is 2.  Relative to the carrier all axes are fixed, so that
 
-    u₁₃(H) = (ω₁ − ω_H)/(ω₃ − ω_H) = ± z₂z₃/(z₁z₂′),  and with ω₃ = 0  u₁H = ω₁/ω_H = 1 − u₁₃(H).
+ u₁₃(H) = (ω₁ − ω_H)/(ω₃ − ω_H) = ± z₂z₃/(z₁z₂′),  and with ω₃ = 0  u₁H = ω₁/ω_H = 1 − u₁₃(H).
 """
 
 from __future__ import annotations
@@ -36,9 +36,9 @@ MOST_SATELLITES = 8
 DUST = 1e-12
 """Ratios of whole numbers that differ by less are equal."""
 FITS = 1e-6
-"""Teeth that stand so near to their gap (teeth) are in it."""
+"""Largest distance (teeth) of teeth from their gap at which they fit."""
 CONDITIONS = ("ratio", "interference", "neighbours", "assembly")
-"""What coaxial tooth numbers must fulfil, in the order in which it is asked."""
+"""Conditions of coaxial tooth numbers, in the order in which they are checked."""
 
 
 SCHEMES: Mapping[str, TrainScheme] = {
@@ -60,9 +60,9 @@ class Teeth(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Demand:
-    """What tooth numbers are sought for: a ratio u₁H within a share, so many satellites, limits, modules m/m₂.
+    """Requirements of tooth numbers: a ratio u₁H within a share, a number of satellites, limits, modules m/m₂.
 
-    The share is one of the ratio from the driving to the driven shaft: of u_H1 = 1/u₁H where the carrier drives.
+    The share is one of the ratio from the driving to the driven shaft: of u_H1 = 1/u₁H if the carrier drives.
     """
 
     scheme: str
@@ -165,11 +165,13 @@ def _assembly(u: NDArray[np.float64], z: Wholes, k: int) -> Flags:
 
 
 def unshifted(scheme: TrainScheme, z: Wholes) -> Flags:
-    """Whether wheels without profile shift mesh inside: no tip beyond an involute, no tips that meet elsewhere.
+    """Return flags of the wheels without profile shift that mesh inside without interference.
 
-    The tip circle of the inner wheel passes the point where the line of action touches the satellite's base circle,
-    and where both tip circles meet the satellite's tooth is past that of the inner wheel.  The report says only what
-    comes of it: these lines are on no sheet.
+    No tip passes beyond an involute: the inner wheel's tip circle passes the point where the line of action touches
+    the
+    satellite's base circle.  No tips meet elsewhere: where both tip circles meet, the satellite's tooth is past that
+    of
+    the inner wheel.  The report gives only the result: these lines are on no sheet.
     """
     holds = np.ones(len(z[0]), bool)
     for inner, wheel, satellite in zip(scheme.inner, (z[0], z[3]), (z[1], z[2]), strict=True):
@@ -190,7 +192,7 @@ def unshifted(scheme: TrainScheme, z: Wholes) -> Flags:
 
 
 def judged(demand: Demand, z: Wholes) -> Mapping[str, Flags]:
-    """Which trains fulfil each of the conditions."""
+    """Return flags of the trains that fulfil each of the conditions."""
     scheme, k = demand.of, demand.satellites
     u = ratios(scheme, z)
     return {
@@ -205,7 +207,7 @@ def judged(demand: Demand, z: Wholes) -> Mapping[str, Flags]:
 
 
 def coaxial(demand: Demand) -> Iterator[Wholes]:
-    """All tooth numbers within the limits that have one axis, m(z₁ ± z₂) = m₂(z₃ ± z₂′), in parts [N, 4]."""
+    """Yield all tooth numbers within the limits that have one axis, m(z₁ ± z₂) = m₂(z₃ ± z₂′), in blocks [N, 4]."""
     scheme = demand.of
     first, second = scheme.signs
     every = np.arange(demand.least, demand.most + 1, dtype=np.int64)
@@ -221,12 +223,12 @@ def coaxial(demand: Demand) -> Iterator[Wholes]:
 @shown("first", "left")
 @dataclass(frozen=True, eq=False)
 class TrainChoice:
-    """All tooth numbers [N, 4] that a demand finds, by size; how many are left after each condition."""
+    """Tooth numbers [N, 4] that fulfil a demand, by size, with the number left after each condition."""
 
     demand: Demand
     sets: Wholes
     free: Flags
-    """Which of them need no profile shift."""
+    """Flags of those that need no profile shift."""
     left: Mapping[str, int]
     nearest: Train | None
     """The coaxial train, free of interference, whose ratio is nearest."""
@@ -267,7 +269,7 @@ def in_order(demand: Demand, sets: Wholes) -> Wholes:
 
 @lru_cache(maxsize=32)
 def choice(demand: Demand) -> TrainChoice:
-    """All trains that fulfil a demand."""
+    """Return all trains that fulfil a demand."""
     kept: list[Wholes] = []
     left = dict.fromkeys(CONDITIONS, 0)
     nearest: tuple[float, Wholes | None] = (math.inf, None)
@@ -309,10 +311,10 @@ def mended(demand: Demand) -> tuple[int, ...]:
 
 
 def turned(train: Train, satellites: int) -> tuple[float, tuple[float | None, ...]]:
-    """The angles (rad) of wheel 3 and of each satellite, the carrier at 0, a tooth of wheel 1 at 0.
+    """Return the angles (rad) of wheel 3 and of each satellite, the carrier at 0, a tooth of wheel 1 at 0.
 
-    A tooth of every wheel lies at its angle 0.  Where two wheels meet, a tooth of one stands in a gap of the other.
-    An angle is None where no position of the satellite fits both wheels.
+    A tooth of every wheel lies at its angle 0.  Where two wheels meet, a tooth of one is in a gap of the other.
+    An angle is None if no position of the satellite fits both wheels.
     """
     z, scheme = train.teeth, SCHEMES[train.scheme]
 

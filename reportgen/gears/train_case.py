@@ -1,4 +1,4 @@
-"""A planetary train as a case: its report and its task with their tables and lines, its key, its results."""
+"""Planetary train as a case: its report and its task with their tables and lines, its key, its results."""
 
 from __future__ import annotations
 
@@ -27,11 +27,11 @@ from reportgen.gears.train_solution import FIRST_ROW_WHEEL, SolvedTrain
 from reportgen.sheets.plates import drawn
 
 ROWS, SHORT_ROWS = 15, 6
-"""So many of the tooth numbers found stand in the table."""
+"""Numbers of rows of tooth numbers in the table."""
 WORDS = 60
 """A wider column has words."""
 SHOWN_SETS = 500
-"""So many of the tooth numbers that are found stand in the results."""
+"""Largest number of sets of tooth numbers in the results."""
 
 
 @dataclass(frozen=True)
@@ -107,7 +107,7 @@ class TrainPage(DesignPage[SolvedTrain]):
 
     @property
     def assembly(self) -> Equation:
-        """Of a single satellite u₁H z₁ is z₁ + z₃, and one turn is as good as any."""
+        """Return the assembly condition; for a single satellite u₁H z₁ is z₁ + z₃, and one turn is as good as any."""
         k, z1, z3 = Symbol("k"), Symbol("z", "1"), Symbol("z", "3")
         top = Symbol("u", "1H") * z1
         if self.case.scheme.single:
@@ -117,7 +117,7 @@ class TrainPage(DesignPage[SolvedTrain]):
     # --- tables
 
     def _table(self, name: str, head: Iterable[Any], rows: Iterable[Iterable[Any]], widths: Iterable[float]) -> Table:
-        """A table of what `said` prints; its first column stands to the left if it is wide."""
+        """Return a table of contents printed by `said`; its first column is left-aligned if it is wide."""
         columns = (Column(width, "left" if width > WORDS else "center") for width in widths)
         return self.table(name, columns, (map(said, head),), (map(said, row) for row in rows))
 
@@ -166,7 +166,7 @@ class TrainPage(DesignPage[SolvedTrain]):
 
     @property
     def checks(self) -> Table:
-        """What is required, what there is, and whether it holds."""
+        """Return the requirements, the actual values, and whether they are met."""
         case, words, z = self.case, self.words["checks"], self.case.train.teeth
         symbol, value = case.printed.symbol, case.printed.number
         free = bool(case.choice.free[case.choice.first])
@@ -189,7 +189,7 @@ class TrainPage(DesignPage[SolvedTrain]):
 
     @property
     def _check_of_ratio(self) -> tuple[str, Any, Any, bool]:
-        """Whether the ratio that is asked for, from the driving to the driven shaft, is met within the tolerance."""
+        """Return whether the requested ratio, from the driving to the driven shaft, is met within the tolerance."""
         ledger, given, Δu = self.case.printed, self.case.given, Symbol("Δu")
         off, u = abs(float(self.case.ledger["train.off"].at(1))), "train.uH1" if given.by_carrier else "train.u1H"
         holds = off <= given.tolerance.si + DUST
@@ -215,7 +215,7 @@ class TrainPage(DesignPage[SolvedTrain]):
 
 
 def said(what: Any) -> Inlines:
-    """Words, symbols and numbers, one or several in a row, as they stand in a cell."""
+    """Return words, symbols and numbers, one or several in a row, as inlines of a cell."""
     match what:
         case tuple():
             return tuple(part for one in what for part in said(one))
@@ -254,7 +254,9 @@ class TrainCase(SolvedTrain):
 
     @cached_property
     def entries(self) -> ResultEntries:
-        """All tooth numbers that fulfil the conditions, by size; the chosen ones, their ratio and their rates."""
+        """Return all tooth numbers that fulfil the conditions, by size; the chosen ones, their ratio and their
+        rates.
+        """
         found, rates = self.choice, [id for id in self.ledger.families if id in train_ids.omega]
         wheels = {id.rpartition(".")[2]: {"omega": self.ledger[id].at(1)} for id in rates}
         shown = range(min(len(found.sets), SHOWN_SETS))

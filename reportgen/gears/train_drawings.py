@@ -40,24 +40,24 @@ from reportgen.gears.train_solution import SolvedTrain, pole_distance
 from reportgen.sheets.plates import on_sheet
 
 FRONT = 80.0
-"""What the scheme seen along its axis may fill on a page (mm)."""
+"""Largest size of the scheme seen along its axis on a page (mm)."""
 WHEEL = Pen(0.4)
 SATELLITE = Pen(0.25, style.BLUE)
 CARRIER = Pen(0.5, style.RED, style.DASHED)
 RIM, BESIDE = 2.6, 0.45
-"""Half the width of a rim in the view from the side, and from a reference line to the rim that stands for it (mm)."""
+"""Half the width of a rim in the side view, and distance from a reference line to its rim (mm)."""
 STEP = 13.0
 """From one plane of wheels to the next, and to the carrier (mm)."""
 SHAFT = 14.0
 LEG = 4.0
 BEYOND = 6.0
-"""What lines of the triangles go on beyond their ends (mm)."""
+"""Length of lines of the triangles beyond their ends (mm)."""
 APART = 16.0
 """White between the triangles and the plan of angular velocities (mm)."""
 SAMPLES = 360
 RADIUS = reference_radius(Ref("m"), Ref("z"))
 FILMED = 110.0
-"""What the wheels may fill on a page (mm)."""
+"""Largest size of the wheels on a page (mm)."""
 
 
 def radii(case: SolvedTrain) -> dict[str, float]:
@@ -70,7 +70,7 @@ def radii(case: SolvedTrain) -> dict[str, float]:
 
 
 def outermost(r: dict[str, float]) -> float:
-    """How far wheels reach from the axis, by their reference circles, in the unit of the radii."""
+    """Return the reach of wheels from the axis, by their reference circles, in the unit of the radii."""
     return max(r["1"], r["3"], r["H"] + max(r["2"], r[OTHER]))
 
 
@@ -156,7 +156,7 @@ def _from_side(case: SolvedTrain, r: dict[str, float], at: complex) -> tuple[lis
 
 
 def _wheel(at: complex, r: float, pen: Pen, inner: bool = False, disc: complex = 0j) -> Iterator[Item]:
-    """A wheel from the side; of an inner one the disc stands aside and the rims lie outside the reference line."""
+    """Draw a wheel from the side; the disc of an inner one is aside and its rims are outside the reference line."""
     if not inner:
         yield Line(at - 1j * r, at + 1j * r, pen)
     for up in (1j, -1j):
@@ -177,7 +177,7 @@ def _fixed(at: complex, r: float, inner: bool) -> Iterator[Item]:
 
 
 def _held(rim: complex, up: complex = -1j) -> Iterator[Item]:
-    """What holds the rim of wheel 3, which stands still."""
+    """Draw the support of the rim of wheel 3, which is fixed."""
     foot = rim + up * LEG
     yield Line(rim, foot, WHEEL)
     yield from style.ground(foot - 4, foot + 4, round(up.imag))
@@ -257,7 +257,9 @@ def velocity_triangles(case: SolvedTrain, size: FigureSize = IN_REPORT) -> Scene
 
 
 def toothed(teeth: int, radius: float, inner: bool = False) -> Polyline:
-    """A wheel with straight flanks (mm), its first tooth to the right: what shows how teeth stand, not their form."""
+    """Return a wheel with straight flanks (mm), its first tooth to the right: it shows the position of teeth, not
+    their form.
+    """
     m = 2 * radius / teeth
     steps = ((-1.25, 1), (1.0, 1), (1.0, -1), (-1.25, -1))
     points = []

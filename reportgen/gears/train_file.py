@@ -1,4 +1,4 @@
-"""The file of a planetary train: what it may say, and the tooth numbers that it asks for."""
+"""File of a planetary train: its keys, and the tooth numbers that it requests."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The formulas of a planetary train, each written once: evaluated over all tooth numbers, and printed in its report."""
+"""Formulas of a planetary train, each written once: evaluated over all tooth numbers, and printed in its report."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from reportgen.formula.evaluation import evaluate
 OTHER = "2′"
 """The second wheel of a double satellite."""
 WHEELS = ("1", "2", OTHER, "3")
-"""The wheels in the order in which their numbers of teeth are told."""
+"""Wheels in the order in which their numbers of teeth are listed."""
 
 
 @dataclass(frozen=True, slots=True)
 class TrainScheme:
-    """Which of the two wheels that mesh with satellites are inner ones; a `single` satellite meshes with both."""
+    """Scheme of a train: flags of the inner wheels that mesh with satellites; a `single` satellite meshes with both."""
 
     inner: tuple[bool, bool]
     single: bool = False
@@ -33,7 +33,7 @@ class TrainScheme:
 
     @property
     def sign(self) -> int:
-        """Of z₂z₃/(z₁z₂′) in u₁H = 1 ± z₂z₃/(z₁z₂′)."""
+        """Sign of z₂z₃/(z₁z₂′) in u₁H = 1 ± z₂z₃/(z₁z₂′)."""
         first, second = self.signs
         return -first * second
 

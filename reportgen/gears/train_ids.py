@@ -1,4 +1,4 @@
-"""The ids of a planetary train, which begin with `train`, and what they say; others are named on its sheet."""
+"""Ids of a planetary train, which begin with `train`, and their meaning; others are named on its sheet."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A planetary train as a ledger: tooth numbers by factors, ratio, conditions, rates, triangles of velocities."""
+"""Planetary train as a ledger: tooth numbers by factors, ratio, conditions, rates, triangles of velocities."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from reportgen.gears.train_formulas import OTHER, TrainScheme, term_of
 FIRST_ROW_WHEEL = 4
 """Wheels of ordinary rows are numbered from here."""
 PLAN_HEIGHT, PLAN_WIDTH, RATES_WIDTH = 85.0, 60.0, 110.0
-"""What radii, velocities and the plan of angular velocities may take on paper (mm)."""
+"""Room of radii, velocities and the plan of angular velocities on paper (mm)."""
 NEAREST_POLE, FARTHEST_POLE = 2.0, 40.0
 """The pole of the plan of angular velocities is no nearer and no farther if it can be (mm)."""
 LINES: Mapping[str, tuple[str, ...]] = {
@@ -41,7 +41,7 @@ LINES: Mapping[str, tuple[str, ...]] = {
     "efficiency": ("train.eta.0", "train.u0", "train.eta.train"),
     "with_rows": ("train.eta.total",),
 }
-"""What the report sets out together, beside what differs from scheme to scheme."""
+"""Quantities that the report sets out together, except those that differ from scheme to scheme."""
 
 
 @dataclass(frozen=True)
@@ -71,7 +71,7 @@ class SolvedTrain(DesignCase):
 
     @property
     def speed(self) -> float:
-        """Of the shaft that comes in (rad/s)."""
+        """Speed of the input shaft (rad/s)."""
         return self.given.n_in.si
 
     @cached_property
