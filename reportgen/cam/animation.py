@@ -1,4 +1,4 @@
-"""The cam in motion for a page: the cam turns, the follower moves, contact and normal go with them."""
+"""Animation of a cam for a page: the cam turns, the follower moves, with contact and normal."""
 
 from __future__ import annotations
 
@@ -38,18 +38,18 @@ from reportgen.formula.vocabulary import KINDS
 
 SAMPLES = 360
 ROOM = 120 + 110j
-"""What cam and follower may fill (mm)."""
+"""Largest width and height of cam and follower (mm)."""
 NORMAL = 30.0
 """The length of the normal that is drawn (mm)."""
 CENTRE = Track(np.zeros(1, complex))
 """The cam's axis."""
 DIGITS, MOST_DECIMALS = 5, 4
 BESIDE = 2e-5
-"""How far from a jump of the motion (rad) both its sides are sampled."""
+"""Distance from a jump of the motion (rad) at which both its sides are sampled."""
 
 
 def animation(case: SolvedCam) -> Animation:
-    """All that moves on the page of a cam."""
+    """Return the animation on the page of a cam."""
     knots = _knots(case)
     profile = case.solution.cam.profile_at(knots)
     pane = _pane(case, profile)
@@ -80,7 +80,7 @@ def _knots(case: SolvedCam) -> Floats:
 
 
 def _scale(case: SolvedCam) -> float:
-    """What a millimetre of the drawing stands for (m)."""
+    """Return the length (m) of a millimetre of the drawing."""
     cam = case.solution.cam
     reach = float(np.abs(cam.outline()).max())
     ring = reach * np.exp(1j * np.linspace(0, 2 * math.pi, 24))
@@ -183,7 +183,7 @@ def _value(symbol: Symbol, kind: str, values: Floats) -> MomentValue:
 
 
 def _errors(case: SolvedCam, knots: Floats, at: float) -> Errors:
-    """What straight lines between samples miss, as the middles between them show; jumps left out."""
+    """Return the errors of straight lines between samples, measured at the middles between them; jumps are left out."""
     cam = case.solution.cam
     wide = np.diff(knots) > 4 * BESIDE
     here, between = cam.profile_at(knots), cam.profile_at((knots[1:] + knots[:-1]) / 2)

@@ -1,4 +1,4 @@
-"""The kind `cam`: which cams cannot be, and what of one is hardly meant."""
+"""The kind `cam`: faults of impossible cams, and warnings of improbable ones."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ TOP = ("parameters",)
 SAME_AREA = 0.01
 """The areas of an acceleration table above and below its axis may differ by this share."""
 SUM = 1e-6
-"""What phases may miss a whole turn by (degrees)."""
+"""Largest difference of the sum of the phases from a whole turn (degrees)."""
 
 
 def case(assignment: Assignment) -> CamCase:
@@ -172,7 +172,9 @@ def _past(angle: float) -> Finding:
 
 
 def check(given: Parameters) -> Iterator[Finding]:
-    """Keys first, then phases and tables, then lengths: each only where what it stands on is in order."""
+    """Yield the faults of keys, then of phases and tables, then of lengths: each only if the ones before are in
+    order.
+    """
     for look in (_keys, lambda one: (*_phases(one), *_tables(one)), _shape):
         faults = list(look(given))
         if faults:

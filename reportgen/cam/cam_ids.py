@@ -1,4 +1,4 @@
-"""The ids of a cam, which begin with `cam`, and what they say."""
+"""Ids of a cam, which begin with `cam`, and their meaning."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A cam as a case: what every output of it is made of."""
+"""Cam as a case: the source of all its outputs."""
 
 from __future__ import annotations
 

@@ -26,7 +26,7 @@ from reportgen.formula import Ref
 from reportgen.formula.evaluation import evaluate
 
 LimitingLine = Literal["apex", "rise", "return"]
-"""What decides: both lines together, or that of one phase."""
+"""Deciding limit: both lines together, or that of one phase."""
 SHARE_OF_RHO, SHARE_OF_R0 = 0.8, 0.4
 """A roller is no larger than these shares of the least radius of curvature and of the base circle."""
 GOLDEN = (math.sqrt(5) - 1) / 2
@@ -51,7 +51,9 @@ class CamLimits:
 
 @dataclass(frozen=True)
 class Touch:
-    """Where the limit line of a phase touches: angle of the cam, s and s′ there, and what the line leaves (c or ψ₀)."""
+    """Point where the limit line of a phase touches: angle of the cam, s and s′ there, and the resulting bound (c or
+    ψ₀).
+    """
 
     phi: float
     s: float
@@ -76,11 +78,11 @@ class Least:
     rise: Touch | None = None
     back: Touch | None = None
     apex: complex | None = None
-    """Where both limit lines meet, as e + i s₀; nearer to the cam's centre there may be a foot on one of them."""
+    """Intersection of both limit lines, as e + i s₀; a foot on one of them may be nearer to the cam's centre."""
 
 
 class NoCamError(ValueError):
-    """No cam keeps the limits; `key` is what of the file stands against it."""
+    """Raised if no cam keeps the limits; `key` is the key of the file that prevents it."""
 
     def __init__(self, code: str, key: str) -> None:
         super().__init__(code)
@@ -88,7 +90,7 @@ class NoCamError(ValueError):
 
 
 def touch(motion: FollowerMotion, phase: str, of: Callable[[Floats, Floats], Floats]) -> Touch:
-    """Where in a phase a function (SI) of s and s′ [N] is greatest."""
+    """Return the point in a phase where a function (SI) of s and s′ [N] is greatest."""
     best: Touch | None = None
     for number, interval in enumerate(motion.intervals):
         if interval.phase == phase:
@@ -248,7 +250,7 @@ def least_flat(cam: Cam, rho: float) -> float:
 
 
 def reaches(cam: Cam) -> bool:
-    """Whether an oscillating face keeps short of a right angle to the line of centres."""
+    """Return True if an oscillating face stays short of a right angle to the line of centres."""
     return cam.r0 < cam.a and cam.psi0 + cam.motion.stroke < math.pi / 2
 
 
@@ -256,7 +258,7 @@ def reaches(cam: Cam) -> bool:
 
 
 def step_of(length: float) -> float:
-    """What a length (m) is rounded to: half a millimetre below 5 mm, then 1 mm, 5 mm from 20 mm and 10 mm from 200."""
+    """Return the step of rounding a length (m): 0.5 mm below 5 mm, then 1 mm, 5 mm from 20 mm and 10 mm from 200."""
     sizes = ((0.005, 0.5), (0.020, 1.0), (0.200, 5.0))
     return next((step for most, step in sizes if length < most), 10.0) / MM
 

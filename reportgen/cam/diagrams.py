@@ -48,7 +48,7 @@ BESIDE = 0.4
 DEGREES_PER_MM = (2.5, 2.0, 1.0)
 """Scales of the angle on drawing sheets, the least first."""
 BEYOND = 6.0
-"""How far an axis goes on (mm)."""
+"""Length of an axis beyond its end (mm)."""
 RAY, CHORD = Pen(0.1, style.GRAY), Pen(0.2, style.RED)
 CURVE = Pen(0.4, style.BLUE)
 DIVISION = Pen(0.08, style.PALE)
@@ -81,7 +81,7 @@ class LawScales:
     poles: tuple[float, float]
 
     def shrunk(self, times: float) -> LawScales:
-        """Those of diagrams smaller by a factor."""
+        """Return the scales of diagrams smaller by a factor."""
         (s, ds, dds), (one, two) = self.per_mm, self.poles
         return LawScales(self.turn / times, (s * times, ds * times, dds * times), (one / times, two / times))
 
@@ -91,7 +91,7 @@ class LawScales:
 
 
 def usual_scales(case: SolvedCam) -> LawScales:
-    """Those of a report."""
+    """Return the scales of a report."""
     ids_of = (cam_ids.scale(id.removeprefix("cam.")) for id in case.solution.moved)
     first, second, third = (float(case.printed[id].values[0]) / MM for id in ids_of)
     turn, *poles = (float(case.printed[cam_ids.diagram(name)].values[0]) * MM for name in ("L", 1, 2))
@@ -99,7 +99,7 @@ def usual_scales(case: SolvedCam) -> LawScales:
 
 
 def standard_scales(case: SolvedCam, steps: int) -> LawScales:
-    """Those of a drawing sheet: standard ones, for its length about as high as in a report; the poles follow."""
+    """Return standard scales of a drawing sheet, for its length about as high as in a report; the poles follow."""
     turn = 360 / DEGREES_PER_MM[steps]
     profile, μ_φ = case.solution.cam.sampled(), 2 * math.pi / turn
     height = HEIGHT * MM * turn / TURN
@@ -190,7 +190,7 @@ def _shown(case: SolvedCam, id: str, per_mm: float) -> Number:
 
 
 def _phase_ends(case: SolvedCam) -> Iterator[tuple[str, tuple[float, float]]]:
-    """Where the phases begin and end (degrees)."""
+    """Yield the phases with their beginnings and ends (degrees)."""
     start = 0.0
     for phase, angle in zip(PHASES, case.solution.given.phase_degrees, strict=True):
         if angle > 0:

@@ -23,7 +23,7 @@ from reportgen.drawing.scales import IN_REPORT, FigureSize
 from reportgen.formula import Number, Symbol
 
 DIAGRAM_ROOM = 118 + 128j
-"""What the S–S′ diagram may fill on a page (mm)."""
+"""Largest width and height of the S–S′ diagram on a page (mm)."""
 PROFILE_ROOM = 150 + 172j
 FOLLOWER = 26.0
 """The length of a translating follower that is drawn (mm)."""
@@ -38,9 +38,9 @@ NUMBER = 3.2
 """From a roller's centre to its number (mm)."""
 HALF_FACE = 8.0
 CLEAR = 0.6
-"""So much of the base circle is left clear of the normals of faces, for what stands at the cam's centre."""
+"""Part of the base circle that normals of faces leave clear, for the signs at the cam's centre."""
 FACE_MARGIN = 3.0
-"""What a flat face reaches beyond its farthest points of contact (mm)."""
+"""Length of a flat face beyond its farthest points of contact (mm)."""
 GUIDE = 1.6
 """From the axis of a translating follower to the walls of its guide (mm)."""
 LINES = 7
@@ -50,7 +50,7 @@ SCALE = Symbol("μ", "l")
 
 
 def fitting(points: Sequence[complex], room: complex, size: FigureSize = IN_REPORT) -> tuple[float, float]:
-    """The report's scale (mm/mm) at which points (m) fit a room, and how many mm of the figure stand for a metre."""
+    """Return the report's scale (mm/mm) at which points (m) fit a room, and the figure's mm per metre."""
     usual, at = size.fitting([point * MM for point in points], room)
     return usual, at * MM
 
@@ -252,9 +252,10 @@ def _arm(cam: Cam, ψ: float) -> complex:
 
 
 def inversion(case: SolvedCam, stage: Stage = "profile by inversion", size: FigureSize = IN_REPORT) -> Scene:
-    """The profile in the cam's frame, the follower carried round it against its rotation, with numbered positions.
+    """Draw the profile in the cam's frame: the follower carried against the rotation, with numbered positions.
 
-    First its `displacements` are laid off, then the `profile by inversion` is drawn; the `cam` stands with its follower
+    First its `displacements` are laid off, then the `profile by inversion` is drawn; the `cam` is shown with its
+    follower
     in the first position.
     """
     cam = case.solution.cam
@@ -292,7 +293,7 @@ def inversion(case: SolvedCam, stage: Stage = "profile by inversion", size: Figu
 
 
 def _profile_facts(case: SolvedCam, stage: Stage, outline: np.ndarray, base: float) -> Iterator[Fact]:
-    """What the inversion tells: its base circle, its positions, and how far (mm) the profile is from the centre."""
+    """Yield the facts of the inversion: base circle, positions, the profile's distances (mm) from the centre."""
     cam, distances = case.solution.cam, np.abs(outline)
     yield turning(Symbol("ω"), cam.turn)
     yield fact("radius", case.ledger.symbol("cam.r0"), PaperLength(base))

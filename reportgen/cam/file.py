@@ -1,4 +1,4 @@
-"""The file of a cam: what it may say, and the cam that it stands for, its sought lengths found and rounded."""
+"""File of a cam: its keys, and the resulting cam, with unknown lengths found and rounded."""
 
 from __future__ import annotations
 
@@ -50,14 +50,14 @@ class Sought(Reader):
 
 @dataclass(frozen=True, slots=True)
 class PerPhase:
-    """How many steps each phase is divided into."""
+    """Number of steps of each phase."""
 
     counts: tuple[tuple[str, int], ...]
 
 
 @dataclass(frozen=True, slots=True)
 class Steps(Reader):
-    """How positions lie: so many a turn, every so many degrees, or so many in each phase."""
+    """Reader of the positions: a number per turn, a step in degrees, or a number in each phase."""
 
     def read(self, value: object) -> int | Given | PerPhase:
         if isinstance(value, dict):
@@ -119,7 +119,7 @@ class PermissibleAngles(Part):
 
 
 class Parameters(Part):
-    """A cam with its follower; `find` stands where a length is sought."""
+    """Cam with its follower; `find` requests that a length is designed."""
 
     follower: Literal["translating", "oscillating"]
     end: Literal["roller", "flat", "knife"]
@@ -158,7 +158,7 @@ class Parameters(Part):
         return first, far, back, round(rest, 9)
 
     def seeks(self, key: str) -> bool:
-        """Whether a length is to be found, as the radius of a roller is that is not given."""
+        """Return True if a length is to be found, including the radius of a roller that is not given."""
         named = key in self.model_fields_set or (key == "roller" and self.end == "roller")
         return named and getattr(self, key) is None
 
@@ -181,9 +181,9 @@ class Designed:
     least_r0: float = 0.0
     """The least base circle under a flat face (m)."""
     by_form: bool = False
-    """Whether the follower is closed by form, so that the cam drives the return, too."""
+    """True if the follower is closed by form, so that the cam drives the return, too."""
     usual: bool = False
-    """Whether the limit of the return is none of the file, but what is usual with a spring."""
+    """True if the limit of the return is not from the file, but the usual one with a spring."""
 
 
 def table_of(given: AccelerationTable) -> AccelerationGraph:
@@ -331,7 +331,9 @@ def exceeded(design_found: Designed) -> Iterator[tuple[str, float, float]]:
 
 
 def steep(design_found: Designed) -> Iterator[tuple[float, float, float]]:
-    """Where no limits are given: pressure angles (rad) beyond what is usual, by size, with where and what is usual."""
+    """Yield, without given limits, pressure angles (rad) beyond the usual, by size, with their place and the usual
+    one.
+    """
     cam = design_found.cam
     if cam.flat:
         return
@@ -343,7 +345,7 @@ def steep(design_found: Designed) -> Iterator[tuple[float, float, float]]:
 
 
 def extreme(cam: Cam, phase: str, sign: int) -> tuple[float, float]:
-    """Where in a phase ±α is greatest, and how great it is (rad)."""
+    """Return the place in a phase where ±α is greatest, and its value (rad)."""
     numbers = [number for number, one in enumerate(cam.motion.intervals) if one.phase == phase]
     return max((cam.worst(number, lambda one: sign * one.alpha) for number in numbers), key=lambda one: one[1])
 
@@ -359,7 +361,7 @@ class Judged:
     least_working: tuple[float, float]
     largest: float
     aside: tuple[float, float]
-    """Of a flat face the largest s′ (m) and the largest −s′; of one that swings the nearest and farthest contact."""
+    """For a flat face the largest s′ (m) and the largest −s′; for one that swings the nearest and farthest contact."""
 
 
 def judged(cam: Cam) -> Judged:

@@ -1,7 +1,7 @@
-"""The formulas of a cam, each written once: a sheet evaluates them over arrays, and the report prints them.
+"""Formulas of a cam, each written once: a sheet evaluates them over arrays, and the report prints them.
 
-The follower's point is the centre of its roller, the edge of a knife or the point of contact of a flat face.  Which
-formula holds is chosen by the kind of follower and end and by the senses of turning, before any number is put in.
+The follower's point is the centre of its roller, the edge of a knife or the point of contact of a flat face.  The kind
+of follower and end and the senses of turning select the formulas, before any number is put in.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from reportgen.formula.sheet import Sheet
 
 @dataclass(frozen=True)
 class CamKind:
-    """Which formulas hold for a cam; `opposite` and `turn` are the senses of `Cam`."""
+    """Kind of a cam, which selects its formulas; `opposite` and `turn` are the senses of `Cam`."""
 
     translating: bool
     flat: bool

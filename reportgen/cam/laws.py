@@ -61,18 +61,18 @@ class AccelerationGraph:
 
     @property
     def way(self) -> float:
-        """How far the graph moves as it stands, a ratio; backwards if it is negative."""
+        """Displacement of the graph, a ratio; negative if it is backwards."""
         return float(_integrated(self.x, self.a)[1][-1])
 
     @property
     def areas(self) -> tuple[float, float]:
-        """The areas above and below the axis (no dimension), which must be equal: the follower comes to rest."""
+        """Areas above and below the axis (no dimension), which must be equal: the follower comes to rest."""
         parts = _areas(self.x, self.a)
         return float(parts[parts > 0].sum()), float(-parts[parts < 0].sum())
 
     @property
     def slopes(self) -> Floats:
-        """How steeply A goes from each node [nodes − 1] to the next; 0 where it jumps."""
+        """Slopes of A from each node [nodes − 1] to the next; 0 where it jumps."""
         Δ = np.diff(self.x)
         return np.divide(np.diff(self.nodes[0]), Δ, out=np.zeros(Δ.size), where=Δ > NODE)
 
@@ -92,7 +92,7 @@ class AccelerationGraph:
 
 
 def _crossing(start: tuple[float, float], end: tuple[float, float]) -> Floats:
-    """Where a straight piece of a graph crosses the axis."""
+    """Return the place where a straight piece of a graph crosses the axis."""
     (x0, a0), (x1, a1) = start, end
     return np.array([x0 + (x1 - x0) * a0 / (a0 - a1)] if a0 * a1 < 0 and x1 > x0 else [])
 
@@ -224,7 +224,7 @@ class LawInterval:
     stop: float
     begin: float
     angle: float
-    """Where its phase begins, and how long that is."""
+    """Beginning and length of its phase."""
     piece: Piece | None
 
     def x(self, φ: Floats) -> Floats:
@@ -282,7 +282,7 @@ class FollowerMotion:
 
     @cached_property
     def starts(self) -> dict[str, float]:
-        """Where each phase begins (rad)."""
+        """Beginnings of the phases (rad)."""
         return dict(zip(PHASES, np.concatenate(([0.0], np.cumsum(self.phases[:3]))).tolist(), strict=True))
 
     @cached_property
@@ -329,7 +329,7 @@ class FollowerMotion:
 
     @cached_property
     def impacts(self) -> tuple[Impact, ...]:
-        """Where the velocity or the acceleration jumps."""
+        """Places where the velocity or the acceleration jumps."""
         impacts = []
         numbers = np.arange(len(self.intervals))
         stops = np.array([one.stop for one in self.intervals])

@@ -50,7 +50,7 @@ class Cam:
 
     @cached_property
     def kind(self) -> CamKind:
-        """Which formulas hold for it."""
+        """Kind of the cam, which selects its formulas."""
         return CamKind(self.translating, self.flat, bool(self.e), bool(self.roller), self.opposite, self.turn)
 
     @property
@@ -148,7 +148,7 @@ class Cam:
         return tuple(sorted(set(angles)))
 
     def worst(self, number: int, of: Callable[[CamProfile], Floats]) -> tuple[float, float]:
-        """Where in an interval (rad) a quantity of the cam is greatest, and how great it is (SI)."""
+        """Return the place in an interval (rad) where a quantity of the cam is greatest, and its value (SI)."""
         interval = self.motion.intervals[number]
 
         def value(φ: Floats) -> Floats:
@@ -227,9 +227,9 @@ FLAT = 1e-6
 
 
 def greatest(of: Callable[[Floats], Floats], low: float, high: float) -> tuple[float, float]:
-    """Where in an interval a function of it is greatest, and its value in its unit: sampled, then ever closer.
+    """Return the place in an interval where a function is greatest, and its value in its unit: sampled, then refined.
 
-    Values that are nearly alike say no more where the greatest is: there the parabola through three of them does.
+    Values that are nearly equal no longer locate the maximum: then the parabola through three of them does.
     """
     x = np.linspace(low, high, 361)
     for _ in range(8):

@@ -1,6 +1,7 @@
-"""The drawing sheets of a cam: motion, S–S′ diagram, pressure angle and profile on one, the profile alone in true size.
+"""Drawing sheets of a cam: motion, S–S′ diagram, pressure angle and profile on one, the profile in true size on
+another.
 
-The second sheet has nothing but the profile 1:1 on layers of its own, as a machine that cuts it needs it.
+The second sheet has only the profile 1:1 on separate layers, as a machine that cuts it needs it.
 """
 
 from __future__ import annotations
@@ -25,11 +26,11 @@ from reportgen.drawing.sheet import DrawingSheet, PlacedScene, lettered
 from reportgen.sheets.plates import on_sheet
 
 CHORD = 1e-6
-"""How far the polyline of the profile may lie from the curve (m)."""
+"""Largest distance of the profile's polyline from the curve (m)."""
 MARGIN = 15.0
 """White around the profile that is cut (mm)."""
 AREAS = ((90.0, 45.0), (144.0, 64.0), (180.0, 80.0))
-"""What the curve of the pressure angle may fill (mm), the least first."""
+"""Areas of the curve of the pressure angle (mm), the smallest first."""
 AXES = Pen(0.18, "#6b6b6b", (5.0, 1.0, 0.8, 1.0))
 
 
@@ -77,7 +78,7 @@ def contour(cam: Cam) -> np.ndarray:
 
 
 def _sagitta(points: np.ndarray) -> float:
-    """How far the curve is from its chords at most, by the turning at each corner."""
+    """Return the largest distance of the curve from its chords, by the turning at each corner."""
     chords = np.diff(np.append(points, points[0]))
     turned = np.abs(np.angle(np.roll(chords, -1) / chords))
     # Corners that are meant turn by much.

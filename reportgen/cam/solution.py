@@ -1,7 +1,7 @@
-"""A cam as a ledger: every number by its id, worked out from those above it, as the report prints it.
+"""Cam as a ledger: every number by its id, computed from those above it, as the report prints it.
 
-Positions are rows.  What follows other formulas in each phase is a `branch` of the number of its interval, so that the
-line of a position prints the formula of its own phase.
+Positions are rows.  A quantity with different formulas in each phase is a `branch` of the number of its interval, so
+that the line of a position prints the formula of its own phase.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ LINES: Mapping[str, tuple[str, ...]] = {
     "points": ("cam.contact", "cam.pitch.x", "cam.pitch.y", "cam.profile.x", "cam.profile.y"),
     "curvature": ("cam.u", "cam.w", "cam.m.1", "cam.m.2", "cam.rho", "cam.rho.working"),
 }
-"""What the report sets out together."""
+"""Quantities that the report sets out together."""
 MOVING = {"rise": 1, "return": 2}
 """The numbers of what belongs to each of the two phases with motion."""
 STILL = Number(0.0)
@@ -112,7 +112,9 @@ class CamSolution:
         return Misconceptions(readings=self._exchanged, changed=self._changed, designs={stroke: self._with_stroke})
 
     def _with_stroke(self, stroke: float) -> Sequence[Mapping[str, np.ndarray]]:
-        """What is read off the diagrams with another stroke (m, rad); the same with the lengths found anew."""
+        """Return the values read off the diagrams with another stroke (m, rad); the same with the lengths found
+        anew.
+        """
         key, own = "h" if self.cam.translating else "psi_max", self.sheet.families
         try:
             other = CamSolution(self.given.model_copy(update={key: Given(stroke, stroke)})).sheet.families
@@ -263,7 +265,7 @@ class CamSheet:
         )
 
     def _beyond(self, one: LawInterval, x: Ref) -> Expression:
-        """How far x lies beyond the node that an interval begins at."""
+        """Return the distance of x from the node at the beginning of an interval."""
         if one.piece is None or one.piece.node < 0:
             return STILL
         return x - self._node(MOVING[one.phase], one.piece.node, "x")
@@ -321,7 +323,7 @@ class CamSheet:
         return self.of.designed.limits.rho
 
     def _touch(self, phase: str, touch: Touch) -> tuple[Ref, Ref]:
-        """Where a limit line touches, as it is read off the diagram."""
+        """Return the point where a limit line touches, as it is read off the diagram."""
         q, number = self.q, MOVING[phase]
         names = ("s", "ds") if self.cam.translating else ("psi", "dpsi")
         q.give(cam_ids.touch(number, "phi"), touch.phi, exact=False)

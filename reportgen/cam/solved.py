@@ -1,4 +1,4 @@
-"""A cam with its words and its numbers: what everything that is drawn or said of it is made of."""
+"""Cam with its words and its numbers: the source of its drawings and texts."""
 
 from __future__ import annotations
 

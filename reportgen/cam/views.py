@@ -1,4 +1,4 @@
-"""A cam as its report and its task show it: what the templates name, tables, worked lines, figures."""
+"""Views of a cam for its report and its task: names for templates, tables, worked lines, figures."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ ROWS = 16.0
 WIDEST = 27.0
 ANGLE = 2
 DUST = 1e-12
-"""What floats leave of a length (m)."""
+"""Rounding error of floats in a length (m)."""
 NODES = (16.0, 22.0, 28.0, 28.0, 28.0, 28.0)
 
 
@@ -310,7 +310,7 @@ class CamPage(DesignPage[SolvedCam]):
 
     @cached_property
     def required(self) -> tuple[RequirementView, ...]:
-        """What is required, what there is, and whether it holds."""
+        """Requirements with the actual values, and whether they are met."""
         return tuple(self._required())
 
     def _required(self) -> Iterator[RequirementView]:
