@@ -64,7 +64,7 @@ def _enter_part(parts: Parts, id: str, rate: str, power: int, base: str, point: 
 
 @dataclass(frozen=True)
 class AccelerationPath:
-    """What is known of the acceleration of a point, its part of unknown size, the body and base that it is about."""
+    """Known vectors of a point's acceleration, its part of unknown size, and the body and base that it is about."""
 
     known: tuple[Vector, ...]
     unknown: Vector
@@ -74,7 +74,7 @@ class AccelerationPath:
 
 
 def known_path(parts: Parts, point: str, body: int) -> AccelerationPath | None:
-    """What is known of the acceleration of a point on a known path, its unknown part, and the body it turns with.
+    """Return the acceleration of a point on a known path: its known part, its unknown part, the body it turns with.
 
     On a straight line of the ground nothing is known; about a pivot, or another known point, the normal acceleration.
     """
@@ -146,7 +146,7 @@ def _given(parts: Parts) -> None:
 
 
 def _held(derivation: Derivation, body: int) -> bool:
-    """Whether a joint keeps a body from turning, not only at the instant."""
+    """Return True if a joint keeps a body from turning, not only at the instant."""
     joints = derivation.layout.given.joints
     return any(
         joint.body == body and (isinstance(joint, file.Translation) or joint.on == GROUND)

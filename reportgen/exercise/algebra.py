@@ -40,7 +40,7 @@ def _sympy() -> Any:
 
 
 def symbol(name: str) -> Algebraic:
-    """A symbol; all of them stand for positive quantities."""
+    """Return a symbol for a positive quantity."""
     return _sympy().Symbol(name, positive=True)
 
 
@@ -64,17 +64,17 @@ def exact_unit(degrees: float) -> Plane:
 
 
 _NAMES = ("cos", "sin")
-"""Of the symbols for the cosine and the sine of an acute angle, before its degrees."""
+"""Functions of an acute angle in the names of symbols, before its degrees."""
 
 
 def _of_angle(name: str) -> Call | None:
-    """The cosine or the sine that a symbol stands for."""
+    """Return the cosine or the sine that a symbol represents."""
     what, _, degrees = name.partition(" ")
     return Call(what, (Number(float(degrees), None, "°"),)) if what in _NAMES and degrees else None
 
 
 def _pythagorean(of: Algebraic) -> Algebraic:
-    """With sin² of every angle put as 1 − cos², where it does not stand under a root."""
+    """Replace sin² of every angle by 1 − cos², except under a root."""
     sp = _sympy()
     for sine in [one for one in of.free_symbols if one.name.startswith("sin ")]:
         unity = sine**2 + symbol(f"cos {sine.name[4:]}") ** 2 - 1
@@ -153,7 +153,7 @@ def solve(rows: Sequence[Sequence[Algebraic]], values: Sequence[Algebraic]) -> l
 
 
 def _field(entries: Sequence[Algebraic]) -> Any:
-    """The field of fractions in the symbols over the rationals and the square roots that stand in the entries."""
+    """Return the field of fractions in the symbols over the rationals and the square roots in the entries."""
     sp = _sympy()
     symbols = sorted({symbol for entry in entries for symbol in entry.free_symbols}, key=str)
     powers = {one for entry in entries for one in entry.atoms(sp.Pow) if one.exp.is_Rational and not one.exp.is_Integer}
@@ -181,7 +181,7 @@ def size(of: Algebraic, at: Mapping[str, float]) -> Algebraic:
 
 
 def operations(of: Algebraic | Plane) -> int:
-    """How many operations an expression, or both components of a vector, is written with."""
+    """Return the number of operations in an expression, or in both components of a vector."""
     parts = (of.real, of.imag) if isinstance(of, Plane) else (of,)
     return sum(int(_sympy().count_ops(part)) for part in parts)
 
@@ -193,9 +193,9 @@ def simplified(of: Algebraic) -> Algebraic:
 
 
 def value(of: Algebraic, at: Mapping[str, float]) -> float:
-    """What an expression comes to (SI) at values (SI) of its symbols.
+    """Return the value (SI) of an expression at values (SI) of its symbols.
 
-    It is worked out by floats alone: sympy would ask of every root what it is, which may take it minutes.
+    It is computed by floats alone: sympy would examine every root, which may take minutes.
     """
     return _value(of, at).real
 

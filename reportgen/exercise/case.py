@@ -1,4 +1,4 @@
-"""An exercise of plane motion as a case: what every output of it is made of."""
+"""Exercise of plane motion as a case: the source of all its outputs."""
 
 from __future__ import annotations
 

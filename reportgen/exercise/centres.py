@@ -1,8 +1,8 @@
-"""Where bodies have their instant centres, by the rules of the derivation; found before any speed is.
+"""Instant centres of bodies, by the rules of the derivation; found before any speed is.
 
 A body pinned to the ground turns about the pin; one that rolls on the ground about the point of contact.  Elsewhere
-the directions of two velocities tell: the centre is where their normals meet, and where they are parallel, and not
-perpendicular to the line of the points, the body is in translation at the instant.
+the directions of two velocities determine it: the centre is where their normals meet, and where they are parallel, and
+not perpendicular to the line of the points, the body is in translation at the instant.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ class InstantCentre:
 
     @property
     def by_joint(self) -> bool:
-        """Whether a joint makes the body turn about a fixed point or move in translation, at any instant."""
+        """Return True if a joint makes the body turn about a fixed point or move in translation, at any instant."""
         return self.rule == "pivot" or (self.rule == "translation" and not self.points)
 
 
@@ -80,7 +80,7 @@ class Layout:
         return f"{letter}{number}"
 
     def turn_on_ground(self, bodies: Iterable[int]) -> bool:
-        """Whether all bodies turn about fixed points."""
+        """Return True if all bodies turn about fixed points."""
         return all(body in self.centres and self.centres[body].rule == "pivot" for body in bodies)
 
     def rims(self) -> Iterator[tuple[tuple[int, ...], tuple[str, ...]]]:
@@ -98,7 +98,7 @@ class Layout:
         return [name for name in self.members[body] if name in declared or name not in touching]
 
     def in_line(self, point: str) -> bool:
-        """Whether a point lies on one line with the guided points of each body that it is of."""
+        """Return True if a point lies on one line with the guided points of each body that it is of."""
         for names in (names for names in self.members.values() if point in names):
             ways = [self.points[name] - self.points[point] for name in names if name in self.guided and name != point]
             if any(abs((ways[0].conjugate() * way).imag) > SAME_PLACE * abs(ways[0]) for way in ways):
@@ -139,7 +139,7 @@ def _guided(layout: Layout) -> dict[str, complex]:
 
 
 def _moves_alike(given: file.Parameters, body: int, owner: int, point: str) -> bool:
-    """Whether a point of a body is the same as that of its owner: pinned together, over however many bodies."""
+    """Return True if a point of a body is the same as that of its owner: pinned together, over any number of bodies."""
     reached, waiting = {owner}, [owner]
     while waiting:
         carrier = waiting.pop()
@@ -223,7 +223,7 @@ def _by_normals(layout: Layout, body: int, first: str, second: str) -> InstantCe
 
 
 def name_of_centre(layout: Layout, body: int, at: complex) -> str:
-    """The name of the point that an instant centre at a place (m) is, or one of its own."""
+    """Return the name of the point at an instant centre (m), or a new name."""
     letter = next(one for one in LETTERS if not any(name[0] == one for name in layout.given.points))
     return next((name for name, place in layout.points.items() if abs(place - at) < SAME_PLACE), f"{letter}{body}")
 

@@ -92,7 +92,7 @@ class LoopVector:
 
 @dataclass(frozen=True, slots=True)
 class Place:
-    """Where a point is: coordinates of a fixed point and a chain of legs from there."""
+    """Place of a point: coordinates of a fixed point and a chain of legs from there."""
 
     fixed: tuple[Expression, Expression] = (NOTHING, NOTHING)
     legs: tuple[LoopVector, ...] = ()
@@ -112,7 +112,7 @@ class Closure:
 
 @dataclass(frozen=True, slots=True)
 class StraightWay:
-    """What slides along a straight line: the point, its body, the body of the line and the direction of it."""
+    """Point that slides along a straight line: the point, its body, the body of the line and its direction."""
 
     point: str
     body: int
@@ -199,7 +199,7 @@ class Linked:
         return self.reference.get(direction.body, 0.0) + direction.offset
 
     def angle(self, direction: Direction) -> Expression:
-        """A direction as it stands in formulas: φ₂, φ₂ + 30°, 60°."""
+        """Return a direction for formulas: φ₂, φ₂ + 30°, 60°."""
         return self._from(self.phi(direction.body) if direction.body else NOTHING, direction.offset)
 
     def phi(self, body: int) -> Expression:
@@ -219,7 +219,7 @@ class Linked:
         return of
 
     def letter(self, body: int) -> str:
-        """What stands below the letters of a body: its number, of a rod its ends."""
+        """Return the index of the letters of a body: its number, or the ends of a rod."""
         return "".join(self.rods[body]) if body in self.rods else str(body)
 
     def _from(self, start: Expression, offset: float) -> Expression:

@@ -1,9 +1,9 @@
-"""What a joint or a given quantity says of the rates of the bodies: linear conditions.
+"""Linear conditions on the rates of the bodies, from a joint or a given quantity.
 
 The velocity of a point p that moves with a body is v(p) = v₀ + iω p, with v₀ that of the body's point at the origin;
 its acceleration is a(p) = a₀ + iε p − ω² p.  A condition is a sum of components of such vectors, and of angular
-rates, with its value.  Its coefficients are the same for velocities and for accelerations; only what it comes to is
-another: the `drift` of a condition is the part of its accelerations that is known once the velocities are.
+rates, with its value.  Its coefficients are the same for velocities and for accelerations; only its value
+differs: the `drift` of a condition is the part of its accelerations that is known once the velocities are.
 """
 
 from __future__ import annotations

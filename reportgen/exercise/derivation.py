@@ -1,4 +1,4 @@
-"""What stands in the derivation: quantities with their numbers, vectors, steps, and equations solved by projection."""
+"""The derivation: quantities with their numbers, vectors, steps, and equations solved by projection."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ COORDINATES: tuple[tuple[complex, Letter], ...] = ((1 + 0j, "x"), (1j, "y"))
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """What is done of which body and points, and the ids of the lines that are worked out in it.
+    """Step for a body and points, with the ids of the lines computed in it.
 
     `kind` is the name of its words.
     """
@@ -72,13 +72,13 @@ class Step:
     base: str = ""
     equation: DerivationEquation | None = None
     axes: tuple[Axis, ...] = ()
-    """What the equation is projected on, in the order of the lines."""
+    """Axes of the equation's projections, in the order of the lines."""
     frame: int = 0
     """The moving body that the motion is seen from."""
     system: tuple[Chain, ...] = ()
     """Equations that are solved together, with their numbers."""
     results: tuple[Chain, ...] = ()
-    """What they come to, with signs."""
+    """Results of the equations, with signs."""
     other: str = ""
     """A second base point."""
     read: tuple[str, ...] = ()
@@ -116,13 +116,13 @@ class Quantities(Sheet):
 
 @dataclass
 class Derivation:
-    """What stands in the derivation so far: the sheet with its numbers, and the steps that led to them."""
+    """Derivation so far: the sheet with its numbers, and the steps that led to them."""
 
     q: Sheet
     layout: Layout
     steps: list[Step] = field(default_factory=list)
     closed: bool = False
-    """Whether the loops of the system are solved already."""
+    """True if the loops of the system are already solved."""
 
     @property
     def motion(self) -> InstantMotion:
@@ -154,7 +154,7 @@ class Derivation:
         return ids.velocity(point) in self.q
 
     def nonzero(self, *vectors: Vector) -> tuple[Vector, ...]:
-        """Those of the vectors that are in the derivation and are not nothing."""
+        """Return the vectors that are in the derivation and are not zero."""
         return tuple(vector for vector in vectors if self.knows(vector.id) and self.q.si(vector.id))
 
     def velocity(self, point: str) -> Vector:

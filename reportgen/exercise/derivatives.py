@@ -42,7 +42,7 @@ TWO = Number(2.0)
 
 
 def derivative(leg: LoopVector, leader: int, order: int) -> Iterator[LoopVector]:
-    """What a leg adds to the derivative of a chain."""
+    """Yield the contributions of a leg to the derivative of a chain."""
     still, turn = replace(leg, way=None), Turn(leader)
     ahead = replace(still, quarters=leg.quarters + 1)
     if leader != GROUND:
@@ -64,7 +64,7 @@ def derivative(leg: LoopVector, leader: int, order: int) -> Iterator[LoopVector]
 
 @dataclass
 class RateFormulas:
-    """How rates and vectors of a system stand in formulas."""
+    """Formulas of the rates and vectors of a system."""
 
     derivation: Derivation
     linked: Linked

@@ -51,13 +51,13 @@ from reportgen.formula.constructions import cross
 from reportgen.formula.vocabulary import KINDS
 
 READ = (ids.formula_angle, ids.inner_angle, ids.slide_way, ids.loop_distance)
-"""What is read off the figure."""
+"""Quantities read off the figure."""
 Formulas = Mapping[CoordinateRate, Expression]
 """Unknown rates by what is known."""
 RateFactors = dict[tuple[CoordinateRate, ...], float]
 """The factors of products of rates."""
 MOST_TERMS = 4
-"""Of a numerator; the right sides of equations with more of them are worked out first."""
+"""Largest number of terms of a numerator; the right sides of equations with more terms are computed first."""
 FIGURES = 4
 """Significant figures of the numbers in a system."""
 
@@ -186,7 +186,7 @@ class EquationsOfMotion(RateFormulas):
         return lines
 
     def _is_open(self, of: GeneralizedCoordinate) -> bool:
-        """Whether a coordinate is not in the derivation yet."""
+        """Return True if a coordinate is not in the derivation yet."""
         id = ids.formula_angle(of.body) if isinstance(of, Turn) else self.linked.way_id(of)
         return id not in self.derivation.q
 
@@ -254,7 +254,7 @@ class EquationsOfMotion(RateFormulas):
         return False
 
     def _numbers(self, sums: Sequence[Sequence[LoopVector]], unknown: Sequence[CoordinateRate]) -> list[RateFactors]:
-        """Of each sum the factors of its products of rates, along x and along y."""
+        """Return the factors of the products of rates in each sum, along x and along y."""
         rows = []
         for vectors in sums:
             whole: dict[tuple[CoordinateRate, ...], complex] = {}
@@ -313,7 +313,7 @@ class EquationsOfMotion(RateFormulas):
         return self.chains(left, right)
 
     def _result(self, rate: CoordinateRate) -> Chain:
-        """What a rate comes to, with so many significant figures."""
+        """Return a rate with its value, to a number of significant figures."""
         value, unit = self.value(rate), KINDS[vocabulary.row(self.id(rate)).kind].unit
         decimals = None if value == 0 else max(0, FIGURES - 1 - math.floor(math.log10(abs(value))))
         return Chain((self.symbol(rate), Number(value, decimals, unit)))

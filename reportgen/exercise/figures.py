@@ -1,4 +1,4 @@
-"""The figures of an exercise: the system to scale with its velocities and centres, and with its accelerations."""
+"""Figures of an exercise: the system to scale with its velocities and centres, and with its accelerations."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from reportgen.exercise.views import Axes, DrawnAxis
 from reportgen.formula import Chain, Number, Symbol, ids, vocabulary
 
 BOX = (105.0, 85.0)
-"""What the system may fill at most (mm)."""
+"""Largest width and height of the system (mm)."""
 LONGEST = 30.0
 """The longest arrow of a velocity or an acceleration (mm)."""
 TOGETHER = 0.3
@@ -32,11 +32,11 @@ GUIDE = 9.0
 WALL = 16.0
 """Half the length (mm) of the ground that a disc rolls on."""
 BEYOND = 6.0
-"""How far (mm) a guide on a body reaches beyond its points."""
+"""Length (mm) of a guide on a body beyond its points."""
 CORNER, COORDINATE = 6.0, 9.0
-"""How far left of the drawing (mm) the axes of the coordinates stand, and their length."""
+"""Distance (mm) of the axes of the coordinates left of the drawing, and their length."""
 BEFORE, AFTER = 5.0, 14.0
-"""How far (mm) an axis of projection reaches beyond the points it is about, back and forward."""
+"""Lengths (mm) of an axis of projection beyond its points, backward and forward."""
 AXIS_HEAD = 2.0
 DRIVER_ARROW = 7.0
 """Radius (mm) of the arrow of an angular velocity."""
@@ -160,7 +160,9 @@ def scene_of(drawn: DrawnSystem, notes: Sequence[Content] = ()) -> Scene:
 
 
 def system_facts(drawn: DrawnSystem) -> Iterator[Fact]:
-    """What a system tells: bodies from point to point, discs, pivots and guides, vectors, senses of rotation."""
+    """Yield the facts of a system: bodies from point to point, discs, pivots and guides, vectors, senses of
+    rotation.
+    """
     names = {at: vocabulary.point(name) for name, at in drawn.points.items()}
     for number, points in drawn.bodies.items():
         for end in points[1:]:
@@ -303,7 +305,7 @@ def _scale(case: SolvedExercise, extra: list[complex]) -> float:
 
 
 def _racks(case: SolvedExercise, scale: float) -> Iterator[tuple[complex, complex]]:
-    """Where discs roll on lines of moving bodies, with the directions of the lines."""
+    """Yield the places where discs roll on lines of moving bodies, with the directions of the lines."""
     layout = case.worked.layout
     for index, joint in enumerate(case.exercise.given.joints):
         if isinstance(joint, file.RollingOnLine) and joint.on != GROUND:

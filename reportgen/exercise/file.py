@@ -1,4 +1,4 @@
-"""What a `plane-motion` file declares: points, bodies, joints, what is given at the instant and what is to be found."""
+"""File of a `plane-motion` exercise: points, bodies, joints, given quantities at the instant, and the questions."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ ExerciseAcceleration = Annotated[Given, Told(quantity("m/s2", least=-1e6, most=1
 Omega = Annotated[Given, Told(quantity("rad/s", least=-1e5, most=1e5, tiny=1e-9))]
 Epsilon = Annotated[Given, Told(quantity("rad/s2", least=-1e7, most=1e7, tiny=1e-9))]
 STATED = frozenset({"at", "distance", "radius", "size", "value", "acceleration"})
-"""The keys behind which symbols may stand."""
+"""Keys whose values may contain symbols."""
 Time = Annotated[Given, quantity("s", above=0, most=1e5, tiny=1e-6)]
 
 
@@ -52,7 +52,7 @@ class Away(Part):
 
 
 class PointAt(Part):
-    """Where a point is: at coordinates, at a distance and an angle from another point, or where two lines meet.
+    """Place of a point: at coordinates, at a distance and an angle from another point, or where two lines meet.
 
     With `on` instead of the angle it lies on a line at that distance, at its far or near end; with `distances` it is
     at two distances from two points, to the left or the right of the way from the first to the second.
@@ -359,7 +359,7 @@ class Parameters(Part):
 
     @property
     def literal(self) -> bool:
-        """Whether the solution is one by symbols."""
+        """Return True if the solution uses symbols."""
         return bool(self.symbols)
 
     @property

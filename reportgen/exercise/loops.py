@@ -118,7 +118,7 @@ class Loops:
                     )
 
     def turned(self, body: int, name: str, base: str) -> Reached:
-        """What the rotation of a body adds from one of its points to another."""
+        """Return the contribution of a body's rotation from one of its points to another."""
         derivation, rate = self.derivation, ids.LINK_RATE[self.what](body)
         arm = derivation.layout.points[name] - derivation.layout.points[base]
         known: dict[KnownPower, complex] = {}

@@ -1,4 +1,4 @@
-"""Where the points of a plane-motion exercise are, what its lines are, and the conditions that its joints make."""
+"""Places of the points of a plane-motion exercise, its lines, and the conditions from its joints."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ SAME_DIRECTION = 1e-9
 
 
 class MisplacedError(Exception):
-    """What a point, a line or a contact is at fault with."""
+    """Fault of a point, a line or a contact."""
 
     def __init__(self, code: str, *where: str | int, **arguments: str) -> None:
         super().__init__(code)
@@ -47,12 +47,12 @@ def direction_of(vector: complex) -> complex:
 
 
 def perpendicular(u: complex, w: complex) -> bool:
-    """Whether two directions of length 1 are at a right angle."""
+    """Return True if two directions of length 1 are at a right angle."""
     return abs((u.conjugate() * w).real) < SAME_DIRECTION
 
 
 def parallel(u: complex, w: complex) -> bool:
-    """Whether two directions of length 1 are the same or opposite."""
+    """Return True if two directions of length 1 are the same or opposite."""
     return abs((u.conjugate() * w).imag) < SAME_DIRECTION
 
 
@@ -81,7 +81,7 @@ class Geometry:
         return real_root(of)
 
     def is_inner(self, joint: file.RollingOnCircle | file.Gears) -> bool:
-        """Whether the first disc of a joint lies within the second."""
+        """Return True if the first disc of a joint lies within the second."""
         inner, outer = self.discs(joint)
         apart, smaller = abs(self.points[outer.centre] - self.points[inner.centre]), outer.radius.si - inner.radius.si
         return smaller > 0 and abs(apart - smaller) <= TOUCHING * (inner.radius.si + outer.radius.si)
@@ -89,7 +89,7 @@ class Geometry:
     # --- what is constructed
 
     def place(self, point: file.PointAt) -> Any:
-        """Where a point is, from the points before it."""
+        """Return the place of a point, from the points before it."""
         if point.at is not None:
             return self.point(*map(self.size, point.at))
         if point.lines is not None:
@@ -128,17 +128,19 @@ class Geometry:
         return self.disc(first), self.disc(second)
 
     def contact_on_line(self, joint: file.RollingOnLine) -> Any:
-        """Where a disc touches its line."""
+        """Return the place where a disc touches its line."""
         return foot(self.points[self.disc(joint.disc).centre], self.points[joint.through], self.direction(joint))
 
     def contact_of_discs(self, joint: file.RollingOnCircle | file.Gears) -> Any:
-        """Where two discs touch on the line of their centres: away from the second's if the first lies within it."""
+        """Return the contact of two discs on the line of their centres: away from the second's if the first lies
+        within it.
+        """
         disc, touched = self.discs(joint)
         start, end, radius = self.points[disc.centre], self.points[touched.centre], self.size(disc.radius)
         return start + (end - start) / abs(end - start) * (-radius if self.is_inner(joint) else radius)
 
     def belt_ends(self, joint: file.Belt) -> tuple[Any, Any]:
-        """Where a belt leaves one disc, to the left of the way to the other, and where it comes to the other."""
+        """Return where a belt leaves one disc, to the left of the way to the other, and where it reaches the other."""
         left, reached = self.discs(joint)
         first, second = self.points[left.centre], self.points[reached.centre]
         r1, r2 = self.size(left.radius), self.size(reached.radius)
@@ -252,7 +254,7 @@ def carried(given: file.Parameters) -> dict[int, tuple[str, ...]]:
 
 
 def conditions(geometry: Geometry, bare: System) -> Iterator[Condition]:
-    """What the joints and the given quantities say of the rates of the bodies."""
+    """Yield the conditions of the joints and the given quantities on the rates of the bodies."""
     for index, joint in enumerate(geometry.given.joints):
         yield from _joint(joint, index, geometry, bare)
     for index, rate in enumerate(geometry.given.given):
@@ -265,7 +267,7 @@ def name_of(index: int, section: str, *called: object) -> str:
 
 
 def named(given: file.Parameters) -> dict[str, tuple[Where, str]]:
-    """Where each joint and each given quantity stands, and what a message calls it, by the name of its conditions."""
+    """Return the place of each joint and given quantity, and its name in messages, by the name of its conditions."""
     listed = {"joints": given.joints, "given": given.given}
     return {
         name_of(index, section, *named_rate.called): ((*TOP, section, index), " ".join(map(str, named_rate.called)))
@@ -350,7 +352,7 @@ class Exercise:
         return self.given.find
 
     def tells_sense(self, asked: file.Asked) -> bool:
-        """Whether the data tell the sense of what is asked, and not its size alone."""
+        """Return True if the data determine the sense of the requested quantity, and not its size alone."""
         return asked.what not in ("omega", "eps") or self.motion.knows_sense(asked.what, asked.body)
 
 

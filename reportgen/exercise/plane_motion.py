@@ -311,12 +311,12 @@ def _rolls(layout: Layout, body: int) -> bool:
 
 
 def _guided(layout: Layout, body: int) -> list[str]:
-    """The points of a body of which joints or the data tell the line along which they move."""
+    """Return the points of a body whose line of motion is known from joints or the data."""
     return [name for name in layout.members[body] if name in layout.guided]
 
 
 def _two_bases(layout: Layout, plane: list[int]) -> bool:
-    """Whether two bodies that share a point have each another one that is guided."""
+    """Return True if two bodies that share a point each have another one that is guided."""
     for first_body, partner in combinations(plane, 2):
         shared = {*layout.members[first_body]} & {*layout.members[partner]}
         if shared and all({*_guided(layout, body)} - shared for body in (first_body, partner)):
@@ -325,17 +325,17 @@ def _two_bases(layout: Layout, plane: list[int]) -> bool:
 
 
 def _across(layout: Layout, body: int) -> bool:
-    """Whether two points of a body move across the line between them: the centre lies on it."""
+    """Return True if two points of a body move across the line between them: the centre lies on it."""
     return any(all(across) for across in _pairs_across(layout, body, layout.directions))
 
 
 def _projects(layout: Layout, body: int) -> bool:
-    """Whether a body has two guided points of which one at least does not move across the line between them."""
+    """Return True if a body has two guided points of which one at least does not move across the line between them."""
     return any(not all(across) for across in _pairs_across(layout, body, layout.guided))
 
 
 def _pairs_across(layout: Layout, body: int, directions: Mapping[str, complex]) -> Iterator[tuple[bool, bool]]:
-    """Of each two points of a body with known directions, whether they move across the line between them."""
+    """Yield, for each two points of a body with known directions, whether they move across the line between them."""
     for base, tip in combinations([name for name in layout.members[body] if name in directions], 2):
         line = layout.points[tip] - layout.points[base]
         if abs(line) > SAME_PLACE:

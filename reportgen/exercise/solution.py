@@ -70,7 +70,7 @@ class Worked:
 
     @property
     def by_method(self) -> bool:
-        """Whether a step of it is its method's own."""
+        """Return True if a step of it is its method's own."""
         return self.method is None or any(belongs(step, self.method) for step in self.steps)
 
 
@@ -118,7 +118,7 @@ def work_out(
 
 
 def _named(exercise: Exercise, ledger: Ledger) -> frozenset[str]:
-    """What is worked out and comes to the value of a symbol."""
+    """Return the ids of computed quantities whose value equals that of a symbol."""
     values = [symbol.given.si for symbol in exercise.given.symbols.values()]
     return frozenset(
         id
@@ -129,7 +129,7 @@ def _named(exercise: Exercise, ledger: Ledger) -> frozenset[str]:
 
 
 def _leads_to(derivation: Derivation, asked: Asked) -> bool:
-    """Whether the steps lead to what is asked: to the value that the whole system gives, and to no other."""
+    """Return True if the steps lead to the requested value: that of the whole system, and no other."""
     if asked.id not in derivation.q:
         return False
     value = derivation.motion.turn(asked.what, asked.body) if asked.of_body else abs(_vector(derivation, asked))
@@ -191,7 +191,7 @@ def _told_once(steps: Iterable[Step]) -> tuple[Step, ...]:
 
 
 def _leads_on(step: Step, needed: set[str]) -> bool:
-    """Whether a step works out anything that is needed, or says why something needed is nothing."""
+    """Return True if a step computes anything needed, or explains why something needed is zero."""
     worked = [id for id in step.ids if id not in ids.length]
     return any(id in needed for id in worked or [ids.velocity(step.point)])
 
@@ -242,7 +242,7 @@ _KINDS: Mapping[Method, tuple[str, ...]] = {
 
 
 def belongs(step: Step, method: Method) -> bool:
-    """Whether a step is one of the method's own."""
+    """Return True if a step is one of the method's own."""
     return step.kind != "speed-pivot" and step.kind.startswith(_KINDS[method])
 
 

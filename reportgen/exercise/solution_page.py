@@ -1,4 +1,4 @@
-"""The page of a solution: what is given and asked, the figures, every step with its equation, the answer."""
+"""Page of a solution: given data and questions, the figures, every step with its equation, the answer."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ TYPED = 6
 PLACES = (25.0, 35.0, 35.0)
 """Widths (mm) of the columns of the coordinates."""
 COMPARED = (25.0, 135.0)
-"""Of the comparison of methods: its first column, and all others together."""
+"""Widths (mm) in the comparison of methods: its first column, and all others together."""
 METHODS_AGREE = 1e-9
 """Values that differ by less than this share of the largest of their kind are one."""
 ANSWER = (25.0, 65.0, 70.0)
@@ -55,7 +55,7 @@ def solution(case: SolvedExercise) -> Document:
 
 
 def task_names(case: SolvedExercise) -> Mapping[str, Any]:
-    """What the templates of an exercise name that say what is given and asked."""
+    """Return the names in the templates of an exercise for the given data and the questions."""
     page = SolutionPage(case, case.worked)
     return {
         "title": case.title,
@@ -75,7 +75,7 @@ def task_names(case: SolvedExercise) -> Mapping[str, Any]:
 
 
 def names(case: SolvedExercise) -> Mapping[str, Any]:
-    """What the templates of its solution name."""
+    """Return the names in the templates of its solution."""
     page = SolutionPage(case, case.worked)
     further = [SolutionPage(case, worked) for worked in case.further]
     alone = case.alone
@@ -177,7 +177,7 @@ class SolutionPage(Solution):
 
     @property
     def joints(self) -> tuple[JointItem, ...]:
-        """What joins the bodies."""
+        """Joints of the bodies."""
         return tuple(self._joint(joint) for joint in self.case.exercise.given.joints)
 
     def _joint(self, joint: file.Joint) -> JointItem:
@@ -250,7 +250,7 @@ class SolutionPage(Solution):
 
     @property
     def expressions(self) -> tuple[Equation, ...]:
-        """What was asked, by the symbols of the file."""
+        """Requested quantities, by the symbols of the file."""
         symbol = self.worked.printed.symbol
         rows = tuple(Chain((symbol(id), shown)) for id, shown in self._by_symbols() if shown is not None)
         return (Equation(rows),) if rows else ()
@@ -370,7 +370,7 @@ class SolutionPage(Solution):
 
     @property
     def answers(self) -> Table:
-        """What was asked: symbol, number with its unit, sense or direction."""
+        """Answers: symbol, number with its unit, sense or direction."""
         words = self.case.words["instant"]
         rows = tuple(tuple(map(Cell, row)) for row in self._answer_rows())
         columns = tuple(map(Column, ANSWER))

@@ -59,7 +59,7 @@ class Solved:
         return self._fixed(self.unknowns.row(Condition("", turns=((body, 1.0),))))
 
     def determines_point(self, body: int, point: complex) -> bool:
-        """Whether the velocity of a body's point (m) is determined."""
+        """Return True if the velocity of a body's point (m) is determined."""
         axes = (Condition("", (Component(body, point, axis),)) for axis in (1 + 0j, 1j))
         return all(self._fixed(self.unknowns.row(axis)) for axis in axes)
 
@@ -186,7 +186,7 @@ def _along(part: Component, middle: complex) -> float:
 
 
 def _turns_unknown(system: System, velocities: Solved, body: int) -> bool:
-    """Whether a body hangs on no joint and nothing tells how it turns."""
+    """Return True if a body has no joint and its rotation is not determined."""
     joined = any(one.velocity is not None and one.drift is not None and _names(one, body) for one in system.conditions)
     return not joined and not velocities.determines_turn(body)
 
@@ -276,7 +276,7 @@ class InstantMotion:
         return rate != "omega" or not self._knows_square(body) or not self.omega(body)
 
     def knows_centre(self, body: int) -> bool:
-        """Whether the whole velocity of a body is known."""
+        """Return True if the whole velocity of a body is known."""
         places = {self.system.points[point] for point in self.system.bodies.get(body, ())}
         return body != GROUND and all(self._first.determines_point(body, place) for place in places)
 
@@ -311,7 +311,7 @@ class InstantMotion:
 
     @property
     def size(self) -> float:
-        """How far the points lie from their middle (m)."""
+        """Spread of the points from their middle (m)."""
         return self._first.unknowns.size
 
     @cached_property

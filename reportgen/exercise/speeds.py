@@ -158,7 +158,7 @@ def _points(derivation: Derivation, body: int, centre: InstantCentre) -> bool:
 
 
 def is_across(derivation: Derivation, *names: str) -> bool:
-    """Whether points lie on one line and their velocities are all perpendicular to it."""
+    """Return True if points lie on one line and their velocities are all perpendicular to it."""
     points, directions = derivation.layout.points, derivation.layout.directions
     line = direction_of(points[names[1]] - points[names[0]])
     if not line or any(name not in directions for name in names):

@@ -23,7 +23,7 @@ from reportgen.formula.evaluation import evaluate
 
 MOST_SYMBOLS = 20
 LONGEST = 80
-"""Of a formula, in characters."""
+"""Largest length of a formula, in characters."""
 MOST_NESTED = 3
 """Parentheses within each other."""
 _NAME = re.compile(r"[A-Za-z]{1,10}[0-9]{0,2}")
@@ -110,7 +110,7 @@ def _sums(nested: int) -> str:
 
 _WITH_A_SYMBOL = r"(?=(?:.*[^A-Za-z0-9])?(?!sqrt\b)[A-Za-z])"
 FORMULA = rf"^(?=.{{1,{LONGEST}}}$){_WITH_A_SYMBOL} *{_sums(MOST_NESTED)} *$"
-"""What is read as a formula: no text is a quantity with its unit, too."""
+"""Pattern of a formula: no text matches both this and a quantity with its unit."""
 _FORMULA = re.compile(FORMULA)
 
 
@@ -159,13 +159,13 @@ def _at_values(formula: Expression, stated_text: Stated) -> float:
 
 
 def si_unit(value: Substitution) -> str:
-    """The SI unit of what a symbol stands for."""
+    """Return the SI unit of a symbol's value."""
     unit = next(unit for unit, powers in _UNITS.items() if powers == value.powers)
     return "m" if unit == "mm" else unit
 
 
 def symbol(name: str) -> Symbol:
-    """How a symbol is printed: omega1 → ω with the index 1."""
+    """Return the printed form of a symbol: omega1 → ω with the index 1."""
     letters = name.rstrip("0123456789")
     return Symbol(_GREEK.get(letters, letters), name[len(letters) :])
 

@@ -33,7 +33,7 @@ class Pair:
     centres: tuple[str, str]
     rims: tuple[str, str]
     alike: bool
-    """Whether both turn in one sense against the arm, as in an inner meshing or by an open belt."""
+    """True if both turn in one sense against the arm, as in an inner meshing or by an open belt."""
 
 
 def pairs(layout: Layout) -> Iterator[Pair]:

@@ -59,9 +59,9 @@ class StepView:
     across: Symbol
     """The axes of projection ξ and η."""
     on_line: bool
-    """Whether the step projects on ξ."""
+    """True if the step projects on ξ."""
     on_coordinates: bool
-    """Whether it projects on x or y."""
+    """True if it projects on x or y."""
     contact: NamedPoint | str
     """The point that the body rolls on the ground with, if it is one of the two that the step is about."""
     turns: Inlines
