@@ -82,7 +82,7 @@ class Step:
     other: str = ""
     """A second base point."""
     read: tuple[str, ...] = ()
-    """What is read off the figure for its lines, and told before them unless an earlier step has told it."""
+    """Ids read off the figure for its lines, and shown before them unless an earlier step has shown them."""
 
     @property
     def of_accelerations(self) -> bool:

@@ -222,7 +222,9 @@ def _size(derivation: Derivation, parts: VectorComponents) -> Expression:
 
 
 def coordinates(layout: Layout) -> int:
-    """How many coordinates the bodies have whose motion is determined: the motions that their joints leave open."""
+    """Return the number of coordinates of the bodies with determined motion: the motions that their joints leave
+    open.
+    """
     motion = layout.motion
     unknowns = unknowns_of(motion.system)
     sized = {
@@ -279,7 +281,7 @@ def _solve(equations: EquationsOfMotion, given: Sequence[file.GivenRate]) -> Non
 
 
 def _of_point(equations: EquationsOfMotion, rate: file.GivenRate) -> VectorSum | None:
-    """What a given rate of a point says; None where it is that of its way along a line of the ground."""
+    """Return the equation of a point's given rate; None if it is the rate of its way along a line of the ground."""
     derivation, order = equations.derivation, equations.order
     assert isinstance(rate, file.VelocityOf | file.AccelerationOf | file.FromRest)
     if isinstance(rate, file.FromRest):

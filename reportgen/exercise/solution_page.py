@@ -226,7 +226,7 @@ class SolutionPage(Solution):
         return GivenItem(form, point, 0, self._typed(id, size), self._angle(turned))
 
     def _typed(self, id: str, given: Given) -> Chain:
-        """What is given, by its size: the formula of one that is stated by symbols."""
+        """Return a given quantity by its size; by its formula if it is stated by symbols."""
         unit = self.case.unit_names.get(pretty(given.unit))
         size = Number(float(f"{abs(given.value):.{TYPED}g}"), None, unit)
         if not isinstance(given, Literal):
@@ -314,7 +314,7 @@ class SolutionPage(Solution):
 
     @property
     def comparison(self) -> Table:
-        """What is asked of velocities, by each method that leads to it.  Raises `ValueError` if two disagree."""
+        """Velocities asked for, by each method that leads to them.  Raises `ValueError` if two disagree."""
         words, pages = self.case.words["instant"], [SolutionPage(self.case, worked) for worked in self.case.alone]
         motion, rows = self.case.exercise.motion, list[tuple[Cell, ...]]()
         for asked in self.case.exercise.asked:

@@ -129,7 +129,7 @@ class LiteralMotion:
 
 
 def _short(of: Any, simplify: Callable[[Any], Algebraic], most: int = LONGEST) -> Algebraic | None:
-    """What it is simplified to; None for what is too long."""
+    """Return the simplified expression; None if it is too long."""
     if algebra.operations(of) > MOST:
         return None
     simplified = simplify(of)
@@ -137,7 +137,7 @@ def _short(of: Any, simplify: Callable[[Any], Algebraic], most: int = LONGEST) -
 
 
 class LiteralBoard:
-    """What the quantities of a derivation are by symbols, each worked out when it is asked for."""
+    """Quantities of a derivation by symbols, each computed on request."""
 
     def __init__(self, exercise: Exercise, worked: Worked) -> None:
         self.exercise, self.worked = exercise, worked

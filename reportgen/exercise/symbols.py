@@ -47,7 +47,7 @@ class Literal(Given):
 
 @dataclass(frozen=True, slots=True)
 class Substitution:
-    """What a symbol stands for; `put_in` unless the answer is to stay an expression."""
+    """Value of a symbol; `put_in` unless the answer is to stay an expression."""
 
     given: Given
     powers: Powers
@@ -116,7 +116,7 @@ _FORMULA = re.compile(FORMULA)
 
 @dataclass(frozen=True, slots=True)
 class Stated:
-    """What stands in a file that has symbols, before it is read."""
+    """Text in a file that has symbols, before it is read."""
 
     text: str
     symbols: Symbols
@@ -147,7 +147,9 @@ class Told(Reader):
 
 
 def _at_values(formula: Expression, stated_text: Stated) -> float:
-    """What a formula comes to; raises the fault of one that divides by 0 or takes the root of less."""
+    """Return the value of a formula; raise the fault of one that divides by 0 or takes the root of a negative
+    number.
+    """
     try:
         with np.errstate(all="ignore"):
             si = float(evaluate(formula, {name: one.given.si for name, one in stated_text.symbols.items()}))

@@ -67,11 +67,11 @@ class StepView:
     turns: Inlines
     """The rotations that are worked out, each with its sense."""
     has_angles: bool
-    """Whether angles of bodies are told, for the first time."""
+    """True if angles of bodies are shown for the first time."""
     has_ways: bool
-    """Whether ways along straight lines are told, for the first time."""
+    """True if ways along straight lines are shown for the first time."""
     has_right_sides: bool
-    """Whether the right sides of equations are worked out first."""
+    """True if the right sides of equations are computed first."""
     has_distance: bool
     """Whether the distance of the outer ends of two bodies is told."""
 
@@ -117,7 +117,7 @@ class Solution:
 
     @property
     def method(self) -> str:
-        """What its method is called; "" where it is chosen for each step."""
+        """Name of its method; "" if it is chosen for each step."""
         return str(self.case.words["instant"]["methods"][self.worked.method]) if self.worked.method else ""
 
     def unfound(self, alone: Worked) -> tuple[Unfound, ...]:
@@ -236,7 +236,7 @@ class Solution:
         return wanted or any(shown is None for _, shown in self._by_symbols())
 
     def _by_symbols(self) -> list[tuple[str, Expression | None]]:
-        """What is asked by the symbols of the file; None for what is too long."""
+        """Return the requested quantities by the symbols of the file; None for one that is too long."""
         if self.case.literal is None:
             return []
         return [(one.id, self._literal(one.id)) for one in self.case.exercise.asked if one.what != "centre"]
@@ -262,7 +262,7 @@ class Solution:
         return Chain(tuple(one for place, one in enumerate(steps) if place == 0 or one != steps[place - 1]))
 
     def _is_declared_length(self, id: str) -> bool:
-        """Whether it is the distance of declared points, rather than of an instant centre."""
+        """Return True if it is the distance of declared points, rather than of an instant centre."""
         names = ids.length.read(id)
         centres = {centre.name for centre in self.worked.layout.centres.values() if centre.rule in ("normals", "rate")}
         centres -= set(self.case.exercise.given.points)
@@ -355,7 +355,7 @@ class Axes:
                 yield DrawnAxis(symbol, axis.direction, *ends)
 
     def has_coordinates(self, accelerations: bool) -> bool:
-        """Whether anything is projected on x or y."""
+        """Return True if anything is projected on x or y."""
         return any(axis.letter in COORDINATES for _, axis in self._of(accelerations))
 
     def _on_it(self, body: int, direction: complex, at: complex) -> Iterator[float]:
@@ -383,7 +383,7 @@ class Axes:
         return lines
 
     def _same(self, first: Axis, second: Axis) -> bool:
-        """Whether the ξ of both lie on one line."""
+        """Return True if the ξ of both lie on one line."""
         apart = self._at(second.point) - self._at(first.point)
         return parallel(first.along, second.along) and abs((first.along.conjugate() * apart).imag) < SAME_PLACE
 
