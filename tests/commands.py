@@ -83,6 +83,7 @@ def _text(stream: io.TextIOWrapper) -> str:
 def _as_if_alone(line: list[str], cwd: Path, environment: Mapping[str, str]) -> Iterator[None]:
     """Give this process another command line, folder and environment for the duration of the block."""
     handlers = {number: signal.getsignal(number) for number in SIGNALS}
+    surroundings = dict(os.environ)
     with pytest.MonkeyPatch.context() as patch, warnings.catch_warnings():
         # As Python sets it by default.
         for category in (DeprecationWarning, PendingDeprecationWarning, ImportWarning, ResourceWarning):
@@ -99,3 +100,6 @@ def _as_if_alone(line: list[str], cwd: Path, environment: Mapping[str, str]) -> 
             gc.unfreeze()
             for number, handler in handlers.items():
                 signal.signal(number, handler)
+            # A command hands its language and its school's folder to its workers by variables of its own.
+            for name in os.environ.keys() - surroundings.keys():
+                del os.environ[name]

@@ -42,7 +42,7 @@ def test_every_section_is_there_and_the_numbers_go_on(language: str) -> None:
 
     with pymupdf.open(stream=wording.proof_sheet(templates() / language, language)) as document:
         text = "\n".join(page.get_text() for page in document)
-    named = set(re.findall(r"%% ([\w-]+)", text))
+    named = set(re.findall(r"%% ([\w/-]+)", text))
     files = [path for path in (templates() / REFERENCE).rglob("*.md") if path.is_file()]
     wanted = {name for file in files for name in sections(file) if name != "new"}
     assert wanted - named == set()
