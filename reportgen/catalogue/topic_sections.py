@@ -47,9 +47,8 @@ class TopicParameters(Part):
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Pickle a model with sections of topics by the model of its kind and the names of the topics."""
-        if not self.topic_names:
-            return super().__reduce__()  # type: ignore[return-value]
-        return _blank, (type(self).__base__, self.topic_names), self.__getstate__()
+        model = type(self).__base__ if self.topic_names else type(self)
+        return _blank, (model, self.topic_names), self.__getstate__()
 
     def section(self, topic: str, of: type[Section]) -> Section | None:
         """Return the section of a topic, None if the file has none."""

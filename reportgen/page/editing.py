@@ -154,7 +154,7 @@ class EditSession(LiveSession):
         return {"edit.json": self.edit, "drag.json": self.drag, "make.json": self.make}
 
     def below(self, name: str) -> EditSession | None:
-        """Return the session of a part's file by its number: a file that the text names now, in its folder or below.
+        """Return the open form of a part's file by its number: a file that the text names now, in its folder or below.
 
         No request names a file: its place is read from the coursework's text each time.
         """
@@ -267,7 +267,7 @@ class EditSession(LiveSession):
         return {"fields": fields, "ground": ground}
 
     def _is_over(self, number: int) -> bool:
-        """Return True if a machine, by the number of its revision, is no longer the newest, or the session is
+        """Return True if a machine, by the number of its revision, is no longer the newest, or the form is
         closed.
         """
         return self.closed or self.revision.moving != number
