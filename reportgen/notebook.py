@@ -22,10 +22,10 @@ from reportgen.assignment.fields import Quantity
 from reportgen.assignment.reading import name_faults
 from reportgen.base.errors import AssignmentError, NotOfferedError, UnknownNameError
 from reportgen.base.files import put_file, reported
-from reportgen.base.source import MappingNode, Scalar, Source, read_source, read_text
-from reportgen.base.source_text import at, put, without
 from reportgen.base.units import Given, Language, read_unit
 from reportgen.base.words import as_error, language_of, unknown, word
+from reportgen.base.yaml_source import MappingNode, Scalar, Source, read_source, read_text
+from reportgen.base.yaml_values import at, put, without
 from reportgen.case import Case
 from reportgen.cases import opened
 from reportgen.document import TEXT_WIDTH

@@ -17,7 +17,7 @@ import pytest
 from hypothesis import settings
 from xdist.scheduler import LoadScopeScheduling
 
-from reportgen.base import limits
+from reportgen.base import process_limits
 from reportgen.cli import COLLECTED
 from tests.report import built
 
@@ -86,4 +86,4 @@ def here(monkeypatch: pytest.MonkeyPatch) -> None:
 
     For tests of what the words do; those of the bounds have the process that users have.
     """
-    monkeypatch.setattr(limits, "_bounded", True)
+    monkeypatch.setattr(process_limits, "_bounded", True)

@@ -271,7 +271,7 @@ from pathlib import Path
 
 from reportgen import api, catalogue
 from reportgen.base.field_words import field_words
-from reportgen.base.whole import is_whole
+from reportgen.base.translation_coverage import is_whole
 from reportgen.cases import opened
 from reportgen.formula import ids
 from reportgen.marking.marking import mark

@@ -21,12 +21,12 @@ from reportgen.api.writing import KeyJob, ReportJob, SheetJob, dated, word_file
 from reportgen.assignment import Assignment
 from reportgen.assignment.common import Extent
 from reportgen.assignment.reading import inputs
-from reportgen.base import made
+from reportgen.base import provenance
 from reportgen.base.errors import NotOfferedError, ReportgenError
 from reportgen.base.files import put_files, reported, scratch, version
-from reportgen.base.formats import ENGINE, PRODUCTS, chosen, names, usual
-from reportgen.base.standards import STANDARDS, Standards, other_than_usual
-from reportgen.base.steps import step
+from reportgen.base.output_formats import ENGINE, PRODUCTS, chosen, names, usual
+from reportgen.base.pdf_standards import STANDARDS, Standards, other_than_usual
+from reportgen.base.progress import step
 from reportgen.base.units import Language
 from reportgen.base.words import templates_hash, word
 from reportgen.case import bounded
@@ -141,7 +141,7 @@ def build_each(
     extent: Extent | None = None,
     listing: bool = False,
     standards: Standards = STANDARDS,
-) -> made.Put:
+) -> provenance.Put:
     """Write the complete report in some of `FORMATS`; return the paths in that order, and the fate of other files."""
     from reportgen.document import Listing
 
@@ -169,22 +169,22 @@ def build_each(
         elif listing:
             raise NotOfferedError(word("no_listing", assignment.language, kind=assignment.kind))
     of = made_of(path, engine, assignment.language, standards)
-    put = made.put_made(Path(out) / assignment.id, files, "report", of)
+    put = provenance.put_made(Path(out) / assignment.id, files, "report", of)
     return replace(put, paths=tuple(Path(out) / assignment.id / f"report.{row.suffix}" for row in rows))
 
 
 def made_of(
     path: Path | str, engine: str, language: Language | None, standards: Standards = STANDARDS, **more: str
-) -> made.MadeOf:
+) -> provenance.MadeOf:
     """Return all inputs that determine the products of an assignment file, in its own language unless one is given.
 
     Raises `AssignmentError`, `OutputError`.
     """
     spoken = language or load(path).language
     with reported():
-        assignment = made.assignment_hash(*inputs(Path(path)))
+        assignment = provenance.assignment_hash(*inputs(Path(path)))
     more["standards"] = other_than_usual(standards)
-    return made.made_of(assignment, engine, spoken, templates_hash(), version(), **more)
+    return provenance.made_of(assignment, engine, spoken, templates_hash(), version(), **more)
 
 
 # --- products: what a batch makes of an assignment file -----------------------------------------------

@@ -9,7 +9,7 @@ from reportgen import catalogue
 from reportgen.api import load
 from reportgen.assignment import Assignment
 from reportgen.base.errors import NotOfferedError
-from reportgen.base.formats import chosen, names, usual
+from reportgen.base.output_formats import chosen, names, usual
 from reportgen.base.units import Language
 from reportgen.base.words import word
 from reportgen.case import Case

@@ -8,8 +8,8 @@ from reportgen.assignment import Assignment
 from reportgen.assignment.reading import placed
 from reportgen.base.errors import Finding
 from reportgen.base.languages import setting_of
-from reportgen.base.source import read_source
 from reportgen.base.words import as_error
+from reportgen.base.yaml_source import read_source
 
 if TYPE_CHECKING:
     from reportgen.document.layout import Letter

@@ -10,8 +10,8 @@ from reportgen.api.letters import Engine
 from reportgen.assignment import Assignment
 from reportgen.base.errors import TypesetterError
 from reportgen.base.languages import setting_of
-from reportgen.base.standards import STANDARDS, Standards
-from reportgen.base.steps import step
+from reportgen.base.pdf_standards import STANDARDS, Standards
+from reportgen.base.progress import step
 from reportgen.base.words import word
 
 if TYPE_CHECKING:

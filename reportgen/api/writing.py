@@ -12,8 +12,8 @@ from reportgen.api import typesetting
 from reportgen.api.letters import Engine, letters_of
 from reportgen.assignment import Assignment
 from reportgen.base.languages import setting_of
-from reportgen.base.standards import STANDARDS, Standards
-from reportgen.base.steps import step
+from reportgen.base.pdf_standards import STANDARDS, Standards
+from reportgen.base.progress import step
 from reportgen.base.template_folders import school_folder
 from reportgen.case import bounded
 

@@ -16,11 +16,11 @@ from typing import Annotated, Any
 from pydantic import Field, GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import PydanticCustomError, core_schema
 
-from reportgen.base.moments import moment
-from reportgen.base.slips import in_quotes
-from reportgen.base.source import STRANGE, Quoted
 from reportgen.base.template_folders import languages, school_folder, school_strays, schools, templates
+from reportgen.base.timestamps import moment
+from reportgen.base.typing_mistakes import in_quotes
 from reportgen.base.units import NUMBER, Given, QuantityFault, grouped, read_quantity, read_ratio, read_unit
+from reportgen.base.yaml_source import STRANGE, Quoted
 
 UNIT_KEY, RANGE_KEY, UNIT_NAME_KEY = "x-unit", "x-range", "x-unit-name"
 """Extensions of the schema standard: the unit of a quantity, its bounds in it, a unit that names one like it."""

@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 from reportgen.assignment import parts
-from reportgen.base.source import MappingNode, read_source
-from reportgen.base.source_text import at, put, text_of, without
+from reportgen.base.yaml_source import MappingNode, read_source
+from reportgen.base.yaml_values import at, put, text_of, without
 
 REPORT = ("report",)
 LOOK = ("school", "templates", "font", "size")

@@ -18,9 +18,9 @@ from reportgen.assignment.common import PARTS, AssignedPart, Assignment, Kind, N
 from reportgen.base.errors import Fault, Where
 from reportgen.base.files import leads_out
 from reportgen.base.kinds import kinds
-from reportgen.base.source import MappingNode, Node, Scalar, SequenceNode, Source, read_source
-from reportgen.base.source_text import at, put, without
 from reportgen.base.units import NUMBER, QuantityFault, read_ratio
+from reportgen.base.yaml_source import MappingNode, Node, Scalar, SequenceNode, Source, read_source
+from reportgen.base.yaml_values import at, put, without
 
 ABOUT = ("file", "title", "from")
 """The keys of a named part that are not those of an assignment."""

@@ -20,12 +20,12 @@ from reportgen.assignment.fields import RESERVED
 from reportgen.assignment.schema import keys_at
 from reportgen.base.errors import Fault, Finding, Mark, Where
 from reportgen.base.files import contents, leads_out
-from reportgen.base.slips import meant, slip
-from reportgen.base.source import MappingNode, Node, Scalar, SequenceNode, Source, plain, read_source
-from reportgen.base.source_text import at
 from reportgen.base.template_folders import school_files
+from reportgen.base.typing_mistakes import meant, slip
 from reportgen.base.units import Language, two_readings
 from reportgen.base.words import as_error, close_or_known, language_of
+from reportgen.base.yaml_source import MappingNode, Node, Scalar, SequenceNode, Source, plain, read_source
+from reportgen.base.yaml_values import at
 
 Model = TypeVar("Model", bound=BaseModel)
 _WHOLE = "file"

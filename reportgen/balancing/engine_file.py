@@ -9,7 +9,7 @@ from pydantic import Field
 from reportgen.assignment.common import Part
 from reportgen.assignment.fields import Angle, Coordinate, Length, RotationalSpeed, Share
 from reportgen.balancing.rotor_file import AT_ORIGIN, PositiveMass
-from reportgen.base.shown import shown
+from reportgen.base.template_access import shown
 from reportgen.base.units import Given
 
 MOST_CYLINDERS = 12

@@ -8,7 +8,7 @@ from pydantic import Field
 
 from reportgen.assignment.common import Part
 from reportgen.assignment.fields import Angle, Coordinate, Length, RotationalSpeed, quantity
-from reportgen.base.shown import shown
+from reportgen.base.template_access import shown
 from reportgen.base.units import Given
 
 MOST_MASSES = 24

@@ -13,7 +13,7 @@ from reportgen.balancing.balance import BalancedTurn, balanced_in, frame_reactio
 from reportgen.balancing.counterweight_drawings import CounterweightDisc, with_discs
 from reportgen.balancing.ledger import AFTER, AXES, BEFORE, LETTERS
 from reportgen.balancing.order_views import factors_table
-from reportgen.base.shown import view
+from reportgen.base.template_access import view
 from reportgen.document import Value
 from reportgen.document.paper import FigureScenes
 from reportgen.drawing import Diagram, PlottedCurve, Scene, charts

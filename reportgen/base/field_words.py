@@ -17,11 +17,11 @@ from typing import Any
 
 from reportgen.base.errors import TemplateError
 from reportgen.base.languages import setting_of
-from reportgen.base.source import MappingNode, plain, read_own, read_words
 from reportgen.base.template_folders import MACHINES, languages, told_in, topic_file
 from reportgen.base.topics import topics
 from reportgen.base.units import Language
 from reportgen.base.words import sections
+from reportgen.base.yaml_source import MappingNode, plain, read_own, read_words
 
 SECTION, FILE = "fields", "fields.yaml"
 CHOICES = "choices"

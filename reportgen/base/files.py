@@ -20,7 +20,7 @@ from importlib import metadata
 from pathlib import Path
 
 from reportgen.base.errors import Fault, Mark, OutputError
-from reportgen.base.formats import endings, file_names
+from reportgen.base.output_formats import endings, file_names
 
 _STREAMS = ("/dev", "/proc")
 """Folders whose links refer to open streams, even if they lead to a regular file."""

@@ -13,8 +13,8 @@ from pathlib import Path
 from typing import Any, Literal
 
 from reportgen.base.errors import TemplateError
-from reportgen.base.source import MappingNode, Node, Scalar, SequenceNode, read_own, text_in
 from reportgen.base.template_folders import LANGUAGE_FILE, Language, languages, templates
+from reportgen.base.yaml_source import MappingNode, Node, Scalar, SequenceNode, read_own, text_in
 
 DecimalMark = Literal[".", ","]
 _LETTERS = re.compile("[^\\W\\d_¹²³⁰-⁹]+")

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from reportgen.base.languages import Language as Language
 from reportgen.base.languages import common_unit, decimal_mark
-from reportgen.base.shown import shown
+from reportgen.base.template_access import shown
 
 if TYPE_CHECKING:
     import numpy as np

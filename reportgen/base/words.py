@@ -21,21 +21,7 @@ from pathlib import Path
 from typing import Any
 
 from reportgen.base.errors import AssignmentError, Fault, Level, Mark, Problem, TemplateError, Where
-from reportgen.base.gaps import FILLS, filled, gaps, plain_gaps
-from reportgen.base.source import (
-    STRANGE,
-    MappingNode,
-    Scalar,
-    Source,
-    in_a_line,
-    plain,
-    read_own,
-    read_text,
-    read_words,
-    scalars,
-    text_in,
-)
-from reportgen.base.source_text import at, path_text
+from reportgen.base.placeholders import FILLS, filled, gaps, plain_gaps
 from reportgen.base.template_folders import (
     DEFAULT_LANGUAGE,
     MACHINES,
@@ -48,6 +34,20 @@ from reportgen.base.template_folders import (
     topic_files,
 )
 from reportgen.base.units import Language
+from reportgen.base.yaml_source import (
+    STRANGE,
+    MappingNode,
+    Scalar,
+    Source,
+    in_a_line,
+    plain,
+    read_own,
+    read_text,
+    read_words,
+    scalars,
+    text_in,
+)
+from reportgen.base.yaml_values import at, path_text
 
 LONGEST_SHOWN = 40
 """Largest number of characters of the file that a message repeats."""

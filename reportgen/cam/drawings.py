@@ -9,7 +9,7 @@ from typing import Literal
 
 import numpy as np
 
-from reportgen.base.settled import first_greatest, first_least
+from reportgen.base.stable_digits import first_greatest, first_least
 from reportgen.base.units import MM
 from reportgen.cam import cam_ids
 from reportgen.cam.profile import Cam, CamProfile

@@ -23,7 +23,7 @@ from reportgen.assignment.fields import (
     fault,
     quantity,
 )
-from reportgen.base.shown import view
+from reportgen.base.template_access import view
 from reportgen.base.units import MM, Given
 from reportgen.cam import design
 from reportgen.cam.design import CamLimits, Least, NoCamError

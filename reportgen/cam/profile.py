@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reportgen.base.arrays import Complexes, Floats
-from reportgen.base.settled import ALIKE, first_greatest
+from reportgen.base.stable_digits import ALIKE, first_greatest
 from reportgen.cam import cam_ids
 from reportgen.cam.formulas import CamKind, enter_lengths, enter_lowest, enter_profile
 from reportgen.cam.laws import NODE, FollowerMotion

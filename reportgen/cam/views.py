@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-from reportgen.base.shown import view
+from reportgen.base.template_access import view
 from reportgen.base.units import MM
 from reportgen.cam import cam_ids
 from reportgen.cam.diagrams import curvature_chart, law_diagrams, pressure_chart

@@ -280,7 +280,7 @@ def bounded(assignment: Assignment, make: Callable[..., Made], *arguments: Any) 
     """
     if assignment.school is None:
         return make(*arguments)
-    from reportgen.base.limits import TEMPLATES, LimitError, call_within
+    from reportgen.base.process_limits import TEMPLATES, LimitError, call_within
 
     file = search_path(assignment.language, assignment.kind, assignment.school)[0]
     try:

@@ -12,7 +12,7 @@ from collections.abc import Mapping
 from string import Formatter
 from typing import Any
 
-from reportgen.base.gaps import gaps
+from reportgen.base.placeholders import gaps
 from reportgen.document import Inline, Inlines, Text
 from reportgen.formula import Expression, Symbol, ids, refs, vocabulary
 from reportgen.formula.ledger import Ledger

@@ -34,14 +34,14 @@ from reportgen.assignment.schema import alternatives_to, choices_of, file_schema
 from reportgen.base.errors import AssignmentError, Fault, Finding, Level, Problem, TemplateError
 from reportgen.base.field_words import also, choice_words, field_words, remarked
 from reportgen.base.kinds import SAMPLE, kinds
-from reportgen.base.source import MappingNode, Scalar, Source, read_source
-from reportgen.base.source_text import at as node_at
-from reportgen.base.source_text import put, text_of
 from reportgen.base.template_folders import MACHINES, samples, told_in
 from reportgen.base.topics import topics
+from reportgen.base.translation_coverage import is_topic_whole, is_whole, offered
 from reportgen.base.units import Language, QuantityFault, measures, read_quantity, read_unit
-from reportgen.base.whole import is_topic_whole, is_whole, offered
 from reportgen.base.words import as_error, as_problem, language_of, sections, spoken, word
+from reportgen.base.yaml_source import MappingNode, Scalar, Source, read_source
+from reportgen.base.yaml_values import at as node_at
+from reportgen.base.yaml_values import put, text_of
 from reportgen.catalogue import assembly, declared_loads
 from reportgen.catalogue.parameters import Driven
 from reportgen.catalogue.topic_sections import TopicParameters, sections_of, topic_checks, with_topics

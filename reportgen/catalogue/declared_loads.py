@@ -35,7 +35,7 @@ from reportgen.assignment.fields import (
 )
 from reportgen.base.arrays import Floats
 from reportgen.base.errors import Finding, Where
-from reportgen.base.shown import view
+from reportgen.base.template_access import view
 from reportgen.base.units import Given
 from reportgen.catalogue.typed import as_typed, size_of
 from reportgen.formula import Number, ids

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
-from reportgen.base.shown import view
+from reportgen.base.template_access import view
 from reportgen.catalogue import linkage_file as file
 from reportgen.catalogue.declared_loads import LoadRow, row_of
 from reportgen.catalogue.typed import as_typed

@@ -19,9 +19,9 @@ from pathlib import Path
 
 from reportgen.base.chinese import narrow
 from reportgen.base.errors import Fault, Mark, Problem
-from reportgen.base.moments import moment
 from reportgen.base.template_folders import languages
-from reportgen.base.typed import plain_signs
+from reportgen.base.timestamps import moment
+from reportgen.base.typed_characters import plain_signs
 from reportgen.base.units import NUMBER, Language, write
 from reportgen.base.words import as_error, as_problem, close_or_known, common_words, messages, word
 from reportgen.case.key import Key, headed_chapters

@@ -28,7 +28,7 @@ from itertools import chain
 from reportgen import catalogue
 from reportgen.assignment.common import PARTS
 from reportgen.base.errors import Fault
-from reportgen.base.source_text import path_text
+from reportgen.base.yaml_values import path_text
 from reportgen.cases import opened
 from reportgen.classes.roster import Roster, RosterEntry, comparable
 from reportgen.classes.spec import DRAWN_SECTIONS, Settings, Spec, place

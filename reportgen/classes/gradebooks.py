@@ -16,10 +16,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from reportgen.base.errors import Fault, Mark
-from reportgen.base.moments import moment
-from reportgen.base.source import encoding_of
+from reportgen.base.timestamps import moment
 from reportgen.base.units import Language
 from reportgen.base.words import as_error
+from reportgen.base.yaml_source import encoding_of
 from reportgen.workbook import read
 from reportgen.workbook.reading import BOOKS, SEPARATORS
 

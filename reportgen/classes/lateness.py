@@ -10,10 +10,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from reportgen.base.errors import Fault, Mark, Problem
-from reportgen.base.moments import moment
-from reportgen.base.source import Scalar
+from reportgen.base.timestamps import moment
 from reportgen.base.units import Language
 from reportgen.base.words import as_problem
+from reportgen.base.yaml_source import Scalar
 from reportgen.classes.gradebooks import Gradebook, Participant
 from reportgen.marking.policy import Lateness
 

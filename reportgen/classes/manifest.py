@@ -18,8 +18,8 @@ from typing import TYPE_CHECKING, Any
 from pydantic import TypeAdapter, ValidationError
 
 from reportgen.base.files import contents, put_file
-from reportgen.base.made import MADE_OF, Made, hash_of
-from reportgen.base.made import made_of as made_of_input
+from reportgen.base.provenance import MADE_OF, Made, hash_of
+from reportgen.base.provenance import made_of as made_of_input
 from reportgen.classes.pool import Job, Outcome
 
 if TYPE_CHECKING:

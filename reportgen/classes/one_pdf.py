@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
 from reportgen.base.files import contents, put_files, reported, scratch
-from reportgen.base.formats import PRODUCTS, file_names
+from reportgen.base.output_formats import PRODUCTS, file_names
 from reportgen.writers.bound_pdf import bound
 
 NAMES = {product.name: product.bound for product in PRODUCTS if product.bound}

@@ -13,9 +13,9 @@ from reportgen import api
 from reportgen.api.letters import Engine
 from reportgen.base.errors import Fault, Mark, Problem
 from reportgen.base.files import overwritten, put_files, reported, scratch
-from reportgen.base.formats import file_names
 from reportgen.base.kinds import title
-from reportgen.base.standards import STANDARDS, Standards
+from reportgen.base.output_formats import file_names
+from reportgen.base.pdf_standards import STANDARDS, Standards
 from reportgen.base.units import Language
 from reportgen.base.words import as_problem, counted, word
 from reportgen.case.key import Key

@@ -32,8 +32,8 @@ from reportgen.api import Maker
 from reportgen.api.letters import Engine
 from reportgen.base.errors import AssignmentError, OutputWarning, Problem, ReportgenError
 from reportgen.base.files import version
-from reportgen.base.limits import ONE_THREAD, Limits, limit_memory
-from reportgen.base.made import assignment_hash
+from reportgen.base.process_limits import ONE_THREAD, Limits, limit_memory
+from reportgen.base.provenance import assignment_hash
 from reportgen.base.template_folders import templates
 from reportgen.base.units import Language
 from reportgen.base.words import speak, spoken, templates_hash, unexpected, word

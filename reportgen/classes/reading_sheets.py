@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TypeVar
 
 from reportgen.base.errors import AssignmentError, Fault, Mark, Problem
-from reportgen.base.limits import Limits
+from reportgen.base.process_limits import Limits
 from reportgen.base.units import Language
 from reportgen.base.words import as_problem
 from reportgen.case.key import Key

@@ -28,11 +28,11 @@ from reportgen.base import chinese
 from reportgen.base.errors import Fault, Mark, Problem
 from reportgen.base.files import contents
 from reportgen.base.kinds import kinds
-from reportgen.base.source import Scalar, read_source
-from reportgen.base.source_text import at
 from reportgen.base.template_folders import languages
 from reportgen.base.units import NUMBER, UNIT, Language
 from reportgen.base.words import as_error, as_problem, close_or_known, messages
+from reportgen.base.yaml_source import Scalar, read_source
+from reportgen.base.yaml_values import at
 from reportgen.workbook import Page, SheetCell, read
 
 FIRST_ROWS = 20

@@ -17,7 +17,7 @@ from reportgen.api.letters import Engine
 from reportgen.assignment.reading import inputs
 from reportgen.base.errors import Fault, Mark, OutputError, Problem
 from reportgen.base.files import cause, held, put_set, remove_unfinished, reported, scratch
-from reportgen.base.standards import STANDARDS, Standards, other_than_usual
+from reportgen.base.pdf_standards import STANDARDS, Standards, other_than_usual
 from reportgen.base.units import Language, write
 from reportgen.base.words import as_problem, counted, spoken, word
 from reportgen.classes import ready

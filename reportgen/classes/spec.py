@@ -37,10 +37,10 @@ from reportgen.assignment.schema import allowed_forms, known_keys
 from reportgen.base.errors import Fault, Mark, Where
 from reportgen.base.files import contents, leads_out
 from reportgen.base.kinds import kinds
-from reportgen.base.source import MappingNode, Node, Scalar, SequenceNode, Source, read_source
-from reportgen.base.source_text import at, path_text, put, without
 from reportgen.base.units import NUMBER, Language, QuantityFault, read_number, read_quantity, read_unit
 from reportgen.base.words import as_error, close_or_known, language_of
+from reportgen.base.yaml_source import MappingNode, Node, Scalar, SequenceNode, Source, read_source
+from reportgen.base.yaml_values import at, path_text, put, without
 from reportgen.classes.roster import RosterColumn, columns, records
 from reportgen.workbook import read
 

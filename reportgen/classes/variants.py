@@ -27,11 +27,11 @@ from reportgen.assignment.common import PARTS
 from reportgen.assignment.reading import doubtful, words_beside
 from reportgen.base.errors import Fault, Mark, Where
 from reportgen.base.files import contents, overwritten, put_file, put_set, version
-from reportgen.base.limits import Limits
-from reportgen.base.source import MappingNode, Node, Scalar, Source, read_source
-from reportgen.base.source_text import at, path_text, put, quoted, text_of, without
+from reportgen.base.process_limits import Limits
 from reportgen.base.units import Language
 from reportgen.base.words import as_error, as_problem, word
+from reportgen.base.yaml_source import MappingNode, Node, Scalar, Source, read_source
+from reportgen.base.yaml_values import at, path_text, put, quoted, text_of, without
 from reportgen.cases import opened
 from reportgen.classes.draw import Draw, DrawnVariant, judge_of, shared
 from reportgen.classes.earlier_draw import DROPPED, MARKED, REDRAWN, read_earlier, students_named

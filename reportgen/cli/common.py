@@ -14,15 +14,15 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, get_args, get_origin,
 import typer
 from typer.core import TyperGroup
 
-from reportgen.base import formats
+from reportgen.base import output_formats
 from reportgen.base.errors import AssignmentError, Fault, ReportgenError
 from reportgen.base.files import is_stream, overwritten, put_file, write_stream
 from reportgen.base.files import version as own_version
-from reportgen.base.standards import KNOWN, NONE, STANDARDS, Standards
+from reportgen.base.pdf_standards import KNOWN, NONE, STANDARDS, Standards
 from reportgen.base.template_folders import Language, languages
 
 if TYPE_CHECKING:
-    from reportgen.base.made import Put
+    from reportgen.base.provenance import Put
 
 AT_FAULT, WRONG_USAGE, SYSTEM, INTERRUPTED = 1, 2, 3, 130
 ENDED = frozenset({"SIGTERM", "SIGHUP"})
@@ -73,12 +73,12 @@ def offered(known: Iterable[str]) -> str:
 
 def format_option(product: str) -> Any:
     """Return the option `--format` of a command that writes a product in the formats of the table."""
-    return typer.Option("--format", metavar="LIST", help=offered(formats.names(product)))
+    return typer.Option("--format", metavar="LIST", help=offered(output_formats.names(product)))
 
 
 def usual_formats(product: str) -> str:
     """Return the default formats of a product, as its option writes them."""
-    return ",".join(formats.usual(product))
+    return ",".join(output_formats.usual(product))
 
 
 def _use_templates(folder: Path | None) -> Path | None:
@@ -224,8 +224,8 @@ def refuse_inputs(outputs: Iterable[Path], inputs: Sequence[Path | None], lang: 
 def refuse(faults: Iterable[Fault], file: Path, lang: Language | None) -> None:
     """Raise `AssignmentError` with these faults, if there are any, in the language of a file."""
     if listed := list(faults):
-        from reportgen.base.source import read_source
         from reportgen.base.words import as_error, language_of
+        from reportgen.base.yaml_source import read_source
 
         raise as_error(listed, lang or language_of(read_source(file)))
 
@@ -255,8 +255,8 @@ def language_of_run(arguments: Sequence[str]) -> None:
 
 
 def _asked_for(arguments: Sequence[str]) -> Iterator[Language]:
-    from reportgen.base.source import Source, text_in
     from reportgen.base.words import language_of
+    from reportgen.base.yaml_source import Source, text_in
 
     line = " ".join(arguments).replace("--lang=", "--lang ")
     yield from (language for language in languages() if re.search(rf"(^| )--lang {language}( |$)", line))

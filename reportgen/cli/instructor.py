@@ -10,7 +10,7 @@ from typing import Annotated, Any
 import typer
 
 from reportgen.base.files import put_files, reported, standing
-from reportgen.base.formats import PRODUCTS, chosen, names
+from reportgen.base.output_formats import PRODUCTS, chosen, names
 from reportgen.cli.common import (
     AT_FAULT,
     INTERRUPTED,
@@ -194,7 +194,7 @@ def key(
     """Write the answer key of each FILE. It has every value with the bands within which it is right, in DIR/<id>/."""
     from reportgen import api
     from reportgen.base.files import scratch
-    from reportgen.base.made import put_made
+    from reportgen.base.provenance import put_made
 
     formats = listed(format, api.KEY_FORMATS, "--format", "no_format", lang)
     standards = kept(standard, lang)

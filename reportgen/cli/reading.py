@@ -18,14 +18,14 @@ def docs(
     lang: LangOption = None,
 ) -> None:
     """Print a PAGE of the documentation, or list the pages. README is where to begin."""
-    from reportgen.base import pages
+    from reportgen.base import documentation
     from reportgen.base.words import unknown
 
     with ending(lang):
-        known = pages.pages(lang)
+        known = documentation.pages(lang)
         if page is None:
             width = max(map(len, known))
-            print(*(f"{name:{width}}  {pages.heading(path)}" for name, path in known.items()), sep="\n")
+            print(*(f"{name:{width}}  {documentation.heading(path)}" for name, path in known.items()), sep="\n")
             return
         name = next((name for name in known if name.casefold() == page.casefold().removesuffix(".md")), None)
         if name is None:
@@ -33,7 +33,7 @@ def docs(
         if browser:
             import webbrowser
 
-            print(made := pages.as_html(known[name]))
+            print(made := documentation.as_html(known[name]))
             webbrowser.open(made.as_uri())
         else:
             _show(known[name].read_text(encoding="utf-8"))

@@ -14,7 +14,7 @@ import typer
 
 from reportgen.base.errors import Fault, Mark
 from reportgen.base.files import is_stream, put_set, reported, standing
-from reportgen.base.formats import names
+from reportgen.base.output_formats import names
 from reportgen.cli.common import (
     AT_FAULT,
     USUAL_STANDARDS,
@@ -103,7 +103,7 @@ def sheet(
     """Lay the plans out on drawing sheets, true to scale. They go to DIR/<id>/sheet-1.pdf, sheet-1.dxf, …."""
     from reportgen import api
     from reportgen.base.files import scratch
-    from reportgen.base.made import hash_of, put_made
+    from reportgen.base.provenance import hash_of, put_made
 
     formats = listed(format, api.SHEET_FORMATS, "--format", "no_format", lang)
     standards = kept(standard, lang)
@@ -222,7 +222,7 @@ def _pdf_writer(path: Path, out: Path) -> Callable[[Callable[[], bytes], Languag
     """Return a function that writes each finished report as PDF, whole or not at all; it reports errors in one line."""
     from reportgen.api import made_of
     from reportgen.base.errors import ReportgenError
-    from reportgen.base.made import put_made
+    from reportgen.base.provenance import put_made
 
     def write(pdf_of_report: Callable[[], bytes], language: Language) -> None:
         try:
@@ -258,7 +258,7 @@ def solve(
 ) -> None:
     """Compute motion, forces and torque. They are printed as tables, or written in SI units."""
     from reportgen import api
-    from reportgen.base.made import put_made
+    from reportgen.base.provenance import put_made
 
     formats = listed(format, api.RESULT_FORMATS, "--format", "no_format", lang) if format is not None else ()
 
@@ -350,7 +350,7 @@ def kinds(lang: LangOption = None) -> None:
     """List the machines that are known, a line each."""
     from reportgen.base.kinds import title
     from reportgen.base.languages import setting_of
-    from reportgen.base.whole import offered
+    from reportgen.base.translation_coverage import offered
     from reportgen.base.words import spoken
 
     language = lang or spoken()

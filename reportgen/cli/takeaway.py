@@ -53,7 +53,7 @@ def figure(
     from reportgen import api
     from reportgen.api import figures
     from reportgen.base.files import scratch
-    from reportgen.base.made import put_made
+    from reportgen.base.provenance import put_made
 
     formats = listed(format, figures.FIGURE_FORMATS, "--format", "no_format", lang)
     shown = tuple(dict.fromkeys(name.strip() for name in layers.split(",") if name.strip()))
@@ -93,7 +93,7 @@ def plot(
     from reportgen import api
     from reportgen.api import figures
     from reportgen.base.files import scratch
-    from reportgen.base.made import put_made
+    from reportgen.base.provenance import put_made
 
     formats = listed(format, figures.PLOT_FORMATS, "--format", "no_format", lang)
     ids = tuple(dict.fromkeys(name.strip() for name in of.split(",") if name.strip()))

@@ -21,7 +21,7 @@ def words(
     """Compare the words of a language with the English ones: what is missing, what says something else, by its line."""
     from reportgen.api import wording
     from reportgen.base.template_folders import LANGUAGE_FILE, languages
-    from reportgen.base.whole import offered
+    from reportgen.base.translation_coverage import offered
     from reportgen.base.words import spoken
 
     folder = wording.folder_of(place)

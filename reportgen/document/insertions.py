@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, get_args
 
-from reportgen.base.shown import text as as_text
+from reportgen.base.template_access import text as as_text
 from reportgen.document import Inline, InlineMath, Inlines, Text, Value
 from reportgen.document.markdown import SECRET
 from reportgen.document.prose import NamedPoint, inlines_of

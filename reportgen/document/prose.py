@@ -39,13 +39,13 @@ from jinja2.utils import pass_context
 
 from reportgen.base.errors import ReportgenError, TemplateError
 from reportgen.base.files import keep, kept
-from reportgen.base.limits import TEMPLATES, LimitError
-from reportgen.base.shown import shown
-from reportgen.base.shown import text as as_text
-from reportgen.base.source import STRANGE
+from reportgen.base.process_limits import TEMPLATES, LimitError
+from reportgen.base.template_access import shown
+from reportgen.base.template_access import text as as_text
 from reportgen.base.template_folders import DEFAULT_LANGUAGE
 from reportgen.base.units import MINUS, Language
 from reportgen.base.words import find, homes, of_file, refuse_strangers, word
+from reportgen.base.yaml_source import STRANGE
 from reportgen.document import BlankLine, Block, InlineMath, Inlines, Reference, Section, Text, Value, dialect, markdown
 from reportgen.document.dialect import (
     LONGEST,

@@ -19,12 +19,12 @@ from jinja2 import Environment, nodes
 from reportgen.base.errors import Fault, Mark, TemplateError
 from reportgen.base.field_words import CHOICES
 from reportgen.base.field_words import SECTION as FIELDS
-from reportgen.base.gaps import gaps
 from reportgen.base.kinds import SAMPLE
 from reportgen.base.languages import MobilityNotation, read_setting
-from reportgen.base.source import MappingNode, Node, Scalar, SequenceNode, Source, plain, read_own, text_in
+from reportgen.base.placeholders import gaps
 from reportgen.base.template_folders import LANGUAGE_FILE, MACHINES, REFERENCE, TOPICS, templates
 from reportgen.base.words import MESSAGES_SECTION, SECTION, Passage, sections
+from reportgen.base.yaml_source import MappingNode, Node, Scalar, SequenceNode, Source, plain, read_own, text_in
 
 GLOSSARY = "glossary.yaml"
 TABLES = frozenset({SECTION, FIELDS, CHOICES, MESSAGES_SECTION})

@@ -20,7 +20,7 @@ import numpy as np
 from jinja2 import Undefined
 from jinja2.exceptions import SecurityError
 
-from reportgen.base import shown
+from reportgen.base import template_access
 from reportgen.document.markdown import SECRET
 
 PLAIN = frozenset((str, int, float, bool, type(None)))
@@ -75,7 +75,7 @@ class Values:
             return value
         if kind is tuple or kind is list:
             return tuple(map(self.plain, value))
-        if shown.members(kind) or isinstance(value, Mapping):
+        if template_access.members(kind) or isinstance(value, Mapping):
             return self._token(value, Token)
         match value:
             case Token():
@@ -104,12 +104,12 @@ class Values:
 
     def member(self, of: Token, name: Any) -> Any:
         """Return a shown member, or an entry, of a token's value.  Raises `LookupError`."""
-        return self.plain(shown.member(self.own(of), self.own(name)))
+        return self.plain(template_access.member(self.own(of), self.own(name)))
 
     def members(self, of: Token) -> Iterable[Any]:
         """The names of all of them."""
         held = self.own(of)
-        return held if isinstance(held, Mapping) else shown.members(type(held)) - {"__str__"}
+        return held if isinstance(held, Mapping) else template_access.members(type(held)) - {"__str__"}
 
     def items(self, of: Any) -> tuple[Any, ...]:
         """Return the items that a loop iterates over: those of a list, or the keys of a mapping.  Raises
@@ -124,7 +124,7 @@ class Values:
 
     def text(self, value: Any) -> str:
         """Return a value as text.  Raises `TypeError` for a value that has no text."""
-        return shown.text(self.own(value))
+        return template_access.text(self.own(value))
 
     def call(self, called: Any, arguments: Iterable[Any], named: Mapping[str, Any]) -> Any:
         """Call a function.  Raises `SecurityError` if it is not a function, `TypeError` for wrong arguments."""

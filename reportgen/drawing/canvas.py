@@ -10,7 +10,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import reduce
 
-from reportgen.base.settled import settled
+from reportgen.base.stable_digits import settled
 from reportgen.drawing import Content, Description, Item, Scene, style
 from reportgen.drawing.description import fact
 from reportgen.drawing.geometry import bounds, corners_of, moved

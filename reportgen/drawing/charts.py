@@ -12,7 +12,7 @@ from itertools import chain, count
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from reportgen.base.settled import first_greatest, first_least, settled
+from reportgen.base.stable_digits import first_greatest, first_least, settled
 from reportgen.base.units import nice_up
 from reportgen.drawing import (
     Arc,

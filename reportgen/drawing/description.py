@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from reportgen.base.settled import first_greatest, first_least, significant
+from reportgen.base.stable_digits import first_greatest, first_least, significant
 from reportgen.base.units import rounded
 from reportgen.drawing.diagram import Content, Diagram, PlottedCurve
 from reportgen.formula import Number

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from itertools import combinations
 from typing import Literal
 
-from reportgen.base.settled import settled
+from reportgen.base.stable_digits import settled
 from reportgen.drawing import Arc, Arrow, Circle, Content, Item, Line, Polyline, Scene, style
 from reportgen.drawing.canvas import Canvas, finish
 from reportgen.drawing.description import Fact, PaperLength, direction, fact, pointing, turning

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reportgen.base.arrays import Complexes, Flags
-from reportgen.base.settled import settled
+from reportgen.base.stable_digits import settled
 from reportgen.drawing import Arc, Arrow, Circle, Hatch, Item, Label, Line, Pen, Polyline
 from reportgen.drawing.label_size import box
 

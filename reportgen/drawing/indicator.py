@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from reportgen.base.settled import settled
+from reportgen.base.stable_digits import settled
 from reportgen.base.units import nice_up
 from reportgen.drawing import Arrow, Circle, Content, Item, Label, Line, Pen, Polyline, Scene, style
 from reportgen.drawing.canvas import Canvas

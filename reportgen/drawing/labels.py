@@ -19,7 +19,7 @@ from functools import cached_property, lru_cache, reduce
 import numpy as np
 
 from reportgen.base.arrays import Complexes, Flags, Floats
-from reportgen.base.settled import settled
+from reportgen.base.stable_digits import settled
 from reportgen.drawing import Arc, Circle, Content, Item, Label, Line, Pen, Polyline, style
 from reportgen.drawing.geometry import Ink, frame, overlap, segments
 from reportgen.drawing.label_size import Box, box

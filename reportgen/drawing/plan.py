@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 from itertools import chain
 from typing import Generic, Literal, TypeVar
 
-from reportgen.base.settled import settled
+from reportgen.base.stable_digits import settled
 from reportgen.base.units import SERIES
 from reportgen.drawing import Arrow, Circle, Content, Item, Label, Line, Pen, Polyline, Scene, style
 from reportgen.drawing.canvas import MARGIN, Canvas, finish, settle

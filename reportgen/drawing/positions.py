@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from reportgen.base.arrays import Complexes
-from reportgen.base.settled import settled
+from reportgen.base.stable_digits import settled
 from reportgen.drawing import Arc, Arrow, Circle, Content, Item, Line, Pen, Polyline, Scene, style
 from reportgen.drawing.canvas import Canvas, finish
 from reportgen.drawing.description import Description, Fact, PaperLength, fact, listed, pointing, turning

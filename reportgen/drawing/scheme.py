@@ -12,7 +12,7 @@ from itertools import combinations
 import numpy as np
 
 from reportgen.base.arrays import Complexes, Floats
-from reportgen.base.settled import settled
+from reportgen.base.stable_digits import settled
 from reportgen.drawing import Arc, Arrow, Circle, Content, Item, Label, Line, Pen, Scene, style
 from reportgen.drawing.canvas import Canvas, finish, settle
 from reportgen.drawing.coils import coil_symbols

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reportgen.base.arrays import Complexes, Flags, Floats
-from reportgen.base.settled import settled
+from reportgen.base.stable_digits import settled
 from reportgen.drawing.geometry import Ink, overlap
 
 Indices = NDArray[np.intp]

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from reportgen.base.settled import settled
+from reportgen.base.stable_digits import settled
 from reportgen.drawing import Arc, Arrow, Circle, Content, Hatch, Item, Label, Line, Polyline, Scene, style
 from reportgen.drawing.animation import (
     Animation,

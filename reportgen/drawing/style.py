@@ -11,7 +11,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from reportgen.base.settled import settled
+from reportgen.base.stable_digits import settled
 from reportgen.base.units import rounded
 from reportgen.drawing import Arc, Circle, Hatch, Item, Line, Pen, Polyline
 from reportgen.drawing.geometry import clipped, polar, rectangle, unit

@@ -8,8 +8,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
-from reportgen.base.gaps import NO_LETTER
-from reportgen.base.shown import view
+from reportgen.base.placeholders import NO_LETTER
+from reportgen.base.template_access import view
 from reportgen.base.units import Given
 from reportgen.case.finished import finished
 from reportgen.document import (

@@ -12,7 +12,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from reportgen.base.shown import view
+from reportgen.base.template_access import view
 from reportgen.base.units import MM
 from reportgen.document import Equation, Inline, InlineMath, Inlines, Text, Value, listed
 from reportgen.document.prose import NamedPoint

@@ -14,7 +14,7 @@ from xml.sax.saxutils import escape
 import numpy as np
 
 from reportgen.base.errors import NotOfferedError, UnknownNameError
-from reportgen.base.formats import chosen, names, rows
+from reportgen.base.output_formats import chosen, names, rows
 from reportgen.base.units import Language
 from reportgen.base.words import unknown, word
 from reportgen.case import Case, bounded

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from reportgen.base.shown import view
+from reportgen.base.template_access import view
 from reportgen.document.prose import NamedPoint
 from reportgen.formula import ids
 from reportgen.machine.loads import carriers

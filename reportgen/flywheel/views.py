@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from reportgen.base.shown import view
+from reportgen.base.template_access import view
 from reportgen.catalogue.topic_sections import sections_of
 from reportgen.document import Paragraph, Table, Value
 from reportgen.document.paper import FigureScenes

@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
-from reportgen.base.shown import view
+from reportgen.base.template_access import view
 from reportgen.base.units import MM
 from reportgen.derivation.loads import Edge, Polygon
 from reportgen.document import FIRST_COLUMN, Column, Inlines, Table, Text

@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reportgen.base.arrays import Flags
-from reportgen.base.shown import shown
+from reportgen.base.template_access import shown
 from reportgen.formula.evaluation import inv
 from reportgen.gears import train_formulas as formulas
 from reportgen.gears.train_formulas import TrainScheme, over_teeth

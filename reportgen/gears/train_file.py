@@ -10,7 +10,7 @@ from pydantic import Field
 
 from reportgen.assignment.common import Part
 from reportgen.assignment.fields import Decimal, Interval, Quantity, Ratio, RotationalSpeed, Whole
-from reportgen.base.shown import shown
+from reportgen.base.template_access import shown
 from reportgen.base.units import Given
 from reportgen.gears.train import LEAST_OUTER, MOST_SATELLITES, Demand, TrainChoice, choice
 

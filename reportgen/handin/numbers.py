@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from reportgen.base.languages import decimal_mark, typed_units
-from reportgen.base.typed import SPACES
+from reportgen.base.typed_characters import SPACES
 from reportgen.base.units import Language, QuantityFault
 from reportgen.case.key import KeyRow
 from reportgen.marking.key import typed_unit

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 
 from reportgen.base.errors import Mark
-from reportgen.base.typed import DOTS, MINUSES, UNSEEN
+from reportgen.base.typed_characters import DOTS, MINUSES, UNSEEN
 from reportgen.handin.word_nodes import XmlNode
 
 OBJECT = "\ufffc"

@@ -11,7 +11,7 @@ import numpy as np
 
 from reportgen import document as tree
 from reportgen.base.errors import Problem
-from reportgen.base.settled import significant
+from reportgen.base.stable_digits import significant
 from reportgen.base.units import Language, rounded, write
 from reportgen.case.key import Key, KeyRow
 from reportgen.case.wording import sentence

@@ -15,10 +15,10 @@ import numpy as np
 
 from reportgen.assignment.reading import placed
 from reportgen.base.errors import Finding
-from reportgen.base.source import read_source
 from reportgen.base.template_folders import search_path
 from reportgen.base.units import Language
 from reportgen.base.words import as_error, close_or_known, load_words
+from reportgen.base.yaml_source import read_source
 from reportgen.case import Case, CaseOfParts
 from reportgen.case.key import Key, KeyRow, Role, headed_chapters
 from reportgen.case.wording import BY_FORMULA, OPEN, definition_of, phrase

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from reportgen import document as tree
-from reportgen.base.settled import significant
+from reportgen.base.stable_digits import significant
 from reportgen.base.units import significant_decimals
 from reportgen.case.key import Key, KeyRow, PartOfKey
 from reportgen.document import Cell, Column, Document, InlineMath, Inlines, Paragraph, Table, Text, plain

@@ -10,7 +10,7 @@ from reportgen.base import units
 from reportgen.base.chinese import narrow
 from reportgen.base.languages import DecimalMark as DecimalMark
 from reportgen.base.languages import decimal_mark as language_mark
-from reportgen.base.typed import DASHES, RAISED_MINUS, SPACES, plain_signs
+from reportgen.base.typed_characters import DASHES, RAISED_MINUS, SPACES, plain_signs
 from reportgen.base.units import Dimension, Language, QuantityFault
 
 BLANKS = frozenset({"", "-", "–", "—", "−", "…", "...", "?", "/"})

@@ -20,7 +20,7 @@ import numpy as np
 from reportgen.base import units
 from reportgen.base.errors import Fault, Mark, Problem
 from reportgen.base.template_folders import languages
-from reportgen.base.typed import plain_signs
+from reportgen.base.typed_characters import plain_signs
 from reportgen.base.units import Language, QuantityFault
 from reportgen.base.words import as_error, as_problem, common_words
 from reportgen.case.key import Key, KeyRow, Role

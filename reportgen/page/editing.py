@@ -24,7 +24,10 @@ from reportgen.assignment.schema import file_schema, places
 from reportgen.base.errors import Fault, Mark, Problem, ReportgenError, Where
 from reportgen.base.files import contents, renew_file
 from reportgen.base.kinds import kinds, titles
-from reportgen.base.source import (
+from reportgen.base.template_folders import REFERENCE
+from reportgen.base.units import Language, QuantityFault, read_quantity, read_unit
+from reportgen.base.yaml_edit import EditError, as_list, exchanged, with_key, with_value, without
+from reportgen.base.yaml_source import (
     LARGEST,
     MOST_TOKENS,
     MappingNode,
@@ -38,10 +41,7 @@ from reportgen.base.source import (
     read_text,
     text_in,
 )
-from reportgen.base.source_edit import EditError, as_list, exchanged, with_key, with_value, without
-from reportgen.base.source_text import at, put
-from reportgen.base.template_folders import REFERENCE
-from reportgen.base.units import Language, QuantityFault, read_quantity, read_unit
+from reportgen.base.yaml_values import at, put
 from reportgen.page import html
 from reportgen.page.dragging import Resident
 from reportgen.page.fields import Form, written_at

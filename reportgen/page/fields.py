@@ -18,9 +18,9 @@ from reportgen.assignment.schema import Schema, alternatives, alternatives_to, c
 from reportgen.base.errors import Where
 from reportgen.base.field_words import FieldWords, choice_words, field_words, group_titles
 from reportgen.base.kinds import kinds, titles
-from reportgen.base.source import MappingNode, Node, Scalar, SequenceNode, Source
-from reportgen.base.source_text import at, flow, path_text
 from reportgen.base.units import Language
+from reportgen.base.yaml_source import MappingNode, Node, Scalar, SequenceNode, Source
+from reportgen.base.yaml_values import at, flow, path_text
 
 SCALARS = {"string", "number", "integer", "boolean", "null"}
 NEVER = ("kind",)

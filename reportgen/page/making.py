@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from reportgen.base.steps import ASKED, MARK
+from reportgen.base.progress import ASKED, MARK
 
 LAST_LINES = 12
 """Number of lines of a process's error output that are reported."""

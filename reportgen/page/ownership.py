@@ -17,9 +17,9 @@ import numpy as np
 from reportgen import catalogue
 from reportgen.assignment import Assignment
 from reportgen.base.errors import Where
-from reportgen.base.source import MappingNode, Node, Scalar, SequenceNode, Source
-from reportgen.base.source_text import put
 from reportgen.base.units import NUMBER
+from reportgen.base.yaml_source import MappingNode, Node, Scalar, SequenceNode, Source
+from reportgen.base.yaml_values import put
 from reportgen.machine import Crank, Dyad, Guide, Linkage
 from reportgen.machine.analysis import Machine, analyse
 

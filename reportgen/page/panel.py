@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from reportgen.base.languages import decimal_mark
-from reportgen.base.settled import ALIKE, settled, significant
+from reportgen.base.stable_digits import ALIKE, settled, significant
 from reportgen.base.units import Language, rounded, write
 from reportgen.document.alt_text import sentences, within
 from reportgen.drawing import Content, Label

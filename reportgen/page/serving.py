@@ -18,7 +18,7 @@ from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from typing import Any
 from urllib.parse import urlsplit
 
-from reportgen.base.source import LARGEST
+from reportgen.base.yaml_source import LARGEST
 from reportgen.page.live import PART, LiveSession
 
 HOST = "127.0.0.1"

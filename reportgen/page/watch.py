@@ -17,10 +17,10 @@ from typing import Protocol, TextIO
 from reportgen.assignment import parts
 from reportgen.base.errors import ReportgenError
 from reportgen.base.files import reported
-from reportgen.base.source import read_source
 from reportgen.base.template_folders import templates
 from reportgen.base.units import Language
 from reportgen.base.words import language_of
+from reportgen.base.yaml_source import read_source
 from reportgen.case import Case
 from reportgen.document import Document
 from reportgen.page.choosing import Chooser

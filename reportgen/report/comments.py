@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from reportgen.base.shown import view
+from reportgen.base.template_access import view
 from reportgen.document import InlineMath, Inlines, Text, Value, listed
 from reportgen.formula import ids
 from reportgen.machine import DRIVER, GROUND

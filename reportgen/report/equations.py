@@ -11,8 +11,8 @@ from typing import Any
 
 import numpy as np
 
-from reportgen.base.gaps import NO_LETTER
 from reportgen.base.languages import setting_of
+from reportgen.base.placeholders import NO_LETTER
 from reportgen.derivation.loads import Edge, Polygon
 from reportgen.derivation.motion import What
 from reportgen.derivation.sides import Side

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
-from reportgen.base.shown import shown, view
+from reportgen.base.template_access import shown, view
 from reportgen.derivation.loads import Polygon
 from reportgen.derivation.sides import Scheme, Side, image, sides
 from reportgen.document.prose import NamedPoint

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from reportgen.base.shown import shown
+from reportgen.base.template_access import shown
 from reportgen.formula import ids
 from reportgen.machine.loads import Applied, Torque
 from reportgen.report.report import Report

@@ -13,9 +13,9 @@ from string import Formatter
 from typing import TYPE_CHECKING, Any
 
 from reportgen.base.errors import TemplateError
-from reportgen.base.gaps import place_of
-from reportgen.base.shown import member
-from reportgen.base.shown import text as as_text
+from reportgen.base.placeholders import place_of
+from reportgen.base.template_access import member
+from reportgen.base.template_access import text as as_text
 from reportgen.base.units import MM
 from reportgen.base.words import unfilled
 from reportgen.derivation.motion import POLES

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from reportgen.base.settled import settled, significant
+from reportgen.base.stable_digits import settled, significant
 from reportgen.base.units import MM, nice_up
 from reportgen.derivation.loads import Edge, Polygon
 from reportgen.derivation.motion import POLES, What

@@ -7,7 +7,7 @@ from functools import partial
 from operator import attrgetter
 from typing import Any
 
-from reportgen.base.shown import shown
+from reportgen.base.template_access import shown
 from reportgen.report import (
     chapters,
     comments,

@@ -9,8 +9,8 @@ from pathlib import Path
 from reportgen.assignment.reading import placed
 from reportgen.base.errors import AssignmentError, Finding, SheetError
 from reportgen.base.languages import setting_of
-from reportgen.base.source import read_source
 from reportgen.base.words import as_error, word
+from reportgen.base.yaml_source import read_source
 from reportgen.case import Case, CaseOfParts, MachineAnalysis
 from reportgen.drawing.plates import DrawingPlate
 from reportgen.drawing.sheet import DrawingSheet, PlacedScene, TooLargeError

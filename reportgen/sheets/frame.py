@@ -16,10 +16,10 @@ from reportgen.assignment.common import Part
 from reportgen.assignment.fields import Decimal, Flag, Interval, OneLine
 from reportgen.assignment.reading import placed, read_model
 from reportgen.base.errors import Finding, Where
-from reportgen.base.source import read_source
 from reportgen.base.template_folders import templates
 from reportgen.base.units import Language
 from reportgen.base.words import as_error, close_or_known
+from reportgen.base.yaml_source import read_source
 from reportgen.case import Case
 from reportgen.drawing import Anchor, Description, Item, Label, Line, Pen, Polyline, Scene
 from reportgen.drawing.description import fact

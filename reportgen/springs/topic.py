@@ -16,7 +16,7 @@ from pydantic import Field
 from reportgen.assignment.common import Part
 from reportgen.assignment.fields import Either, Quantity, Reader, Whole, fault, quantity
 from reportgen.base.errors import Finding, Where
-from reportgen.base.shown import view
+from reportgen.base.template_access import view
 from reportgen.base.units import Given, measures
 from reportgen.catalogue.declared_loads import LAST_LINK, MOST_LOADS, Link, Name, PointName, named, on_link, pins
 from reportgen.catalogue.topic_sections import Opening, TopicData, TopicParameters, TopicSection

@@ -22,9 +22,9 @@ from typing import TYPE_CHECKING, Any
 
 from reportgen.base.errors import CellMark, Fault, Mark
 from reportgen.base.files import contents
-from reportgen.base.source import decoded
 from reportgen.base.units import Language
 from reportgen.base.words import as_error
+from reportgen.base.yaml_source import decoded
 from reportgen.workbook.number_format import displayed
 from reportgen.workbook.package import (
     CONTENT_TYPES,

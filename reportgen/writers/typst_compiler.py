@@ -12,8 +12,8 @@ from pathlib import Path
 from typing import Any, Literal
 
 from reportgen.base.errors import OutputWarning, TypesetterError
-from reportgen.base.limits import give_memory_back
-from reportgen.base.standards import STANDARDS, Standards, titled
+from reportgen.base.pdf_standards import STANDARDS, Standards, titled
+from reportgen.base.process_limits import give_memory_back
 from reportgen.base.words import word
 from reportgen.writers.typst_fonts import MissingLettersWarning, sought
 

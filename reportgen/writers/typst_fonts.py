@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from reportgen.base.errors import OutputWarning
-from reportgen.base.standards import Standards, titled
+from reportgen.base.pdf_standards import Standards, titled
 from reportgen.base.words import word
 
 COMMON = re.compile("[\u0000-\u024f\u0300-\u052f\u1e00-\u2bff\u3000-\u3003\ufb00-\ufb06\ufe00-\ufe0f]+")

@@ -7,7 +7,7 @@ import unicodedata
 import pytest
 
 from reportgen.base.chinese import full_name, is_gbk, joined, narrow
-from reportgen.base.source import decoded, encoding_of
+from reportgen.base.yaml_source import decoded, encoding_of
 
 ROSTER = "学号,姓名,班级\n2021010234,王小明,机械2101\n2021010235,李喆,机械2101\n"
 SHEET = (

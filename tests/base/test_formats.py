@@ -10,8 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from reportgen.base import formats
-from reportgen.base.formats import FORMATS, PRODUCTS
+from reportgen.base import output_formats
+from reportgen.base.output_formats import FORMATS, PRODUCTS
 
 ROOT = Path(__file__).parents[2]
 COMMANDS = {"report": "build", "figures": "figure", "plots": "plot", "results": "solve"}
@@ -45,9 +45,9 @@ def test_each_row_names_a_function_and_names_are_unique() -> None:
     for row in (*FORMATS, *PRODUCTS):
         assert callable(row.load()), row
     for product in dict.fromkeys(row.product for row in FORMATS):
-        known = formats.names(product)
+        known = output_formats.names(product)
         assert len(set(known)) == len(known)
-        assert formats.rows(product) == formats.chosen(product, known)
+        assert output_formats.rows(product) == output_formats.chosen(product, known)
 
 
 @pytest.mark.parametrize("language", ["en", "vi"])
@@ -76,7 +76,9 @@ def test_documentation_has_every_format_with_what_it_needs() -> None:
     assert listed == [
         (COMMANDS.get(row.product, row.product), row.name, ", ".join(row.needs) or "–") for row in FORMATS
     ]
-    offered = {product: ",".join(formats.names(product)) for product in dict.fromkeys(row.product for row in FORMATS)}
+    offered = {
+        product: ",".join(output_formats.names(product)) for product in dict.fromkeys(row.product for row in FORMATS)
+    }
     for product, known in offered.items():
         assert re.search(rf"^\| `reportgen {COMMANDS.get(product, product)} .*\[--format {known}\]", text, re.MULTILINE)
     assert f"[--make {','.join(product.name for product in PRODUCTS)}]" in text

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from reportgen.base.limits import LimitError, Limits, call_within
+from reportgen.base.process_limits import LimitError, Limits, call_within
 
 pytestmark = pytest.mark.skipif(os.name == "nt", reason="processes are looked for by signals")
 

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from reportgen import api
-from reportgen.base.made import MADE_OF, RECORD, Put, put_made
+from reportgen.base.provenance import MADE_OF, RECORD, Put, put_made
 from reportgen.cli import app
 from tests.report import built
 

@@ -6,7 +6,7 @@ import datetime
 
 import pytest
 
-from reportgen.base.moments import moment
+from reportgen.base.timestamps import moment
 
 
 @pytest.mark.parametrize(

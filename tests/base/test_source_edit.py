@@ -9,9 +9,9 @@ import pytest
 from reportgen import catalogue
 from reportgen.base.errors import Mark, Where
 from reportgen.base.kinds import kinds
-from reportgen.base.source import MappingNode, Node, Scalar, SequenceNode, plain, read_text
-from reportgen.base.source_edit import EditError, as_list, exchanged, with_key, with_value, without
-from reportgen.base.source_text import at
+from reportgen.base.yaml_edit import EditError, as_list, exchanged, with_key, with_value, without
+from reportgen.base.yaml_source import MappingNode, Node, Scalar, SequenceNode, plain, read_text
+from reportgen.base.yaml_values import at
 from tests.lanes import matrix
 
 TEXT = """\

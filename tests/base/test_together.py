@@ -11,7 +11,7 @@ import pytest
 
 from reportgen.base.errors import OutputError
 from reportgen.base.files import put_files
-from reportgen.base.made import RECORD, put_made
+from reportgen.base.provenance import RECORD, put_made
 
 MINE = {"mine.xlsx": b"mine"}
 OLD = {"key.pdf": b"old pdf", "key.xlsx": b"old xlsx", "key.csv": b"old csv", **MINE}

@@ -20,8 +20,8 @@ from typing import Any
 import numpy as np
 
 from reportgen import catalogue
-from reportgen.base.source import MappingNode, Scalar, Source, read_source
-from reportgen.base.source_text import at, path_text, put
+from reportgen.base.yaml_source import MappingNode, Scalar, Source, read_source
+from reportgen.base.yaml_values import at, path_text, put
 from reportgen.cases import open_case, opener
 from reportgen.page.dragging import Resident
 from reportgen.page.ownership import moved

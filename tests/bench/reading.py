@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from timeit import Timer
 
-from reportgen.base.source import LARGEST
+from reportgen.base.yaml_source import LARGEST
 from reportgen.catalogue import check
 from reportgen.workbook import read
 from reportgen.workbook.package import guarded

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from reportgen.base.source import LARGEST, MOST_FAULTS
+from reportgen.base.yaml_source import LARGEST, MOST_FAULTS
 from reportgen.catalogue import check
 from tests.broken.endless import ENDLESS, endless
 from tests.broken.rows import base

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from reportgen.base.errors import AssignmentError, Fault
-from reportgen.base.source import plain, read_text
+from reportgen.base.yaml_source import plain, read_text
 from reportgen.classes.draw import FindFaults, judge_of, pick
 from reportgen.classes.spec import Settings, Spec, read_spec
 from reportgen.classes.variants import Effort, compare, make_variants

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from reportgen.base.errors import AssignmentError, Mark
-from reportgen.base.source import Scalar
+from reportgen.base.yaml_source import Scalar
 from reportgen.classes import assess
 from reportgen.classes.assess import Graded
 from reportgen.classes.gradebooks import Participant, StudentResult, read_gradebook

@@ -9,7 +9,7 @@ import pytest
 from typer.testing import CliRunner
 
 from reportgen.base.errors import Problem
-from reportgen.base.limits import Limits
+from reportgen.base.process_limits import Limits
 from reportgen.base.words import SPOKEN
 from reportgen.classes import reading_sheets as sheets
 from reportgen.classes.platforms import Handed

@@ -12,9 +12,9 @@ from hypothesis import strategies as st
 from typer.testing import CliRunner
 
 from reportgen.base.errors import AssignmentError, Mark
-from reportgen.base.source import MappingNode, Scalar, SequenceNode, plain, read_text
-from reportgen.base.source_text import quoted, text_of
 from reportgen.base.units import Language
+from reportgen.base.yaml_source import MappingNode, Scalar, SequenceNode, plain, read_text
+from reportgen.base.yaml_values import quoted, text_of
 from reportgen.classes.spec import Spec, read_spec
 from reportgen.cli import app
 from reportgen.workbook import Book, BookSheet, write_xlsx

@@ -9,8 +9,8 @@ import pytest
 
 from reportgen import api
 from reportgen.base.errors import AssignmentError, Mark
-from reportgen.base.source import Scalar, plain, read_text
-from reportgen.base.source_text import put
+from reportgen.base.yaml_source import Scalar, plain, read_text
+from reportgen.base.yaml_values import put
 from reportgen.classes.draw import judge_of
 from reportgen.classes.roster import read_roster
 from reportgen.classes.spec import read_spec

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 import typer
 
-from reportgen.base.pages import as_html, heading, pages
+from reportgen.base.documentation import as_html, heading, pages
 from reportgen.base.template_folders import languages
 from reportgen.base.units import Language
 from reportgen.base.words import SPOKEN, helps

@@ -10,8 +10,8 @@ import pytest
 
 from reportgen import catalogue
 from reportgen.assignment import Assignment
-from reportgen.base.source import MappingNode, Scalar, Source, read_source
-from reportgen.base.source_text import at, put
+from reportgen.base.yaml_source import MappingNode, Scalar, Source, read_source
+from reportgen.base.yaml_values import at, put
 from reportgen.case import MachineAnalysis
 from reportgen.cases import open_case, opened
 from reportgen.page.dragging import Resident, tracks

@@ -15,9 +15,9 @@ from pathlib import Path
 import pytest
 
 from reportgen import catalogue
-from reportgen.base.source import read_text
-from reportgen.base.source_text import at
 from reportgen.base.units import Language
+from reportgen.base.yaml_source import read_text
+from reportgen.base.yaml_values import at
 from reportgen.cases import opener
 from reportgen.page.watch import edited
 from tests.lanes import proof

@@ -20,13 +20,13 @@ import pytest
 
 from reportgen import catalogue
 from reportgen.assignment.schema import alternatives, file_schema
-from reportgen.base import source, source_edit
+from reportgen.base import yaml_edit, yaml_source
 from reportgen.base.errors import Where
 from reportgen.base.kinds import kinds
-from reportgen.base.source import LARGEST, MappingNode, read_text
 from reportgen.base.template_folders import search_path
 from reportgen.base.units import Language
 from reportgen.base.words import load_words
+from reportgen.base.yaml_source import LARGEST, MappingNode, read_text
 from reportgen.cases import open_case
 from reportgen.page import editing, html
 from reportgen.page.choosing import Chooser
@@ -243,7 +243,7 @@ def test_what_is_refused_is_told_in_the_language_of_the_form(language: Language)
     """Every reason that the code names has its words, and no words are left over."""
     words = load_words(search_path(language))["edit"]
     named = re.compile(r'(?:EditError|RefusedChangeError)\("(\w+)"')
-    keys = {key for module in (source_edit, editing) for key in named.findall(inspect.getsource(module))}
+    keys = {key for module in (yaml_edit, editing) for key in named.findall(inspect.getsource(module))}
     assert keys == words["refused"].keys()
     assert {"ENOSPC", "EACCES", "EROFS"} <= words["reasons"].keys() <= set(errno.errorcode.values())
     full = OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
@@ -262,7 +262,7 @@ def test_more_rows_than_a_list_takes_are_told(tmp_path: Path, monkeypatch: pytes
     assert 'data-list="2000"' in form
     edited.edit({"op": "undo"})
     before = edited.path.read_bytes()
-    for module in (source, editing):
+    for module in (yaml_source, editing):
         monkeypatch.setattr(module, "MOST_TOKENS", 2000)
     for count, told in ((900, "too large"), (1100, "0, 0, …")):
         refused = put(edited, ("indicator", "intake"), ", ".join(["0"] * count), list=True)["refused"]

@@ -11,7 +11,7 @@ import pytest
 
 from reportgen import catalogue
 from reportgen.base.errors import Where
-from reportgen.base.source import MappingNode, Scalar, read_text
+from reportgen.base.yaml_source import MappingNode, Scalar, read_text
 from reportgen.page.editing import EditSession
 from tests.lanes import matrix
 from tests.page.browser import Browser

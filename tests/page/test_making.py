@@ -42,7 +42,7 @@ def test_what_is_made_is_told_with_its_files(tmp_path: Path) -> None:
 
 def test_the_steps_of_what_is_made_are_told_with_words(tmp_path: Path) -> None:
     """As `step` tells them, in their order, and nothing of them is a complaint."""
-    script = "from reportgen.base.steps import step; step('solve'); step('typeset'); import sys; sys.exit('no room')"
+    script = "from reportgen.base.progress import step; step('solve'); step('typeset'); import sys; sys.exit('no room')"
     writer, heard = maker(tmp_path, script)
     assert made(writer, heard)["complaint"] == "no room"
     assert [said["step"] for said in heard if "step" in said] == ["solve", "typeset"]

@@ -22,7 +22,7 @@ from typing import Any
 import pytest
 from typer.testing import CliRunner
 
-from reportgen.base import source, words
+from reportgen.base import words, yaml_source
 from reportgen.base.errors import TemplateError
 from reportgen.base.template_folders import languages, search_path
 from reportgen.cases import open_case
@@ -347,6 +347,6 @@ def test_words_that_cannot_be_opened_name_the_cause(tmp_path: Path, monkeypatch:
     def full(path: Path, most: int = -1) -> bytes:
         raise OSError(errno.EMFILE, os.strerror(errno.EMFILE), str(path))
 
-    monkeypatch.setattr(source, "contents", full)
+    monkeypatch.setattr(yaml_source, "contents", full)
     with pytest.raises(TemplateError, match=os.strerror(errno.EMFILE)):
         words.load_words((tmp_path,))

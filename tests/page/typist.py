@@ -16,8 +16,8 @@ from pathlib import Path
 from typing import Any
 
 from reportgen.base.errors import ReportgenError, Where
-from reportgen.base.source import Scalar, read_text
-from reportgen.base.source_text import at
+from reportgen.base.yaml_source import Scalar, read_text
+from reportgen.base.yaml_values import at
 from reportgen.case import Case
 from reportgen.page.editing import EditSession
 from reportgen.page.fields import written_at

@@ -20,9 +20,9 @@ from reportgen import api
 from reportgen.assignment import Assignment
 from reportgen.assignment.common import Extent
 from reportgen.base.kinds import kinds
-from reportgen.base.source import Source
 from reportgen.base.units import Language
 from reportgen.base.words import language_of
+from reportgen.base.yaml_source import Source
 from reportgen.case import Case
 from reportgen.cases import MachineCase, opened
 from reportgen.document import Block, Document, Figure, List, Plate

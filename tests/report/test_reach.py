@@ -16,7 +16,7 @@ import pytest
 
 from reportgen import api
 from reportgen.base.errors import TemplateError
-from reportgen.base.shown import MEMBERS
+from reportgen.base.template_access import MEMBERS
 from reportgen.cases import opened
 from reportgen.document.dialect import FILTERS
 from reportgen.document.prose import GLOBALS, Prose, _told

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from reportgen.base.made import RECORD
+from reportgen.base.provenance import RECORD
 from reportgen.writers.pdflatex import INSTALL
 from tests.commands import Done, reportgen
 from tests.report import built

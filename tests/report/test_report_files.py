@@ -14,7 +14,7 @@ from typing import Any
 import pytest
 
 from reportgen import api
-from reportgen.base.made import RECORD
+from reportgen.base.provenance import RECORD
 from reportgen.document import Contents, Section, plain
 from tests.lanes import matrix, proof
 from tests.report import built, pages

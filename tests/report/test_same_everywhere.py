@@ -18,7 +18,7 @@ import numpy as np
 import pytest
 from numpy._core import _multiarray_umath
 
-from reportgen.base.settled import first_greatest, first_least, settled, significant
+from reportgen.base.stable_digits import first_greatest, first_least, settled, significant
 from reportgen.cam.profile import greatest
 from reportgen.drawing.description import direction
 from reportgen.drawing.style import decimal

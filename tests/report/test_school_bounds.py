@@ -12,7 +12,7 @@ import pytest
 
 from reportgen import api
 from reportgen.base.errors import TemplateError
-from reportgen.base.limits import PATIENCE, TEMPLATES, Limits
+from reportgen.base.process_limits import PATIENCE, TEMPLATES, Limits
 from reportgen.base.template_folders import search_path, templates
 from reportgen.base.units import Language
 from reportgen.base.words import load_words
@@ -142,7 +142,7 @@ LABOUR = "{% for i in range(9000) %}{{ figure('scheme', 'fig.s.' ~ i, 'A') }}\n\
 
 @pytest.mark.parametrize("language", matrix(["en", "vi"], ["en"]))
 def test_a_greedy_template_is_ended_and_located(school: School, language: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("reportgen.base.limits.TEMPLATES", Limits(2, 500))
+    monkeypatch.setattr("reportgen.base.process_limits.TEMPLATES", Limits(2, 500))
     file = school(f"%% foreword\n# A {{{{ unnumbered() }}}}\n\n{LABOUR}\n", language)
     # Ended from outside, as on a machine that is busy, it tells the file alone.
     with pytest.raises(TemplateError, match=rf"ours/{language}\.md:[14]: .*{GREEDY[language]}"):
@@ -157,7 +157,7 @@ def test_what_takes_long_to_typeset_is_ended_too(
     """A text that is rendered at once, and fills a thousand pages; on a slow machine its time is up a little before."""
     if engine == "latex" and shutil.which("pdflatex") is None:
         pytest.skip("pdflatex is not installed")
-    monkeypatch.setattr("reportgen.base.limits.TEMPLATES", Limits({"typst": 3, "latex": 1}[engine], 500))
+    monkeypatch.setattr("reportgen.base.process_limits.TEMPLATES", Limits({"typst": 3, "latex": 1}[engine], 500))
     labour = "{% for i in range(7000) %}word **and** *word* " + "and words " * 50 + "\n\n{% endfor %}"
     file = school(f"%% foreword\n# A {{{{ unnumbered() }}}}\n\n{labour}\n")
     with pytest.raises(TemplateError, match=rf"\.md:\d+: .*{GREEDY['en']}"):

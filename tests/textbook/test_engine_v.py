@@ -12,8 +12,8 @@ import pytest
 
 from reportgen import api
 from reportgen.base.errors import Mark
-from reportgen.base.source import MappingNode, Scalar, read_source
-from reportgen.base.source_text import put, text_of
+from reportgen.base.yaml_source import MappingNode, Scalar, read_source
+from reportgen.base.yaml_values import put, text_of
 from reportgen.catalogue import module
 from reportgen.machine.analysis import Analysis, analyse
 from tests.told import told

@@ -16,8 +16,8 @@ import pytest
 
 from reportgen import api
 from reportgen.base.errors import OutputWarning, TypesetterError
-from reportgen.base.limits import TEMPLATES, call_within
-from reportgen.base.standards import KNOWN, STANDARDS, other_than_usual, titled
+from reportgen.base.pdf_standards import KNOWN, STANDARDS, other_than_usual, titled
+from reportgen.base.process_limits import TEMPLATES, call_within
 from reportgen.base.units import Language
 from reportgen.document import Cell, Column, Document, Figure, InlineMath, Paragraph, Section, Table, Text
 from reportgen.formula import Symbol

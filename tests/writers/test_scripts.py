@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from reportgen.base.standards import STANDARDS, titled
+from reportgen.base.pdf_standards import STANDARDS, titled
 from reportgen.writers import typst_compiler
 from reportgen.writers.typst_fonts import MissingLettersWarning, added, lacking, sought, uncommon
 from tests.commands import reportgen

@@ -22,7 +22,7 @@ import yaml
 from reportgen.base import chinese, cyrillic
 from reportgen.base.errors import Fault, Mark
 from reportgen.base.files import cause, contents
-from reportgen.base.slips import misplaced, slips_above
+from reportgen.base.typing_mistakes import misplaced, slips_above
 
 ENCODINGS = {codecs.BOM_UTF8: "utf-8", codecs.BOM_UTF16_LE: "utf-16-le", codecs.BOM_UTF16_BE: "utf-16-be"}
 """Byte-order marks and the encodings that they indicate."""

@@ -12,8 +12,8 @@ from itertools import pairwise
 from typing import Any
 
 from reportgen.base.errors import Where
-from reportgen.base.source import MappingNode, Node, Scalar, SequenceNode, Source, plain, read_own, read_text
-from reportgen.base.source_text import at, entry_text, flow, item_lines, path_text, quoted
+from reportgen.base.yaml_source import MappingNode, Node, Scalar, SequenceNode, Source, plain, read_own, read_text
+from reportgen.base.yaml_values import at, entry_text, flow, item_lines, path_text, quoted
 
 _REMARK = re.compile(r"#[ \t]?(?P<entry>(?P<key>[^\s:#][^:#]*):(?:[ \t].*)?)$")
 

@@ -33,7 +33,7 @@ LARGEST_ANSWER = 30_000_000
 """Bytes that may come back."""
 ONE_THREAD = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"), "1")
 """A library's threads would each count, and would not survive a fork."""
-_BEGIN = "import sys; sys.path[:] = sys.argv[1:]; from reportgen.base.limits import serve; serve()"
+_BEGIN = "import sys; sys.path[:] = sys.argv[1:]; from reportgen.base.process_limits import serve; serve()"
 
 
 @dataclass(frozen=True, slots=True)

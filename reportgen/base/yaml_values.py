@@ -7,7 +7,7 @@ from collections.abc import Collection, Sequence
 from dataclasses import replace
 
 from reportgen.base.errors import Where
-from reportgen.base.source import MappingNode, Node, Scalar, SequenceNode, plain, read_own
+from reportgen.base.yaml_source import MappingNode, Node, Scalar, SequenceNode, plain, read_own
 
 WIDTH = 100
 _PLAIN = re.compile(r"[^\W\d_][\w/^²³⁴·.@-]*( [\w/^²³⁴·.@-]+)*|[+-]?[0-9.][\w./^²³⁴·+-]*( [\w./^²³⁴·*+-]+)*")
