@@ -14,10 +14,10 @@ from typing import TYPE_CHECKING, Any
 
 from reportgen import catalogue
 from reportgen.api import typesetting
-from reportgen.api.letters import Engine as Engine
-from reportgen.api.letters import letter_of as letter_of
+from reportgen.api.format_writers import KeyJob, ReportJob, SheetJob, dated, word_file
+from reportgen.api.report_fonts import Engine as Engine
+from reportgen.api.report_fonts import letter_of as letter_of
 from reportgen.api.typesetting import reading_ahead
-from reportgen.api.writing import KeyJob, ReportJob, SheetJob, dated, word_file
 from reportgen.assignment import Assignment
 from reportgen.assignment.common import Extent
 from reportgen.assignment.reading import inputs

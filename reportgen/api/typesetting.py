@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from contextlib import AbstractContextManager, nullcontext
 from typing import TYPE_CHECKING
 
-from reportgen.api.letters import Engine
+from reportgen.api.report_fonts import Engine
 from reportgen.assignment import Assignment
 from reportgen.base.errors import TypesetterError
 from reportgen.base.languages import setting_of

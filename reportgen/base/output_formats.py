@@ -83,17 +83,17 @@ def _imported(name: str) -> Callable[..., Any]:
 
 FORMATS = (
     # Writers of a report: ReportJob → bytes by ending; a writer may add a source for `--keep-source`.
-    Format("report", "pdf", "reportgen.api.writing:report_pdf", needs=(ENGINE,), usual=True),
-    Format("report", "html", "reportgen.api.writing:report_page"),
-    Format("report", "docx", "reportgen.api.writing:report_word", needs=(TYPST,)),
+    Format("report", "pdf", "reportgen.api.format_writers:report_pdf", needs=(ENGINE,), usual=True),
+    Format("report", "html", "reportgen.api.format_writers:report_page"),
+    Format("report", "docx", "reportgen.api.format_writers:report_word", needs=(TYPST,)),
     # Writers of a key: KeyJob → bytes.
-    Format("key", "pdf", "reportgen.api.writing:key_pdf", needs=(ENGINE,), usual=True),
-    Format("key", "xlsx", "reportgen.api.writing:key_workbook", needs=(OPENPYXL,), usual=True),
-    Format("key", "csv", "reportgen.api.writing:key_table"),
-    Format("key", "json", "reportgen.api.writing:key_json"),
+    Format("key", "pdf", "reportgen.api.format_writers:key_pdf", needs=(ENGINE,), usual=True),
+    Format("key", "xlsx", "reportgen.api.format_writers:key_workbook", needs=(OPENPYXL,), usual=True),
+    Format("key", "csv", "reportgen.api.format_writers:key_table"),
+    Format("key", "json", "reportgen.api.format_writers:key_json"),
     # Of drawing sheets: SheetJob → bytes.
-    Format("sheet", "pdf", "reportgen.api.writing:sheet_pdf", needs=(TYPST,), usual=True, stem=r"sheet-\d+"),
-    Format("sheet", "dxf", "reportgen.api.writing:sheet_dxf", needs=(EZDXF,), usual=True, stem=r"sheet-\d+"),
+    Format("sheet", "pdf", "reportgen.api.format_writers:sheet_pdf", needs=(TYPST,), usual=True, stem=r"sheet-\d+"),
+    Format("sheet", "dxf", "reportgen.api.format_writers:sheet_dxf", needs=(EZDXF,), usual=True, stem=r"sheet-\d+"),
     # Of figures: scenes, language, dots an inch (0: the usual) → bytes for each scene, or of all in one that moves.
     Format("figures", "svg", "reportgen.writers.pictures:svgs", needs=(TYPST,), usual=True, stem=".+"),
     Format("figures", "png", "reportgen.writers.pictures:pngs", needs=(TYPST,), stem=".+"),

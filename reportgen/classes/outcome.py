@@ -10,7 +10,7 @@ from itertools import groupby, islice
 from pathlib import Path
 
 from reportgen import api
-from reportgen.api.letters import Engine
+from reportgen.api.report_fonts import Engine
 from reportgen.base.errors import Fault, Mark, Problem
 from reportgen.base.files import overwritten, put_files, reported, scratch
 from reportgen.base.kinds import title

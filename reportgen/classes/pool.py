@@ -29,7 +29,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from pebble import ProcessExpired, ProcessPool, concurrent
 
 from reportgen.api import Maker
-from reportgen.api.letters import Engine
+from reportgen.api.report_fonts import Engine
 from reportgen.base.errors import AssignmentError, OutputWarning, Problem, ReportgenError
 from reportgen.base.files import version
 from reportgen.base.process_limits import ONE_THREAD, Limits, limit_memory

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, Literal, TextIO
 
 from reportgen import api
 from reportgen.api import ASKING, MAKERS, TYPESET, USUAL, Maker
-from reportgen.api.letters import Engine
+from reportgen.api.report_fonts import Engine
 from reportgen.assignment.reading import inputs
 from reportgen.base.errors import Fault, Mark, OutputError, Problem
 from reportgen.base.files import cause, held, put_set, remove_unfinished, reported, scratch

@@ -19,23 +19,23 @@ def words(
     lang: LangOption = None,
 ) -> None:
     """Compare the words of a language with the English ones: what is missing, what says something else, by its line."""
-    from reportgen.api import wording
+    from reportgen.api import language_check
     from reportgen.base.template_folders import LANGUAGE_FILE, languages
     from reportgen.base.translation_coverage import offered
     from reportgen.base.words import spoken
 
-    folder = wording.folder_of(place)
+    folder = language_check.folder_of(place)
     if not (folder / LANGUAGE_FILE).is_file():
         raise typer.BadParameter(say("no_language", lang, place=place, known=", ".join(languages())))
     with ending(lang):
-        problems = wording.compared(folder, lang or spoken())
+        problems = language_check.compared(folder, lang or spoken())
         for problem in problems:
             print(problem, file=sys.stderr)
         if sheet:
-            path = out / folder.name / wording.PROOF
+            path = out / folder.name / language_check.PROOF
             with reported():
                 path.parent.mkdir(parents=True, exist_ok=True)
-                put_file(path, wording.proof_sheet(folder, folder.name))
+                put_file(path, language_check.proof_sheet(folder, folder.name))
             print(path)
         if place in languages():
             print(say("offered", lang, language=place, known=", ".join(offered(place)) or "–"))

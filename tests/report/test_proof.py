@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from reportgen.api import wording
+from reportgen.api import language_check
 from reportgen.base.template_folders import REFERENCE, templates
 from reportgen.base.words import sections
 from reportgen.document import Emph, Inlines, Strong, Text
@@ -40,7 +40,7 @@ def test_what_the_machine_has_is_filled_in_and_the_rest_is_named() -> None:
 def test_every_section_is_there_and_the_numbers_go_on(language: str) -> None:
     import pymupdf
 
-    with pymupdf.open(stream=wording.proof_sheet(templates() / language, language)) as document:
+    with pymupdf.open(stream=language_check.proof_sheet(templates() / language, language)) as document:
         text = "\n".join(page.get_text() for page in document)
     named = set(re.findall(r"%% ([\w/-]+)", text))
     files = [path for path in (templates() / REFERENCE).rglob("*.md") if path.is_file()]
@@ -57,5 +57,5 @@ def test_every_section_is_there_and_the_numbers_go_on(language: str) -> None:
 
 
 def test_a_place_is_a_language_or_a_folder(tmp_path: Path) -> None:
-    assert wording.folder_of("vi") == templates() / "vi"
-    assert wording.folder_of(str(tmp_path)) == tmp_path
+    assert language_check.folder_of("vi") == templates() / "vi"
+    assert language_check.folder_of(str(tmp_path)) == tmp_path

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from reportgen.api import typesetting
-from reportgen.api.letters import Engine, letters_of
+from reportgen.api.report_fonts import Engine, letters_of
 from reportgen.assignment import Assignment
 from reportgen.base.languages import setting_of
 from reportgen.base.pdf_standards import STANDARDS, Standards
