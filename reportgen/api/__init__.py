@@ -234,7 +234,7 @@ def task_files(
 
     They contain no answers.
     """
-    from reportgen.assignment.handed_out import handed_out
+    from reportgen.assignment.student_copy import handed_out
     from reportgen.marking.key import Ask, key_of
     from reportgen.marking.paper import task_of
     from reportgen.marking.sheet import answer_book

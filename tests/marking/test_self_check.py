@@ -10,7 +10,7 @@ import pytest
 
 from reportgen import api
 from reportgen.api import Engine
-from reportgen.assignment.handed_out import handed_out
+from reportgen.assignment.student_copy import handed_out
 from reportgen.base.errors import AssignmentError
 from reportgen.base.units import Language
 from reportgen.cases import open_case
