@@ -8,9 +8,9 @@ from functools import cached_property
 from typing import Any
 
 from reportgen.balancing import engine_drawings, engine_motion, orders_ids
-from reportgen.balancing.engine_sheet import FACTORS, ORDERS
+from reportgen.balancing.engine_calculation import FACTORS, ORDERS
+from reportgen.balancing.engine_solution import SolvedEngine
 from reportgen.balancing.places_page import PlacesPage, bare
-from reportgen.balancing.solved_engine import SolvedEngine
 from reportgen.case.result_entries import ResultEntries
 from reportgen.case.shafts import Shaft
 from reportgen.document import Inlines, Table, Text

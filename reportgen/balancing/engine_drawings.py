@@ -9,9 +9,9 @@ from functools import partial
 from itertools import pairwise
 
 from reportgen.balancing import orders_ids
-from reportgen.balancing.engine_sheet import COUPLES, ORDERS
+from reportgen.balancing.engine_calculation import COUPLES, ORDERS
+from reportgen.balancing.engine_solution import SolvedEngine
 from reportgen.balancing.rotor_drawings import BEYOND, SHAFT, ruler
-from reportgen.balancing.solved_engine import SolvedEngine
 from reportgen.base.units import MM, nice_up
 from reportgen.drawing import Circle, Content, Item, Line, Polyline, Scene, style
 from reportgen.drawing.canvas import Canvas, finish, settle

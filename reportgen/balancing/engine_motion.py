@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reportgen.balancing import orders_ids
+from reportgen.balancing.engine_calculation import ORDERS
 from reportgen.balancing.engine_drawings import OUT, UP, banks, crank_at, piston_at
-from reportgen.balancing.engine_sheet import ORDERS
-from reportgen.balancing.solved_engine import SolvedEngine
+from reportgen.balancing.engine_solution import SolvedEngine
 from reportgen.base.units import significant_decimals
 from reportgen.drawing import Circle, Diagram, Line, Pen, PlottedCurve, Polyline, style
 from reportgen.drawing.animation import (

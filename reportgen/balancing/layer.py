@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 
 from reportgen.balancing import balance_ids
-from reportgen.balancing.balance import BalancedTurn, balanced_in, shaking_force, shaking_moment
 from reportgen.balancing.counterweights import Counterweight
+from reportgen.balancing.shaking_force import BalancedTurn, balanced_in, shaking_force, shaking_moment
 from reportgen.base.arrays import Complexes, Floats
 from reportgen.drawing import Circle, Pen, Polyline, style
 from reportgen.drawing.animation import BarScale, MovingBody, MovingItem, MovingVector, Still, Track

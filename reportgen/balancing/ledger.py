@@ -14,10 +14,10 @@ from functools import cached_property
 import numpy as np
 
 from reportgen.balancing import balance_ids
-from reportgen.balancing.balance import BalancedTurn, balanced_in, shaking_moment
 from reportgen.balancing.counterweights import CounterweightRule, CrankRod, crank_rods, four_bar, place_on_link
 from reportgen.balancing.mistakes import mistakes
-from reportgen.balancing.order_entries import enter_orders
+from reportgen.balancing.orders_ledger import enter_orders
+from reportgen.balancing.shaking_force import BalancedTurn, balanced_in, shaking_moment
 from reportgen.derivation.rests import with_rest
 from reportgen.derivation.sides import image
 from reportgen.derivation.topic_ledger import LedgerHooks

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from reportgen.balancing import balance_ids
-from reportgen.balancing.balance import round_points
+from reportgen.balancing.shaking_force import round_points
 from reportgen.formula.ledger import Ledger
 from reportgen.machine import DRIVER
 from reportgen.marking.topic_marks import MarkHooks

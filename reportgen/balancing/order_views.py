@@ -6,9 +6,9 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
 from reportgen.balancing import balance_ids
-from reportgen.balancing.balance import balanced_in
-from reportgen.balancing.order_entries import EXACT, OF_ALL, ORDERS, SENSES
 from reportgen.balancing.orders import Engine, engine
+from reportgen.balancing.orders_ledger import EXACT, OF_ALL, ORDERS, SENSES
+from reportgen.balancing.shaking_force import balanced_in
 from reportgen.balancing.stars import star
 from reportgen.document import Value
 from reportgen.document.paper import FigureScenes

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from reportgen.balancing import views
-from reportgen.balancing.balance import balanced_in
+from reportgen.balancing.shaking_force import balanced_in
 from reportgen.sheets.drawn import Drawn, Sources, table_of
 from reportgen.sheets.topic_plates import PlateHooks
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from reportgen.balancing.balance import balanced_in, shaking_force, shaking_moment
+from reportgen.balancing.shaking_force import balanced_in, shaking_force, shaking_moment
 from reportgen.case.topic_results import Entries, ResultHooks
 from reportgen.machine.analysis import Analysis, analyse
 

@@ -11,9 +11,9 @@ import numpy as np
 
 from reportgen.balancing import rotor_drawings, rotor_ids, rotor_motion
 from reportgen.balancing.places_page import PlacesPage, bare
+from reportgen.balancing.rotor_calculation import AFTER, AXES, BEFORE
 from reportgen.balancing.rotor_file import BEARINGS
-from reportgen.balancing.rotor_sheet import AFTER, AXES, BEFORE
-from reportgen.balancing.solved_rotor import SolvedRotor
+from reportgen.balancing.rotor_solution import SolvedRotor
 from reportgen.case.result_entries import ResultEntries
 from reportgen.case.shafts import Shaft
 from reportgen.document import Column, Equation, InlineMath, Inlines, Table, Text, Value

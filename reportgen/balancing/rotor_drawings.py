@@ -10,7 +10,7 @@ from functools import partial
 
 from reportgen.balancing import rotor_ids
 from reportgen.balancing.rotor_file import BEARINGS, LEFT, RIGHT
-from reportgen.balancing.solved_rotor import SolvedRotor
+from reportgen.balancing.rotor_solution import SolvedRotor
 from reportgen.base.units import MM, nice_up
 from reportgen.drawing import Arc, Circle, Item, Line, Pen, Scene, style
 from reportgen.drawing.canvas import Canvas, finish, settle

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
+from reportgen.balancing.rotor_calculation import AFTER, BEFORE
 from reportgen.balancing.rotor_drawings import (
     ARM,
     BEYOND,
@@ -21,8 +22,7 @@ from reportgen.balancing.rotor_drawings import (
     stations,
 )
 from reportgen.balancing.rotor_file import BEARINGS
-from reportgen.balancing.rotor_sheet import AFTER, BEFORE
-from reportgen.balancing.solved_rotor import SolvedRotor
+from reportgen.balancing.rotor_solution import SolvedRotor
 from reportgen.drawing import Circle, Diagram, Line, Pen, PlottedCurve, style
 from reportgen.drawing.animation import (
     Animation,

@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 
 from reportgen.balancing import balance_ids, order_views
-from reportgen.balancing.balance import BalancedTurn, balanced_in, frame_reactions, shaking_force
 from reportgen.balancing.counterweight_drawings import CounterweightDisc, with_discs
 from reportgen.balancing.ledger import AFTER, AXES, BEFORE, LETTERS
 from reportgen.balancing.order_views import factors_table
+from reportgen.balancing.shaking_force import BalancedTurn, balanced_in, frame_reactions, shaking_force
 from reportgen.base.template_access import view
 from reportgen.document import Value
 from reportgen.document.paper import FigureScenes

@@ -10,9 +10,9 @@ import pytest
 
 from reportgen import load
 from reportgen.balancing import orders_ids
+from reportgen.balancing.engine_calculation import FACTORS, ORDERS, EngineSheet
 from reportgen.balancing.engine_drawings import scheme
 from reportgen.balancing.engine_file import Parameters
-from reportgen.balancing.engine_sheet import FACTORS, ORDERS, EngineSheet
 from reportgen.cases import opened
 from reportgen.drawing import Polyline
 from reportgen.formula.sheet import Sheet

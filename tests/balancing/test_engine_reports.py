@@ -12,9 +12,9 @@ import pytest
 
 from reportgen import api
 from reportgen.balancing import orders_ids
+from reportgen.balancing.engine_calculation import COUPLES, ORDERS
 from reportgen.balancing.engine_case import EngineCase
 from reportgen.balancing.engine_drawings import UP, star
-from reportgen.balancing.engine_sheet import COUPLES, ORDERS
 from reportgen.base.template_folders import languages
 from reportgen.base.units import Language
 from reportgen.cases import open_case

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from reportgen.balancing import rotor_ids
-from reportgen.balancing.rotor_sheet import BEFORE
+from reportgen.balancing.rotor_calculation import BEFORE
 from reportgen.base.template_folders import languages
 from reportgen.cases import open_case
 from reportgen.classes.assess import Graded

@@ -11,8 +11,8 @@ import pytest
 
 from reportgen import load, solve
 from reportgen.balancing import rotor_ids
+from reportgen.balancing.rotor_calculation import AFTER, BEFORE, RotorSheet
 from reportgen.balancing.rotor_file import BEARINGS, Parameters
-from reportgen.balancing.rotor_sheet import AFTER, BEFORE, RotorSheet
 from reportgen.base.errors import AssignmentError
 from reportgen.cases import opened
 from reportgen.document import text_of

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 from reportgen.balancing import balance_ids
-from reportgen.balancing.balance import seen_from_crank
 from reportgen.balancing.counterweights import crank_rods
 from reportgen.balancing.orders import BACKWARD, FORWARD, engine
 from reportgen.balancing.piston_orders import acceleration_factor
+from reportgen.balancing.shaking_force import seen_from_crank
 from reportgen.cases import MachineCase, open_case
 from reportgen.formula import Ref
 from reportgen.formula.evaluation import evaluate

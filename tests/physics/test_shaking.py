@@ -11,7 +11,15 @@ import numpy as np
 import pytest
 
 from reportgen.balancing import balance_ids
-from reportgen.balancing.balance import (
+from reportgen.balancing.counterweights import (
+    Balancing,
+    Counterweight,
+    CounterweightRule,
+    balanced,
+    crank_rods,
+    force_balance,
+)
+from reportgen.balancing.shaking_force import (
     CrankCurve,
     balanced_in,
     balanced_turn,
@@ -21,14 +29,6 @@ from reportgen.balancing.balance import (
     seen_from_crank,
     shaking_force,
     shaking_moment,
-)
-from reportgen.balancing.counterweights import (
-    Balancing,
-    Counterweight,
-    CounterweightRule,
-    balanced,
-    crank_rods,
-    force_balance,
 )
 from reportgen.cases import MachineCase, open_case
 from reportgen.formula.sheet import Sheet

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from reportgen.balancing import balance_ids
-from reportgen.balancing.balance import shaking_force
+from reportgen.balancing.shaking_force import shaking_force
 from reportgen.cases import MachineCase, open_case
 from reportgen.document import Section
 from tests.lanes import matrix

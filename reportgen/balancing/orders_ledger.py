@@ -12,10 +12,10 @@ from collections.abc import Callable
 import numpy as np
 
 from reportgen.balancing import balance_ids
-from reportgen.balancing.balance import CrankCurve
 from reportgen.balancing.counterweights import CrankRod
 from reportgen.balancing.orders import BACKWARD, FORWARD, Engine, EngineCylinder, engine, on_sliders
 from reportgen.balancing.piston_orders import acceleration_factor, short_series
+from reportgen.balancing.shaking_force import CrankCurve
 from reportgen.formula import NOTHING, ONE, Expression, Number, Ref, Symbol, cos, ids, plus, sin, sqrt, total
 from reportgen.formula.evaluation import evaluate
 from reportgen.formula.sheet import Sheet

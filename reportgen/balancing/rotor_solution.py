@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from reportgen.balancing import rotor_ids
+from reportgen.balancing.rotor_calculation import AFTER, BEFORE, RotorSheet, resultant
 from reportgen.balancing.rotor_file import BEARINGS, LEFT, RIGHT, Parameters
-from reportgen.balancing.rotor_sheet import AFTER, BEFORE, RotorSheet, resultant
 from reportgen.case import Misconceptions
 from reportgen.case.design import DesignCase
 from reportgen.formula import PI, Expression, Number, Ref, cis, heading

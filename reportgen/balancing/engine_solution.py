@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from reportgen.balancing import orders_ids
+from reportgen.balancing.engine_calculation import COUPLES, ORDERS, EngineSheet
 from reportgen.balancing.engine_file import Parameters
-from reportgen.balancing.engine_sheet import COUPLES, ORDERS, EngineSheet
 from reportgen.balancing.piston_orders import first_term
 from reportgen.case import Misconceptions
 from reportgen.case.design import DesignCase
