@@ -11,9 +11,9 @@ from reportgen.base.arrays import Complexes, Floats
 from reportgen.base.units import significant_decimals
 from reportgen.cam.diagrams import angle_axis, axis, motion_charts, pressure_chart
 from reportgen.cam.drawings import PITCH, fitting, follower_parts, guide_walls, pivot_of
-from reportgen.cam.laws import NODE
+from reportgen.cam.motion_laws import NODE
 from reportgen.cam.profile import CamProfile
-from reportgen.cam.solved import SolvedCam
+from reportgen.cam.solution import SolvedCam
 from reportgen.drawing import Circle, Diagram, Item, Line, PlottedCurve, Polyline, style
 from reportgen.drawing.animation import (
     Animation,

@@ -13,10 +13,10 @@ from reportgen.assignment.common import Draft
 from reportgen.base.errors import Finding
 from reportgen.base.units import MM
 from reportgen.cam import file
-from reportgen.cam.design import NoCamError, touch
 from reportgen.cam.file import PerPhase, designed, exceeded, motion_of, positions_of, steep
 from reportgen.cam.formulas import lowest_of_face, valued
-from reportgen.cam.laws import PHASES, AccelerationGraph
+from reportgen.cam.inverse_design import NoCamError, touch
+from reportgen.cam.motion_laws import PHASES, AccelerationGraph
 
 if TYPE_CHECKING:
     from reportgen.assignment import Assignment

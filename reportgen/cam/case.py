@@ -11,7 +11,7 @@ import numpy as np
 from reportgen.cam import animation, views
 from reportgen.cam import sheets as sheet_of_cam
 from reportgen.cam.file import exceeded
-from reportgen.cam.solved import SolvedCam
+from reportgen.cam.solution import SolvedCam
 from reportgen.case import DriverMotion, Misconceptions
 from reportgen.case.result_entries import ResultEntries
 from reportgen.case.shafts import Shaft

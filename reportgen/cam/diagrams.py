@@ -11,9 +11,9 @@ import numpy as np
 from reportgen.base.arrays import Floats
 from reportgen.base.units import MM, nice_up
 from reportgen.cam import cam_ids
-from reportgen.cam.laws import PHASES
-from reportgen.cam.solution import HEIGHT, LEAST_POLE, TURN_ON_PAPER
-from reportgen.cam.solved import SolvedCam
+from reportgen.cam.ledger import HEIGHT, LEAST_POLE, TURN_ON_PAPER
+from reportgen.cam.motion_laws import PHASES
+from reportgen.cam.solution import SolvedCam
 from reportgen.drawing import (
     Arrow,
     Circle,

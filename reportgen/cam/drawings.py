@@ -13,7 +13,7 @@ from reportgen.base.stable_digits import first_greatest, first_least
 from reportgen.base.units import MM
 from reportgen.cam import cam_ids
 from reportgen.cam.profile import Cam, CamProfile
-from reportgen.cam.solved import SolvedCam
+from reportgen.cam.solution import SolvedCam
 from reportgen.drawing import Arc, Arrow, Circle, Hatch, Item, Line, Pen, Polyline, Scene, style
 from reportgen.drawing.canvas import Canvas, finish
 from reportgen.drawing.description import Fact, PaperLength, arrow, direction, fact, turning

@@ -25,9 +25,9 @@ from reportgen.assignment.fields import (
 )
 from reportgen.base.template_access import view
 from reportgen.base.units import MM, Given
-from reportgen.cam import design
-from reportgen.cam.design import CamLimits, Least, NoCamError
-from reportgen.cam.laws import PHASES, AccelerationGraph, FollowerLaw, FollowerMotion, law
+from reportgen.cam import inverse_design
+from reportgen.cam.inverse_design import CamLimits, Least, NoCamError
+from reportgen.cam.motion_laws import PHASES, AccelerationGraph, FollowerLaw, FollowerMotion, law
 from reportgen.cam.profile import Cam
 
 FIND = "find"
@@ -238,15 +238,15 @@ def designed(given: Parameters) -> Designed:
     )
     least, flat = None, 0.0
     if cam.flat:
-        flat = design.least_flat(cam, limits.rho)
+        flat = inverse_design.least_flat(cam, limits.rho)
         if given.seeks("r0"):
-            rounded = (replace(cam, r0=r0) for r0 in design.round_ups(flat))
-            cam = next(one for one in rounded if cam.translating or design.reaches(one))
+            rounded = (replace(cam, r0=r0) for r0 in inverse_design.round_ups(flat))
+            cam = next(one for one in rounded if cam.translating or inverse_design.reaches(one))
     elif limits.rise is not None:
         least, cam = _within(given, cam, limits)
     usual = limits.back is None and least is not None and least.back is not None
     if usual:
-        limits = replace(limits, back=design.USUAL_BY_SPRING)
+        limits = replace(limits, back=inverse_design.USUAL_BY_SPRING)
     return Designed(
         _with_roller(given, cam, limits.rho), limits, least, flat, by_form=given.closed_by == "form", usual=usual
     )
@@ -259,14 +259,16 @@ def _with_roller(given: Parameters, cam: Cam, rho: float) -> Cam:
     if not given.seeks("roller"):
         convex = NoCamError("cam-not-convex", "r0")
         return (
-            design.enlarged_until(cam, lambda one: design.least_convex_radius(one) >= rho - 1e-12, convex)
+            inverse_design.enlarged_until(
+                cam, lambda one: inverse_design.least_convex_radius(one) >= rho - 1e-12, convex
+            )
             if given.seeks("r0")
             else cam
         )
     none = NoCamError("cam-no-roller", "roller")
     if given.seeks("r0"):
-        cam = design.enlarged_until(cam, lambda one: design.largest_roller(one, rho) > 0, none)
-    if (roller := design.largest_roller(cam, rho)) <= 0:
+        cam = inverse_design.enlarged_until(cam, lambda one: inverse_design.largest_roller(one, rho) > 0, none)
+    if (roller := inverse_design.largest_roller(cam, rho)) <= 0:
         raise none
     return replace(cam, roller=roller)
 
@@ -275,25 +277,25 @@ def _within(given: Parameters, cam: Cam, limits: CamLimits) -> tuple[Least | Non
     """The least cam within the limits, and one with the sought lengths as a person rounds them."""
     motion = cam.motion
     if cam.translating:
-        least = design.least_translating(motion, limits, None if given.seeks("e") else cam.e)
+        least = inverse_design.least_translating(motion, limits, None if given.seeks("e") else cam.e)
         e = round(least.e * MM) / MM if given.seeks("e") else cam.e
         if not given.seeks("r0"):
             return least, replace(cam, e=e)
-        needed = design.least_translating(motion, limits, e).r0
-        return least, replace(cam, e=e, r0=design.rounded_up(needed))
+        needed = inverse_design.least_translating(motion, limits, e).r0
+        return least, replace(cam, e=e, r0=inverse_design.rounded_up(needed))
 
     def at(a: float) -> Least | None:
-        return design.least_oscillating(motion, limits, cam.arm, cam.opposite, a)
+        return inverse_design.least_oscillating(motion, limits, cam.arm, cam.opposite, a)
 
     if given.seeks("a"):
-        best = design.best_distance(motion, limits, cam.arm, cam.opposite).a
-        cam = replace(cam, a=next(a for a in design.round_ups(best) if at(a) is not None))
+        best = inverse_design.best_distance(motion, limits, cam.arm, cam.opposite).a
+        cam = replace(cam, a=next(a for a in inverse_design.round_ups(best) if at(a) is not None))
     least_cam = at(cam.a)
     if not given.seeks("r0"):
         return least_cam, cam
     if least_cam is None:
         raise NoCamError("cam-no-centre", "limits")
-    chosen = (replace(cam, r0=r0) for r0 in design.round_ups(least_cam.r0))
+    chosen = (replace(cam, r0=r0) for r0 in inverse_design.round_ups(least_cam.r0))
     return least_cam, next(one for one in chosen if one.psi0 <= least_cam.most + ALLOWED)
 
 
@@ -337,8 +339,8 @@ def steep(design_found: Designed) -> Iterator[tuple[float, float, float]]:
     cam = design_found.cam
     if cam.flat:
         return
-    rise = design.USUAL_RISE[cam.translating]
-    for phase, usual in (("rise", rise), ("return", rise if design_found.by_form else design.USUAL_BY_SPRING)):
+    rise = inverse_design.USUAL_RISE[cam.translating]
+    for phase, usual in (("rise", rise), ("return", rise if design_found.by_form else inverse_design.USUAL_BY_SPRING)):
         at, angle = max((extreme(cam, phase, sign) for sign in (1, -1)), key=lambda one: one[1])
         if angle > usual + ALLOWED:
             yield angle, at, usual

@@ -16,7 +16,7 @@ from reportgen.base.units import MM
 from reportgen.cam.diagrams import DEGREES_PER_MM, law_diagrams, pressure_chart
 from reportgen.cam.drawings import inversion, limit_diagram
 from reportgen.cam.profile import Cam
-from reportgen.cam.solved import SolvedCam
+from reportgen.cam.solution import SolvedCam
 from reportgen.drawing import Circle, Item, Line, Pen, Polyline, Scene, style
 from reportgen.drawing.charts import Area
 from reportgen.drawing.description import PaperLength, fact

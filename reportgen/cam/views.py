@@ -14,9 +14,9 @@ from reportgen.cam import cam_ids
 from reportgen.cam.diagrams import curvature_chart, law_diagrams, pressure_chart
 from reportgen.cam.drawings import inversion, limit_diagram
 from reportgen.cam.file import ALLOWED, Judged, exceeded, judged
-from reportgen.cam.laws import FollowerLaw, Piece
-from reportgen.cam.solution import MOVING
-from reportgen.cam.solved import SolvedCam
+from reportgen.cam.ledger import MOVING
+from reportgen.cam.motion_laws import FollowerLaw, Piece
+from reportgen.cam.solution import SolvedCam
 from reportgen.case import AskedFor
 from reportgen.case.design import DesignPage
 from reportgen.document import Cell, Column, Equation, InlineMath, Inlines, Table, Text, Value, listed

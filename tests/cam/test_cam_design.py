@@ -12,8 +12,8 @@ import pytest
 
 from reportgen.base.errors import Problem
 from reportgen.cam.case import CamCase
-from reportgen.cam.design import CamLimits, least_oscillating
-from reportgen.cam.laws import FollowerMotion, law
+from reportgen.cam.inverse_design import CamLimits, least_oscillating
+from reportgen.cam.motion_laws import FollowerMotion, law
 from reportgen.cam.profile import Cam
 from reportgen.cases import open_case
 from reportgen.catalogue import examine

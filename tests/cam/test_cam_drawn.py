@@ -12,9 +12,9 @@ import pytest
 
 from reportgen import api
 from reportgen.cam.case import CamCase
-from reportgen.cam.design import CamLimits, least_translating
 from reportgen.cam.drawings import inversion
-from reportgen.cam.laws import FollowerMotion, law
+from reportgen.cam.inverse_design import CamLimits, least_translating
+from reportgen.cam.motion_laws import FollowerMotion, law
 from reportgen.cam.profile import Cam
 from reportgen.cam.sheets import CHORD, contour
 from reportgen.drawing import Arc, Circle, Label

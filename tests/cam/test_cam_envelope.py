@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from reportgen.cam.laws import LAWS, FollowerMotion, law
+from reportgen.cam.motion_laws import LAWS, FollowerMotion, law
 from reportgen.cam.profile import Cam
 from tests.lanes import matrix
 

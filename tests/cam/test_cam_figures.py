@@ -10,7 +10,7 @@ import pytest
 
 from reportgen.base.errors import AssignmentError
 from reportgen.cam.case import CamCase
-from reportgen.cam.laws import LAWS
+from reportgen.cam.motion_laws import LAWS
 from reportgen.cases import open_case
 from reportgen.formula.vocabulary import distance
 from tests.cam.test_cam_envelope import carried, lifting

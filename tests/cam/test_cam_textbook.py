@@ -7,8 +7,8 @@ import math
 import numpy as np
 import pytest
 
-from reportgen.cam.design import CamLimits, least_oscillating, least_translating
-from reportgen.cam.laws import LAWS, AccelerationGraph, FollowerLaw, FollowerMotion, evaluated, law
+from reportgen.cam.inverse_design import CamLimits, least_oscillating, least_translating
+from reportgen.cam.motion_laws import LAWS, AccelerationGraph, FollowerLaw, FollowerMotion, evaluated, law
 from reportgen.cam.profile import Cam
 
 MM = 1e-3

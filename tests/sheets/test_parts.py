@@ -10,7 +10,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from reportgen.cam.solved import SolvedCam
+from reportgen.cam.solution import SolvedCam
 from reportgen.case import Case
 from reportgen.drawing import Label, Polyline, Scene
 from reportgen.drawing.sheet import DrawingSheet

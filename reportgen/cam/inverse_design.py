@@ -20,7 +20,7 @@ from reportgen.base.arrays import Floats
 from reportgen.base.units import MM
 from reportgen.cam import formulas
 from reportgen.cam.formulas import valued
-from reportgen.cam.laws import FollowerMotion
+from reportgen.cam.motion_laws import FollowerMotion
 from reportgen.cam.profile import Cam, greatest
 from reportgen.formula import Ref
 from reportgen.formula.evaluation import evaluate
