@@ -15,8 +15,8 @@ from reportgen.assignment.common import Part
 from reportgen.assignment.fields import Decimal, Interval, Quantity, Reader, Whole, quantity
 from reportgen.base.errors import Finding
 from reportgen.base.units import MM, Given
-from reportgen.gears.formulas import Rack
-from reportgen.gears.pair import Chosen, GearPair, NoPairError, PairLimits, choose
+from reportgen.gears.pair_formulas import Rack
+from reportgen.gears.pair_shifts import Chosen, GearPair, NoPairError, PairLimits, choose
 
 if TYPE_CHECKING:
     from reportgen.assignment import Assignment

@@ -18,7 +18,7 @@ from reportgen.base.arrays import Complexes, Floats
 from reportgen.formula.constructions import Value
 from reportgen.formula.model import model
 from reportgen.gears import gears_ids
-from reportgen.gears.formulas import Rack, pair_sheet
+from reportgen.gears.pair_formulas import Rack, pair_sheet
 
 CHORD = 1e-6
 """Largest distance of a profile's polyline from it (m)."""

@@ -34,8 +34,6 @@ from reportgen.drawing.scales import FigureSize
 from reportgen.drawing.sheet import DrawingSheet, PlacedScene, lettered
 from reportgen.formula import Symbol
 from reportgen.gears import gears_ids, pair_views
-from reportgen.gears.formulas import WHEELS
-from reportgen.gears.pair import GearPair
 from reportgen.gears.pair_drawings import (
     FLANK,
     HIGHEST,
@@ -48,7 +46,9 @@ from reportgen.gears.pair_drawings import (
     tooth,
     turned,
 )
-from reportgen.gears.pair_solution import SolvedPair
+from reportgen.gears.pair_formulas import WHEELS
+from reportgen.gears.pair_ledger import SolvedPair
+from reportgen.gears.pair_shifts import GearPair
 from reportgen.sheets.plates import drawn, on_sheet
 
 

@@ -33,9 +33,9 @@ from reportgen.drawing.scales import IN_REPORT, FigureSize
 from reportgen.formula import Chain, Number, Symbol
 from reportgen.formula.model import model
 from reportgen.gears import gears_ids
-from reportgen.gears.formulas import WHEELS
-from reportgen.gears.pair import GearPair, PairLimits
-from reportgen.gears.pair_solution import SolvedPair
+from reportgen.gears.pair_formulas import WHEELS
+from reportgen.gears.pair_ledger import SolvedPair
+from reportgen.gears.pair_shifts import GearPair, PairLimits
 
 MESH_ROOM = 150 + 168j
 """Largest width and height of the drawing of the mesh on a page (mm)."""

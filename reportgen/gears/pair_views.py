@@ -13,9 +13,9 @@ from reportgen.document import Block, Column, InlineMath, Inlines, Table, Text, 
 from reportgen.drawing import Scene
 from reportgen.formula import Number, Symbol, vocabulary
 from reportgen.gears import gears_ids
-from reportgen.gears.formulas import WHEELS
 from reportgen.gears.pair_drawings import mesh, region, sliding
-from reportgen.gears.pair_solution import SolvedPair
+from reportgen.gears.pair_formulas import WHEELS
+from reportgen.gears.pair_ledger import SolvedPair
 
 PAIR = (68.0, 22.0, 35.0, 35.0)
 CHECKS = (70.0, 18.0, 28.0, 26.0, 18.0)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from reportgen.assignment.checks import of_parameters, one_of
 from reportgen.base.errors import Finding
 from reportgen.gears import train_file
-from reportgen.gears.train import CONDITIONS, DUST, SCHEMES, Train, mended
+from reportgen.gears.tooth_numbers import CONDITIONS, DUST, SCHEMES, Train, mended
 
 if TYPE_CHECKING:
     from reportgen.assignment import Assignment

@@ -20,10 +20,10 @@ from reportgen.drawing.animation import Animation
 from reportgen.drawing.plates import DrawingPlate
 from reportgen.formula import Chain, Number, Symbol, signed
 from reportgen.gears import train_drawings, train_ids
-from reportgen.gears.train import DUST, LEAST_DIFFERENCE, LEAST_OUTER, Train
+from reportgen.gears.tooth_numbers import DUST, LEAST_DIFFERENCE, LEAST_OUTER, Train
 from reportgen.gears.train_drawings import scheme_views, velocity_triangles
 from reportgen.gears.train_formulas import OTHER, term_of
-from reportgen.gears.train_solution import FIRST_ROW_WHEEL, SolvedTrain
+from reportgen.gears.train_ledger import FIRST_ROW_WHEEL, SolvedTrain
 from reportgen.sheets.plates import drawn
 
 ROWS, SHORT_ROWS = 15, 6

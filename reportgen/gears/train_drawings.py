@@ -34,9 +34,9 @@ from reportgen.formula import Number, Ref, Symbol
 from reportgen.formula.evaluation import evaluate
 from reportgen.formula.vocabulary import KINDS
 from reportgen.gears import train_ids
-from reportgen.gears.train import ALPHA, turned
+from reportgen.gears.tooth_numbers import ALPHA, turned
 from reportgen.gears.train_formulas import OTHER, reference_radius
-from reportgen.gears.train_solution import SolvedTrain, pole_distance
+from reportgen.gears.train_ledger import SolvedTrain, pole_distance
 from reportgen.sheets.plates import on_sheet
 
 FRONT = 80.0

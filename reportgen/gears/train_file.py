@@ -12,7 +12,7 @@ from reportgen.assignment.common import Part
 from reportgen.assignment.fields import Decimal, Interval, Quantity, Ratio, RotationalSpeed, Whole
 from reportgen.base.template_access import shown
 from reportgen.base.units import Given
-from reportgen.gears.train import LEAST_OUTER, MOST_SATELLITES, Demand, TrainChoice, choice
+from reportgen.gears.tooth_numbers import LEAST_OUTER, MOST_SATELLITES, Demand, TrainChoice, choice
 
 MOST_TEETH = 300
 

@@ -7,9 +7,9 @@ import math
 import numpy as np
 import pytest
 
-from reportgen.gears.formulas import Rack
 from reportgen.gears.involute import Wheel
-from reportgen.gears.pair import GearPair, PairLimits
+from reportgen.gears.pair_formulas import Rack
+from reportgen.gears.pair_shifts import GearPair, PairLimits
 from tests.lanes import matrix
 
 FINE = 1e-9

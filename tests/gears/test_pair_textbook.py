@@ -10,9 +10,9 @@ import pytest
 
 from reportgen import load
 from reportgen.formula.evaluation import arcinv, inv
-from reportgen.gears.formulas import Rack
 from reportgen.gears.involute import Wheel
-from reportgen.gears.pair import GearPair, PairLimits, balanced, least_shifts, least_sliding, sum_for
+from reportgen.gears.pair_formulas import Rack
+from reportgen.gears.pair_shifts import GearPair, PairLimits, balanced, least_shifts, least_sliding, sum_for
 
 MM = 1e-3
 ISO = Rack(math.radians(20))

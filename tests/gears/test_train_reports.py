@@ -15,7 +15,7 @@ from reportgen.drawing import Arrow, Label, Line
 from reportgen.formula import Chain, Number, Symbol, walk
 from reportgen.formula.evaluation import evaluate
 from reportgen.gears import train_ids
-from reportgen.gears.train import turned
+from reportgen.gears.tooth_numbers import turned
 from reportgen.gears.train_drawings import velocity_triangles
 from reportgen.marking.key import key_of
 from reportgen.results import results as results_of

@@ -10,7 +10,7 @@ from functools import lru_cache
 import numpy as np
 import pytest
 
-from reportgen.gears.train import SCHEMES, Demand, Teeth, Train, choice, mended, power_way, turned, unshifted
+from reportgen.gears.tooth_numbers import SCHEMES, Demand, Teeth, Train, choice, mended, power_way, turned, unshifted
 from tests.lanes import matrix
 
 

@@ -16,7 +16,7 @@ from reportgen.drawing import Label, Polyline, Scene
 from reportgen.drawing.sheet import DrawingSheet
 from reportgen.formula import Chain, Number, Symbol
 from reportgen.gears import train_ids
-from reportgen.gears.train_solution import pole_distance
+from reportgen.gears.train_ledger import pole_distance
 from reportgen.marking.key import key_of
 from reportgen.sheets import drawing_sheets
 from tests.lanes import matrix

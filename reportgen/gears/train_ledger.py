@@ -18,7 +18,7 @@ from reportgen.formula.sheet import Sheet
 from reportgen.formula.vocabulary import Chapter
 from reportgen.gears import train_formulas as formulas
 from reportgen.gears import train_ids
-from reportgen.gears.train import CONDITIONS, SCHEMES, Train, TrainChoice, power_way
+from reportgen.gears.tooth_numbers import CONDITIONS, SCHEMES, Train, TrainChoice, power_way
 from reportgen.gears.train_file import Parameters
 from reportgen.gears.train_formulas import OTHER, TrainScheme, term_of
 

@@ -17,8 +17,8 @@ from reportgen.formula.constructions import Value
 from reportgen.formula.model import model
 from reportgen.formula.sheet import Sheet
 from reportgen.gears import gears_ids
-from reportgen.gears.formulas import WHEELS, Rack, pair_sheet, sum_of_shifts
 from reportgen.gears.involute import Wheel, crossing
+from reportgen.gears.pair_formulas import WHEELS, Rack, pair_sheet, sum_of_shifts
 
 HUNDREDTH = 0.01
 """Shifts are chosen in hundredths of the module."""

@@ -17,8 +17,8 @@ from reportgen.formula import PI, Expression, Operand, Ref, refs, tan
 from reportgen.formula.sheet import Sheet
 from reportgen.formula.vocabulary import Chapter
 from reportgen.gears import gears_ids
-from reportgen.gears.formulas import WHEELS, PairFormulas, named
-from reportgen.gears.pair import Chosen, GearPair, PairLimits
+from reportgen.gears.pair_formulas import WHEELS, PairFormulas, named
+from reportgen.gears.pair_shifts import Chosen, GearPair, PairLimits
 
 POINTS = 9
 """Sliding is worked out at so many points, evenly from one end of the active path to the other."""
