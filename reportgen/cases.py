@@ -19,9 +19,9 @@ from reportgen.assignment import Assignment
 from reportgen.assignment.common import Drawing
 from reportgen.base.units import Language
 from reportgen.case import AskedFor, Case, DriverMotion, MachineAnalysis, Misconceptions
-from reportgen.case.key import Span
+from reportgen.case.answer_key import Span
+from reportgen.case.quantity_wording import positive_sense
 from reportgen.case.shafts import Shaft
-from reportgen.case.wording import positive_sense
 from reportgen.derivation.topic_ledger import LEDGER
 from reportgen.document import Block, Document, Paragraph, Strong, Text
 from reportgen.formula import Symbol, ids, vocabulary

@@ -28,7 +28,7 @@ from reportgen.base.files import folder as kept_in
 from reportgen.base.template_folders import search_path, templates
 from reportgen.base.words import load_words, sections
 from reportgen.case import MachineAnalysis
-from reportgen.case.key import Key
+from reportgen.case.answer_key import Key
 from reportgen.cases import MachineCase, open_case
 from reportgen.classes.draw import Draw, judge_of
 from reportgen.classes.roster import read_roster

@@ -32,7 +32,7 @@ from reportgen.base.languages import setting_of
 from reportgen.base.template_folders import languages, samples
 from reportgen.base.units import Language
 from reportgen.case import Case
-from reportgen.case.key import Key
+from reportgen.case.answer_key import Key
 from reportgen.cases import open_case
 from reportgen.cli import app
 from reportgen.document.named_figures import named_figures

@@ -33,7 +33,7 @@ from reportgen.case import bounded
 from reportgen.cases import MachineCase, open_case, opened
 
 if TYPE_CHECKING:
-    from reportgen.case.key import Key
+    from reportgen.case.answer_key import Key
     from reportgen.document import Document
     from reportgen.machine.analysis import Analysis
     from reportgen.marking.key import Ask

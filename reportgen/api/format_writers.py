@@ -19,7 +19,7 @@ from reportgen.case import bounded
 
 if TYPE_CHECKING:
     from reportgen.case import Case
-    from reportgen.case.key import Key
+    from reportgen.case.answer_key import Key
     from reportgen.document import Document
     from reportgen.document.layout import Letter
     from reportgen.drawing.sheet import DrawingSheet

@@ -14,7 +14,7 @@ from reportgen.balancing.engine_calculation import COUPLES, ORDERS, EngineSheet
 from reportgen.balancing.engine_file import Parameters
 from reportgen.balancing.piston_orders import first_term
 from reportgen.case import Misconceptions
-from reportgen.case.design import DesignCase
+from reportgen.case.design_case import DesignCase
 from reportgen.formula import PI, Expression, Ref, cis, total
 from reportgen.formula.ledger import MistakenValues
 from reportgen.formula.sheet import Sheet

@@ -10,7 +10,7 @@ from reportgen.balancing import rotor_ids
 from reportgen.balancing.rotor_calculation import AFTER, BEFORE, RotorSheet, resultant
 from reportgen.balancing.rotor_file import BEARINGS, LEFT, RIGHT, Parameters
 from reportgen.case import Misconceptions
-from reportgen.case.design import DesignCase
+from reportgen.case.design_case import DesignCase
 from reportgen.formula import PI, Expression, Number, Ref, cis, heading
 from reportgen.formula.ledger import MistakenValues
 from reportgen.formula.sheet import ZERO, Sheet

@@ -18,7 +18,7 @@ from reportgen.cam.ledger import MOVING
 from reportgen.cam.motion_laws import FollowerLaw, Piece
 from reportgen.cam.solution import SolvedCam
 from reportgen.case import AskedFor
-from reportgen.case.design import DesignPage
+from reportgen.case.design_case import DesignPage
 from reportgen.document import Cell, Column, Equation, InlineMath, Inlines, Table, Text, Value, listed
 from reportgen.document.prose import Prose
 from reportgen.drawing import Scene

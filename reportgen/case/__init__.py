@@ -21,7 +21,7 @@ from reportgen.base.kinds import title as kind_title
 from reportgen.base.languages import UnitNames, languages, setting_of
 from reportgen.base.template_folders import search_path
 from reportgen.base.words import common_words, load_words, word
-from reportgen.case.key import INSTANT, Key, Span
+from reportgen.case.answer_key import INSTANT, Key, Span
 from reportgen.case.result_entries import ResultEntries, entries_of
 from reportgen.document import Block, Cover, Document
 from reportgen.formula import Expression, Operand, Symbol, as_expression, substitute

@@ -14,7 +14,7 @@ from pathlib import Path
 from reportgen.base.errors import Fault, Problem, ReportgenError
 from reportgen.base.units import Language
 from reportgen.base.words import as_problem
-from reportgen.case.key import Key
+from reportgen.case.answer_key import Key
 from reportgen.cases import open_case
 from reportgen.classes.collecting import Collected, Refused, collect, named_after
 from reportgen.classes.corrections import Correction, applied

@@ -11,7 +11,7 @@ from pathlib import Path
 from reportgen.base.errors import AssignmentError, Fault, Mark, Problem
 from reportgen.base.units import Language
 from reportgen.base.words import as_problem
-from reportgen.case.key import Key
+from reportgen.case.answer_key import Key
 from reportgen.classes.archives import ARCHIVE
 from reportgen.classes.isolation import isolated
 from reportgen.classes.platforms import Handed, Owner

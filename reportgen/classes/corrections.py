@@ -24,7 +24,7 @@ from reportgen.base.timestamps import moment
 from reportgen.base.typed_characters import plain_signs
 from reportgen.base.units import NUMBER, Language, write
 from reportgen.base.words import as_error, as_problem, close_or_known, common_words, messages, word
-from reportgen.case.key import Key, headed_chapters
+from reportgen.case.answer_key import Key, headed_chapters
 from reportgen.classes.roster import Record, columns, comparable, folded, folder_name, heading_row, records
 from reportgen.document import InlineMath, Inlines, Text
 from reportgen.formula.vocabulary import Chapter

@@ -18,7 +18,7 @@ from reportgen.base.output_formats import file_names
 from reportgen.base.pdf_standards import STANDARDS, Standards
 from reportgen.base.units import Language
 from reportgen.base.words import as_problem, counted, word
-from reportgen.case.key import Key
+from reportgen.case.answer_key import Key
 from reportgen.classes.archives import zipped
 from reportgen.classes.assess import Graded
 from reportgen.classes.gradebooks import Gradebook, StudentResult

@@ -14,7 +14,7 @@ from pathlib import Path
 from reportgen.base.errors import Fault, Mark, Problem
 from reportgen.base.units import Language
 from reportgen.base.words import as_problem
-from reportgen.case.key import Key
+from reportgen.case.answer_key import Key
 from reportgen.classes.collecting import Collected, Refused, chosen_of, named_after
 from reportgen.classes.isolation import isolated
 from reportgen.classes.platforms import Handed, changed

@@ -22,7 +22,7 @@ import numpy as np
 from reportgen import document as tree
 from reportgen.base.kinds import title
 from reportgen.base.units import Language
-from reportgen.case.key import Key, KeyRow, Role
+from reportgen.case.answer_key import Key, KeyRow, Role
 from reportgen.cases import open_case
 from reportgen.marking.key import key_of, shown_number, symbol_text, words_of
 from reportgen.marking.paper import given_of

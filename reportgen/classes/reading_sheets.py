@@ -15,7 +15,7 @@ from reportgen.base.errors import AssignmentError, Fault, Mark, Problem
 from reportgen.base.process_limits import Limits
 from reportgen.base.units import Language
 from reportgen.base.words import as_problem
-from reportgen.case.key import Key
+from reportgen.case.answer_key import Key
 from reportgen.classes.isolation import isolated
 from reportgen.classes.platforms import Handed
 from reportgen.classes.pool import each_within

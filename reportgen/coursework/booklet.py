@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from itertools import dropwhile
 from typing import Any
 
-from reportgen.case.wording import sentence
+from reportgen.case.quantity_wording import sentence
 from reportgen.coursework.symbol_renaming import changed
 from reportgen.document import (
     BlankLine,

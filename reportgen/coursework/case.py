@@ -14,10 +14,10 @@ import numpy as np
 
 from reportgen.assignment.common import AssignedPart, Assignment, TakenDatum
 from reportgen.case import Case, CaseOfParts, DriverMotion, Misconceptions
-from reportgen.case.key import Key, PartOfKey, Span, capitalised
+from reportgen.case.answer_key import Key, PartOfKey, Span, capitalised
+from reportgen.case.quantity_wording import phrase
 from reportgen.case.result_entries import ResultEntries
 from reportgen.case.shafts import Shaft
-from reportgen.case.wording import phrase
 from reportgen.coursework import senses
 from reportgen.coursework.booklet import PartReport, booklet, handout
 from reportgen.coursework.senses import PartShafts

@@ -8,9 +8,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from reportgen.case.key import capitalised
+from reportgen.case.answer_key import capitalised
+from reportgen.case.quantity_wording import sentence
 from reportgen.case.shafts import Shaft
-from reportgen.case.wording import sentence
 from reportgen.document import Block, Cell, Column, Inlines, Paragraph, Reference, Table, Text, Value
 from reportgen.formula import Number
 

@@ -8,8 +8,8 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from reportgen.case import AskedFor
+from reportgen.case.quantity_wording import MAGNITUDE
 from reportgen.case.result_entries import ResultEntries
-from reportgen.case.wording import MAGNITUDE
 from reportgen.document import Block, Document
 from reportgen.document.prose import Prose
 from reportgen.exercise.figures import FIGURES

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from reportgen.base.placeholders import NO_LETTER
 from reportgen.base.template_access import view
 from reportgen.base.units import Given
-from reportgen.case.finished import finished
+from reportgen.case.finished_document import finished
 from reportgen.document import (
     Block,
     Cell,

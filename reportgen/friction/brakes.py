@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from reportgen.case.design import DesignCase
+from reportgen.case.design_case import DesignCase
 from reportgen.drawing import Arc, Arrow, Circle, Item, Line, Polyline, Scene, style
 from reportgen.drawing.canvas import Canvas, finish, settle
 from reportgen.drawing.description import PaperLength, fact, turning

@@ -9,7 +9,7 @@ from functools import cached_property
 from typing import Any, ClassVar
 
 from reportgen.case import Misconceptions
-from reportgen.case.design import DesignCase, DesignPage
+from reportgen.case.design_case import DesignCase, DesignPage
 from reportgen.case.result_entries import ResultEntries
 from reportgen.document import Figure
 from reportgen.document.prose import Prose

@@ -6,7 +6,7 @@ import cmath
 import math
 from collections.abc import Iterable, Sequence
 
-from reportgen.case.design import DesignCase
+from reportgen.case.design_case import DesignCase
 from reportgen.drawing import Arc, Arrow, Content, Item, Line, Polyline, Scene, style
 from reportgen.drawing.canvas import Canvas, finish
 from reportgen.drawing.description import angle, names_of, pointing

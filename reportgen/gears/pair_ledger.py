@@ -12,7 +12,7 @@ from functools import cached_property
 import numpy as np
 
 from reportgen.case import Misconceptions, with_another
-from reportgen.case.design import DesignCase
+from reportgen.case.design_case import DesignCase
 from reportgen.formula import PI, Expression, Operand, Ref, refs, tan
 from reportgen.formula.sheet import Sheet
 from reportgen.formula.vocabulary import Chapter

@@ -7,8 +7,8 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from reportgen.case.design import DesignPage
-from reportgen.case.wording import phrase
+from reportgen.case.design_case import DesignPage
+from reportgen.case.quantity_wording import phrase
 from reportgen.document import Block, Column, InlineMath, Inlines, Table, Text, Value
 from reportgen.drawing import Scene
 from reportgen.formula import Number, Symbol, vocabulary

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from reportgen.base.units import MM
-from reportgen.case.design import DesignPage
+from reportgen.case.design_case import DesignPage
 from reportgen.case.result_entries import ResultEntries
 from reportgen.case.shafts import Shaft
 from reportgen.document import Column, Equation, InlineMath, Inlines, Table, Text, Value, listed

@@ -12,7 +12,7 @@ import numpy as np
 
 from reportgen.base.units import MM, SERIES, nice_up
 from reportgen.case import Misconceptions
-from reportgen.case.design import DesignCase
+from reportgen.case.design_case import DesignCase
 from reportgen.formula import PI, Expression, Operand, Product, Ref, Symbol, as_expression, signed, sin
 from reportgen.formula.sheet import Sheet
 from reportgen.formula.vocabulary import Chapter

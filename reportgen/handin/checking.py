@@ -11,7 +11,7 @@ from reportgen.base.files import cause, contents
 from reportgen.base.units import Language
 from reportgen.base.words import as_error, word
 from reportgen.case import Case
-from reportgen.case.key import Key
+from reportgen.case.answer_key import Key
 from reportgen.handin import FileReading, submission
 from reportgen.handin.drawing_file import wanted_plans
 from reportgen.handin.drawing_reader import WantedPlans

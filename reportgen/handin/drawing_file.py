@@ -9,7 +9,7 @@ from pathlib import Path
 from reportgen.base.template_folders import languages
 from reportgen.base.words import common_words
 from reportgen.case import Case, MachineAnalysis
-from reportgen.case.key import Key
+from reportgen.case.answer_key import Key
 from reportgen.handin import FileReading
 from reportgen.handin.drawing_reader import DrawnMark, WantedPlans, read_drawing
 from reportgen.handin.dxf_lines import read_lines

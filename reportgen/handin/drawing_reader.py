@@ -14,7 +14,7 @@ import numpy as np
 
 from reportgen.base.errors import Fault, Mark
 from reportgen.base.units import MM
-from reportgen.case.key import Key
+from reportgen.case.answer_key import Key
 from reportgen.handin import FileReading
 from reportgen.handin.dxf_lines import DrawnLines, DrawnText
 from reportgen.handin.line_set import Lines

@@ -11,7 +11,7 @@ from reportgen.base.errors import Fault, Mark
 from reportgen.base.files import cause, contents
 from reportgen.base.units import Language
 from reportgen.base.words import as_error
-from reportgen.case.key import Key
+from reportgen.case.answer_key import Key
 from reportgen.handin import FileReading
 from reportgen.marking.marks import Marking
 from reportgen.marking.policy import Policy

@@ -10,7 +10,7 @@ import numpy as np
 
 from reportgen.base.errors import Fault, Mark
 from reportgen.base.units import QuantityFault
-from reportgen.case.key import Key, KeyRow
+from reportgen.case.answer_key import Key, KeyRow
 from reportgen.handin import FileReading, agree, figures
 from reportgen.handin.numbers import NUMBER, Marks, read_value
 from reportgen.handin.statements import ANTICLOCKWISE, CLOCKWISE

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from reportgen.base.languages import decimal_mark, typed_units
 from reportgen.base.typed_characters import SPACES
 from reportgen.base.units import Language, QuantityFault
-from reportgen.case.key import KeyRow
+from reportgen.case.answer_key import KeyRow
 from reportgen.marking.key import typed_unit
 from reportgen.marking.numbers import DecimalMark, read_number
 

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from hashlib import sha256
 
-from reportgen.case.key import Key, KeyRow
+from reportgen.case.answer_key import Key, KeyRow
 from reportgen.marking.key import symbol_text, words_of
 from reportgen.marking.marks import Submission
 from reportgen.marking.sheet import (

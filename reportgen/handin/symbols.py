@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cached_property
 
-from reportgen.case.key import Key, KeyRow
+from reportgen.case.answer_key import Key, KeyRow
 from reportgen.handin.word_text import LETTERS
 from reportgen.marking.key import symbol_text
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from reportgen.case.key import Key, KeyRow
+from reportgen.case.answer_key import Key, KeyRow
 from reportgen.handin import FileReading
 from reportgen.handin import statements as said
 from reportgen.handin.gathering import Gathering

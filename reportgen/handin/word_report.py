@@ -8,7 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from reportgen.base.errors import Fault, Mark
-from reportgen.case.key import Key
+from reportgen.case.answer_key import Key
 from reportgen.handin import FileReading, agree
 from reportgen.handin.word_comments import MarginNote, with_comments
 from reportgen.handin.word_file import open_word, word_faults

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 from reportgen.base.units import QuantityFault
-from reportgen.case.key import KeyRow
+from reportgen.case.answer_key import KeyRow
 from reportgen.handin import statements as said
 from reportgen.handin.gathering import Gathering
 from reportgen.handin.numbers import NUMBER, UNIT, plain_unit, read_value

@@ -11,7 +11,7 @@ from typing import Any
 from reportgen.base.template_folders import search_path
 from reportgen.base.units import Language, nice_up, write
 from reportgen.base.words import load_words
-from reportgen.case.key import capitalised
+from reportgen.case.answer_key import capitalised
 from reportgen.document import TEXT_WIDTH, Block, Column, Document, Figure, InlineMath, Inlines, Table, Text
 from reportgen.drawing import Content
 from reportgen.drawing.counts import bars, histogram

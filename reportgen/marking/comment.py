@@ -10,7 +10,7 @@ from itertools import groupby
 from pathlib import Path
 from typing import Any
 
-from reportgen.case.key import Key
+from reportgen.case.answer_key import Key
 from reportgen.document import Text, plain
 from reportgen.marking.feedback import amended, blank_positions, blank_rows, lateness, mistake_inlines, points_text
 from reportgen.marking.grades import open_text

@@ -13,8 +13,8 @@ from reportgen import document as tree
 from reportgen.base.errors import Problem
 from reportgen.base.stable_digits import significant
 from reportgen.base.units import Language, rounded, write
-from reportgen.case.key import Key, KeyRow
-from reportgen.case.wording import sentence
+from reportgen.case.answer_key import Key, KeyRow
+from reportgen.case.quantity_wording import sentence
 from reportgen.document import Block, Column, Document, Inline, InlineMath, Inlines, Paragraph, Table, Text, plain
 from reportgen.formula import Number
 from reportgen.formula.sheet import ZERO

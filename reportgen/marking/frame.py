@@ -11,7 +11,7 @@ from hashlib import sha256
 from itertools import groupby
 
 from reportgen.case import Case
-from reportgen.case.key import Key, KeyRow
+from reportgen.case.answer_key import Key, KeyRow
 from reportgen.document import Blank, Block, Document, Inline, InlineMath, Paragraph, Text
 from reportgen.formula import Chain, refs
 from reportgen.marking.key import formula_in_symbols, symbol_text, words_of

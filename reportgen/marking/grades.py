@@ -10,7 +10,7 @@ from typing import Any
 from reportgen.base.template_folders import search_path
 from reportgen.base.units import Language
 from reportgen.base.words import load_words
-from reportgen.case.key import Key, KeyRow
+from reportgen.case.answer_key import Key, KeyRow
 from reportgen.document import plain
 from reportgen.formula.vocabulary import Chapter
 from reportgen.marking.feedback import amended

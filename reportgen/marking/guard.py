@@ -20,7 +20,7 @@ from itertools import combinations
 
 import numpy as np
 
-from reportgen.case.key import Key, KeyRow, Role
+from reportgen.case.answer_key import Key, KeyRow, Role
 from reportgen.formula import vocabulary
 from reportgen.formula.evaluation import evaluate
 from reportgen.formula.vocabulary import Chapter

@@ -20,8 +20,8 @@ from reportgen.base.units import Language
 from reportgen.base.words import as_error, close_or_known, load_words
 from reportgen.base.yaml_source import read_source
 from reportgen.case import Case, CaseOfParts
-from reportgen.case.key import Key, KeyRow, Role, headed_chapters
-from reportgen.case.wording import BY_FORMULA, OPEN, definition_of, phrase
+from reportgen.case.answer_key import Key, KeyRow, Role, headed_chapters
+from reportgen.case.quantity_wording import BY_FORMULA, OPEN, definition_of, phrase
 from reportgen.formula import Expression, Number, ids, refs, substitute
 from reportgen.formula.ledger import Ledger
 from reportgen.formula.plain import formula

@@ -12,7 +12,7 @@ import numpy as np
 from reportgen import document as tree
 from reportgen.base.stable_digits import significant
 from reportgen.base.units import significant_decimals
-from reportgen.case.key import Key, KeyRow, PartOfKey
+from reportgen.case.answer_key import Key, KeyRow, PartOfKey
 from reportgen.document import Cell, Column, Document, InlineMath, Inlines, Paragraph, Table, Text, plain
 from reportgen.formula import Number
 from reportgen.formula.plain import formula

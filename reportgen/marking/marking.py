@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 
 from reportgen.case import Case
-from reportgen.case.key import KeyRow, Role
+from reportgen.case.answer_key import KeyRow, Role
 from reportgen.formula.ledger import Ledger
 from reportgen.marking.bands import half_unit, is_direction
 from reportgen.marking.exchanged import Exchange, possible_exchanges

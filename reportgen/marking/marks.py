@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 
 from reportgen.base.errors import Mark, Problem
-from reportgen.case.key import Key
+from reportgen.case.answer_key import Key
 from reportgen.document import Inlines
 
 Place = tuple[str, int]

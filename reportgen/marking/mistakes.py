@@ -13,7 +13,7 @@ from itertools import combinations
 
 import numpy as np
 
-from reportgen.case.key import Role
+from reportgen.case.answer_key import Role
 from reportgen.formula import Call, Expression, Negative, Sum, ids, rebuild, refs, walk
 from reportgen.formula.evaluation import evaluate
 from reportgen.formula.ledger import follow

@@ -12,7 +12,7 @@ from typing import Any
 from reportgen import document as tree
 from reportgen.base.units import Language
 from reportgen.case import AskedFor, Case, CaseOfParts, LoadedAssignment
-from reportgen.case.key import Key, KeyRow, Role
+from reportgen.case.answer_key import Key, KeyRow, Role
 from reportgen.document import Block, Cell, Column, Document, InlineMath, Inlines, Paragraph, Table, Text
 from reportgen.document.numbering import number
 from reportgen.drawing.label_size import box

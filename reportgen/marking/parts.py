@@ -14,7 +14,7 @@ from reportgen.base.errors import Finding
 from reportgen.base.units import Language
 from reportgen.base.words import as_error
 from reportgen.base.yaml_source import read_source
-from reportgen.case.key import Key, PartOfKey
+from reportgen.case.answer_key import Key, PartOfKey
 from reportgen.marking.guard import Classmate
 from reportgen.marking.marks import Marked, Marking, Notice, Place, Submission
 from reportgen.marking.policy import Policy

@@ -15,7 +15,7 @@ import numpy as np
 from reportgen.base.template_folders import search_path
 from reportgen.base.units import Language
 from reportgen.base.words import load_words
-from reportgen.case.key import Key, KeyRow
+from reportgen.case.answer_key import Key, KeyRow
 from reportgen.marking.grades import DECIMALS, CellValue, section_name
 from reportgen.marking.key import symbol_text
 from reportgen.marking.marks import Marked, Marking, Place, Verdict

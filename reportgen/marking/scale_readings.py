@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from reportgen.case.key import Role
+from reportgen.case.answer_key import Role
 from reportgen.formula import refs, vocabulary
 from reportgen.formula.evaluation import evaluate
 from reportgen.marking.marks import Cells, Marked, Place, Submission, Verdict

@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from reportgen.case import Case, Misconceptions
-from reportgen.case.key import Key, KeyRow, Role
+from reportgen.case.answer_key import Key, KeyRow, Role
 from reportgen.formula import Product, Ref, vocabulary
 from reportgen.formula.ledger import Ledger, standing_on
 from reportgen.marking.bands import computed_bands, drawn_bands, is_chosen_length, is_direction

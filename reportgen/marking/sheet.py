@@ -23,7 +23,7 @@ from reportgen.base.template_folders import languages
 from reportgen.base.typed_characters import plain_signs
 from reportgen.base.units import Language, QuantityFault
 from reportgen.base.words import as_error, as_problem, common_words
-from reportgen.case.key import Key, KeyRow, Role
+from reportgen.case.answer_key import Key, KeyRow, Role
 from reportgen.document import plain
 from reportgen.formula.vocabulary import Chapter
 from reportgen.marking.key import shown_number, symbol_text, typed_unit, words_of

@@ -16,7 +16,7 @@ import numpy as np
 from reportgen.base.template_folders import search_path
 from reportgen.base.units import Language, write
 from reportgen.base.words import load_words
-from reportgen.case.key import Role
+from reportgen.case.answer_key import Role
 from reportgen.formula import Symbol
 from reportgen.formula.plain import formula
 from reportgen.marking.grades import DECIMALS, CellValue

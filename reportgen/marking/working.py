@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from reportgen.case.key import KeyRow, Role
+from reportgen.case.answer_key import KeyRow, Role
 from reportgen.formula import Expression, ids, refs, vocabulary
 from reportgen.formula.evaluation import evaluate
 from reportgen.formula.ledger import follow

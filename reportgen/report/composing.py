@@ -8,7 +8,7 @@ from functools import partial
 from itertools import chain
 
 from reportgen.case import MachineAnalysis
-from reportgen.case.finished import finished
+from reportgen.case.finished_document import finished
 from reportgen.document import Block, Document, PageBreak, Paragraph, Plate, Reference
 from reportgen.document.layout import contents, plates_last
 from reportgen.document.paper import PAPERS

@@ -19,7 +19,7 @@ import pytest
 
 from reportgen import document as tree
 from reportgen.base.errors import AssignmentError
-from reportgen.case.key import Role
+from reportgen.case.answer_key import Role
 from reportgen.cases import open_case
 from reportgen.classes import quiz
 from reportgen.classes.quiz import _answer, question_bank

@@ -13,7 +13,7 @@ import pytest
 from reportgen import api
 from reportgen.base.errors import Problem
 from reportgen.case import MachineAnalysis
-from reportgen.case.key import Key
+from reportgen.case.answer_key import Key
 from reportgen.cases import open_case
 from reportgen.classes import assess, outcome
 from reportgen.document import Document

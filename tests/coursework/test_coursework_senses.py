@@ -175,7 +175,7 @@ def _alone(row: tuple[object, ...]) -> Table:
 
 
 def _has_words(case: object, id: str) -> bool:
-    from reportgen.case.wording import phrase
+    from reportgen.case.quantity_wording import phrase
 
     return bool(phrase(id, case.printed, case.words))  # type: ignore[attr-defined]
 

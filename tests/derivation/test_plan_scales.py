@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from reportgen.base.units import SERIES, nice_down, nice_up
-from reportgen.case.key import KeyRow
+from reportgen.case.answer_key import KeyRow
 from reportgen.cases import MachineCase
 from reportgen.derivation.loads import Polygon
 from reportgen.derivation.motion import What

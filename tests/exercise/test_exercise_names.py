@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from reportgen import api
-from reportgen.case.wording import phrase
+from reportgen.case.quantity_wording import phrase
 from reportgen.exercise.case import ExerciseCase
 from reportgen.formula import vocabulary
 from reportgen.formula.vocabulary import Chapter

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from reportgen.case.key import KeyRow
+from reportgen.case.answer_key import KeyRow
 from tests.handin import wml
 from tests.handin.made_reports import POSITIONS, Report, given
 

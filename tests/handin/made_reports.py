@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from reportgen.base.units import Language
-from reportgen.case.key import Key, KeyRow
+from reportgen.case.answer_key import Key, KeyRow
 from reportgen.cases import open_case
 from reportgen.marking.key import Ask, key_of
 from tests.handin import wml

@@ -9,7 +9,7 @@ from __future__ import annotations
 import random
 from collections.abc import Callable, Iterator, Sequence
 
-from reportgen.case.key import KeyRow
+from reportgen.case.answer_key import KeyRow
 from tests.handin import wml
 from tests.handin.careless_reports import loose_letters, many_in_a_line, mixed, traps, unsaid
 from tests.handin.made_reports import MACHINES, POSITIONS, Report, given, key_for

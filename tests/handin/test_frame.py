@@ -15,7 +15,7 @@ from pathlib import Path
 import pytest
 
 from reportgen import api
-from reportgen.case.key import Key
+from reportgen.case.answer_key import Key
 from reportgen.cases import open_case
 from reportgen.handin import FileReading, word_report
 from reportgen.marking.frame import LONGEST, blank_name, bookmark_name

@@ -12,7 +12,7 @@ import openpyxl
 import pytest
 
 from reportgen.base.errors import AssignmentError, Mark
-from reportgen.case.key import Key
+from reportgen.case.answer_key import Key
 from reportgen.cases import open_case
 from reportgen.classes import assess, outcome
 from reportgen.handin import agree, submission, word_report

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from reportgen.base.languages import languages, setting_of
-from reportgen.case.key import Key
+from reportgen.case.answer_key import Key
 from reportgen.handin import FileReading, word_report
 from reportgen.handin.word_file import open_word
 from reportgen.handin.word_reader import read_report

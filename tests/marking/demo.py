@@ -14,7 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
-from reportgen.case.key import Key
+from reportgen.case.answer_key import Key
 from reportgen.cases import open_case
 from reportgen.classes.variants import make_variants
 from reportgen.formula.vocabulary import Chapter

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 
-from reportgen.case.key import Key
+from reportgen.case.answer_key import Key
 from reportgen.marking.sheet import answer_book
 from reportgen.workbook import Book, write_xlsx
 

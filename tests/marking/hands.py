@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from reportgen.base.errors import Mark
-from reportgen.case.key import Role
+from reportgen.case.answer_key import Role
 from reportgen.cases import opened
 from reportgen.marking.key import Ask
 from reportgen.marking.marks import Answer, Submission

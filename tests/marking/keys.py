@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from reportgen.base.units import Language, rounded
-from reportgen.case.key import Key, KeyRow, Role
+from reportgen.case.answer_key import Key, KeyRow, Role
 from reportgen.formula import Symbol
 from reportgen.formula.vocabulary import Chapter
 from reportgen.marking.sheet import HEAD, answer_book

@@ -17,7 +17,7 @@ import yaml
 from reportgen import api
 from reportgen.assignment import Assignment
 from reportgen.base.errors import AssignmentError, Mark
-from reportgen.case.key import Key, KeyRow
+from reportgen.case.answer_key import Key, KeyRow
 from reportgen.cases import opened
 from reportgen.formula.ledger import follow
 from reportgen.marking.bands import PAPER_ERROR, measuring_errors

@@ -11,7 +11,7 @@ from openpyxl import load_workbook
 from reportgen import api
 from reportgen.base.errors import AssignmentError
 from reportgen.base.units import Language
-from reportgen.case.key import Key
+from reportgen.case.answer_key import Key
 from reportgen.cases import open_case, opened
 from reportgen.document import PageBreak, text_of
 from reportgen.formula.vocabulary import Chapter

@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from reportgen.case.key import KeyRow
+from reportgen.case.answer_key import KeyRow
 from reportgen.cases import open_case, opened
 from reportgen.marking.marking import mark
 from reportgen.marking.marks import Marking, Verdict

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from reportgen.case.key import Role
+from reportgen.case.answer_key import Role
 from reportgen.drawing import Circle
 from reportgen.drawing.statistics import intervals, scatter
 from reportgen.formula import Symbol

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from reportgen.case.key import KeyRow
+from reportgen.case.answer_key import KeyRow
 from reportgen.cases import MachineCase, open_case
 from reportgen.marking.marking import mark
 from reportgen.marking.marks import Marking, Verdict

@@ -12,7 +12,7 @@ import pytest
 from openpyxl import load_workbook
 
 from reportgen.base.units import Language, write
-from reportgen.case.key import Key, Role
+from reportgen.case.answer_key import Key, Role
 from reportgen.document import Document, Table, plain, text_of
 from reportgen.marking.key import key_of, words_of
 from reportgen.marking.paper import answer_tables, task_of

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from reportgen.case.key import Role
+from reportgen.case.answer_key import Role
 from reportgen.classes.assess import asked_of
 from reportgen.marking.key import Ask
 from reportgen.marking.marking import mark

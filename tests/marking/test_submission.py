@@ -17,7 +17,7 @@ from openpyxl import load_workbook
 
 from reportgen.base.errors import AssignmentError
 from reportgen.base.units import Language, QuantityFault
-from reportgen.case.key import Key
+from reportgen.case.answer_key import Key
 from reportgen.formula.vocabulary import KINDS
 from reportgen.marking.marks import Submission
 from reportgen.marking.numbers import decimal_mark, is_blank, read_number

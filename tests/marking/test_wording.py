@@ -11,7 +11,7 @@ import pytest
 from reportgen.base.template_folders import languages, search_path
 from reportgen.base.units import Language
 from reportgen.base.words import load_words
-from reportgen.case.key import Key
+from reportgen.case.answer_key import Key
 from reportgen.cases import open_case
 from reportgen.document import plain
 from reportgen.formula import vocabulary

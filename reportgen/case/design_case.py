@@ -9,9 +9,9 @@ from functools import cached_property
 from typing import Any, ClassVar, Generic, TypeVar
 
 from reportgen.case import AskedFor, LoadedAssignment
-from reportgen.case.finished import finished
-from reportgen.case.key import Span
-from reportgen.case.wording import positive_sense
+from reportgen.case.answer_key import Span
+from reportgen.case.finished_document import finished
+from reportgen.case.quantity_wording import positive_sense
 from reportgen.document import (
     Block,
     Cell,
