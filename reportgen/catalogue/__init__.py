@@ -42,7 +42,7 @@ from reportgen.base.words import as_error, as_problem, language_of, sections, sp
 from reportgen.base.yaml_source import MappingNode, Scalar, Source, read_source
 from reportgen.base.yaml_values import at as node_at
 from reportgen.base.yaml_values import put, text_of
-from reportgen.catalogue import assembly, declared_loads
+from reportgen.catalogue import assembly_checks, declared_loads
 from reportgen.catalogue.parameters import Driven
 from reportgen.catalogue.topic_sections import TopicParameters, sections_of, topic_checks, with_topics
 from reportgen.machine.analysis import Machine
@@ -121,19 +121,19 @@ def _out_of_reach(machine: Machine) -> Iterator[Finding]:
     """Yield findings if a machine comes too near to a dead point on its way, or is too large to draw."""
     angles, whole = machine.angles(machine.cycle_angles), np.linspace(0.0, FULL_TURN, STEPS + 1)
     if machine.instants:
-        beyond = tuple(assembly.at_instants(machine.linkage, angles, not machine.span))
+        beyond = tuple(assembly_checks.at_instants(machine.linkage, angles, not machine.span))
         yield from beyond
         if machine.drawn and not beyond:
-            yield from assembly.too_large(machine.linkage, angles, machine.drawn, ("drawing", "crank"))
+            yield from assembly_checks.too_large(machine.linkage, angles, machine.drawn, ("drawing", "crank"))
         return
     driven_through = (
-        assembly.Way(machine.start, machine.start + machine.turn * machine.span, False)
+        assembly_checks.Way(machine.start, machine.start + machine.turn * machine.span, False)
         if machine.span
-        else assembly.Way()
+        else assembly_checks.Way()
     )
-    yield from assembly.near_dead_point(machine.linkage, driven_through, ("parameters",))
+    yield from assembly_checks.near_dead_point(machine.linkage, driven_through, ("parameters",))
     if machine.drawn:
-        yield from assembly.too_large(machine.linkage, whole, machine.drawn, ("drawing", "crank"))
+        yield from assembly_checks.too_large(machine.linkage, whole, machine.drawn, ("drawing", "crank"))
 
 
 def load(path: Path | str, language: Language | None = None, whole: Path | None = None) -> Assignment:

@@ -37,7 +37,7 @@ from reportgen.base.arrays import Floats
 from reportgen.base.errors import Finding, Where
 from reportgen.base.template_access import view
 from reportgen.base.units import Given
-from reportgen.catalogue.typed import as_typed, size_of
+from reportgen.catalogue.typed_quantities import as_typed, size_of
 from reportgen.formula import Number, ids
 from reportgen.formula.ids import Name as Family
 from reportgen.machine import DRIVER, Crank, Guide, Linkage

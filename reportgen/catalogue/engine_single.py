@@ -18,10 +18,7 @@ from reportgen.assignment.fields import Gravity, Interval, Length, Offset, Ratio
 from reportgen.base.errors import Finding
 from reportgen.base.units import Given
 from reportgen.catalogue import given_loads
-from reportgen.catalogue.driven import KindSections, driven
-from reportgen.catalogue.given_sheet import CRANK_DRAWN, GivenSheet, cycle_angles
-from reportgen.catalogue.parameters import Driven
-from reportgen.catalogue.sliders import (
+from reportgen.catalogue.crank_sliders import (
     CENTRE_PLANS,
     OFFSET_PLANS,
     OffsetSlider,
@@ -29,6 +26,9 @@ from reportgen.catalogue.sliders import (
     loop_equations,
     offset_slider,
 )
+from reportgen.catalogue.driven_machine import KindSections, driven
+from reportgen.catalogue.given_data import CRANK_DRAWN, GivenSheet, cycle_angles
+from reportgen.catalogue.parameters import Driven
 from reportgen.formula import PI, Number, Ref, Symbol, sqrt, tan
 from reportgen.machine.analysis import Machine, lettered
 from reportgen.machine.loads import Piston, gas_forces

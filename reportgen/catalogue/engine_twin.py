@@ -17,10 +17,10 @@ from reportgen.assignment.fields import Angle, Length, RodRatio, Share
 from reportgen.base.errors import Finding
 from reportgen.base.units import Given
 from reportgen.catalogue import given_loads
-from reportgen.catalogue.driven import KindSections, driven
-from reportgen.catalogue.given_sheet import GivenSheet, cycle_angles
+from reportgen.catalogue.crank_sliders import centred_slider, compared
+from reportgen.catalogue.driven_machine import KindSections, driven
+from reportgen.catalogue.given_data import GivenSheet, cycle_angles
 from reportgen.catalogue.parameters import Driven
-from reportgen.catalogue.sliders import centred_slider, compared
 from reportgen.formula import PI, ids
 from reportgen.formula.sheet import Sheet
 from reportgen.machine import Crank, Dyad, Guide, Linkage, LinkPoint

@@ -15,12 +15,12 @@ from reportgen.assignment.common import Assignment, Draft, Positions
 from reportgen.assignment.fields import Angle, Length, Offset, Whole, quantity
 from reportgen.base.errors import Finding
 from reportgen.base.units import Given
-from reportgen.catalogue import assembly, given_loads
-from reportgen.catalogue.assembly import Member
-from reportgen.catalogue.driven import driven
-from reportgen.catalogue.given_sheet import GivenSheet, cycle_angles
+from reportgen.catalogue import assembly_checks, given_loads
+from reportgen.catalogue.assembly_checks import Member
+from reportgen.catalogue.crank_sliders import centred_slider, compared, second_cylinder
+from reportgen.catalogue.driven_machine import driven
+from reportgen.catalogue.given_data import GivenSheet, cycle_angles
 from reportgen.catalogue.parameters import Driven
-from reportgen.catalogue.sliders import centred_slider, compared, second_cylinder
 from reportgen.formula import PI, Symbol, cis, ids
 from reportgen.formula.sheet import Sheet
 from reportgen.machine import Crank, Dyad, Guide, Linkage, LinkPoint
@@ -103,12 +103,12 @@ def _check_assembly(given: Parameters) -> Iterator[Finding]:
         return
     members = {(2, 3): Member("BC", ("parameters", "BC")), (4, 5): Member(f"{given.joint}E", ("parameters", "DE"))}
     linkage = _linkage(given, _sheet(given))
-    if obstacles := list(assembly.findings(linkage, members)):
+    if obstacles := list(assembly_checks.findings(linkage, members)):
         yield from obstacles
         return
     motion_at = crank_motion(linkage, Positions(), 0.0)
     for slider, key in ((3, "BC"), (5, "DE")):
-        yield from assembly.to_and_fro(linkage, slider, motion_at, ("parameters", key))
+        yield from assembly_checks.to_and_fro(linkage, slider, motion_at, ("parameters", key))
 
 
 CHECKS = (*given_loads.DIAGRAM_CHECKS, _check_loads, _check_assembly)

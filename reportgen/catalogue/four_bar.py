@@ -21,12 +21,12 @@ from reportgen.assignment.fields import Angle, Coordinate, ForceSize, Length
 from reportgen.base.arrays import Floats
 from reportgen.base.errors import Finding
 from reportgen.base.units import Given
-from reportgen.catalogue import assembly
-from reportgen.catalogue.driven import driven
+from reportgen.catalogue import assembly_checks
+from reportgen.catalogue.crank_sliders import compared, components
+from reportgen.catalogue.driven_machine import driven
+from reportgen.catalogue.given_data import GivenSheet, accelerated, accelerating, cycle_angles, driver_acceleration
 from reportgen.catalogue.given_loads import LinkTorque, torque_on
-from reportgen.catalogue.given_sheet import GivenSheet, accelerated, accelerating, cycle_angles, driver_acceleration
 from reportgen.catalogue.parameters import Driven
-from reportgen.catalogue.sliders import compared, components
 from reportgen.formula import (
     NOTHING,
     Chain,
@@ -352,10 +352,12 @@ def _linkage(given: Parameters, q: GivenSheet) -> Linkage:
 def _check_turning(given: Parameters) -> Iterator[Finding]:
     """Yield faults unless the crank turns fully, without dead points, and link 3 moves as the file says."""
     linkage = _linkage(given, _sheet(given))
-    obstacles = list(assembly.findings(linkage, {(2, 3): assembly.Member("BC, CD", ("parameters", "BC"))}))
+    obstacles = list(
+        assembly_checks.findings(linkage, {(2, 3): assembly_checks.Member("BC, CD", ("parameters", "BC"))})
+    )
     yield from obstacles
     if not obstacles and given.link3 is not None:
-        fully = assembly.turns_fully(linkage, 3)
+        fully = assembly_checks.turns_fully(linkage, 3)
         if fully != (given.link3 == "crank"):
             code = "not-a-rocker" if fully else "not-a-crank"
             yield Finding(code, ("parameters", "link3"), {"link": "3", "rods": "CD"})

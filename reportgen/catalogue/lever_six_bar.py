@@ -15,13 +15,13 @@ from reportgen.assignment.common import Assignment, Part, Positions
 from reportgen.assignment.fields import Coordinate, ForceSize, Interval, Length, Ratio, quantity
 from reportgen.base.errors import Finding
 from reportgen.base.units import Given
-from reportgen.catalogue import assembly
+from reportgen.catalogue import assembly_checks
 from reportgen.catalogue.declared_loads import against
-from reportgen.catalogue.driven import KindSections, driven
+from reportgen.catalogue.driven_machine import KindSections, driven
 from reportgen.catalogue.four_bar import STRAIGHT, extremes
-from reportgen.catalogue.given_sheet import CRANK_DRAWN, GivenSheet
-from reportgen.catalogue.loops import ClosedLoops
+from reportgen.catalogue.given_data import CRANK_DRAWN, GivenSheet
 from reportgen.catalogue.parameters import Driven, FixedPoint
+from reportgen.catalogue.vector_loops import ClosedLoops
 from reportgen.formula import Number, Symbol, acos, cos, ids, sin, sqrt, turned
 from reportgen.formula.sheet import Sheet
 from reportgen.formula.vocabulary import drawn_length
@@ -186,12 +186,12 @@ def _check_turning(given: Parameters) -> Iterator[Finding]:
         return
     linkage = _linkage(given, _sheet(given))
     members = {
-        (2, 3): assembly.Member("AC, CD", ("parameters", "CD")),
-        (4, 5): assembly.Member("EF", ("parameters", "EF")),
+        (2, 3): assembly_checks.Member("AC, CD", ("parameters", "CD")),
+        (4, 5): assembly_checks.Member("EF", ("parameters", "EF")),
     }
-    obstacles = list(assembly.findings(linkage, members))
+    obstacles = list(assembly_checks.findings(linkage, members))
     yield from obstacles
-    if not obstacles and assembly.turns_fully(linkage, 3):
+    if not obstacles and assembly_checks.turns_fully(linkage, 3):
         yield Finding("not-a-rocker", ("parameters", "CD"), {"link": "3", "rods": "CD"})
 
 
@@ -227,7 +227,7 @@ def machine(assignment: Assignment) -> Machine:
     q.construct("guide.5.at", turned(q["F.y"]))
     q.set_out("extremes")
     motion_at = crank_motion(linkage, positions, start)
-    whole = not positions.at or assembly.turns(linkage)
+    whole = not positions.at or assembly_checks.turns(linkage)
     to_and_fro = whole and len(turning_points(linkage, 5, motion_at)) == 2
     sliders = (course(linkage, 5, motion_at),) if to_and_fro else ()
     fixed = {name: q.coordinates(name) for name in linkage.ground}

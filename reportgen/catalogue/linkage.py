@@ -17,16 +17,16 @@ from reportgen.assignment.common import ROMAN, Assignment, Draft, Positions
 from reportgen.base.arrays import Floats
 from reportgen.base.errors import Finding
 from reportgen.base.units import nice_up
-from reportgen.catalogue import assembly, declared_loads, linkage_checks
+from reportgen.catalogue import assembly_checks, declared_loads, linkage_checks
 from reportgen.catalogue import linkage_file as file
-from reportgen.catalogue.driven import KindSections, outline
-from reportgen.catalogue.given_sheet import GivenSheet
+from reportgen.catalogue.driven_machine import KindSections, outline
+from reportgen.catalogue.given_data import GivenSheet
 from reportgen.catalogue.linkage_file import Parameters
 from reportgen.catalogue.linkage_words import arms, facts
-from reportgen.catalogue.loops import ClosedLoops
 from reportgen.catalogue.parameters import weightless
 from reportgen.catalogue.topic_sections import Opening, entered
-from reportgen.catalogue.typed import size_of
+from reportgen.catalogue.typed_quantities import size_of
+from reportgen.catalogue.vector_loops import ClosedLoops
 from reportgen.formula import Symbol, ids, turned
 from reportgen.formula.sheet import Sheet
 from reportgen.formula.vocabulary import drawn_length
@@ -183,7 +183,7 @@ def _drawn(built: Machine, crank: float) -> float:
     A crank that is drawn at instants need not get round.
     """
     angles = np.union1d(np.linspace(0.0, FULL_TURN, STEPS), built.cycle_angles)
-    width, height = assembly.room(built.linkage, built.angles(angles))
+    width, height = assembly_checks.room(built.linkage, built.angles(angles))
     return crank / nice_up(max(width / BOX[0], height / BOX[1], crank / LARGEST_CRANK))
 
 

@@ -12,9 +12,9 @@ import numpy as np
 from reportgen.assignment.common import Draft, Positions
 from reportgen.base.errors import Finding, Where
 from reportgen.base.units import Given
-from reportgen.catalogue import assembly, declared_loads
+from reportgen.catalogue import assembly_checks, declared_loads
 from reportgen.catalogue import linkage_file as file
-from reportgen.catalogue.assembly import Member
+from reportgen.catalogue.assembly_checks import Member
 from reportgen.catalogue.declared_loads import Constant, OverWay, listed, on_link, pins, table
 from reportgen.machine import DRIVER, GROUND, Crank, Linkage, mobility
 from reportgen.machine.laws import FULL_TURN, STEPS
@@ -230,7 +230,7 @@ def _assembly(given: file.Parameters, positions: Positions) -> Iterator[Finding]
     }
     if positions.at and not by_stroke:
         return
-    obstacles = list(assembly.findings(made, members))
+    obstacles = list(assembly_checks.findings(made, members))
     yield from obstacles
     if obstacles:
         return
@@ -238,7 +238,7 @@ def _assembly(given: file.Parameters, positions: Positions) -> Iterator[Finding]
     if not positions.at:
         yield from _slots(given, made, motion_at(np.linspace(0.0, 2 * np.pi, STEPS + 1)))
     for index, slider in by_stroke.items():
-        yield from assembly.to_and_fro(made, slider, motion_at, (*TOP, "loads", index, "link"))
+        yield from assembly_checks.to_and_fro(made, slider, motion_at, (*TOP, "loads", index, "link"))
 
 
 def _along_the_way(
@@ -250,7 +250,7 @@ def _along_the_way(
         if slot is not None and not slot[0].si - AT_SLOT_END <= at.si <= slot[1].si + AT_SLOT_END:
             words = {"text": at.text, "slot": f"{slot[0].text} … {slot[1].text}"}
             yield Finding("driver-out-of-slot", (*TOP, "driver", key), words)
-    obstacles = list(assembly.findings(made, members, assembly.Way(start.si, end.si, turning=False)))
+    obstacles = list(assembly_checks.findings(made, members, assembly_checks.Way(start.si, end.si, turning=False)))
     yield from obstacles
     if not obstacles:
         yield from _slots(given, made, solve_motion(made, np.linspace(start.si, end.si, STEPS + 1), driver.rate))

@@ -10,7 +10,7 @@ from typing import Any
 from reportgen.base.template_access import view
 from reportgen.catalogue import linkage_file as file
 from reportgen.catalogue.declared_loads import LoadRow, row_of
-from reportgen.catalogue.typed import as_typed
+from reportgen.catalogue.typed_quantities import as_typed
 from reportgen.formula import Number, ids, vocabulary
 from reportgen.machine import DyadKind, Guide
 

@@ -13,8 +13,8 @@ from reportgen.assignment.common import Assignment
 from reportgen.assignment.fields import Angle, Length
 from reportgen.base.units import Given
 from reportgen.catalogue import given_loads
-from reportgen.catalogue.driven import driven
-from reportgen.catalogue.given_sheet import GivenSheet, accelerated, accelerating, cycle_angles, natural_lines
+from reportgen.catalogue.driven_machine import driven
+from reportgen.catalogue.given_data import GivenSheet, accelerated, accelerating, cycle_angles, natural_lines
 from reportgen.catalogue.parameters import Driven
 from reportgen.formula import Chain, Symbol, cos, minus, plus, sin, times
 from reportgen.formula.sheet import BELOW_A_TURN, Sheet

@@ -14,10 +14,10 @@ from reportgen.assignment.common import Assignment, Part
 from reportgen.assignment.fields import Interval, Length, Ratio, Share, quantity
 from reportgen.base.errors import Finding
 from reportgen.base.units import Given, nice_up
-from reportgen.catalogue import assembly, slotted
-from reportgen.catalogue.assembly import Member
-from reportgen.catalogue.driven import KindSections, driven
-from reportgen.catalogue.given_sheet import GivenSheet, cycle_angles
+from reportgen.catalogue import assembly_checks, slotted
+from reportgen.catalogue.assembly_checks import Member
+from reportgen.catalogue.driven_machine import KindSections, driven
+from reportgen.catalogue.given_data import GivenSheet, cycle_angles
 from reportgen.catalogue.parameters import Driven
 from reportgen.catalogue.slotted import HIGHEST, Ram, SlottedCrank
 from reportgen.formula import Symbol, ids
@@ -115,7 +115,7 @@ def _check_assembly(given: Parameters) -> Iterator[Finding]:
         sizes = {"reach": f"{farthest * 1e3:.6g}", "length": f"{given.l3.si * 1e3:.6g}", "angle": "90"}
         yield Finding("leaves-slot", ("parameters", "l3"), block | sizes)
     members = {(2, 3): Member("CD", ("parameters", "H")), (4, 5): Member("DE", ("parameters", "l4"))}
-    yield from assembly.findings(geometry.linkage((), (), 0.0), members)
+    yield from assembly_checks.findings(geometry.linkage((), (), 0.0), members)
 
 
 CHECKS = (_check_assembly,)

@@ -14,10 +14,7 @@ from reportgen.assignment.fields import Angle, Coordinate, Length, Share
 from reportgen.base.errors import Finding
 from reportgen.base.units import Given
 from reportgen.catalogue import given_loads
-from reportgen.catalogue.driven import driven
-from reportgen.catalogue.given_sheet import MIDDLE, GivenSheet, cycle_angles
-from reportgen.catalogue.parameters import Driven
-from reportgen.catalogue.sliders import (
+from reportgen.catalogue.crank_sliders import (
     CENTRE_PLANS,
     OFFSET_PLANS,
     OffsetSlider,
@@ -25,6 +22,9 @@ from reportgen.catalogue.sliders import (
     loop_equations,
     offset_slider,
 )
+from reportgen.catalogue.driven_machine import driven
+from reportgen.catalogue.given_data import MIDDLE, GivenSheet, cycle_angles
+from reportgen.catalogue.parameters import Driven
 from reportgen.machine.analysis import Machine
 from reportgen.machine.laws import TableLaw
 from reportgen.machine.loads import Applied, fixed

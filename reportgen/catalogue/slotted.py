@@ -15,7 +15,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from reportgen.base.arrays import Floats
-from reportgen.catalogue.given_sheet import accelerated, accelerating, driver_acceleration, natural_lines
+from reportgen.catalogue.given_data import accelerated, accelerating, driver_acceleration, natural_lines
 from reportgen.formula import (
     NOTHING,
     PI,

@@ -14,9 +14,9 @@ from reportgen.assignment.fields import Angle, Length
 from reportgen.base.errors import Finding
 from reportgen.base.units import Given
 from reportgen.catalogue import slotted
-from reportgen.catalogue.driven import driven
+from reportgen.catalogue.driven_machine import driven
+from reportgen.catalogue.given_data import GivenSheet, cycle_angles
 from reportgen.catalogue.given_loads import LinkTorque, torque_on
-from reportgen.catalogue.given_sheet import GivenSheet, cycle_angles
 from reportgen.catalogue.parameters import Driven
 from reportgen.catalogue.slotted import SlottedCrank
 from reportgen.formula import Symbol

@@ -16,9 +16,9 @@ from reportgen.assignment.common import Assignment, Positions
 from reportgen.assignment.fields import Length
 from reportgen.base.errors import Finding
 from reportgen.base.units import Given
-from reportgen.catalogue import assembly, given_loads
-from reportgen.catalogue.driven import driven
-from reportgen.catalogue.given_sheet import GivenSheet, accelerated, cycle_angles, natural_lines
+from reportgen.catalogue import assembly_checks, given_loads
+from reportgen.catalogue.driven_machine import driven
+from reportgen.catalogue.given_data import GivenSheet, accelerated, cycle_angles, natural_lines
 from reportgen.catalogue.parameters import Driven, FixedPoint
 from reportgen.formula import Symbol, acos, atan2, cos, ids, signed, sin, sqrt
 from reportgen.formula.sheet import Sheet
@@ -77,16 +77,16 @@ def _check_turning(given: Parameters) -> Iterator[Finding]:
     """
     linkage = _linkage(given, _sheet(given))
     members = {
-        (2, 3): assembly.Member("AB, BD", ("parameters", "AB")),
-        (4, 5): assembly.Member("BC", ("parameters", "BD")),
+        (2, 3): assembly_checks.Member("AB, BD", ("parameters", "AB")),
+        (4, 5): assembly_checks.Member("BC", ("parameters", "BD")),
     }
     motion_at = crank_motion(linkage, Positions(), 0.0)
-    if obstacles := list(assembly.findings(linkage, members)):
+    if obstacles := list(assembly_checks.findings(linkage, members)):
         yield from obstacles
     elif motion_at(cycle_angles(Positions())).points["B"].p.imag.max() > given.D.y.si:
         yield Finding("out-of-range", ("parameters", "D", "y"), {"text": given.D.y.text, "range": "y_D > y_B"})
     elif given.press is not None:
-        yield from assembly.to_and_fro(linkage, 5, motion_at, ("parameters", "press"))
+        yield from assembly_checks.to_and_fro(linkage, 5, motion_at, ("parameters", "press"))
 
 
 CHECKS = (*given_loads.PRESS_CHECKS, _check_turning)

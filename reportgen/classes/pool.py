@@ -215,8 +215,8 @@ def _dismiss(running: Iterable[Future[Outcome]]) -> None:
 
 LOADED = (
     "reportgen.classes.pool",
-    "reportgen.catalogue.driven",
-    "reportgen.catalogue.sliders",
+    "reportgen.catalogue.driven_machine",
+    "reportgen.catalogue.crank_sliders",
     "reportgen.machine.analysis",
     "reportgen.derivation",
     "reportgen.report.composing",

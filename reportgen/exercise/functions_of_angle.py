@@ -15,7 +15,7 @@ from itertools import combinations
 
 import numpy as np
 
-from reportgen.catalogue.components import VectorComponents
+from reportgen.catalogue.vector_components import VectorComponents
 from reportgen.exercise import file
 from reportgen.exercise.centres import SAME_PLACE, Layout
 from reportgen.exercise.closures import CoordinateRate, Linked, LoopVector, Turn, WayAlong, given_direction, legs_of

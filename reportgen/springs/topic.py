@@ -20,7 +20,7 @@ from reportgen.base.template_access import view
 from reportgen.base.units import Given, measures
 from reportgen.catalogue.declared_loads import LAST_LINK, MOST_LOADS, Link, Name, PointName, named, on_link, pins
 from reportgen.catalogue.topic_sections import Opening, TopicData, TopicParameters, TopicSection
-from reportgen.catalogue.typed import as_typed
+from reportgen.catalogue.typed_quantities import as_typed
 from reportgen.formula import Number, Symbol, ids
 from reportgen.machine import GROUND, Linkage
 from reportgen.machine.analysis import Machine

@@ -16,8 +16,8 @@ from hypothesis import HealthCheck, Phase, assume, given, settings
 from hypothesis import strategies as st
 from test_dyads import RELATIVE, biggest, books, is_mild
 
-from reportgen.catalogue.components import typed
-from reportgen.catalogue.loops import ClosedLoops
+from reportgen.catalogue.vector_components import typed
+from reportgen.catalogue.vector_loops import ClosedLoops
 from reportgen.formula import ids
 from reportgen.machine import DyadKind
 from tests.lanes import matrix

@@ -23,7 +23,7 @@ from functools import partial
 import numpy as np
 
 from reportgen.base.arrays import Floats
-from reportgen.catalogue.given_sheet import accelerated, accelerating, driver_acceleration
+from reportgen.catalogue.given_data import accelerated, accelerating, driver_acceleration
 from reportgen.formula import (
     Chain,
     Expression,

@@ -8,7 +8,7 @@ from typing import Any
 
 from reportgen.assignment.common import Assignment
 from reportgen.catalogue import declared_loads
-from reportgen.catalogue.given_sheet import GivenSheet
+from reportgen.catalogue.given_data import GivenSheet
 from reportgen.catalogue.topic_sections import Opening, chapters, entered
 from reportgen.formula import Chain
 from reportgen.formula.sheet import Sheet

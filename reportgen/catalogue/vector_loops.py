@@ -22,7 +22,8 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 
-from reportgen.catalogue.components import (
+from reportgen.catalogue.given_data import natural_sizes
+from reportgen.catalogue.vector_components import (
     STILL,
     VectorComponents,
     across,
@@ -35,7 +36,6 @@ from reportgen.catalogue.components import (
     turned,
     typed,
 )
-from reportgen.catalogue.given_sheet import natural_sizes
 from reportgen.formula import (
     MINUS_ONE,
     NOTHING,

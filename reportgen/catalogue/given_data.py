@@ -13,7 +13,7 @@ from reportgen.assignment.common import Positions
 from reportgen.base.units import Given
 from reportgen.catalogue.parameters import Driven, FixedPoint
 from reportgen.catalogue.topic_sections import TopicParameters, sections_of
-from reportgen.catalogue.typed import as_typed, size_of
+from reportgen.catalogue.typed_quantities import as_typed, size_of
 from reportgen.formula import NOTHING, PI, Expression, Number, Operand, Ref, Symbol, ids, signed, turned, vocabulary
 from reportgen.formula.sheet import Sheet
 from reportgen.formula.vocabulary import KINDS, drawn_length
