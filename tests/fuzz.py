@@ -30,9 +30,9 @@ from reportgen.base.words import load_words, sections
 from reportgen.case import MachineAnalysis
 from reportgen.case.answer_key import Key
 from reportgen.cases import MachineCase, open_case
-from reportgen.classes.draw import Draw, judge_of
 from reportgen.classes.roster import read_roster
-from reportgen.classes.spec import read_spec
+from reportgen.classes.variant_draw import Draw, judge_of
+from reportgen.classes.variant_spec import read_spec
 from reportgen.document import Figure, Plate
 from reportgen.document.prose import Prose
 from reportgen.handin.drawing_file import wanted_plans

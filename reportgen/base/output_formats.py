@@ -113,7 +113,7 @@ FORMATS = (
     # Of variants: one with a stem is one file for the class: assignment files, policy, title, language → bytes.
     Format("variants", "yaml", "reportgen.classes.variants:make_variants", usual=True),
     Format(
-        *("variants", "moodle-xml", "reportgen.classes.quiz:question_bank"),
+        *("variants", "moodle-xml", "reportgen.classes.moodle_quiz:question_bank"),
         needs=(TYPST,),
         stem="questions",
         ending="xml",

@@ -16,9 +16,9 @@ from reportgen.base.process_limits import Limits
 from reportgen.base.units import Language
 from reportgen.base.words import as_problem
 from reportgen.case.answer_key import Key
-from reportgen.classes.isolation import isolated
+from reportgen.classes.fault_isolation import isolated
 from reportgen.classes.platforms import Handed
-from reportgen.classes.pool import each_within
+from reportgen.classes.worker_pool import each_within
 from reportgen.handin import FileReading, files
 from reportgen.handin.drawing_reader import WantedPlans
 from reportgen.marking.marks import Marking

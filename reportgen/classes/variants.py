@@ -33,11 +33,11 @@ from reportgen.base.words import as_error, as_problem, word
 from reportgen.base.yaml_source import MappingNode, Node, Scalar, Source, read_source
 from reportgen.base.yaml_values import at, path_text, put, quoted, text_of, without
 from reportgen.cases import opened
-from reportgen.classes.draw import Draw, DrawnVariant, judge_of, shared
 from reportgen.classes.earlier_draw import DROPPED, MARKED, REDRAWN, read_earlier, students_named
-from reportgen.classes.pool import each_within
 from reportgen.classes.roster import comparable, read_roster
-from reportgen.classes.spec import Spec, assembled, read_spec
+from reportgen.classes.variant_draw import Draw, DrawnVariant, judge_of, shared
+from reportgen.classes.variant_spec import Spec, assembled, read_spec
+from reportgen.classes.worker_pool import each_within
 from reportgen.workbook import write_csv
 
 TABLE = "variants.csv"

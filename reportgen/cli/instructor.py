@@ -139,9 +139,9 @@ def batch(
 ) -> None:
     """Make tasks, reports, keys or sheets of a whole class. It goes on where an earlier run was stopped."""
     from reportgen import api
-    from reportgen.classes.manifest import NAME
+    from reportgen.classes.batch_manifest import NAME
+    from reportgen.classes.batch_run import Order, run_batch
     from reportgen.classes.one_pdf import bind_products
-    from reportgen.classes.run import Order, run_batch
 
     if (spec is None) == (assignments is None):
         raise typer.BadParameter(say("one_of_spec", lang))
@@ -250,7 +250,7 @@ def grade(
 ) -> None:
     """Mark sheets, or reports, from each student's own values. Feedback, grades.csv and the class page are written."""
     from reportgen import api
-    from reportgen.classes import assess, outcome
+    from reportgen.classes import class_marking, class_outputs
     from reportgen.classes.corrections import read_corrections
     from reportgen.classes.gradebooks import read_gradebook
     from reportgen.classes.platforms import files_read
@@ -258,24 +258,24 @@ def grade(
     standards = kept(standard, lang)
     with ending(lang):
         made = (*standing(out, "feedback", "*/"), *standing(out, "class"))
-        filled = () if gradebook is None else (outcome.filled_gradebook(gradebook, out),)
+        filled = () if gradebook is None else (class_outputs.filled_gradebook(gradebook, out),)
         refuse_inputs((*made, *filled), [*files_read(submissions), policy, roster, gradebook, corrections], lang)
         rules = api.policy(policy, lang)
         # Errors in these files must be reported before an hour of marking, not after it.
         table = None if gradebook is None else read_gradebook(gradebook, column, lang)
         judged = () if corrections is None else read_corrections(corrections, lang)
-        graded = assess.grade(
+        graded = class_marking.grade(
             submissions, assignments, rules, lang, roster, corrections=judged, gradebook=table, out=out
         )
         problems = list(graded.problems)
-        for path in outcome.put(graded, rules, out, engine, lang, standards, problems=problems):
+        for path in class_outputs.put(graded, rules, out, engine, lang, standards, problems=problems):
             print(path, flush=True)
         if one_pdf:
-            print(*outcome.put_one_pdf(graded, out), sep="\n", flush=True)
+            print(*class_outputs.put_one_pdf(graded, out), sep="\n", flush=True)
         if table is not None:
-            written, unknown = outcome.put_gradebook(graded, table, rules, out, lang)
+            written, unknown = class_outputs.put_gradebook(graded, table, rules, out, lang)
             print(written, flush=True)
             problems += unknown
-        print(*outcome.summary(graded, lang), sep="\n")
+        print(*class_outputs.summary(graded, lang), sep="\n")
         print(*problems, sep="\n", end="\n" * bool(problems), file=sys.stderr)
         raise typer.Exit(AT_FAULT if any(one.level == "error" for one in problems) else 0)

@@ -10,7 +10,7 @@ from reportgen.balancing import rotor_ids
 from reportgen.balancing.rotor_calculation import BEFORE
 from reportgen.base.template_folders import languages
 from reportgen.cases import open_case
-from reportgen.classes.assess import Graded
+from reportgen.classes.class_marking import Graded
 from reportgen.marking.key import Ask
 from reportgen.marking.marking import mark
 from reportgen.marking.scheme import marking_scheme

@@ -24,7 +24,7 @@ from statistics import median
 from time import perf_counter
 
 from reportgen import api
-from reportgen.classes.run import Order, run_batch
+from reportgen.classes.batch_run import Order, run_batch
 from reportgen.classes.variants import make_variants
 
 from .measure import Cost, in_turns, middle, run

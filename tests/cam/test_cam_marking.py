@@ -11,7 +11,7 @@ import pytest
 from reportgen.base.errors import AssignmentError
 from reportgen.base.template_folders import languages
 from reportgen.cases import open_case
-from reportgen.classes.assess import Graded
+from reportgen.classes.class_marking import Graded
 from reportgen.classes.variants import make_variants
 from reportgen.formula.evaluation import evaluate
 from reportgen.formula.ledger import follow

@@ -6,8 +6,8 @@ import io
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
-from reportgen.classes.pool import Job, Pool, Results, Retried, run_job
-from reportgen.classes.run import Order, Result, run_batch
+from reportgen.classes.batch_run import Order, Result, run_batch
+from reportgen.classes.worker_pool import Job, Pool, Results, Retried, run_job
 from tests.classes.little import little
 
 MAKERS = {"little": little, "other": little}

@@ -16,7 +16,7 @@ from pathlib import Path
 from reportgen.api import Engine
 from reportgen.base.errors import AssignmentError, Mark, Problem
 from reportgen.base.units import Language
-from reportgen.classes.run import Order, run_batch
+from reportgen.classes.batch_run import Order, run_batch
 
 
 def little(path: Path, engine: Engine, language: Language | None) -> Mapping[str, bytes]:

@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import NamedTuple
 
 from reportgen.base.errors import AssignmentError, Fault, Mark
-from reportgen.classes.draw import Draw, DrawnVariant, FindFaults
 from reportgen.classes.roster import Roster, RosterEntry
-from reportgen.classes.spec import Spec
+from reportgen.classes.variant_draw import Draw, DrawnVariant, FindFaults
+from reportgen.classes.variant_spec import Spec
 
 ROOT = Path(__file__).parents[2]
 DEMO = ROOT / "assignments" / "class-demo"

@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 
 from reportgen.base.errors import Fault
-from reportgen.classes.collecting import named_after
 from reportgen.classes.platforms import Handed, Owner, handed_in
+from reportgen.classes.submission_matching import named_after
 
 
 class RawName(zipfile.ZipInfo):

@@ -15,7 +15,7 @@ from reportgen.api import Engine
 from reportgen.base import files
 from reportgen.base.errors import AssignmentError, OutputError
 from reportgen.base.units import Language
-from reportgen.classes.run import Order, locked, run_batch, watching
+from reportgen.classes.batch_run import Order, locked, run_batch, watching
 from tests.classes.classes import Batch, here, tree, write_class
 from tests.classes.little import little
 from tests.commands import process, reportgen
@@ -176,7 +176,7 @@ def test_another_engine_language_or_template_makes_all_anew(tmp_path: Path, monk
     variants = [order, replace(order, engine="latex"), replace(order, language="vi"), order]
     for variant in variants:
         run_batch(variant, io.StringIO(), {"little": little})
-    monkeypatch.setattr("reportgen.classes.pool.templates_hash", lambda: "other words")
+    monkeypatch.setattr("reportgen.classes.worker_pool.templates_hash", lambda: "other words")
     batch.run()
     assert len(log.read_text().splitlines()) == len(variants) + 1
 
@@ -212,7 +212,7 @@ def test_a_full_disk_stops_the_batch(tmp_path: Path, monkeypatch: pytest.MonkeyP
     def full(target: Path, content: bytes) -> None:
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), str(target))
 
-    monkeypatch.setattr("reportgen.classes.manifest.put_file", full)
+    monkeypatch.setattr("reportgen.classes.batch_manifest.put_file", full)
     with pytest.raises(OutputError, match="No space") as raised:
         batch.run()
     assert raised.value.exit_code == 3

@@ -11,8 +11,8 @@ import pytest
 
 from reportgen.base.errors import AssignmentError, Fault
 from reportgen.base.yaml_source import plain, read_text
-from reportgen.classes.draw import FindFaults, judge_of, pick
-from reportgen.classes.spec import Settings, Spec, read_spec
+from reportgen.classes.variant_draw import FindFaults, judge_of, pick
+from reportgen.classes.variant_spec import Settings, Spec, read_spec
 from reportgen.classes.variants import Effort, compare, make_variants
 from reportgen.workbook import Book, BookSheet, write_xlsx
 from tests.classes.specs import BARS, ROOT, Put, classes, draw, ids, located

@@ -13,8 +13,8 @@ import pytest
 
 from reportgen.base.errors import AssignmentError, Mark
 from reportgen.base.yaml_source import Scalar
-from reportgen.classes import assess
-from reportgen.classes.assess import Graded
+from reportgen.classes import class_marking
+from reportgen.classes.class_marking import Graded
 from reportgen.classes.gradebooks import Participant, StudentResult, read_gradebook
 from reportgen.classes.lateness import Handing, days_late
 from reportgen.classes.variants import make_variants
@@ -135,7 +135,7 @@ def twice(folder: Path, few: Path, policy: Policy, *, packed: bool = False) -> G
             for file in own.iterdir():
                 made.write(file, f"{own.name}/{file.name}")
         download = folder / "d.zip"
-    return assess.grade([download], few, policy, "en")
+    return class_marking.grade([download], few, policy, "en")
 
 
 @pytest.mark.parametrize(("packed", "policy", "marked"), [(False, Policy(), "a"), (True, Policy(twice="first"), "z")])
@@ -160,7 +160,7 @@ def test_whose_file_is_refused_did_hand_in(file: str, few: Path, tmp_path: Path)
     path = tmp_path / "handed" / file
     path.parent.mkdir(parents=True)
     path.write_bytes(b"PK\x03\x04 no workbook")
-    found = assess.grade([tmp_path / "handed"], few, Policy(), "en")
+    found = class_marking.grade([tmp_path / "handed"], few, Policy(), "en")
     assert [key.id for key in found.missing] == [BAO]
     assert [key.id for key in found.refused] == [ANH]
     (reason,) = next(one.reasons for one in found.unmarked if one.reasons)

@@ -11,7 +11,7 @@ import pytest
 from reportgen.base.errors import Problem
 from reportgen.case import MachineAnalysis
 from reportgen.cases import open_case
-from reportgen.classes import assess, outcome
+from reportgen.classes import class_marking, class_outputs
 from reportgen.marking.guard import Classmate
 from reportgen.marking.key import Ask, key_of
 from reportgen.marking.marks import Marking, Submission
@@ -55,11 +55,11 @@ def handed(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
 
 def test_damaged_files_leave_the_marks_of_the_class(handed: tuple[Path, Path], tmp_path: Path) -> None:
     assignments, folder = handed
-    graded = assess.grade([folder], assignments, Policy(guard=False, least_read=0), "en")
+    graded = class_marking.grade([folder], assignments, Policy(guard=False, least_read=0), "en")
     told: list[Problem] = []
     written = {
         path.relative_to(tmp_path).as_posix()
-        for path in outcome.put(graded, Policy(guard=False), tmp_path, "typst", "en", problems=told)
+        for path in class_outputs.put(graded, Policy(guard=False), tmp_path, "typst", "en", problems=told)
     }
     assert {"grades.csv", "class.pdf", f"{GOOD}/marked.docx", f"{UNITS}/marked-sheet-1.dxf"} <= written
     rows = {row["id"]: row for row in csv.DictReader((tmp_path / "grades.csv").read_text("utf-8-sig").splitlines())}
@@ -84,7 +84,7 @@ def test_an_exception_nobody_expected_concerns_one_student(
     assignments, folder = handed
     stray = tmp_path / f"{CUT}.xlsx"
     stray.write_bytes(write_xlsx(answer_book(Ask().of(key_of(open_case(assignments / f"{GOOD}.yaml"))))))
-    marked = assess.mark
+    marked = class_marking.mark
 
     def mark(scheme: MarkingScheme, submission: Submission, classmates: Sequence[Classmate]) -> Marking:
         if submission.assignment == SETTINGS:
@@ -93,9 +93,9 @@ def test_an_exception_nobody_expected_concerns_one_student(
             raise OverflowError("of somebody else's sheet")
         return marked(scheme, submission, classmates)
 
-    monkeypatch.setattr(assess, "mark", mark)
+    monkeypatch.setattr(class_marking, "mark", mark)
     reports = [folder / f"{id}.docx" for id in (GOOD, SETTINGS)]
-    graded = assess.grade([*reports, stray], assignments, Policy(), "en")
+    graded = class_marking.grade([*reports, stray], assignments, Policy(), "en")
     assert [(marking.key.id, marking.share) for marking in graded.markings] == [(GOOD, 1)]
     (refused,) = (one for one in graded.unmarked if one.reasons)
     assert refused.key.id == SETTINGS

@@ -12,20 +12,20 @@ import pytest
 from reportgen.base.errors import Mark, Problem
 from reportgen.base.template_folders import templates
 from reportgen.base.words import templates_hash
-from reportgen.classes import manifest
-from reportgen.classes.manifest import ManifestEntry, journal
-from reportgen.classes.pool import Job, Outcome, making
+from reportgen.classes import batch_manifest
+from reportgen.classes.batch_manifest import ManifestEntry, journal
+from reportgen.classes.worker_pool import Job, Outcome, making
 from tests.classes.classes import Batch
 from tests.classes.little import little
 
 JOB = Job("Số 7", "So_7-1", "little", little, "7.yaml", b"seconds: 0", making("typst", None))
 FAULT = Problem("wrong", "không đúng", Mark("7.yaml", 1, 8))
-DONE = manifest.entry_of(JOB, Outcome({"a.pdf": b"A", "b.xlsx": b"B"}))
-FAILED = manifest.entry_of(replace(JOB, student="8", folder="8"), Outcome(problems=(FAULT,), exit_code=1))
+DONE = batch_manifest.entry_of(JOB, Outcome({"a.pdf": b"A", "b.xlsx": b"B"}))
+FAILED = batch_manifest.entry_of(replace(JOB, student="8", folder="8"), Outcome(problems=(FAULT,), exit_code=1))
 
 
 def test_a_result_is_told_by_hashes(tmp_path: Path) -> None:
-    text = manifest.write_manifest(tmp_path, [FAILED, DONE]).read_text(encoding="utf-8")
+    text = batch_manifest.write_manifest(tmp_path, [FAILED, DONE]).read_text(encoding="utf-8")
     assert json.loads(text) == {
         "format": "reportgen-batch/1",
         "students": {
@@ -62,23 +62,23 @@ def test_a_result_is_told_by_hashes(tmp_path: Path) -> None:
 
 
 def test_the_order_of_results_leaves_no_trace(tmp_path: Path) -> None:
-    texts = [manifest.write_manifest(tmp_path, order).read_bytes() for order in ((DONE, FAILED), (FAILED, DONE))]
+    texts = [batch_manifest.write_manifest(tmp_path, order).read_bytes() for order in ((DONE, FAILED), (FAILED, DONE))]
     assert texts[0] == texts[1]
 
 
 def test_it_is_read_as_it_was_written(tmp_path: Path) -> None:
-    manifest.write_manifest(tmp_path, [DONE, FAILED])
-    assert list(manifest.read_manifest(tmp_path).values()) == [FAILED, DONE]
+    batch_manifest.write_manifest(tmp_path, [DONE, FAILED])
+    assert list(batch_manifest.read_manifest(tmp_path).values()) == [FAILED, DONE]
 
 
 def test_the_journal_comes_after_the_manifest_and_goes_with_the_next(tmp_path: Path) -> None:
     older = replace(DONE, files={"a.pdf": "0"})
-    manifest.write_manifest(tmp_path, [older])
+    batch_manifest.write_manifest(tmp_path, [older])
     with journal(tmp_path) as record:
         record(DONE)
         record(FAILED)
-    assert manifest.read_manifest(tmp_path) == {("Số 7", "little"): DONE, ("8", "little"): FAILED}
-    manifest.write_manifest(tmp_path, manifest.read_manifest(tmp_path).values())
+    assert batch_manifest.read_manifest(tmp_path) == {("Số 7", "little"): DONE, ("8", "little"): FAILED}
+    batch_manifest.write_manifest(tmp_path, batch_manifest.read_manifest(tmp_path).values())
     assert [path.name for path in tmp_path.iterdir()] == ["manifest.json"]
 
 
@@ -87,13 +87,13 @@ def test_a_torn_line_costs_no_other(tmp_path: Path) -> None:
     with journal(tmp_path) as record:
         record(DONE)
         record(FAILED)
-    path = tmp_path / manifest.JOURNAL
+    path = tmp_path / batch_manifest.JOURNAL
     whole = path.read_bytes()
     first = whole.index(b"\n")
     for end in range(len(whole)):
         path.write_bytes(whole[:end])
         wanted = [DONE, FAILED][: (end >= first) + (end >= len(whole) - 1)]
-        assert list(manifest.read_manifest(tmp_path).values()) == wanted
+        assert list(batch_manifest.read_manifest(tmp_path).values()) == wanted
 
 
 @pytest.mark.parametrize(
@@ -116,11 +116,11 @@ def test_a_torn_line_costs_no_other(tmp_path: Path) -> None:
 def test_a_manifest_that_is_none_makes_all_anew(tmp_path: Path, text: str) -> None:
     batch = Batch(tmp_path, {"K1": "seconds: 0"})
     batch.run()
-    whole = (batch.out / manifest.NAME).read_bytes()
-    (batch.out / manifest.NAME).write_bytes(text.encode("utf-8", "surrogatepass"))
+    whole = (batch.out / batch_manifest.NAME).read_bytes()
+    (batch.out / batch_manifest.NAME).write_bytes(text.encode("utf-8", "surrogatepass"))
     done = batch.run()
     assert (done.made, done.exit_code) == (1, 0)
-    assert (batch.out / manifest.NAME).read_bytes() == whole
+    assert (batch.out / batch_manifest.NAME).read_bytes() == whole
 
 
 @pytest.mark.parametrize("name", ["../secret.pdf", "/etc/hostname", "a\0b", "a" * 500])
@@ -128,7 +128,7 @@ def test_a_forged_manifest_vouches_for_nothing(tmp_path: Path, name: str) -> Non
     """Files named so are read at most, and never believed to be the student's."""
     batch = Batch(tmp_path, {"K1": "seconds: 0"})
     batch.run()
-    path = batch.out / manifest.NAME
+    path = batch.out / batch_manifest.NAME
     content = json.loads(path.read_text(encoding="utf-8"))
     (batch.out / "secret.pdf").write_bytes(b"A")
     content["students"]["K1"]["products"]["little"]["files"] = {name: sha256(b"A").hexdigest()}
@@ -151,7 +151,7 @@ def test_neither_times_nor_places_are_told(tmp_path: Path) -> None:
 
 def test_an_entry_without_files_holds_nothing(tmp_path: Path) -> None:
     assert not replace(DONE, files={}).holds(JOB, tmp_path)
-    assert not ManifestEntry("Số 7", "So_7-1", "little", manifest.made_of(JOB)).holds(JOB, tmp_path)
+    assert not ManifestEntry("Số 7", "So_7-1", "little", batch_manifest.made_of(JOB)).holds(JOB, tmp_path)
 
 
 @pytest.mark.parametrize("change", ["added", "altered", "renamed"])

@@ -18,7 +18,7 @@ import pytest
 
 from reportgen.base.errors import AssignmentError, Fault
 from reportgen.base.units import Language
-from reportgen.classes import assess, outcome
+from reportgen.classes import class_marking, class_outputs
 from reportgen.classes.archives import MOST_MEMBERS
 from reportgen.classes.gradebooks import Participant, StudentResult, read_gradebook
 from reportgen.classes.platforms import Owner, handed_in, owner_of
@@ -112,13 +112,13 @@ def test_moodles_download_is_marked_and_given_back_under_its_names(
     download = archive(tmp_path / "download.zip", members)
     if not packed:
         zipfile.ZipFile(download).extractall(tmp_path / "unpacked")
-    result = assess.grade([download if packed else tmp_path / "unpacked"], assignments, Policy())
+    result = class_marking.grade([download if packed else tmp_path / "unpacked"], assignments, Policy())
     assert [marking.key.id for marking in result.markings] == [AN, ANH, BAO]
     assert {id: owner.number for id, owner in result.owners.items()} == {AN: "4711", ANH: "4712", BAO: "4713"}
     # Whoever handed in no sheet is told, by the place of what there is.
     assert [problem.code for problem in result.problems] == ["download-no-sheet"]
     assert result.problems[0].mark.file.endswith("Vũ Hà_4714_assignsubmission_file/bai.txt")
-    files = dict(outcome.files_of(result, Policy(), "typst", None))
+    files = dict(class_outputs.files_of(result, Policy(), "typst", None))
     with zipfile.ZipFile(io.BytesIO(files[Path("feedback.zip")])) as back:
         names = back.namelist()
         folder = f"{PEOPLE[BAO]}_4713_assignsubmission_file"
@@ -131,8 +131,8 @@ def test_canvas_download_is_given_back_with_user_and_attachment(assignments: Pat
     """Canvas finds the student by the first two numbers between underscores."""
     suffix, content = sheet(BAO)
     download = archive(tmp_path / "submissions.zip", {f"bảolêvăn_LATE_812_9001_bai_3{suffix}": content})
-    result = assess.grade([download], assignments, Policy())
-    files = dict(outcome.files_of(result, Policy(), "typst", None))
+    result = class_marking.grade([download], assignments, Policy())
+    files = dict(class_outputs.files_of(result, Policy(), "typst", None))
     with zipfile.ZipFile(io.BytesIO(files[Path("feedback.zip")])) as back:
         for name in back.namelist():
             assert [part for part in name.split("_") if part.isdigit()][:2] == ["812", "9001"]
@@ -143,7 +143,7 @@ def test_nobody_hands_in_for_another(assignments: Path, tmp_path: Path) -> None:
     members = moodle({BAO: "4713"})
     suffix, content = sheet(BAO)
     members[f"{PEOPLE[ANH]}_4712_assignsubmission_file/a{suffix}"] = content
-    result = assess.grade([archive(tmp_path / "d.zip", members)], assignments, Policy())
+    result = class_marking.grade([archive(tmp_path / "d.zip", members)], assignments, Policy())
     assert [problem.code for problem in result.problems] == ["sheet-other-hands"]
     assert result.owners[BAO].number == "4713"
 
@@ -167,9 +167,11 @@ def test_a_hand_in_without_a_name_is_matched_by_its_number(word: str, assignment
         encoding="utf-8",
     )
     table = read_gradebook(worksheet)
-    graded = assess.grade([archive(tmp_path / "d.zip", members)], assignments, Policy(guard=False), gradebook=table)
+    graded = class_marking.grade(
+        [archive(tmp_path / "d.zip", members)], assignments, Policy(guard=False), gradebook=table
+    )
     assert [marking.key.id for marking in graded.markings] == [BAO]
-    written, unknown = outcome.put_gradebook(graded, table, Policy(), tmp_path / "out", None)
+    written, unknown = class_outputs.put_gradebook(graded, table, Policy(), tmp_path / "out", None)
     mark = Policy().mark(graded.markings[0].share, 0)
     assert (
         written.read_text(encoding="utf-8").splitlines()[2].startswith(f"{word} 553,Submitted for grading,{mark:.2f},")
@@ -211,7 +213,7 @@ def test_a_sheet_that_is_too_large_is_a_fault_of_its_own(assignments: Path, tmp_
     with zipfile.ZipFile(tmp_path / "d.zip", "w", zipfile.ZIP_STORED) as made:
         made.writestr("large.csv", noise)
         made.writestr(f"{AN}{sheet(AN)[0]}", sheet(AN)[1])
-    result = assess.grade([tmp_path / "d.zip"], assignments, Policy())
+    result = class_marking.grade([tmp_path / "d.zip"], assignments, Policy())
     assert [problem.code for problem in result.problems] == ["too-large"]
     assert result.problems[0].mark.file == str(tmp_path / "d.zip" / "large.csv")
     assert len(result.markings) == 1
@@ -344,11 +346,11 @@ def test_a_wrong_gradebook_is_told_before_anything_is_marked(tmp_path: Path) -> 
 
 
 def test_put_does_not_overwrite_what_was_downloaded(assignments: Path, tmp_path: Path) -> None:
-    result = assess.grade([SHEETS[BAO]], assignments, Policy())
+    result = class_marking.grade([SHEETS[BAO]], assignments, Policy())
     for place, name in ((tmp_path, "filled-gradebook.csv"), (tmp_path / "out", "gradebook.csv")):
         source = tmp_path / "gradebook.csv"
         source.write_text(CANVAS, encoding="utf-8")
-        written, problems = outcome.put_gradebook(result, read_gradebook(source, "501"), Policy(), place, "en")
+        written, problems = class_outputs.put_gradebook(result, read_gradebook(source, "501"), Policy(), place, "en")
         assert (written, [one.code for one in problems]) == (place / name, ["gradebook-no-comments"])
         assert source.read_text(encoding="utf-8") == CANVAS
 
@@ -388,7 +390,7 @@ def test_a_roster_gives_names_and_addresses(assignments: Path, tmp_path: Path) -
         (tmp_path / f"{id}.yaml").write_text("\n".join(kept), encoding="utf-8")
     roster = tmp_path / "gradebook.csv"
     roster.write_text(f"id,name,email\n{BAO},Lê Văn Bảo,b@x.vn\n", encoding="utf-8")
-    result = assess.grade([SHEETS[BAO]], tmp_path, Policy(), roster=roster)
+    result = class_marking.grade([SHEETS[BAO]], tmp_path, Policy(), roster=roster)
     assert result.markings[0].key.student["name"] == "Lê Văn Bảo"
     assert result.known[BAO] == Participant(f"{BAO} Lê Văn Bảo", frozenset({BAO.casefold(), "b@x.vn"}), "")
 

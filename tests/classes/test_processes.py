@@ -23,10 +23,10 @@ import pytest
 from reportgen.api import Engine, Maker
 from reportgen.base.files import put_file, put_set
 from reportgen.base.units import Language
-from reportgen.classes import leavings
-from reportgen.classes import pool as pools
-from reportgen.classes.pool import Job, local, making, run_job
-from reportgen.classes.run import Order, run_batch
+from reportgen.classes import cleanup
+from reportgen.classes import worker_pool as pools
+from reportgen.classes.batch_run import Order, run_batch
+from reportgen.classes.worker_pool import Job, local, making, run_job
 from tests.classes.classes import Batch, tree, write_class
 from tests.classes.little import little
 from tests.lanes import proof
@@ -111,7 +111,7 @@ def test_sockets_have_a_place_however_long_the_way_to_temporary_files(
 ) -> None:
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path / ("t" * 90)))
     monkeypatch.setitem(multiprocessing.current_process()._config, "tempdir", None)
-    folder = leavings.sockets()
+    folder = cleanup.sockets()
     assert folder is not None
     with closing(socket.socket(socket.AF_UNIX)) as listener:
         listener.bind(f"{folder}/listener-12345678")
@@ -203,8 +203,8 @@ def putting(monkeypatch: pytest.MonkeyPatch, put: Put) -> None:
     def puts(files: Mapping[Path, bytes], gone: Collection[Path] = ()) -> None:
         put(files, gone)
 
-    monkeypatch.setattr("reportgen.classes.run.put_set", puts)
-    monkeypatch.setattr("reportgen.classes.manifest.put_file", lambda target, content: put({target: content}, ()))
+    monkeypatch.setattr("reportgen.classes.batch_run.put_set", puts)
+    monkeypatch.setattr("reportgen.classes.batch_manifest.put_file", lambda target, content: put({target: content}, ()))
 
 
 class Killed(BaseException):

@@ -9,12 +9,12 @@ from pathlib import Path
 
 import pytest
 
-from reportgen.classes import ready
-from reportgen.classes.pool import KINDS
+from reportgen.classes import preload
+from reportgen.classes.worker_pool import KINDS
 from tests.lanes import matrix
 
 ASKED = (
-    "import reportgen.classes.ready; from reportgen.document import prose; from reportgen.base import words; "
+    "import reportgen.classes.preload; from reportgen.document import prose; from reportgen.base import words; "
     "print(prose._environment.cache_info().currsize, words._as_of.cache_info().currsize)"
 )
 
@@ -29,12 +29,12 @@ def in_a_server(kinds: str) -> list[int]:
 def test_kind_and_language_are_read_off_a_spec_and_off_files(tmp_path: Path) -> None:
     spec = tmp_path / "spec.yaml"
     spec.write_text("kind: shaper\nsalt: 1\nreport:\n  language: en\n", encoding="utf-8")
-    assert ready.kinds(spec, None) == {"shaper:en"}
-    assert ready.kinds(spec, "vi") == {"shaper:vi"}
+    assert preload.kinds(spec, None) == {"shaper:en"}
+    assert preload.kinds(spec, "vi") == {"shaper:vi"}
     (tmp_path / "a").mkdir()
     (tmp_path / "a" / "1.yaml").write_text("kind: four-bar\n", encoding="utf-8")
     (tmp_path / "a" / "2.yaml").write_bytes(b"\xff\xfe kind")
-    assert ready.kinds(tmp_path / "a", None) == {"four-bar:vi"}
+    assert preload.kinds(tmp_path / "a", None) == {"four-bar:vi"}
 
 
 @pytest.mark.parametrize(

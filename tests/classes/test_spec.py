@@ -15,7 +15,7 @@ from reportgen.base.errors import AssignmentError, Mark
 from reportgen.base.units import Language
 from reportgen.base.yaml_source import MappingNode, Scalar, SequenceNode, plain, read_text
 from reportgen.base.yaml_values import quoted, text_of
-from reportgen.classes.spec import Spec, read_spec
+from reportgen.classes.variant_spec import Spec, read_spec
 from reportgen.cli import app
 from reportgen.workbook import Book, BookSheet, write_xlsx
 from tests.classes.specs import BARS, ROOT, Put, located

@@ -15,7 +15,7 @@ from reportgen.base.errors import Problem
 from reportgen.case import MachineAnalysis
 from reportgen.case.answer_key import Key
 from reportgen.cases import open_case
-from reportgen.classes import assess, outcome
+from reportgen.classes import class_marking, class_outputs
 from reportgen.document import Document
 from reportgen.marking.key import Ask, key_of
 from reportgen.marking.policy import Policy
@@ -101,9 +101,9 @@ def test_no_spoilt_file_ends_the_marking(part: int, tmp_path: Path, monkeypatch:
 
     monkeypatch.setattr(api, "typeset", sparing)
     rules = Policy(guard=False, least_read=0)
-    graded = assess.grade([folder], assignments, rules, "en")
+    graded = class_marking.grade([folder], assignments, rules, "en")
     told: list[Problem] = []
-    written = set(outcome.put(graded, rules, out, "typst", "en", problems=told))
+    written = set(class_outputs.put(graded, rules, out, "typst", "en", problems=told))
     rows = {row["id"]: row for row in csv.DictReader((out / "grades.csv").read_text("utf-8-sig").splitlines())}
     assert sorted(rows) == students
     assert rows[GOOD]["per cent"] == "100"

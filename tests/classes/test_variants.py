@@ -11,9 +11,9 @@ from reportgen import api
 from reportgen.base.errors import AssignmentError, Mark
 from reportgen.base.yaml_source import Scalar, plain, read_text
 from reportgen.base.yaml_values import put
-from reportgen.classes.draw import judge_of
 from reportgen.classes.roster import read_roster
-from reportgen.classes.spec import read_spec
+from reportgen.classes.variant_draw import judge_of
+from reportgen.classes.variant_spec import read_spec
 from reportgen.classes.variants import Variants, make_variants
 from reportgen.cli import app
 from reportgen.workbook import read, write_csv

@@ -12,7 +12,7 @@ from typer.testing import CliRunner, Result
 
 from reportgen import api
 from reportgen.base.files import overwritten
-from reportgen.classes import assess, run, variants
+from reportgen.classes import batch_run, class_marking, variants
 from reportgen.cli import app
 from tests.classes.classes import tree
 from tests.classes.specs import BARS
@@ -37,8 +37,8 @@ def _idle(monkeypatch: pytest.MonkeyPatch) -> None:
     for room, name in (
         (api, "opened"),
         (api, "open_case"),
-        (assess, "grade"),
-        (run, "run_batch"),
+        (class_marking, "grade"),
+        (batch_run, "run_batch"),
         (variants, "_efforts"),
     ):
         monkeypatch.setattr(room, name, busy)

@@ -12,7 +12,7 @@ from typer.testing import CliRunner, Result
 
 from reportgen.base.errors import OutputWarning
 from reportgen.base.template_folders import samples
-from reportgen.classes.run import Order, run_batch
+from reportgen.classes.batch_run import Order, run_batch
 from reportgen.cli import app
 from tests.classes.classes import here, write_class
 from tests.lanes import proof

@@ -14,12 +14,12 @@ from reportgen.assignment.common import Assignment
 from reportgen.base.errors import AssignmentError
 from reportgen.cases import open_case
 from reportgen.catalogue import load
-from reportgen.classes.assess import grade
-from reportgen.classes.draw import pick
-from reportgen.classes.pool import Job, making, run_job
+from reportgen.classes.batch_run import Order, Result, run_batch
+from reportgen.classes.class_marking import grade
 from reportgen.classes.roster import assignment_files, beside
-from reportgen.classes.run import Order, Result, run_batch
+from reportgen.classes.variant_draw import pick
 from reportgen.classes.variants import Variants, make_variants
+from reportgen.classes.worker_pool import Job, making, run_job
 from reportgen.marking.grades import grade_rows
 from reportgen.marking.key import Ask, key_of
 from reportgen.marking.marking import compare, mark

@@ -11,8 +11,8 @@ import pytest
 from reportgen import api
 from reportgen.base.units import write
 from reportgen.cases import open_case
-from reportgen.classes import assess
-from reportgen.classes.assess import Graded
+from reportgen.classes import class_marking
+from reportgen.classes.class_marking import Graded
 from reportgen.classes.variants import make_variants
 from reportgen.document import text_of
 from reportgen.marking.key import key_of
@@ -67,7 +67,7 @@ def graded(drawn: tuple[str, Path]) -> Graded:
         slip = Mistake("doubled", where, {where: lambda value, _: value * 2}) if path.stem == "S01" else None
         sheet = students.written(scheme, students.worked_out(scheme, slip))
         (folder / "sheets" / f"{path.stem}.xlsx").write_bytes(demo.workbook(scheme.key, sheet))
-    return assess.grade([folder / "sheets"], folder / "variants", Policy())
+    return class_marking.grade([folder / "sheets"], folder / "variants", Policy())
 
 
 def test_variants_differ_and_can_be_worked_out(drawn: tuple[str, Path]) -> None:

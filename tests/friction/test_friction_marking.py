@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from reportgen.cases import open_case
-from reportgen.classes import assess
+from reportgen.classes import class_marking
 from reportgen.classes.variants import make_variants
 from reportgen.marking.key import Ask
 from reportgen.marking.marking import mark
@@ -103,7 +103,7 @@ def test_a_class_from_variants_to_marks(name: str, tmp_path: Path) -> None:
         scheme = marking_scheme(open_case(path))
         filled = demo.workbook(scheme.key, students.written(scheme, students.worked_out(scheme)))
         (tmp_path / "sheets" / f"{path.stem}.xlsx").write_bytes(filled)
-    graded = assess.grade([tmp_path / "sheets"], tmp_path / "variants", Policy())
+    graded = class_marking.grade([tmp_path / "sheets"], tmp_path / "variants", Policy())
     assert graded.problems == ()
     assert [marking.points for marking in graded.markings] == [marking.out_of for marking in graded.markings]
 

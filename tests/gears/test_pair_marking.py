@@ -11,7 +11,7 @@ import pytest
 
 from reportgen import catalogue
 from reportgen.cases import open_case
-from reportgen.classes.assess import Graded
+from reportgen.classes.class_marking import Graded
 from reportgen.formula import refs
 from reportgen.formula.evaluation import evaluate
 from reportgen.formula.ledger import standing_on

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from reportgen.cases import open_case
-from reportgen.classes.assess import Graded
+from reportgen.classes.class_marking import Graded
 from reportgen.gears import train_ids
 from reportgen.marking.marking import mark
 from reportgen.marking.mistakes import Mistake

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from reportgen.cases import open_case
-from reportgen.classes.assess import grade
-from reportgen.classes.outcome import files_of
+from reportgen.classes.class_marking import grade
+from reportgen.classes.class_outputs import files_of
 from reportgen.marking.key import key_of
 from reportgen.marking.marks import Verdict
 from reportgen.marking.policy import Policy

@@ -14,7 +14,7 @@ import pytest
 from reportgen.base.errors import AssignmentError, Mark
 from reportgen.case.answer_key import Key
 from reportgen.cases import open_case
-from reportgen.classes import assess, outcome
+from reportgen.classes import class_marking, class_outputs
 from reportgen.handin import agree, submission, word_report
 from reportgen.handin.checking import compare, read, reading
 from reportgen.handin.reading_book import NAME, is_unchanged, reading_book
@@ -74,8 +74,8 @@ def report(
     return wml.package("".join((*lines, ended, *later)), parts, relations)
 
 
-def grades(graded: assess.Graded, policy: Policy = RULES) -> list[dict[str, str]]:
-    made = {str(path): content for path, content in outcome.files_of(graded, policy, "typst", "en")}
+def grades(graded: class_marking.Graded, policy: Policy = RULES) -> list[dict[str, str]]:
+    made = {str(path): content for path, content in class_outputs.files_of(graded, policy, "typst", "en")}
     return list(csv.DictReader(io.StringIO(made["grades.csv"].decode("utf-8-sig"))))
 
 
@@ -134,7 +134,7 @@ def test_a_class_hands_in_reports_and_sheets_together(assignments: Path, key: Ke
     }
     book = reading_book(scheme.key, Submission("K03", "", right, {}))
     (handed / "K03" / "answers.xlsx").write_bytes(_as_plain_sheet(book))
-    graded = assess.grade([handed], assignments, RULES, "en")
+    graded = class_marking.grade([handed], assignments, RULES, "en")
     assert [marking.key.id for marking in graded.markings] == ["K01", "K02", "K03"]
     assert [one.code for one in graded.problems if one.level == "note"] == ["own-beside-sheet"]
     first, second, third = grades(graded)
@@ -143,11 +143,11 @@ def test_a_class_hands_in_reports_and_sheets_together(assignments: Path, key: Ke
     assert (second["read"], second["to settle"], second["per cent"]) == ("100", "0", "100")
     assert (third["read"], third["per cent"]) == ("", "100")
     out = tmp_path / "out"
-    files = {path.relative_to(out).as_posix() for path in outcome.put(graded, RULES, out, "typst", "en")}
+    files = {path.relative_to(out).as_posix() for path in class_outputs.put(graded, RULES, out, "typst", "en")}
     assert {f"{id}/marked.docx" for id in STUDENTS} <= files
     assert {f"{id}/{NAME}" for id in ("K01", "K02")} <= files
     assert f"K03/{NAME}" not in files
-    said = list(outcome.summary(graded, "en"))
+    said = list(class_outputs.summary(graded, "en"))
     assert said[0].startswith("K01 Nguyễn Văn An: ")
     assert said[0].endswith(f"to settle: 1 ({NAME})")
 
@@ -167,13 +167,13 @@ def test_a_reading_is_completed_by_hand_and_stays(assignments: Path, key: Key, t
     """As it was written it says nothing new; once a value is put in it is the sheet, and is not written over."""
     handed, out = tmp_path / "K01.docx", tmp_path / "out"
     handed.write_bytes(report(key, {"a.D": "a_D = 3 m/s² hoặc 4 m/s²", "v.D": "v_D: 1 m/s"}))
-    first = assess.grade([handed], assignments, RULES, "en", out=out)
-    list(outcome.put(first, RULES, out, "typst", "en"))
+    first = class_marking.grade([handed], assignments, RULES, "en", out=out)
+    list(class_outputs.put(first, RULES, out, "typst", "en"))
     target = out / "K01" / NAME
     written = target.read_bytes()
-    again = assess.grade([handed], assignments, RULES, "en", out=out)
+    again = class_marking.grade([handed], assignments, RULES, "en", out=out)
     assert again.markings[0].submission.file == str(handed)
-    list(outcome.put(again, RULES, out, "typst", "en"))
+    list(class_outputs.put(again, RULES, out, "typst", "en"))
     assert target.read_bytes() == written
     loaded = openpyxl.load_workbook(target)
     (cell,) = (
@@ -186,40 +186,40 @@ def test_a_reading_is_completed_by_hand_and_stays(assignments: Path, key: Key, t
     cell.value = value
     loaded.save(target)
     changed = target.read_bytes()
-    completed = assess.grade([handed], assignments, RULES, "en", out=out)
+    completed = class_marking.grade([handed], assignments, RULES, "en", out=out)
     (marking,) = completed.markings
     assert marking.submission.values["a.D", 2].value == pytest.approx(value)
     # What is still open stays open.
     assert list(marking.submission.unread) == [("v.D", 2)]
-    list(outcome.put(completed, RULES, out, "typst", "en"))
+    list(class_outputs.put(completed, RULES, out, "typst", "en"))
     assert target.read_bytes() == changed
     # Left beside the hand-in, it counts as well.
     (tmp_path / "both").mkdir()
     (tmp_path / "both" / "K01.docx").write_bytes(handed.read_bytes())
     (tmp_path / "both" / NAME).write_bytes(changed)
-    beside = assess.grade([tmp_path / "both"], assignments, RULES, "en")
+    beside = class_marking.grade([tmp_path / "both"], assignments, RULES, "en")
     assert beside.markings[0].points == marking.points
 
 
 def test_where_too_little_is_read_there_is_no_mark(assignments: Path, key: Key, tmp_path: Path) -> None:
     handed = tmp_path / "K01.docx"
     handed.write_bytes(report(key, left=8))
-    graded = assess.grade([handed], assignments, RULES, "en")
+    graded = class_marking.grade([handed], assignments, RULES, "en")
     assert not graded.markings
     (unsettled,) = graded.unsettled
     assert unsettled.key.id == "K01"
     assert len(graded.missing) == 2
     assert not graded.refused
-    made = dict(outcome.files_of(graded, RULES, "typst", "en"))
+    made = dict(class_outputs.files_of(graded, RULES, "typst", "en"))
     assert list(map(str, made)) == ["K01/feedback.txt", f"K01/{NAME}", "grades.csv", "class.pdf"]
     assert "This is no mark of 0" not in made[Path("grades.csv")].decode("utf-8-sig")
-    assert "no mark" in "".join(outcome.summary(graded, "en"))
+    assert "no mark" in "".join(class_outputs.summary(graded, "en"))
     # A policy may take less.
     policy = tmp_path / "policy.yaml"
     policy.write_text("least_read: 40 %\nguard: false\n", encoding="utf-8")
     rules = read_policy(policy)
     assert rules.least_read == pytest.approx(0.4)
-    (marking,) = assess.grade([handed], assignments, rules, "en").markings
+    (marking,) = class_marking.grade([handed], assignments, rules, "en").markings
     assert marking.points == len(marking.submission.values)
     assert not marking.first_errors
 
@@ -228,16 +228,16 @@ def test_a_report_of_pictures_only_has_no_mark(assignments: Path, key: Key, tmp_
     """Nothing recognised is no mark of 0: log, grades.csv and the student say so, whatever `least_read` is."""
     (tmp_path / "K01.docx").write_bytes(wml.package(wml.paragraph(wml.run("Báo cáo K01"))))
     for rules in (RULES, replace(RULES, least_read=0.0)):
-        graded = assess.grade([tmp_path / "K01.docx"], assignments, rules, "en")
+        graded = class_marking.grade([tmp_path / "K01.docx"], assignments, rules, "en")
         assert not graded.markings
         (student,) = graded.unsettled
         assert student.unsettled is not None
         assert student.unsettled.is_unrecognised
-        made = dict(outcome.files_of(graded, rules, "typst", "en"))
+        made = dict(class_outputs.files_of(graded, rules, "typst", "en"))
         assert "0" in made[Path("K01/feedback.txt")].decode().splitlines()[0]
         rows = made[Path("grades.csv")].decode("utf-8-sig").splitlines()
         assert "handed in, but no mark: nothing was recognised" in rows[1]
-        said = next(iter(outcome.summary(graded, "en")))
+        said = next(iter(class_outputs.summary(graded, "en")))
         assert said.startswith("K01 Nguyễn Văn An: no mark: nothing was recognised")
 
 
@@ -253,7 +253,7 @@ def test_right_values_in_white_earn_nothing_and_the_lecturer_hears_of_it(
     with zipfile.ZipFile(tmp_path / "K01.docx", "w") as archive:
         for name, content in parts.items():
             archive.writestr(name, content)
-    graded = assess.grade([tmp_path / "K01.docx"], assignments, RULES, "en")
+    graded = class_marking.grade([tmp_path / "K01.docx"], assignments, RULES, "en")
     assert not graded.markings
     assert {problem.code for problem in graded.problems} == {"word-unseen", "word-nothing"}
     (student,) = graded.unsettled
@@ -275,11 +275,11 @@ def test_a_download_of_moodle_has_reports_and_gets_marked_copies(assignments: Pa
         archive.writestr("Nguyễn Văn An_4711_assignsubmission_file/bai.docx", report(key))
         archive.writestr("Trần Thị Bình_4712_assignsubmission_file/scan.pdf", b"%PDF")
         archive.writestr("Lê Cường_4713_assignsubmission_file/bai.docx", b"text")
-    graded = assess.grade([download], assignments, RULES, "en")
+    graded = class_marking.grade([download], assignments, RULES, "en")
     assert [marking.key.id for marking in graded.markings] == ["K01"]
     assert sorted(one.code for one in graded.problems) == ["own-not-read", "word-damaged"]
     assert {key.id for key in graded.refused} == {"K02", "K03"}
-    made = {str(path): content for path, content in outcome.files_of(graded, RULES, "typst", "en")}
+    made = {str(path): content for path, content in class_outputs.files_of(graded, RULES, "typst", "en")}
     names = zipfile.ZipFile(io.BytesIO(made["feedback.zip"])).namelist()
     assert "Nguyễn Văn An_4711_assignsubmission_file/marked.docx" in names
 
@@ -288,7 +288,7 @@ def test_a_download_of_moodle_has_reports_and_gets_marked_copies(assignments: Pa
 def test_a_report_of_nobody_and_one_of_two_are_told(assignments: Path, key: Key, tmp_path: Path) -> None:
     for name, head in (("a.docx", ""), ("b.docx", "Nhóm: K01 và K02")):
         (tmp_path / name).write_bytes(report(key, head=head))
-    graded = assess.grade([tmp_path], assignments, RULES, "en")
+    graded = class_marking.grade([tmp_path], assignments, RULES, "en")
     assert [one.code for one in graded.problems] == ["own-whose", "own-whose"]
     assert not graded.markings
 

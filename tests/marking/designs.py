@@ -11,8 +11,8 @@ import pymupdf
 from reportgen import api
 from reportgen.base.units import write
 from reportgen.cases import open_case
-from reportgen.classes import assess
-from reportgen.classes.assess import Graded
+from reportgen.classes import class_marking
+from reportgen.classes.class_marking import Graded
 from reportgen.classes.variants import make_variants
 from reportgen.formula.evaluation import evaluate
 from reportgen.marking.key import key_of
@@ -51,7 +51,7 @@ def graded_class(folder: Path, mistake: str, where: str) -> Graded:
         slip = named(scheme, mistake, where) if path.stem == "S01" else None
         sheet = students.written(scheme, students.worked_out(scheme, slip))
         (folder / "sheets" / f"{path.stem}.xlsx").write_bytes(demo.workbook(scheme.key, sheet))
-    return assess.grade([folder / "sheets"], folder / "variants", Policy())
+    return class_marking.grade([folder / "sheets"], folder / "variants", Policy())
 
 
 def named(scheme: MarkingScheme, name: str, *where: str) -> Mistake:

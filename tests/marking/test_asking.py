@@ -127,7 +127,7 @@ def test_half_a_step_is_rounded_up(share: float, scale: Scale, mark: float) -> N
 
 @proof
 def test_what_is_not_asked_for_but_filled_in_is_judged_and_earns_nothing(tmp_path: Path) -> None:
-    from reportgen.classes import assess
+    from reportgen.classes import class_marking
 
     assignment = tmp_path / "a" / "slider-crank-01.yaml"
     assignment.parent.mkdir()
@@ -137,7 +137,7 @@ def test_what_is_not_asked_for_but_filled_in_is_judged_and_earns_nothing(tmp_pat
     path = tmp_path / "slider-crank-01.xlsx"
     path.write_bytes(write_xlsx(students.filled_book(scheme.key, work)))
     wide, small = (
-        assess.grade([path], assignment.parent, Policy(ask=ask)).markings[0] for ask in (Ask(EVERYTHING), Ask())
+        class_marking.grade([path], assignment.parent, Policy(ask=ask)).markings[0] for ask in (Ask(EVERYTHING), Ask())
     )
     assert len(wide.cells) == len(small.cells)
     assert {cell.verdict for cell in small.cells} == {Verdict.right}
@@ -145,7 +145,7 @@ def test_what_is_not_asked_for_but_filled_in_is_judged_and_earns_nothing(tmp_pat
     assert small.out_of == small.points == sum(cell.id in wanted for cell in small.cells)
     # An empty sheet of the default choice has no cell for the rest.
     path.write_bytes(write_xlsx(answer_book(Ask().of(scheme.key))))
-    empty = assess.grade([path], assignment.parent, Policy()).markings[0]
+    empty = class_marking.grade([path], assignment.parent, Policy()).markings[0]
     assert {cell.id for cell in empty.cells} == wanted
     assert empty.out_of == small.out_of
 
@@ -170,14 +170,14 @@ def test_a_sheet_made_before_rows_had_words_is_read(tmp_path: Path) -> None:
 
 
 def test_the_batch_makes_tasks_anew_when_another_choice_is_ordered() -> None:
-    from reportgen.classes import manifest
-    from reportgen.classes.pool import Job, Outcome, making
+    from reportgen.classes import batch_manifest
+    from reportgen.classes.worker_pool import Job, Outcome, making
     from tests.classes.little import little
 
     job = Job("7", "7", "task", little, "7.yaml", b"", making("typst", None))
     other = replace(job, making=making("typst", None, str(Ask(("velocity",)))))
-    assert manifest.made_of(job) != manifest.made_of(other)
-    assert manifest.entry_of(other, Outcome({"a": b""})).made_of == manifest.made_of(other)
+    assert batch_manifest.made_of(job) != batch_manifest.made_of(other)
+    assert batch_manifest.entry_of(other, Outcome({"a": b""})).made_of == batch_manifest.made_of(other)
 
 
 @pytest.mark.parametrize(("language", "enter"), [("en", "enter them"), ("vi", "hãy ghi vào phiếu")])

@@ -10,8 +10,8 @@ import pymupdf
 import pytest
 
 from reportgen.cases import open_case
-from reportgen.classes import assess, outcome
-from reportgen.classes.assess import Graded
+from reportgen.classes import class_marking, class_outputs
+from reportgen.classes.class_marking import Graded
 from reportgen.classes.variants import make_variants
 from reportgen.marking.key import EVERYTHING, Ask, key_of
 from reportgen.marking.marking import compare
@@ -45,7 +45,7 @@ def few(assignments: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def graded(assignments: Path) -> Graded:
-    return assess.grade([demo.SHEETS], assignments, WHOLE)
+    return class_marking.grade([demo.SHEETS], assignments, WHOLE)
 
 
 def test_each_students_slip_is_told(graded: Graded) -> None:
@@ -79,7 +79,7 @@ def test_what_is_no_sheet_that_can_be_read_is_told(few: Path, tmp_path: Path) ->
     """Whoever saved as .xls or .ods handed something in, which a folder does not pass over in silence."""
     for name in ("K225520103001.xls", "K225520103004.ods", "K225520103007.xlsm"):
         (tmp_path / name).write_bytes(b"\xd0\xcf\x11\xe0" if name.endswith(".xls") else b"PK\x03\x04")
-    result = assess.grade([tmp_path], few, Policy())
+    result = class_marking.grade([tmp_path], few, Policy())
     assert [Path(problem.mark.file).suffix for problem in result.problems] == [".xls", ".ods", ".xlsm"]
 
 
@@ -88,7 +88,7 @@ def test_nobody_displaces_a_sheet_by_claiming_its_name(few: Path, tmp_path: Path
     own.write_bytes((demo.SHEETS / "K225520103004.csv").read_bytes())
     for name in ("A.csv", "Z.csv"):
         (tmp_path / name).write_bytes(own.read_bytes())
-    result = assess.grade([tmp_path], few, Policy())
+    result = class_marking.grade([tmp_path], few, Policy())
     assert [Path(marking.submission.file) for marking in result.markings] == [own]
     assert {Path(problem.mark.file).name for problem in result.problems} == {"A.csv", "Z.csv"}
     assert all("K225520103004.csv" in problem.message for problem in result.problems)
@@ -101,13 +101,13 @@ def test_a_sheet_named_after_a_classmate_is_told(few: Path, tmp_path: Path, plac
     sheet = tmp_path / place
     sheet.parent.mkdir(exist_ok=True)
     sheet.write_bytes((demo.SHEETS / "K225520103004.csv").read_bytes())
-    result = assess.grade([tmp_path], few, Policy(), "en")
+    result = class_marking.grade([tmp_path], few, Policy(), "en")
     assert [marking.key.id for marking in result.markings] == ["K225520103004"]
     assert [(problem.code, problem.mark.file) for problem in result.problems] == [("sheet-named-otherwise", str(sheet))]
     for name in ("“K225520103007”", "“K225520103004”"):
         assert name in result.problems[0].message
     sheet.rename(tmp_path / "homework.csv")
-    assert assess.grade([tmp_path / "homework.csv"], few, Policy()).problems == ()
+    assert class_marking.grade([tmp_path / "homework.csv"], few, Policy()).problems == ()
 
 
 @proof
@@ -118,7 +118,7 @@ def test_one_sheet_never_stops_the_others(assignments: Path, tmp_path: Path) -> 
     (folder / "stranger.csv").write_text("mã,Ký hiệu,Đơn vị,Giá trị\nR,R,m,1\n", encoding="utf-8")
     (folder / "again.csv").write_bytes((folder / "K225520103004.csv").read_bytes())
     (folder / "~$K225520103001.xlsx").write_bytes(b"lock")
-    result = assess.grade([folder, tmp_path / "nowhere"], assignments, Policy())
+    result = class_marking.grade([folder, tmp_path / "nowhere"], assignments, Policy())
     assert len(result.markings) == len(list(demo.SHEETS.iterdir()))
     assert {Path(problem.mark.file).name for problem in result.problems} == {
         "broken.xlsx",
@@ -135,7 +135,7 @@ def test_names_in_a_sheet_are_no_paths(few: Path, tmp_path: Path) -> None:
     text = (demo.SHEETS / "K225520103004.csv").read_text(encoding="utf-8-sig")
     sheet = tmp_path / "sheet.csv"
     sheet.write_text(text.replace("K225520103004", str(secret.with_suffix("")), 1), encoding="utf-8")
-    result = assess.grade([sheet], few, Policy())
+    result = class_marking.grade([sheet], few, Policy())
     assert result.markings == ()
     assert [problem.code for problem in result.problems] == ["sheet-unknown"]
 
@@ -143,7 +143,7 @@ def test_names_in_a_sheet_are_no_paths(few: Path, tmp_path: Path) -> None:
 @proof
 def test_files_of_a_student_hold_nothing_of_others(graded: Graded, tmp_path: Path) -> None:
     """Neither names nor numbers of classmates stand in the marked sheet or on the page of feedback."""
-    files = list(outcome.put(graded, Policy(), tmp_path, "typst", None))
+    files = list(class_outputs.put(graded, Policy(), tmp_path, "typst", None))
     assert {path.relative_to(tmp_path).as_posix() for path in files} >= {"grades.csv", "class.pdf"}
     people = {marking.key.student["id"]: marking.key.student["name"] for marking in graded.markings}
     for id, name in people.items():
@@ -155,8 +155,10 @@ def test_files_of_a_student_hold_nothing_of_others(graded: Graded, tmp_path: Pat
 
 @proof
 def test_marking_again_gives_the_same_bytes(graded: Graded, assignments: Path) -> None:
-    once = dict(outcome.files_of(graded, Policy(), "typst", None))
-    again = dict(outcome.files_of(assess.grade([demo.SHEETS], assignments, WHOLE), Policy(), "typst", None))
+    once = dict(class_outputs.files_of(graded, Policy(), "typst", None))
+    again = dict(
+        class_outputs.files_of(class_marking.grade([demo.SHEETS], assignments, WHOLE), Policy(), "typst", None)
+    )
     assert once == again
 
 
@@ -169,7 +171,7 @@ def test_answers_are_kept_back_if_the_policy_says_so(graded: Graded, tmp_path: P
     texts = {}
     for show in (True, False):
         one = Graded((marking,), (), ())
-        files = list(outcome.put(one, Policy(show_answers=show), tmp_path / str(show), "typst", None))
+        files = list(class_outputs.put(one, Policy(show_answers=show), tmp_path / str(show), "typst", None))
         texts[show] = "\n".join(_pdf(path) if path.suffix == ".pdf" else "" for path in files)
     assert shown in texts[True]
     assert shown not in texts[False]
@@ -180,7 +182,7 @@ def test_comparing_names_the_first_divergence_without_marks_or_answers(assignmen
     assert not agrees
     assert "v_CB at position 2" in lines[0]
     assert ".xlsx:Answers!F" in lines[0] or ".xlsx:Bài làm!F" in lines[0]
-    scheme = assess.marking_scheme(open_case(assignments / "K225520103007.yaml"))
+    scheme = class_marking.marking_scheme(open_case(assignments / "K225520103007.yaml"))
     right = scheme.key.row("v.CB").values[1]
     hinted, _ = compare(
         open_case(assignments / "K225520103007.yaml", "en"), demo.SHEETS / "K225520103007.xlsx", hint=True
@@ -204,7 +206,7 @@ def test_comparing_an_empty_or_right_sheet(assignments: Path, tmp_path: Path) ->
 
 @proof
 def test_policy_of_the_demo(graded: Graded, assignments: Path) -> None:
-    weighed = assess.grade([demo.SHEETS], assignments, POLICY)
+    weighed = class_marking.grade([demo.SHEETS], assignments, POLICY)
     by_id = {marking.key.id: marking for marking in weighed.markings}
     lost = by_id["K225520103028"].out_of - by_id["K225520103028"].points
     assert lost == 5

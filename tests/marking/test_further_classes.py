@@ -10,9 +10,9 @@ from pathlib import Path
 import pytest
 
 from reportgen.cases import open_case
-from reportgen.classes import assess
-from reportgen.classes.assess import Graded
-from reportgen.classes.run import Order, run_batch
+from reportgen.classes import class_marking
+from reportgen.classes.batch_run import Order, run_batch
+from reportgen.classes.class_marking import Graded
 from reportgen.classes.variants import make_variants
 from reportgen.marking.key import Ask
 from reportgen.marking.policy import Policy
@@ -101,7 +101,7 @@ def test_mistakes_of_a_class_at_its_instants_are_told(tmp_path: Path) -> None:
     """One mistake costs one mark, whatever follows from it."""
     _, given = drawn(FOUR_BAR, 2, tmp_path)
     slips = handed_in(given, tmp_path / "in", MISTAKES[:2])
-    graded = assess.grade([tmp_path / "in"], given, Policy())
+    graded = class_marking.grade([tmp_path / "in"], given, Policy())
     assert told(graded) == {id: [slip] for id, slip in slips.items()}
     assert [one.out_of - one.points for one in graded.markings] == [1, 1]
 
@@ -121,6 +121,6 @@ def test_a_class_goes_from_its_variants_to_its_marks(
     paper = read(tmp_path / "out" / "S00" / "answers.xlsx", "vi")[0]
     assert asked in {str(row[0].value) for row in paper.rows if row}
     slips = handed_in(given, tmp_path / "in", made)
-    graded = assess.grade([tmp_path / "in"], given, Policy(), roster=roster)
+    graded = class_marking.grade([tmp_path / "in"], given, Policy(), roster=roster)
     assert told(graded) == {f"S{n:02}": [slips[f"S{n:02}"]] if n < len(made) else [] for n in range(count)}
     assert [one.out_of - one.points for one in graded.markings] == [1] * len(made) + [0] * (count - len(made))

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from reportgen.case.answer_key import Role
-from reportgen.classes.assess import asked_of
+from reportgen.classes.class_marking import asked_of
 from reportgen.marking.key import Ask
 from reportgen.marking.marking import mark
 from reportgen.marking.marks import Answer, Marking, Submission, Verdict

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from reportgen import api
-from reportgen.classes.run import Order, run_batch
+from reportgen.classes.batch_run import Order, run_batch
 from tests.lanes import matrix
 from tests.report import built
 from tests.writers.word_file import W, WordFile

@@ -286,7 +286,7 @@ def test_a_cell_whose_fields_have_no_values_stays_blank(tmp_path: Path) -> None:
 def test_a_batch_makes_sheets_of_a_class(tmp_path: Path) -> None:
     from io import StringIO
 
-    from reportgen.classes.run import Order, run_batch
+    from reportgen.classes.batch_run import Order, run_batch
 
     text = SMALL.read_text(encoding="utf-8")
     roster, given = write_class(tmp_path, {"K1": text, "K2": text.replace("40 mm", "42 mm", 1)})

@@ -17,7 +17,7 @@ from tempfile import TemporaryDirectory
 from reportgen.base.template_folders import DEFAULT_LANGUAGE
 from reportgen.base.units import Language
 from reportgen.catalogue import sample
-from reportgen.classes.pool import KINDS
+from reportgen.classes.worker_pool import KINDS
 
 FEW = 4
 """Number of students from which preloading pays; as many files are searched for their kind."""

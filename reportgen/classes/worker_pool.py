@@ -37,7 +37,7 @@ from reportgen.base.provenance import assignment_hash
 from reportgen.base.template_folders import templates
 from reportgen.base.units import Language
 from reportgen.base.words import speak, spoken, templates_hash, unexpected, word
-from reportgen.classes import leavings
+from reportgen.classes import cleanup
 
 if TYPE_CHECKING:
     from multiprocessing.context import ForkServerContext, SpawnContext
@@ -214,7 +214,7 @@ def _dismiss(running: Iterable[Future[Outcome]]) -> None:
 
 
 LOADED = (
-    "reportgen.classes.pool",
+    "reportgen.classes.worker_pool",
     "reportgen.catalogue.driven_machine",
     "reportgen.catalogue.crank_sliders",
     "reportgen.machine.analysis",
@@ -232,7 +232,7 @@ LOADED = (
     "typst",
 )
 """Modules that the fork server imports, so that each worker starts with them loaded."""
-READY = "reportgen.classes.ready"
+READY = "reportgen.classes.preload"
 """Imported last there; it prepares the kinds that `KINDS` names in the environment."""
 KINDS = "REPORTGEN_KINDS"
 
@@ -241,16 +241,16 @@ def _context(
     loaded: Sequence[str] = LOADED, kinds: Iterable[str] = (), out: Path | None = None
 ) -> ForkServerContext | SpawnContext:
     """Return a context in which new processes come from a preloaded server, if the system allows it."""
-    folder = leavings.sockets() if "forkserver" in multiprocessing.get_all_start_methods() else None
+    folder = cleanup.sockets() if "forkserver" in multiprocessing.get_all_start_methods() else None
     if folder is None:
         return multiprocessing.get_context("spawn")
     from multiprocessing import forkserver, resource_tracker
 
     context = multiprocessing.get_context("forkserver")
-    context.set_forkserver_preload([leavings.__name__, *loaded])
+    context.set_forkserver_preload([cleanup.__name__, *loaded])
     # Once started, it restores Ctrl-C; the server would otherwise start it first.
     resource_tracker.ensure_running()
-    surroundings = {**ONE_THREAD, KINDS: " ".join(kinds), **leavings.environment(folder, out)}
+    surroundings = {**ONE_THREAD, KINDS: " ".join(kinds), **cleanup.environment(folder, out)}
     before = {name: os.environ.get(name) for name in surroundings}
     os.environ |= surroundings
     try:

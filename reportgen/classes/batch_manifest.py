@@ -20,7 +20,7 @@ from pydantic import TypeAdapter, ValidationError
 from reportgen.base.files import contents, put_file
 from reportgen.base.provenance import MADE_OF, Made, hash_of
 from reportgen.base.provenance import made_of as made_of_input
-from reportgen.classes.pool import Job, Outcome
+from reportgen.classes.worker_pool import Job, Outcome
 
 if TYPE_CHECKING:
     pass

@@ -15,11 +15,11 @@ from reportgen.base.errors import Fault, Mark, Problem
 from reportgen.base.units import Language
 from reportgen.base.words import as_problem
 from reportgen.case.answer_key import Key
-from reportgen.classes.collecting import Collected, Refused, chosen_of, named_after
-from reportgen.classes.isolation import isolated
+from reportgen.classes.fault_isolation import isolated
 from reportgen.classes.platforms import Handed, changed
 from reportgen.classes.reading_sheets import names_in, read_own
 from reportgen.classes.roster import comparable
+from reportgen.classes.submission_matching import Collected, Refused, chosen_of, named_after
 from reportgen.handin import FileReading, submission
 from reportgen.handin.drawing_reader import WantedPlans
 from reportgen.handin.files import DRAWING, kinds

@@ -20,11 +20,11 @@ from reportgen.base.files import cause, held, put_set, remove_unfinished, report
 from reportgen.base.pdf_standards import STANDARDS, Standards, other_than_usual
 from reportgen.base.units import Language, write
 from reportgen.base.words import as_problem, counted, spoken, word
-from reportgen.classes import ready
-from reportgen.classes.manifest import ManifestEntry, entry_of, journal, read_manifest, write_manifest
-from reportgen.classes.pool import Job, Making, Outcome, Pool, failed, local, making
+from reportgen.classes import preload
+from reportgen.classes.batch_manifest import ManifestEntry, entry_of, journal, read_manifest, write_manifest
 from reportgen.classes.roster import Assigned, Roster, RosterEntry, match_files, read_roster
 from reportgen.classes.variants import make_variants
+from reportgen.classes.worker_pool import Job, Making, Outcome, Pool, failed, local, making
 from reportgen.marking.key import Ask
 
 if TYPE_CHECKING:
@@ -307,13 +307,13 @@ def _read(file: Path | Problem, language: Language | None) -> tuple[str, bytes, 
 
 def _pool(order: Order, students: int) -> Pool:
     if order.cluster is not None:
-        from reportgen.classes.pool import cluster
+        from reportgen.classes.worker_pool import cluster
 
         return cluster(order.cluster, order.language)
     # Default: as many as the cores that this process may use.
     cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-    given = (order.assignments or order.spec) if students >= ready.FEW else None
-    return local(order.jobs or cores, ready.kinds(given, order.language) if given else (), order.out)
+    given = (order.assignments or order.spec) if students >= preload.FEW else None
+    return local(order.jobs or cores, preload.kinds(given, order.language) if given else (), order.out)
 
 
 # --- files ------------------------------------------------------------------------------------------

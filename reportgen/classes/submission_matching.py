@@ -13,7 +13,7 @@ from reportgen.base.units import Language
 from reportgen.base.words import as_problem
 from reportgen.case.answer_key import Key
 from reportgen.classes.archives import ARCHIVE
-from reportgen.classes.isolation import isolated
+from reportgen.classes.fault_isolation import isolated
 from reportgen.classes.platforms import Handed, Owner
 from reportgen.classes.reading_sheets import Pages
 from reportgen.classes.roster import comparable

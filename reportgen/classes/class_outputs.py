@@ -20,11 +20,11 @@ from reportgen.base.units import Language
 from reportgen.base.words import as_problem, counted, word
 from reportgen.case.answer_key import Key
 from reportgen.classes.archives import zipped
-from reportgen.classes.assess import Graded
+from reportgen.classes.class_marking import Graded
+from reportgen.classes.fault_isolation import isolated
 from reportgen.classes.gradebooks import Gradebook, StudentResult
-from reportgen.classes.isolation import isolated
 from reportgen.classes.one_pdf import bind_feedback
-from reportgen.classes.own_work import renewable
+from reportgen.classes.own_files import renewable
 from reportgen.classes.platforms import Handed
 from reportgen.classes.reading_sheets import marked_copies
 from reportgen.classes.roster import folder_name

@@ -31,7 +31,7 @@ from reportgen.base.errors import Fault
 from reportgen.base.yaml_values import path_text
 from reportgen.cases import opened
 from reportgen.classes.roster import Roster, RosterEntry, comparable
-from reportgen.classes.spec import DRAWN_SECTIONS, Settings, Spec, place
+from reportgen.classes.variant_spec import DRAWN_SECTIONS, Settings, Spec, place
 
 ATTEMPTS = 64
 MOST_TRIED = 4096

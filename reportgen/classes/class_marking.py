@@ -16,15 +16,15 @@ from reportgen.base.units import Language
 from reportgen.base.words import as_problem
 from reportgen.case.answer_key import Key
 from reportgen.cases import open_case
-from reportgen.classes.collecting import Collected, Refused, collect, named_after
 from reportgen.classes.corrections import Correction, applied
+from reportgen.classes.fault_isolation import isolated
 from reportgen.classes.gradebooks import Gradebook, Participant
-from reportgen.classes.isolation import isolated
 from reportgen.classes.lateness import Handing, days_late
-from reportgen.classes.own_work import LookedFor, OwnWork, completed, own_works, with_own, without_own
+from reportgen.classes.own_files import LookedFor, OwnWork, completed, own_works, with_own, without_own
 from reportgen.classes.platforms import Handed, Owner, handed_in
 from reportgen.classes.reading_sheets import read_sheets
 from reportgen.classes.roster import Roster, RosterEntry, assignment_files, comparable, read_roster
+from reportgen.classes.submission_matching import Collected, Refused, collect, named_after
 from reportgen.handin import FileReading, submission
 from reportgen.handin.drawing_file import wanted_plans
 from reportgen.handin.drawing_reader import WantedPlans
