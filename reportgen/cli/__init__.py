@@ -33,7 +33,7 @@ def main() -> None:
     """Run the `reportgen` command; Ctrl-C is handled before anything is loaded."""
     if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
         signal.signal(signal.SIGINT, _leave)
-    from reportgen.cli.limited import WATCHED, ends_by_itself, is_limited
+    from reportgen.cli.memory_limit import WATCHED, ends_by_itself, is_limited
 
     if is_limited():
         _watch()
@@ -75,7 +75,7 @@ def main() -> None:
 
 def _watch() -> NoReturn:
     """Run this command in another process, and report a lack of memory that kills it."""
-    from reportgen.cli.limited import run_watched
+    from reportgen.cli.memory_limit import run_watched
 
     code = run_watched()
     if code is None:
@@ -94,9 +94,9 @@ def _app() -> typer.Typer:
     """Return the commands in the order of the help."""
     import typer
 
-    from reportgen.cli import instructor, reading, student, takeaway, translator
+    from reportgen.cli import documentation, export, instructor, student, translator
     from reportgen.cli.common import begin
-    from reportgen.cli.helping import Command, Commands
+    from reportgen.cli.help_texts import Command, Commands
 
     made = typer.Typer(
         name="reportgen",
@@ -113,8 +113,8 @@ def _app() -> typer.Typer:
         student.check,
         student.build,
         student.sheet,
-        takeaway.figure,
-        takeaway.plot,
+        export.figure,
+        export.plot,
         student.watch,
         student.edit,
         student.solve,
@@ -128,7 +128,7 @@ def _app() -> typer.Typer:
         instructor.key,
         instructor.grade,
         translator.words,
-        reading.docs,
+        documentation.docs,
     ):
         made.command(cls=Command)(command)
     return made

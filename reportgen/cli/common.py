@@ -96,8 +96,8 @@ def begin(
     if version:
         print("reportgen", own_version())
     elif context.invoked_subcommand is None:
-        from reportgen.cli.console import is_double_clicked
-        from reportgen.cli.helping import start
+        from reportgen.cli.help_texts import start
+        from reportgen.cli.own_console import is_double_clicked
 
         if is_double_clicked():
             _choose(context)

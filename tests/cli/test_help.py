@@ -14,7 +14,7 @@ from reportgen.base.template_folders import languages
 from reportgen.base.units import Language
 from reportgen.base.words import SPOKEN, helps
 from reportgen.cli import app
-from reportgen.cli.helping import OTHERS, PAGES, start
+from reportgen.cli.help_texts import OTHERS, PAGES, start
 
 GROUP: Any = typer.main.get_command(app)
 COMMANDS: dict[str, Any] = GROUP.commands
