@@ -89,7 +89,7 @@ class MachineCase(MachineAnalysis):
     @property
     def used(self) -> frozenset[Symbol]:
         """The symbols of its numbers, of its points with images and coordinates, and of the corners of its plans."""
-        from reportgen.derivation.motion import POLES
+        from reportgen.derivation.kinematic_entries import POLES
 
         names, bodies = list(self.analysis.motion.points), self.analysis.machine.linkage.inertias
         images = {vocabulary.on_plan(name, prime) for name in names for prime in (False, True)}

@@ -18,9 +18,9 @@ from reportgen.balancing.counterweights import CounterweightRule, CrankRod, cran
 from reportgen.balancing.mistakes import mistakes
 from reportgen.balancing.orders_ledger import enter_orders
 from reportgen.balancing.shaking_force import BalancedTurn, balanced_in, shaking_moment
-from reportgen.derivation.rests import with_rest
-from reportgen.derivation.sides import image
+from reportgen.derivation.equation_sides import image
 from reportgen.derivation.topic_ledger import LedgerHooks
+from reportgen.derivation.unprinted_values import with_rest
 from reportgen.formula import (
     NOTHING,
     ONE,

@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
     from reportgen.case.shafts import Shaft
     from reportgen.derivation import PlannedLedger
-    from reportgen.derivation.loads import Polygon
+    from reportgen.derivation.load_entries import Polygon
     from reportgen.drawing.animation import Animation
     from reportgen.drawing.plates import DrawingPlate
     from reportgen.drawing.sheet import DrawingSheet

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from reportgen.base.units import rounded, significant_decimals
-from reportgen.derivation.forces import enter_forces
-from reportgen.derivation.groups import enter_kinematics
-from reportgen.derivation.loads import Polygon
-from reportgen.derivation.scales import no_scales, own_scales
+from reportgen.derivation.group_forces import enter_forces
+from reportgen.derivation.group_motion import enter_kinematics
+from reportgen.derivation.load_entries import Polygon
+from reportgen.derivation.plan_scales import no_scales, own_scales
 from reportgen.derivation.topic_ledger import LEDGER
 from reportgen.formula import PI, Expression, Ref, Symbol, call, circle_line, ids, vocabulary
 from reportgen.formula import size as size_of

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 from reportgen.base.topics import HookModule
-from reportgen.derivation.loads import EnterGuide, Statics
+from reportgen.derivation.load_entries import EnterGuide, Statics
 from reportgen.formula import Expression, Ref
 from reportgen.formula.ledger import Ledger
 from reportgen.formula.sheet import Sheet

@@ -18,7 +18,7 @@ import numpy as np
 from reportgen import catalogue
 from reportgen.assignment import Assignment
 from reportgen.case import Case
-from reportgen.derivation.sides import image
+from reportgen.derivation.equation_sides import image
 from reportgen.export.quantities import QuantityArray, quantity
 from reportgen.formula import ids
 from reportgen.formula.ledger import Ledger

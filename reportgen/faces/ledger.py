@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from reportgen.derivation.loads import Statics
+from reportgen.derivation.load_entries import Statics
 from reportgen.derivation.topic_ledger import LedgerHooks
 from reportgen.formula import Expression, Number, call, dot, ids, sign, turned
 

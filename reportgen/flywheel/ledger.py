@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from reportgen.derivation.reduced import enter_reduced, moving_bodies
-from reportgen.derivation.rests import with_rest
-from reportgen.derivation.scales import DIAGRAM, fitting_axis
+from reportgen.derivation.plan_scales import DIAGRAM, fitting_axis
+from reportgen.derivation.reduction_entries import enter_reduced, moving_bodies
 from reportgen.derivation.topic_ledger import LedgerHooks
+from reportgen.derivation.unprinted_values import with_rest
 from reportgen.flywheel.regulation import regulated_in
 from reportgen.formula import NOTHING, Expression, Ref, Symbol, atan, call, ids, sqrt, total
 from reportgen.formula.sheet import Sheet

@@ -16,10 +16,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from reportgen.base.units import rounded, significant_decimals
-from reportgen.derivation.motion import natural_sizes
-from reportgen.derivation.rests import with_rest
-from reportgen.derivation.sides import scheme, sides
+from reportgen.derivation.equation_sides import scheme, sides
+from reportgen.derivation.kinematic_entries import natural_sizes
 from reportgen.derivation.topic_ledger import Changed, LedgerHooks
+from reportgen.derivation.unprinted_values import with_rest
 from reportgen.formula import Call, Expression, Ref, Sum, Symbol, atan, call, ids, signed, total
 from reportgen.formula import size as size_of
 from reportgen.formula.ledger import Ledger

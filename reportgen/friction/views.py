@@ -12,7 +12,7 @@ from functools import partial
 
 from reportgen.base.template_access import view
 from reportgen.base.units import MM
-from reportgen.derivation.loads import Edge, Polygon
+from reportgen.derivation.load_entries import Edge, Polygon
 from reportgen.document import FIRST_COLUMN, Column, Inlines, Table, Text
 from reportgen.document.paper import FigureScenes, beside_one_another, on_paper
 from reportgen.document.prose import NamedPoint, subscripted

@@ -12,7 +12,7 @@ import numpy as np
 
 from reportgen.base.units import MM
 from reportgen.case import Case, MachineAnalysis
-from reportgen.derivation.motion import What
+from reportgen.derivation.kinematic_entries import What
 from reportgen.formula import Symbol, ids
 from reportgen.marking.scheme import Values
 from reportgen.report.plans import POLE, force_construction, motion_construction

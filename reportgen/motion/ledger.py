@@ -10,10 +10,10 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from reportgen.derivation.reduced import TERMS, enter_reduced
-from reportgen.derivation.rests import with_rest
-from reportgen.derivation.sides import image
+from reportgen.derivation.equation_sides import image
+from reportgen.derivation.reduction_entries import TERMS, enter_reduced
 from reportgen.derivation.topic_ledger import LedgerHooks
+from reportgen.derivation.unprinted_values import with_rest
 from reportgen.formula import NOTHING, PI, Expression, Ref, Symbol, call, ids, plus, sqrt, total
 from reportgen.formula.sheet import Sheet
 from reportgen.machine import DRIVER

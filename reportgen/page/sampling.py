@@ -17,8 +17,8 @@ import numpy as np
 from reportgen.base.units import MM
 from reportgen.case import MachineAnalysis
 from reportgen.derivation import enter_plans
-from reportgen.derivation.loads import Polygon
-from reportgen.derivation.motion import What, centre_symbol
+from reportgen.derivation.kinematic_entries import What, centre_symbol
+from reportgen.derivation.load_entries import Polygon
 from reportgen.drawing import Circle, Pen, style
 from reportgen.drawing.animation import (
     LAYERS,

@@ -11,7 +11,7 @@ from functools import partial
 import numpy as np
 
 from reportgen.base.units import MM
-from reportgen.derivation.sides import scheme
+from reportgen.derivation.equation_sides import scheme
 from reportgen.document.paper import FigureScenes
 from reportgen.document.prose import subscripted
 from reportgen.drawing import Diagram, PlottedCurve, Scene, charts

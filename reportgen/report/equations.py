@@ -13,9 +13,9 @@ import numpy as np
 
 from reportgen.base.languages import setting_of
 from reportgen.base.placeholders import NO_LETTER
-from reportgen.derivation.loads import Edge, Polygon
-from reportgen.derivation.motion import What
-from reportgen.derivation.sides import Side
+from reportgen.derivation.equation_sides import Side
+from reportgen.derivation.kinematic_entries import What
+from reportgen.derivation.load_entries import Edge, Polygon
 from reportgen.document import Equation, Inline, InlineMath, Inlines, Text, Value, listed
 from reportgen.document.prose import subscripted
 from reportgen.formula import (

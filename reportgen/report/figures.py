@@ -13,8 +13,8 @@ from functools import partial
 import numpy as np
 
 from reportgen.base.units import MM
-from reportgen.derivation.motion import NEAREST, centre_symbol
-from reportgen.derivation.sides import Side
+from reportgen.derivation.equation_sides import Side
+from reportgen.derivation.kinematic_entries import NEAREST, centre_symbol
 from reportgen.document.layout import in_rows
 from reportgen.document.paper import A3_ACROSS, A3_UPRIGHT, FigureScenes, close, fits, in_text, on_paper
 from reportgen.drawing import Scene

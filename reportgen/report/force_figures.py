@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from reportgen.base.units import MM
-from reportgen.derivation.loads import Polygon
+from reportgen.derivation.load_entries import Polygon
 from reportgen.document.paper import FigureScenes, beside_one_another, on_paper
 from reportgen.drawing import Circle, Item, Line, Scene
 from reportgen.drawing.canvas import Canvas

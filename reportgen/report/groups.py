@@ -9,8 +9,8 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from reportgen.base.template_access import shown, view
-from reportgen.derivation.loads import Polygon
-from reportgen.derivation.sides import Scheme, Side, image, sides
+from reportgen.derivation.equation_sides import Scheme, Side, image, sides
+from reportgen.derivation.load_entries import Polygon
 from reportgen.document.prose import NamedPoint
 from reportgen.formula import ids, refs
 from reportgen.formula.ids import Name

@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from reportgen.derivation.loads import Polygon
+from reportgen.derivation.load_entries import Polygon
 from reportgen.drawing.forces import Couple
 from reportgen.formula import Symbol, ids, size
 from reportgen.report.groups import Contact

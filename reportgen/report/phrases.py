@@ -18,8 +18,8 @@ from reportgen.base.template_access import member
 from reportgen.base.template_access import text as as_text
 from reportgen.base.units import MM
 from reportgen.base.words import unfilled
-from reportgen.derivation.motion import POLES
-from reportgen.derivation.sides import Side
+from reportgen.derivation.equation_sides import Side
+from reportgen.derivation.kinematic_entries import POLES
 from reportgen.document import Inline, InlineMath, Inlines, Reference, Text, Value
 from reportgen.document.insertions import inlines
 from reportgen.document.prose import NamedPoint, subscripted

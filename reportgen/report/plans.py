@@ -12,9 +12,9 @@ import numpy as np
 
 from reportgen.base.stable_digits import settled, significant
 from reportgen.base.units import MM, nice_up
-from reportgen.derivation.loads import Edge, Polygon
-from reportgen.derivation.motion import POLES, What
-from reportgen.derivation.sides import Side, image
+from reportgen.derivation.equation_sides import Side, image
+from reportgen.derivation.kinematic_entries import POLES, What
+from reportgen.derivation.load_entries import Edge, Polygon
 from reportgen.document import Inlines
 from reportgen.document.layout import SCENE_GAP
 from reportgen.document.paper import A3_ACROSS, FIGURE_ROOM, FigureScenes, on_paper

@@ -16,9 +16,9 @@ from reportgen.assignment import Assignment
 from reportgen.base.units import MM
 from reportgen.case import MachineAnalysis
 from reportgen.catalogue.topic_sections import sections_of
-from reportgen.derivation.loads import Polygon
-from reportgen.derivation.motion import links_in_plane_motion
-from reportgen.derivation.sides import scheme
+from reportgen.derivation.equation_sides import scheme
+from reportgen.derivation.kinematic_entries import links_in_plane_motion
+from reportgen.derivation.load_entries import Polygon
 from reportgen.document.prose import Prose, subscripted
 from reportgen.drawing.charts import Area
 from reportgen.formula import Symbol, ids, vocabulary

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator, Sequence
 import numpy as np
 
 from reportgen.base.units import MM
-from reportgen.derivation.sides import Side, image
+from reportgen.derivation.equation_sides import Side, image
 from reportgen.document import FIRST_COLUMN, TEXT_WIDTH, Column, InlineMath, Inlines, Table, Text
 from reportgen.document.tables import list_table, side_by_side
 from reportgen.formula import Chain, Number, Power, Symbol, ids

@@ -12,8 +12,8 @@ from functools import partial
 
 from reportgen.base.units import Language
 from reportgen.case import Case
-from reportgen.derivation.loads import Polygon
-from reportgen.derivation.motion import What
+from reportgen.derivation.kinematic_entries import What
+from reportgen.derivation.load_entries import Polygon
 from reportgen.document import Inline, InlineMath, Inlines, Table, Text, Value
 from reportgen.drawing import Content, Scene
 from reportgen.drawing.geometry import unit

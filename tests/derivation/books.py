@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from reportgen.derivation import ONE_QUANTITY
-from reportgen.derivation.forces import enter_forces
-from reportgen.derivation.groups import enter_kinematics
-from reportgen.derivation.loads import Polygon
+from reportgen.derivation.group_forces import enter_forces
+from reportgen.derivation.group_motion import enter_kinematics
+from reportgen.derivation.load_entries import Polygon
 from reportgen.formula.ledger import Ledger
 from reportgen.formula.sheet import Sheet
 from reportgen.machine import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint

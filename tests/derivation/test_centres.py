@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from books import MACHINES, keep
 
-from reportgen.derivation.motion import links_in_plane_motion
-from reportgen.derivation.sides import scheme
+from reportgen.derivation.equation_sides import scheme
+from reportgen.derivation.kinematic_entries import links_in_plane_motion
 from reportgen.formula import Chain, Number
 from reportgen.machine import Crank, Dyad, Linkage, LinkPoint
 from reportgen.marking.key import key_of

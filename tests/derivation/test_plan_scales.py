@@ -10,9 +10,9 @@ import pytest
 from reportgen.base.units import SERIES, nice_down, nice_up
 from reportgen.case.answer_key import KeyRow
 from reportgen.cases import MachineCase
-from reportgen.derivation.loads import Polygon
-from reportgen.derivation.motion import What
-from reportgen.derivation.scales import SHEET_BOXES, TEXT_BOX
+from reportgen.derivation.kinematic_entries import What
+from reportgen.derivation.load_entries import Polygon
+from reportgen.derivation.plan_scales import SHEET_BOXES, TEXT_BOX
 from reportgen.drawing.plan import Plan
 from reportgen.marking.marking import mark
 from reportgen.report.plans import force_plan, motion_plan

@@ -10,8 +10,8 @@ import pytest
 
 from reportgen import api
 from reportgen.derivation import write_ledger
-from reportgen.derivation.motion import links_in_plane_motion
-from reportgen.derivation.sides import Side, scheme
+from reportgen.derivation.equation_sides import Side, scheme
+from reportgen.derivation.kinematic_entries import links_in_plane_motion
 from reportgen.formula.ledger import Ledger
 from reportgen.machine.analysis import Analysis
 

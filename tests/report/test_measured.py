@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from reportgen import document as tree
-from reportgen.derivation.motion import POLES
+from reportgen.derivation.kinematic_entries import POLES
 from reportgen.drawing import Content, Label
 from reportgen.drawing.forces import LEAST_ARM
 from reportgen.formula import Symbol, refs, vocabulary

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from reportgen.cases import open_case
-from reportgen.derivation.motion import What
+from reportgen.derivation.kinematic_entries import What
 from reportgen.drawing.mirrors import mirrored
 from reportgen.drawing.plan import Plan, PlanVector
 from reportgen.report.plans import motion_plan

@@ -20,7 +20,7 @@ import pytest
 from reportgen.base.languages import DrawingSetting
 from reportgen.base.template_folders import search_path
 from reportgen.base.words import load_words
-from reportgen.derivation.sides import image
+from reportgen.derivation.equation_sides import image
 from reportgen.drawing import Arrow
 from reportgen.drawing.sheet import DrawingSheet
 from reportgen.formula import ids

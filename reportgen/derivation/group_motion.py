@@ -16,7 +16,8 @@ from __future__ import annotations
 import cmath
 from collections.abc import Callable, Mapping, Sequence
 
-from reportgen.derivation.motion import (
+from reportgen.derivation.equation_sides import Side, image, scheme, sides
+from reportgen.derivation.kinematic_entries import (
     NOWHERE,
     POLES,
     Kinematics,
@@ -27,7 +28,6 @@ from reportgen.derivation.motion import (
     enter_centres,
     slide,
 )
-from reportgen.derivation.sides import Side, image, scheme, sides
 from reportgen.formula import (
     Expression,
     Symbol,

@@ -14,7 +14,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from reportgen.derivation.loads import (
+from reportgen.derivation.equation_sides import scheme
+from reportgen.derivation.kinematic_entries import natural_sizes
+from reportgen.derivation.load_entries import (
     Applied,
     Edge,
     EnterGuide,
@@ -32,9 +34,7 @@ from reportgen.derivation.loads import (
     opposite,
     read,
 )
-from reportgen.derivation.motion import natural_sizes
-from reportgen.derivation.scales import Scaling, own_scales
-from reportgen.derivation.sides import scheme
+from reportgen.derivation.plan_scales import Scaling, own_scales
 from reportgen.formula import Expression, Ref, Sum, Symbol, call, dot, ids, meet, quotient, sign, total, turned, unit
 from reportgen.formula.sheet import ZERO, Sheet
 from reportgen.formula.vocabulary import drawn_length

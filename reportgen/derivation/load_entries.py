@@ -13,9 +13,9 @@ from enum import IntEnum
 import numpy as np
 
 from reportgen.base.arrays import Complexes
-from reportgen.derivation.motion import NOWHERE, Sizes, longest
-from reportgen.derivation.scales import LEAST_FORCES, Scaling, extents, own_scales
-from reportgen.derivation.sides import Scheme, image
+from reportgen.derivation.equation_sides import Scheme, image
+from reportgen.derivation.kinematic_entries import NOWHERE, Sizes, longest
+from reportgen.derivation.plan_scales import LEAST_FORCES, Scaling, extents, own_scales
 from reportgen.formula import Expression, Number, Ref, Sum, Symbol, call, cross, heading, ids, quotient, sign
 from reportgen.formula.evaluation import evaluate
 from reportgen.formula.sheet import Sheet

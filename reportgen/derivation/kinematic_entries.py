@@ -14,8 +14,8 @@ from typing import Literal
 import numpy as np
 
 from reportgen.base.units import nice_up
-from reportgen.derivation.scales import LEAST_MOTION, PER_MM, SHEET_BOXES, common_scale, extents
-from reportgen.derivation.sides import Scheme, Side, image, sides
+from reportgen.derivation.equation_sides import Scheme, Side, image, sides
+from reportgen.derivation.plan_scales import LEAST_MOTION, PER_MM, SHEET_BOXES, common_scale, extents
 from reportgen.formula import (
     Expression,
     Number,

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from reportgen.derivation.rests import with_rest
 from reportgen.derivation.topic_ledger import LEDGER
+from reportgen.derivation.unprinted_values import with_rest
 from reportgen.formula import NOTHING, Expression, Number, Ref, Symbol, ids, total
 from reportgen.formula.sheet import Sheet
 from reportgen.machine import Inertia, Linkage
