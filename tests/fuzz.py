@@ -34,7 +34,7 @@ from reportgen.classes.roster import read_roster
 from reportgen.classes.variant_draw import Draw, judge_of
 from reportgen.classes.variant_spec import read_spec
 from reportgen.document import Figure, Plate
-from reportgen.document.prose import Prose
+from reportgen.document.template_rendering import Prose
 from reportgen.handin.drawing_file import wanted_plans
 from reportgen.handin.drawing_reader import DrawnMark, WantedPlans
 from reportgen.handin.files import read_file

@@ -23,7 +23,7 @@ from reportgen import api, catalogue
 from reportgen.base.kinds import kinds
 from reportgen.base.template_folders import search_path
 from reportgen.cli import app
-from reportgen.document.prose import Prose
+from reportgen.document.template_rendering import Prose
 from reportgen.writers import pdflatex
 from tests import house
 from tests.lanes import matrix, proof

@@ -11,7 +11,7 @@ from reportgen.balancing.orders_ledger import EXACT, OF_ALL, ORDERS, SENSES
 from reportgen.balancing.shaking_force import balanced_in
 from reportgen.balancing.stars import star
 from reportgen.document import Value
-from reportgen.document.paper import FigureScenes
+from reportgen.document.figure_placement import FigureScenes
 from reportgen.formula import Number, vocabulary
 from reportgen.report.report import Report
 from reportgen.report.tables import bare

@@ -15,7 +15,7 @@ from reportgen.balancing.order_views import factors_table
 from reportgen.balancing.shaking_force import BalancedTurn, balanced_in, frame_reactions, shaking_force
 from reportgen.base.template_access import view
 from reportgen.document import Value
-from reportgen.document.paper import FigureScenes
+from reportgen.document.figure_placement import FigureScenes
 from reportgen.drawing import Diagram, PlottedCurve, Scene, charts
 from reportgen.formula import Chain, Symbol, ids
 from reportgen.formula.vocabulary import KINDS

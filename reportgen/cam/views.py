@@ -20,7 +20,7 @@ from reportgen.cam.solution import SolvedCam
 from reportgen.case import AskedFor
 from reportgen.case.design_case import DesignPage
 from reportgen.document import Cell, Column, Equation, InlineMath, Inlines, Table, Text, Value, listed
-from reportgen.document.prose import Prose
+from reportgen.document.template_rendering import Prose
 from reportgen.drawing import Scene
 from reportgen.formula import Call, Chain, Expression, Number, Symbol, substitute
 from reportgen.formula.plain import formula

@@ -28,7 +28,7 @@ from reportgen.document import (
     Value,
 )
 from reportgen.document.layout import contents
-from reportgen.document.prose import Prose
+from reportgen.document.template_rendering import Prose
 from reportgen.drawing import Scene
 from reportgen.formula import Symbol
 from reportgen.formula.carrying import carried

@@ -18,6 +18,7 @@ from typing import Any, Literal, Self
 
 from reportgen.base.languages import UnitNames, setting_of
 from reportgen.base.units import Language
+from reportgen.document.cjk_punctuation import set_out
 from reportgen.document.inlines import DOTS as DOTS
 from reportgen.document.inlines import Blank as Blank
 from reportgen.document.inlines import Emph as Emph
@@ -29,7 +30,6 @@ from reportgen.document.inlines import Reference as Reference
 from reportgen.document.inlines import Strong as Strong
 from reportgen.document.inlines import Text as Text
 from reportgen.document.inlines import Value as Value
-from reportgen.document.unspaced import set_out
 from reportgen.drawing import Scene
 from reportgen.formula import Expression
 from reportgen.formula.plain import formula, quantity

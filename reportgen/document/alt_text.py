@@ -11,7 +11,7 @@ from itertools import groupby
 
 from reportgen.base.units import Language
 from reportgen.document import Figure, InlineMath, Inlines, Plate, Text, Words, plain
-from reportgen.document.unspaced import set_out
+from reportgen.document.cjk_punctuation import set_out
 from reportgen.drawing import Content, Description, Scene
 from reportgen.drawing.description import Fact, PaperLength, Told
 from reportgen.formula import Number, Symbol

@@ -17,7 +17,7 @@ from typing import Literal
 from reportgen import document as tree
 from reportgen.base.errors import DocumentError
 from reportgen.document import plain
-from reportgen.document.unspaced import set_out
+from reportgen.document.cjk_punctuation import set_out
 
 _COUNTED_LEVELS = 3
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from reportgen.document import TEXT_WIDTH, Cell, Column, InlineMath, Inlines, Table, Text, Value
-from reportgen.document.prose import Prose
+from reportgen.document.template_rendering import Prose
 from reportgen.formula import Expression, Number
 
 WIDEST_COLUMN = 26.0

@@ -11,7 +11,7 @@ from reportgen.case import AskedFor
 from reportgen.case.quantity_wording import MAGNITUDE
 from reportgen.case.result_entries import ResultEntries
 from reportgen.document import Block, Document
-from reportgen.document.prose import Prose
+from reportgen.document.template_rendering import Prose
 from reportgen.exercise.figures import FIGURES
 from reportgen.exercise.solution_page import solution, task_names
 from reportgen.exercise.solved import SolvedExercise

@@ -26,7 +26,7 @@ from reportgen.document import (
     Value,
     listed,
 )
-from reportgen.document.prose import NamedPoint, Prose
+from reportgen.document.template_rendering import NamedPoint, Prose
 from reportgen.exercise import file
 from reportgen.exercise.figures import FIGURES
 from reportgen.exercise.solved import SolvedExercise

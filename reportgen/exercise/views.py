@@ -15,7 +15,7 @@ from typing import Any
 from reportgen.base.template_access import view
 from reportgen.base.units import MM
 from reportgen.document import Equation, Inline, InlineMath, Inlines, Text, Value, listed
-from reportgen.document.prose import NamedPoint
+from reportgen.document.template_rendering import NamedPoint
 from reportgen.exercise.centres import SAME_PLACE
 from reportgen.exercise.derivation import Axis, Step, Vector
 from reportgen.exercise.file import Asked

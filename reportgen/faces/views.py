@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from reportgen.base.template_access import view
-from reportgen.document.prose import NamedPoint
+from reportgen.document.template_rendering import NamedPoint
 from reportgen.formula import ids
 from reportgen.machine.loads import carriers
 from reportgen.report.report import Report

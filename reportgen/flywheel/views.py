@@ -10,7 +10,7 @@ import numpy as np
 from reportgen.base.template_access import view
 from reportgen.catalogue.topic_sections import sections_of
 from reportgen.document import Paragraph, Table, Value
-from reportgen.document.paper import FigureScenes
+from reportgen.document.figure_placement import FigureScenes
 from reportgen.drawing import Content, Scene, charts
 from reportgen.drawing.diagram import Diagram, Inclination, PlottedCurve
 from reportgen.flywheel.regulation import regulated_in

@@ -12,7 +12,7 @@ from reportgen.case import Misconceptions
 from reportgen.case.design_case import DesignCase, DesignPage
 from reportgen.case.result_entries import ResultEntries
 from reportgen.document import Figure
-from reportgen.document.prose import Prose
+from reportgen.document.template_rendering import Prose
 from reportgen.drawing import Scene
 from reportgen.drawing.plates import DrawingPlate, enlargeable
 from reportgen.drawing.scales import IN_REPORT, FigureSize

@@ -14,9 +14,9 @@ from reportgen.base.template_access import view
 from reportgen.base.units import MM
 from reportgen.derivation.load_entries import Edge, Polygon
 from reportgen.document import FIRST_COLUMN, Column, Inlines, Table, Text
-from reportgen.document.paper import FigureScenes, beside_one_another, on_paper
-from reportgen.document.prose import NamedPoint, subscripted
+from reportgen.document.figure_placement import FigureScenes, beside_one_another, on_paper
 from reportgen.document.tables import side_by_side
+from reportgen.document.template_rendering import NamedPoint, subscripted
 from reportgen.drawing import Arc, Circle, Item, Line, Scene, style
 from reportgen.drawing.canvas import Canvas, finish
 from reportgen.drawing.description import PaperLength, fact, turning

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from reportgen.document.paper import FigureScenes
+from reportgen.document.figure_placement import FigureScenes
 from reportgen.drawing import Content, Diagram, PlottedCurve, Scene, charts
 from reportgen.drawing.geometry import moved
 from reportgen.formula import Chain, Symbol

@@ -10,8 +10,8 @@ from itertools import chain
 from reportgen.case import MachineAnalysis
 from reportgen.case.finished_document import finished
 from reportgen.document import Block, Document, PageBreak, Paragraph, Plate, Reference
+from reportgen.document.figure_placement import PAPERS
 from reportgen.document.layout import contents, plates_last
-from reportgen.document.paper import PAPERS
 from reportgen.document.used_symbols import used_symbols
 from reportgen.report import phrases
 from reportgen.report.named_tables import table

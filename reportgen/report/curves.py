@@ -12,8 +12,8 @@ import numpy as np
 
 from reportgen.base.units import MM
 from reportgen.derivation.equation_sides import scheme
-from reportgen.document.paper import FigureScenes
-from reportgen.document.prose import subscripted
+from reportgen.document.figure_placement import FigureScenes
+from reportgen.document.template_rendering import subscripted
 from reportgen.drawing import Diagram, PlottedCurve, Scene, charts
 from reportgen.formula import Chain, Symbol, ids
 from reportgen.formula.vocabulary import KINDS

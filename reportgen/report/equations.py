@@ -17,7 +17,7 @@ from reportgen.derivation.equation_sides import Side
 from reportgen.derivation.kinematic_entries import What
 from reportgen.derivation.load_entries import Edge, Polygon
 from reportgen.document import Equation, Inline, InlineMath, Inlines, Text, Value, listed
-from reportgen.document.prose import subscripted
+from reportgen.document.template_rendering import subscripted
 from reportgen.formula import (
     Chain,
     Expression,

@@ -15,8 +15,8 @@ import numpy as np
 from reportgen.base.units import MM
 from reportgen.derivation.equation_sides import Side
 from reportgen.derivation.kinematic_entries import NEAREST, centre_symbol
+from reportgen.document.figure_placement import A3_ACROSS, A3_UPRIGHT, FigureScenes, close, fits, in_text, on_paper
 from reportgen.document.layout import in_rows
-from reportgen.document.paper import A3_ACROSS, A3_UPRIGHT, FigureScenes, close, fits, in_text, on_paper
 from reportgen.drawing import Scene
 from reportgen.drawing import indicator as indicator_figure
 from reportgen.drawing import scheme as scheme_figure

@@ -10,7 +10,7 @@ import numpy as np
 
 from reportgen.base.units import MM
 from reportgen.derivation.load_entries import Polygon
-from reportgen.document.paper import FigureScenes, beside_one_another, on_paper
+from reportgen.document.figure_placement import FigureScenes, beside_one_another, on_paper
 from reportgen.drawing import Circle, Item, Line, Scene
 from reportgen.drawing.canvas import Canvas
 from reportgen.drawing.forces import ArmOf, Couple, Force

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from reportgen.base.template_access import shown, view
 from reportgen.derivation.equation_sides import Scheme, Side, image, sides
 from reportgen.derivation.load_entries import Polygon
-from reportgen.document.prose import NamedPoint
+from reportgen.document.template_rendering import NamedPoint
 from reportgen.formula import ids, refs
 from reportgen.formula.ids import Name
 from reportgen.formula.ledger import Ledger

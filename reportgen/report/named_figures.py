@@ -8,7 +8,7 @@ from operator import attrgetter
 from typing import Any
 
 from reportgen.document import Figure, InlineMath, Inlines, Plate, Text
-from reportgen.document.paper import FigureScenes, close
+from reportgen.document.figure_placement import FigureScenes, close
 from reportgen.machine.analysis import Position
 from reportgen.report import curves, figures, force_figures, phrases, plans, topic_views
 from reportgen.report.groups import GroupView

@@ -21,8 +21,8 @@ from reportgen.base.words import unfilled
 from reportgen.derivation.equation_sides import Side
 from reportgen.derivation.kinematic_entries import POLES
 from reportgen.document import Inline, InlineMath, Inlines, Reference, Text, Value
-from reportgen.document.insertions import inlines
-from reportgen.document.prose import NamedPoint, subscripted
+from reportgen.document.template_rendering import NamedPoint, subscripted
+from reportgen.document.value_insertion import inlines
 from reportgen.formula import Chain, Number, Symbol, ids
 from reportgen.report.equations import a, image, math, quantity, slider_ways, v, value
 from reportgen.report.groups import CarriedPoint, GroupView

@@ -16,8 +16,8 @@ from reportgen.derivation.equation_sides import Side, image
 from reportgen.derivation.kinematic_entries import POLES, What
 from reportgen.derivation.load_entries import Edge, Polygon
 from reportgen.document import Inlines
+from reportgen.document.figure_placement import A3_ACROSS, FIGURE_ROOM, FigureScenes, on_paper
 from reportgen.document.layout import SCENE_GAP
-from reportgen.document.paper import A3_ACROSS, FIGURE_ROOM, FigureScenes, on_paper
 from reportgen.drawing import Scene
 from reportgen.drawing.mirrors import Mirrored, mirrored
 from reportgen.drawing.plan import (

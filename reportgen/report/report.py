@@ -19,7 +19,7 @@ from reportgen.catalogue.topic_sections import sections_of
 from reportgen.derivation.equation_sides import scheme
 from reportgen.derivation.kinematic_entries import links_in_plane_motion
 from reportgen.derivation.load_entries import Polygon
-from reportgen.document.prose import Prose, subscripted
+from reportgen.document.template_rendering import Prose, subscripted
 from reportgen.drawing.charts import Area
 from reportgen.formula import Symbol, ids, vocabulary
 from reportgen.formula.ledger import Ledger

@@ -24,8 +24,8 @@ from reportgen.document import (
     Value,
     listed,
 )
-from reportgen.document.prose import subscripted
 from reportgen.document.tables import WIDEST_COLUMN, cell, exact, folded, in_blocks, list_table, side_by_side
+from reportgen.document.template_rendering import subscripted
 from reportgen.drawing.label_size import box
 from reportgen.formula import Chain, Expression, Fraction, Number, Symbol, ids, refs, size, vocabulary
 from reportgen.formula.vocabulary import KINDS

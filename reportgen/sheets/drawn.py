@@ -9,7 +9,7 @@ from typing import Any
 
 from reportgen.case import MachineAnalysis
 from reportgen.document import Text, plain
-from reportgen.document.unspaced import set_out
+from reportgen.document.cjk_punctuation import set_out
 from reportgen.drawing import Content, Scene
 from reportgen.drawing.sheet import ENLARGED, grid, widths
 from reportgen.formula import Number

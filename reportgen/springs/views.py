@@ -6,7 +6,7 @@ import numpy as np
 
 from reportgen.base.units import significant_decimals
 from reportgen.document import Inlines, Value, listed
-from reportgen.document.paper import FigureScenes
+from reportgen.document.figure_placement import FigureScenes
 from reportgen.formula import Number
 from reportgen.machine.analysis import motion_at
 from reportgen.machine.laws import FULL_TURN

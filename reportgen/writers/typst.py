@@ -18,7 +18,7 @@ from reportgen.base.errors import TypesetterError
 from reportgen.base.languages import PageMargins, setting_of
 from reportgen.base.template_folders import templates
 from reportgen.base.units import Language, by_power_of_ten
-from reportgen.document import layout, spoken
+from reportgen.document import layout, spoken_formulas
 from reportgen.document.alt_text import figure_text, sentences, within
 from reportgen.drawing import Scene
 from reportgen.drawing.geometry import moved
@@ -63,7 +63,7 @@ def write(document: tree.Document, letter: layout.Letter = layout.OWN_LETTER) ->
             *_in(letter),
         )
     )
-    body = _Blocks(document.language, document.words, spoken.speech(document), letter, document.close).write(
+    body = _Blocks(document.language, document.words, spoken_formulas.speech(document), letter, document.close).write(
         document.blocks
     )
     return f"{frame(document.language, document.close)}\n#show: report.with({opening})\n\n{body}\n"

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from reportgen.base import files as kept
-from reportgen.document import Block, prose
+from reportgen.document import Block, template_rendering
 from reportgen.writers import latex, pdflatex
 from tests.lanes import matrix
 from tests.writers import sample
@@ -28,9 +28,9 @@ def home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
 
 def rendered(folder: Path) -> tuple[Block, ...]:
     """A template rendered as by a process that has not seen it yet."""
-    prose._compiled.codes.clear()
-    prose._environment.cache_clear()
-    return prose.Prose((folder,)).render("page", {"name": "O₁A \ue000 0 \ue001"})
+    template_rendering._compiled.codes.clear()
+    template_rendering._environment.cache_clear()
+    return template_rendering.Prose((folder,)).render("page", {"name": "O₁A \ue000 0 \ue001"})
 
 
 @pytest.fixture
@@ -53,7 +53,7 @@ def test_what_was_kept_is_found_again(home: Path) -> None:
 def test_a_template_reads_the_same_from_the_store(home: Path, words: Path) -> None:
     first = rendered(words)
     (file,) = (home / "reportgen").iterdir()
-    assert prose.SECRET.encode() not in file.read_bytes(), "the number of this process's marks stays in it"
+    assert template_rendering.SECRET.encode() not in file.read_bytes(), "the number of this process's marks stays in it"
     file_before = file.read_bytes()
     assert rendered(words) == first
     assert file.read_bytes() == file_before

@@ -9,7 +9,7 @@ import pytest
 from reportgen.base.errors import TemplateError
 from reportgen.base.words import find, sections
 from reportgen.document import Paragraph, Text
-from reportgen.document.prose import Prose
+from reportgen.document.template_rendering import Prose
 
 
 def file_of(folder: Path, text: str) -> Path:

@@ -19,7 +19,7 @@ from reportgen.base.words import load_words, sections
 from reportgen.catalogue import check
 from reportgen.classes.variants import _state
 from reportgen.cli import app
-from reportgen.document.prose import Prose
+from reportgen.document.template_rendering import Prose
 from reportgen.workbook.reading import read
 from tests.lanes import proof
 

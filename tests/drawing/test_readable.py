@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from reportgen.document.paper import FigureScenes
+from reportgen.document.figure_placement import FigureScenes
 from reportgen.drawing import Arc, Arrow, Circle, Hatch, Label, Line, Pen, Polyline, Scene, style
 from reportgen.drawing.geometry import on_one_line
 from reportgen.drawing.plan import Plan, PlanVector, plan, set_apart

@@ -15,7 +15,7 @@ from reportgen.assignment.common import Extent
 from reportgen.base.units import MM
 from reportgen.cases import MachineCase
 from reportgen.document import Document, Figure, Paragraph, Plate, plain
-from reportgen.document.paper import FigureScenes, in_text
+from reportgen.document.figure_placement import FigureScenes, in_text
 from reportgen.drawing import Circle, Label, Line, Scene, style
 from reportgen.drawing.canvas import Canvas, finish
 from reportgen.drawing.geometry import coincident

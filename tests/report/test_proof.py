@@ -12,7 +12,7 @@ from reportgen.api import language_check
 from reportgen.base.template_folders import REFERENCE, templates
 from reportgen.base.words import sections
 from reportgen.document import Emph, Inlines, Strong, Text
-from reportgen.document.proof import ProofReader
+from reportgen.document.proof_sheet import ProofReader
 from tests.lanes import proof
 
 

@@ -30,9 +30,9 @@ from reportgen.document import (
     Table,
     Text,
     Value,
-    prose,
+    template_rendering,
 )
-from reportgen.document.prose import Prose
+from reportgen.document.template_rendering import Prose
 from reportgen.formula import Number, Symbol
 
 V_B = Symbol("v", "B")
@@ -248,33 +248,33 @@ def test_a_fault_names_file_and_line(render: Render, template: str, line: int, w
 def test_what_stands_for_the_number_of_a_mark_is_a_text(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Also in another process, which reads what this one has kept."""
     kept: dict[str, bytes] = {}
-    monkeypatch.setattr(prose, "keep", kept.__setitem__)
-    monkeypatch.setattr(prose, "kept", kept.get)
+    monkeypatch.setattr(template_rendering, "keep", kept.__setitem__)
+    monkeypatch.setattr(template_rendering, "kept", kept.get)
     for _ in range(2):
-        monkeypatch.setattr(prose, "_compiled", prose._Compiled())
-        prose._environment.cache_clear()
-        number = prose.NUMBER.decode()
+        monkeypatch.setattr(template_rendering, "_compiled", template_rendering._Compiled())
+        template_rendering._environment.cache_clear()
+        number = template_rendering.NUMBER.decode()
         assert written(tmp_path, one=f"a {{{{ '{number}' }}}} {number}").render("one", {}) == (
             says("a ", Text(number), f" {number}"),
         )
-    prose._environment.cache_clear()
+    template_rendering._environment.cache_clear()
 
 
 def test_a_fault_in_a_called_function_is_placed_where_it_is_called(tmp_path: Path) -> None:
     def broken(name: str) -> object:
         return {"a": 1}[name]
 
-    prose = written(tmp_path, page="\n\n{{ broken('b') }}")
+    template_rendering = written(tmp_path, page="\n\n{{ broken('b') }}")
     with pytest.raises(TemplateError, match=r"page\.md:4: KeyError: 'b'"):
-        prose.render("page", {"broken": broken})
+        template_rendering.render("page", {"broken": broken})
     with pytest.raises(TemplateError, match=r"page\.md:1: there is no section other"):
-        prose.render("other", {})
+        template_rendering.render("other", {})
 
 
 def test_a_function_may_render_another_template(tmp_path: Path) -> None:
     """A rendering within a rendering keeps its values apart."""
-    prose = written(tmp_path, outer="{{ 'a' }}\n\n{{ inner() }}\n\n{{ 'c' }}", inner="{{ 'b' }}")
-    blocks = prose.render("outer", {"inner": lambda: prose.render("inner", {})})
+    template_rendering = written(tmp_path, outer="{{ 'a' }}\n\n{{ inner() }}\n\n{{ 'c' }}", inner="{{ 'b' }}")
+    blocks = template_rendering.render("outer", {"inner": lambda: template_rendering.render("inner", {})})
     assert blocks == (says("a"), says("b"), says("c"))
 
 
@@ -296,8 +296,8 @@ def test_the_nearest_words_win(tmp_path: Path) -> None:
         file.parent.mkdir(parents=True, exist_ok=True)
         where = file.relative_to(tmp_path)
         file.write_text("\n".join(f"%% {name}\n{where}\n" for name in names), encoding="utf-8")
-    prose = Prose(path)
-    found = [prose.render(name, {}) for name in "abc"]
+    template_rendering = Prose(path)
+    found = [template_rendering.render(name, {}) for name in "abc"]
     assert found == [(says("school/vi.md"),), (says("vi/catalogue/engine.md"),), (says("vi/report.md"),)]
     assert search_path("en", root=tmp_path) == (tmp_path / "en",)
 
@@ -309,9 +309,9 @@ def test_the_templates_are_found() -> None:
 def test_a_template_changed_between_reports_is_read_again(tmp_path: Path) -> None:
     page = tmp_path / "page.md"
     for second, word in enumerate(("one", "two")):
-        prose = written(tmp_path, page=word)
+        template_rendering = written(tmp_path, page=word)
         os.utime(page, (second, second))
-        assert prose.render("page", {}) == (Paragraph((Text(word),)),)
+        assert template_rendering.render("page", {}) == (Paragraph((Text(word),)),)
 
 
 def test_words_that_come_nearer_are_seen(tmp_path: Path) -> None:

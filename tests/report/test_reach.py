@@ -18,9 +18,9 @@ from reportgen import api
 from reportgen.base.errors import TemplateError
 from reportgen.base.template_access import MEMBERS
 from reportgen.cases import opened
-from reportgen.document.dialect import FILTERS
-from reportgen.document.prose import GLOBALS, Prose, _told
-from reportgen.document.values import PLAIN, FunctionToken, Token, Values, held
+from reportgen.document.template_language import FILTERS
+from reportgen.document.template_rendering import GLOBALS, Prose, _told
+from reportgen.document.template_values import PLAIN, FunctionToken, Token, Values, held
 from tests.lanes import matrix
 
 ASSIGNMENTS = Path(__file__).parents[2] / "assignments"

@@ -34,7 +34,7 @@ from reportgen.document import (
     plain,
 )
 from reportgen.document.numbering import unreferenced
-from reportgen.document.translation import FREE_LISTS, SectionContents
+from reportgen.document.translation_check import FREE_LISTS, SectionContents
 from reportgen.formula import vocabulary
 from reportgen.formula.plain import formula
 from reportgen.machine import DyadKind

@@ -11,7 +11,7 @@ import typst
 
 from reportgen import api
 from reportgen.document import Block, Emph, Figure, List, Paragraph, Plate, Reference, Section, Strong, Table
-from reportgen.document.paper import across, close, in_text
+from reportgen.document.figure_placement import across, close, in_text
 from tests.report import built, pages
 from tests.report.built import Report, Written
 from tests.report.pages import Page

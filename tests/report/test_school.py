@@ -15,7 +15,7 @@ from reportgen.base.words import sections
 from reportgen.case import MachineAnalysis
 from reportgen.cases import open_case
 from reportgen.document import text_of
-from reportgen.document.prose import Prose
+from reportgen.document.template_rendering import Prose
 from reportgen.formula import Symbol
 from reportgen.report.report import Report
 from reportgen.report.template_names import names

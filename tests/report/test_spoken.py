@@ -35,7 +35,7 @@ from reportgen.document import (
     Table,
     Value,
     Words,
-    spoken,
+    spoken_formulas,
 )
 from reportgen.formula import Chain, Expression, Symbol, VectorEquation, children
 from reportgen.formula.setting import known_of
@@ -264,7 +264,7 @@ def test_no_two_symbols_of_a_report_sound_alike(sample: tuple[Language, tuple[Do
     language, written = sample
     print_of = TypstFormulas(language).symbol
     for document in written:
-        speech = spoken.speech(document)
+        speech = spoken_formulas.speech(document)
         prints: defaultdict[str, set[str]] = defaultdict(set)
         for symbol in {
             symbol for formulas in printed(document.blocks) for row, _ in formulas for symbol in symbols(row)

@@ -12,7 +12,7 @@ import pytest
 from reportgen.base.kinds import kinds
 from reportgen.base.template_folders import REFERENCE, languages, templates
 from reportgen.base.translation_coverage import is_whole, offered
-from reportgen.document.translation import faults
+from reportgen.document.translation_check import faults
 from reportgen.report.phrases import form_of
 
 WARNED = frozenset({"words-term", "words-untranslated", "words-idle"})

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from reportgen.document import Emph, InlineMath, Reference, Strong, Text, Value, plain
-from reportgen.document.unspaced import unspaced
+from reportgen.document.cjk_punctuation import unspaced
 from reportgen.formula import Chain, Number, Symbol
 
 B, V = InlineMath(Symbol("B")), InlineMath(Symbol("v", "B"))

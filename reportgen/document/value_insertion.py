@@ -7,7 +7,7 @@ from typing import Any, get_args
 from reportgen.base.template_access import text as as_text
 from reportgen.document import Inline, InlineMath, Inlines, Text, Value
 from reportgen.document.markdown import SECRET
-from reportgen.document.prose import NamedPoint, inlines_of
+from reportgen.document.template_rendering import NamedPoint, inlines_of
 from reportgen.formula import Expression, Number, vocabulary
 
 

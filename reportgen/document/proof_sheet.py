@@ -36,9 +36,9 @@ from reportgen.document import (
     Words,
 )
 from reportgen.document import Section as Heading
-from reportgen.document.insertions import inlines
 from reportgen.document.numbering import number
-from reportgen.document.translation import TABLES, read_table, read_words_in
+from reportgen.document.translation_check import TABLES, read_table, read_words_in
+from reportgen.document.value_insertion import inlines
 from reportgen.formula import Symbol
 
 NUMBER_WIDTH = 12.0

@@ -46,8 +46,20 @@ from reportgen.base.template_folders import DEFAULT_LANGUAGE
 from reportgen.base.units import MINUS, Language
 from reportgen.base.words import find, homes, of_file, refuse_strangers, word
 from reportgen.base.yaml_source import STRANGE
-from reportgen.document import BlankLine, Block, InlineMath, Inlines, Reference, Section, Text, Value, dialect, markdown
-from reportgen.document.dialect import (
+from reportgen.document import (
+    BlankLine,
+    Block,
+    InlineMath,
+    Inlines,
+    Reference,
+    Section,
+    Text,
+    Value,
+    markdown,
+    template_language,
+)
+from reportgen.document.markdown import SECRET, Emitted, Rendered, SectionKey, TemplateLine, Unnumbered
+from reportgen.document.template_language import (
     LONGEST,
     MOST_ITEMS,
     MOST_STEPS,
@@ -57,8 +69,7 @@ from reportgen.document.dialect import (
     numbers,
     short,
 )
-from reportgen.document.markdown import SECRET, Emitted, Rendered, SectionKey, TemplateLine, Unnumbered
-from reportgen.document.values import PLAIN, FunctionToken, Marked, Token, Values, held
+from reportgen.document.template_values import PLAIN, FunctionToken, Marked, Token, Values, held
 from reportgen.formula import Expression, Number, vocabulary
 
 _PIECE = re.compile(
@@ -158,7 +169,7 @@ class _Compiled(BytecodeCache):
 
     def _kept_as(self, bucket: Bucket) -> str:
         # The code that a template becomes depends on what these modules do with it.
-        changed = max(Path(file).stat().st_mtime_ns for file in (__file__, dialect.__file__))
+        changed = max(Path(file).stat().st_mtime_ns for file in (__file__, template_language.__file__))
         return f"template-{changed:x}-{bucket.key}"
 
 

@@ -16,7 +16,7 @@ from jinja2.runtime import Context, LoopContext
 from jinja2.visitor import NodeTransformer
 
 from reportgen.document.markdown import SECRET
-from reportgen.document.values import Token, held
+from reportgen.document.template_values import Token, held
 
 LONGEST = 400_000
 """Characters of a text, as many as a file of templates may have bytes."""
