@@ -31,7 +31,7 @@ from reportgen.cases import opened
 from reportgen.document import TEXT_WIDTH
 from reportgen.document.named_figures import NamedFigure, named_figures
 from reportgen.drawing import Diagram, Scene
-from reportgen.drawing.sheet import sheets
+from reportgen.drawing.drawing_sheet import sheets
 from reportgen.export import curves, figures
 from reportgen.export.curves import Over
 from reportgen.export.figures import MovingFigure

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from reportgen.case.answer_key import Key
     from reportgen.document import Document
     from reportgen.document.layout import Letter
-    from reportgen.drawing.sheet import DrawingSheet
+    from reportgen.drawing.drawing_sheet import DrawingSheet
     from reportgen.writers.pdflatex import Ahead
 
 

@@ -17,7 +17,7 @@ from reportgen.base.words import word
 if TYPE_CHECKING:
     from reportgen.document import Document
     from reportgen.document.layout import Letter
-    from reportgen.drawing.sheet import DrawingSheet
+    from reportgen.drawing.drawing_sheet import DrawingSheet
     from reportgen.writers.pdflatex import Ahead
 
 SUFFIX: Mapping[Engine, str] = {"typst": ".typ", "latex": ".tex"}

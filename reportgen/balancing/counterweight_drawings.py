@@ -9,7 +9,7 @@ import numpy as np
 
 from reportgen.drawing import Circle, Content, Item, Line, Scene, style
 from reportgen.drawing.canvas import Canvas, finish
-from reportgen.drawing.description import Fact, PaperLength, direction, fact
+from reportgen.drawing.drawing_description import Fact, PaperLength, direction, fact
 from reportgen.drawing.labels import Request, label
 from reportgen.drawing.scheme import Looks, driver_marks, mechanism, skeleton
 from reportgen.machine import GROUND, Linkage

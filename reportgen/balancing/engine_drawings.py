@@ -15,13 +15,13 @@ from reportgen.balancing.rotor_drawings import BEYOND, SHAFT, ruler
 from reportgen.base.units import MM, nice_up
 from reportgen.drawing import Circle, Content, Item, Line, Polyline, Scene, style
 from reportgen.drawing.canvas import Canvas, finish, settle
-from reportgen.drawing.description import direction, fact
+from reportgen.drawing.drawing_description import direction, fact
+from reportgen.drawing.drawing_sheet import lettered
+from reportgen.drawing.figure_scale import IN_REPORT, FigureSize
 from reportgen.drawing.geometry import bounds, corners_of
 from reportgen.drawing.labels import Request, joined, label
-from reportgen.drawing.plan import Plan, PlanPoint, PlanVector, plan
 from reportgen.drawing.plates import DrawingPlate, enlargeable
-from reportgen.drawing.scales import IN_REPORT, FigureSize
-from reportgen.drawing.sheet import lettered
+from reportgen.drawing.vector_plan import Plan, PlanPoint, PlanVector, plan
 from reportgen.formula import Chain, Number, Symbol
 from reportgen.sheets.plates import on_sheet
 

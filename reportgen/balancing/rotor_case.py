@@ -19,8 +19,8 @@ from reportgen.case.shafts import Shaft
 from reportgen.document import Column, Equation, InlineMath, Inlines, Table, Text, Value
 from reportgen.drawing import Scene
 from reportgen.drawing.animation import Animation
+from reportgen.drawing.figure_scale import IN_REPORT
 from reportgen.drawing.plates import DrawingPlate
-from reportgen.drawing.scales import IN_REPORT
 from reportgen.formula import Chain, Expression, Number, Symbol, total
 from reportgen.sheets.plates import drawn
 

@@ -14,13 +14,13 @@ from reportgen.balancing.rotor_solution import SolvedRotor
 from reportgen.base.units import MM, nice_up
 from reportgen.drawing import Arc, Circle, Item, Line, Pen, Scene, style
 from reportgen.drawing.canvas import Canvas, finish, settle
-from reportgen.drawing.description import PaperLength, direction, fact
+from reportgen.drawing.drawing_description import PaperLength, direction, fact
+from reportgen.drawing.drawing_sheet import lettered
+from reportgen.drawing.figure_scale import IN_REPORT, FigureSize
 from reportgen.drawing.geometry import bounds
 from reportgen.drawing.labels import Request, label
-from reportgen.drawing.plan import Plan, PlanPoint, PlanVector, plan
 from reportgen.drawing.plates import DrawingPlate, enlargeable
-from reportgen.drawing.scales import IN_REPORT, FigureSize
-from reportgen.drawing.sheet import lettered
+from reportgen.drawing.vector_plan import Plan, PlanPoint, PlanVector, plan
 from reportgen.formula import Chain, Number, Symbol
 from reportgen.sheets.plates import on_sheet
 

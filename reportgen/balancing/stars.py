@@ -8,7 +8,7 @@ from collections.abc import Sequence
 
 from reportgen.drawing import Arrow, Circle, Content, Item, Line, Scene, style
 from reportgen.drawing.canvas import Canvas, finish
-from reportgen.drawing.description import arrow, fact, pointing
+from reportgen.drawing.drawing_description import arrow, fact, pointing
 from reportgen.drawing.geometry import clusters
 from reportgen.drawing.labels import Request, joined, label
 

@@ -16,8 +16,8 @@ from reportgen.case import DriverMotion, Misconceptions
 from reportgen.case.result_entries import ResultEntries
 from reportgen.case.shafts import Shaft
 from reportgen.drawing.animation import Animation
+from reportgen.drawing.drawing_sheet import DrawingSheet
 from reportgen.drawing.plates import DrawingPlate
-from reportgen.drawing.sheet import DrawingSheet
 
 
 @dataclass(frozen=True)

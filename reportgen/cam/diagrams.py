@@ -30,10 +30,10 @@ from reportgen.drawing import (
 )
 from reportgen.drawing.canvas import Canvas, finish
 from reportgen.drawing.charts import Area, Plotted, plotted
-from reportgen.drawing.description import fact, of_curve
+from reportgen.drawing.drawing_description import fact, of_curve
+from reportgen.drawing.figure_scale import IN_REPORT, FigureSize
 from reportgen.drawing.label_size import box
 from reportgen.drawing.labels import Request, label
-from reportgen.drawing.scales import IN_REPORT, FigureSize
 from reportgen.formula import Chain, Number, Symbol
 from reportgen.formula.vocabulary import KINDS
 

@@ -16,10 +16,10 @@ from reportgen.cam.profile import Cam, CamProfile
 from reportgen.cam.solution import SolvedCam
 from reportgen.drawing import Arc, Arrow, Circle, Hatch, Item, Line, Pen, Polyline, Scene, style
 from reportgen.drawing.canvas import Canvas, finish
-from reportgen.drawing.description import Fact, PaperLength, arrow, direction, fact, turning
+from reportgen.drawing.drawing_description import Fact, PaperLength, arrow, direction, fact, turning
+from reportgen.drawing.figure_scale import IN_REPORT, FigureSize
 from reportgen.drawing.geometry import HalfPlane, clipped, region, unit
 from reportgen.drawing.labels import Request, label
-from reportgen.drawing.scales import IN_REPORT, FigureSize
 from reportgen.formula import Number, Symbol
 
 DIAGRAM_ROOM = 118 + 128j

@@ -19,10 +19,10 @@ from reportgen.cam.profile import Cam
 from reportgen.cam.solution import SolvedCam
 from reportgen.drawing import Circle, Item, Line, Pen, Polyline, Scene, style
 from reportgen.drawing.charts import Area
-from reportgen.drawing.description import PaperLength, fact
+from reportgen.drawing.drawing_description import PaperLength, fact
+from reportgen.drawing.drawing_sheet import DrawingSheet, PlacedScene, lettered
+from reportgen.drawing.figure_scale import FigureSize
 from reportgen.drawing.plates import MOST_STEPS, DrawingPlate, enlargeable
-from reportgen.drawing.scales import FigureSize
-from reportgen.drawing.sheet import DrawingSheet, PlacedScene, lettered
 from reportgen.sheets.plates import on_sheet
 
 CHORD = 1e-6

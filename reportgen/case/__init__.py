@@ -35,8 +35,8 @@ if TYPE_CHECKING:
     from reportgen.derivation import PlannedLedger
     from reportgen.derivation.load_entries import Polygon
     from reportgen.drawing.animation import Animation
+    from reportgen.drawing.drawing_sheet import DrawingSheet
     from reportgen.drawing.plates import DrawingPlate
-    from reportgen.drawing.sheet import DrawingSheet
     from reportgen.formula.ledger import Ledger
     from reportgen.machine.analysis import Analysis
 

@@ -25,9 +25,9 @@ from reportgen.coursework.symbol_renaming import Letters, changed, letters_of, n
 from reportgen.document import Block, Document, Equation, InlineMath, Inlines, Paragraph, Text, listed
 from reportgen.document.used_symbols import explained, is_explained, used_symbols
 from reportgen.drawing.animation import Animation
+from reportgen.drawing.drawing_sheet import DrawingSheet
 from reportgen.drawing.plates import DrawingPlate
 from reportgen.drawing.plates import changed as with_change
-from reportgen.drawing.sheet import DrawingSheet
 from reportgen.formula import Chain, Expression, Number, Ref, Symbol
 from reportgen.formula.ledger import Ledger
 from reportgen.formula.sheet import Family

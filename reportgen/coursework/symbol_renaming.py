@@ -11,7 +11,7 @@ from dataclasses import fields, is_dataclass, replace
 from typing import Any, TypeVar, cast
 
 from reportgen.drawing import Content, Scene
-from reportgen.drawing.respelling import respelled
+from reportgen.drawing.label_replacement import respelled
 from reportgen.formula import Symbol
 
 Tree = TypeVar("Tree")

@@ -13,7 +13,7 @@ from reportgen.base.units import Language
 from reportgen.document import Figure, InlineMath, Inlines, Plate, Text, Words, plain
 from reportgen.document.cjk_punctuation import set_out
 from reportgen.drawing import Content, Description, Scene
-from reportgen.drawing.description import Fact, PaperLength, Told
+from reportgen.drawing.drawing_description import Fact, PaperLength, Told
 from reportgen.formula import Number, Symbol
 from reportgen.formula.plain import Plain
 from reportgen.formula.setting import PRIMES, parted

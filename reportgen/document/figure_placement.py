@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 from reportgen.document import TEXT_WIDTH
 from reportgen.document.layout import FIGURE_HEIGHT
 from reportgen.drawing import Scene
+from reportgen.drawing.drawing_sheet import sheets
 from reportgen.drawing.geometry import moved
-from reportgen.drawing.sheet import sheets
 from reportgen.formula import Chain
 
 A3_UPRIGHT, A3_ACROSS = (297.0, 420.0), (420.0, 297.0)

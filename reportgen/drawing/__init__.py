@@ -9,10 +9,10 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Literal
 
-from reportgen.drawing.description import Description as Description
-from reportgen.drawing.diagram import Content as Content
-from reportgen.drawing.diagram import Diagram as Diagram
-from reportgen.drawing.diagram import PlottedCurve as PlottedCurve
+from reportgen.drawing.chart_data import Content as Content
+from reportgen.drawing.chart_data import Diagram as Diagram
+from reportgen.drawing.chart_data import PlottedCurve as PlottedCurve
+from reportgen.drawing.drawing_description import Description as Description
 
 Anchor = Literal["center", "left", "right", "top", "bottom", "top-left", "top-right", "bottom-left", "bottom-right"]
 

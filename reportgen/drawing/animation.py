@@ -15,11 +15,11 @@ from types import MappingProxyType
 import numpy as np
 
 from reportgen.base.units import nice_up
-from reportgen.drawing import Circle, Content, Item, Label, Line, Pen, Polyline, coils, style
+from reportgen.drawing import Circle, Content, Item, Label, Line, Pen, Polyline, spring_drawings, style
 from reportgen.drawing.charts import Plotted
 from reportgen.drawing.geometry import bounds
-from reportgen.drawing.plan import BEYOND, PENS, Construction
 from reportgen.drawing.scheme import Looks, Skeleton, ground_guides, parts_of, skeleton
+from reportgen.drawing.vector_plan import BEYOND, PENS, Construction
 from reportgen.formula import Number, vocabulary
 from reportgen.formula.vocabulary import KINDS
 from reportgen.machine import Crank, Linkage
@@ -322,17 +322,19 @@ def spring_items(
         turned = np.angle(end - start)
         known = np.isfinite(turned)
         turned[known] = np.unwrap(turned[known])
-        behind = Track(start - coils.OUTER * np.exp(1j * turned))
+        behind = Track(start - spring_drawings.OUTER * np.exp(1j * turned))
         return [
-            MovingBody((coils.spiral(),), Track(start), Track(turned)),
-            MovingName(coils.named(coil), behind, (Track(start),)),
+            MovingBody((spring_drawings.spiral(),), Track(start), Track(turned)),
+            MovingName(spring_drawings.named(coil), behind, (Track(start),)),
         ]
-    corners = list(map(Track, coils.zigzag(start, end)))
-    ground = coils.mounts(coil, linkage, complex(start[at]), complex(end[at]), pivots)
+    corners = list(map(Track, spring_drawings.zigzag(start, end)))
+    ground = spring_drawings.mounts(coil, linkage, complex(start[at]), complex(end[at]), pivots)
     return [
         Still(tuple(ground)),
         *(MovingVector(*ends, style.VISIBLE, 0.0) for ends in pairwise(corners)),
-        MovingName(coils.named(coil), Track((start + end) / 2), (corners[0], corners[-1]), coils.SIDE + 0.5),
+        MovingName(
+            spring_drawings.named(coil), Track((start + end) / 2), (corners[0], corners[-1]), spring_drawings.SIDE + 0.5
+        ),
     ]
 
 

@@ -12,7 +12,7 @@ from functools import reduce
 
 from reportgen.base.stable_digits import settled
 from reportgen.drawing import Content, Description, Item, Scene, style
-from reportgen.drawing.description import fact
+from reportgen.drawing.drawing_description import fact
 from reportgen.drawing.geometry import bounds, corners_of, moved
 from reportgen.drawing.label_size import Box, box
 from reportgen.drawing.labels import Request, label_row, place

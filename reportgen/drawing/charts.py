@@ -29,8 +29,8 @@ from reportgen.drawing import (
     style,
 )
 from reportgen.drawing.canvas import Canvas, finish
-from reportgen.drawing.description import of_chart, of_hodograph
-from reportgen.drawing.diagram import Inclination
+from reportgen.drawing.chart_data import Inclination
+from reportgen.drawing.drawing_description import of_chart, of_hodograph
 from reportgen.drawing.geometry import clusters
 from reportgen.drawing.label_size import box
 from reportgen.drawing.labels import LEFT_OUT, Request, joined, label

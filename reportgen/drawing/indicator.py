@@ -17,11 +17,11 @@ from reportgen.base.stable_digits import settled
 from reportgen.base.units import nice_up
 from reportgen.drawing import Arrow, Circle, Content, Item, Label, Line, Pen, Polyline, Scene, style
 from reportgen.drawing.canvas import Canvas
-from reportgen.drawing.description import Fact, fact
+from reportgen.drawing.drawing_description import Fact, fact
 from reportgen.drawing.geometry import clusters, unit
+from reportgen.drawing.label_candidates import CLEAR
 from reportgen.drawing.label_size import box
 from reportgen.drawing.labels import LEFT_OUT, joined, label
-from reportgen.drawing.spots import CLEAR
 from reportgen.formula import Number
 
 TOGETHER = 0.3

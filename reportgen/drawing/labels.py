@@ -22,8 +22,7 @@ from reportgen.base.arrays import Complexes, Flags, Floats
 from reportgen.base.stable_digits import settled
 from reportgen.drawing import Arc, Circle, Content, Item, Label, Line, Pen, Polyline, style
 from reportgen.drawing.geometry import Ink, frame, overlap, segments
-from reportgen.drawing.label_size import Box, box
-from reportgen.drawing.spots import (
+from reportgen.drawing.label_candidates import (
     CLEAR,
     FINE,
     LEADERLESS,
@@ -37,6 +36,7 @@ from reportgen.drawing.spots import (
     ranking,
     touched,
 )
+from reportgen.drawing.label_size import Box, box
 from reportgen.drawing.style import Segment
 
 FIRST = 72

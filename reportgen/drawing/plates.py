@@ -10,7 +10,7 @@ from functools import cached_property
 from itertools import accumulate
 
 from reportgen.drawing import Content, Scene
-from reportgen.drawing.sheet import GAP, PlacedScene, headed
+from reportgen.drawing.drawing_sheet import GAP, PlacedScene, headed
 
 DUST = 1e-6
 """Rounding of places, mm."""

@@ -15,11 +15,11 @@ from reportgen.base.arrays import Complexes, Floats
 from reportgen.base.stable_digits import settled
 from reportgen.drawing import Arc, Arrow, Circle, Content, Item, Label, Line, Pen, Scene, style
 from reportgen.drawing.canvas import Canvas, finish, settle
-from reportgen.drawing.coils import coil_symbols
-from reportgen.drawing.description import Fact, PaperLength, alignment, direction, fact, listed, turning
+from reportgen.drawing.drawing_description import Fact, PaperLength, alignment, direction, fact, listed, turning
 from reportgen.drawing.geometry import clusters, polar
+from reportgen.drawing.label_candidates import distances
 from reportgen.drawing.labels import Request, joined, label
-from reportgen.drawing.spots import distances
+from reportgen.drawing.spring_drawings import coil_symbols
 from reportgen.formula import Symbol, vocabulary
 from reportgen.machine import DRIVER, GROUND, Crank, Dyad, Guide, Linkage
 from reportgen.machine.coils import Coil

@@ -77,8 +77,8 @@ class ExerciseCase(SolvedExercise):
 
     def plates(self, sets: Collection[str] = (), every: bool = False) -> Mapping[str, Sequence[DrawingPlate]]:
         """Its figures; there are no sets of them to choose from."""
+        from reportgen.drawing.drawing_sheet import ENLARGED, lettered
         from reportgen.drawing.plates import DrawingPlate
-        from reportgen.drawing.sheet import ENLARGED, lettered
 
         words = self.words["instant"]
         drawn = {what: FIGURES[what](self, ENLARGED) for what in ("velocity", "acceleration")}

@@ -12,7 +12,7 @@ import numpy as np
 from reportgen.base.units import nice_up
 from reportgen.drawing import Arc, Arrow, Circle, Content, Item, Line, Pen, Scene, style
 from reportgen.drawing.canvas import Canvas, finish, settle
-from reportgen.drawing.description import Fact, PaperLength, alignment, arrow, direction, fact, listed, turning
+from reportgen.drawing.drawing_description import Fact, PaperLength, alignment, arrow, direction, fact, listed, turning
 from reportgen.drawing.geometry import bounds, clusters
 from reportgen.drawing.labels import Request, joined, label
 from reportgen.exercise import file

@@ -22,7 +22,7 @@ from reportgen.document.alt_text import sentences
 from reportgen.document.named_figures import NamedFigure, named_figures, safe
 from reportgen.drawing import Scene
 from reportgen.drawing.animation import LAYERS, Animation, Pane, Track
-from reportgen.drawing.stills import sample_at, stills
+from reportgen.drawing.still_frames import sample_at, stills
 
 FORMATS = names("figures")
 """File formats of figures."""

@@ -12,7 +12,7 @@ from reportgen.catalogue.topic_sections import sections_of
 from reportgen.document import Paragraph, Table, Value
 from reportgen.document.figure_placement import FigureScenes
 from reportgen.drawing import Content, Scene, charts
-from reportgen.drawing.diagram import Diagram, Inclination, PlottedCurve
+from reportgen.drawing.chart_data import Diagram, Inclination, PlottedCurve
 from reportgen.flywheel.regulation import regulated_in
 from reportgen.formula import Symbol, ids
 from reportgen.machine.regulation import RegulatedCycle

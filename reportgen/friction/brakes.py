@@ -7,7 +7,7 @@ import math
 from reportgen.case.design_case import DesignCase
 from reportgen.drawing import Arc, Arrow, Circle, Item, Line, Polyline, Scene, style
 from reportgen.drawing.canvas import Canvas, finish, settle
-from reportgen.drawing.description import PaperLength, fact, turning
+from reportgen.drawing.drawing_description import PaperLength, fact, turning
 from reportgen.drawing.geometry import bounds, polar, rectangle
 from reportgen.drawing.labels import Request, label
 from reportgen.formula import Symbol

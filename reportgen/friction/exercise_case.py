@@ -14,9 +14,9 @@ from reportgen.case.result_entries import ResultEntries
 from reportgen.document import Figure
 from reportgen.document.template_rendering import Prose
 from reportgen.drawing import Scene
+from reportgen.drawing.drawing_sheet import ENLARGED, lettered
+from reportgen.drawing.figure_scale import IN_REPORT, FigureSize
 from reportgen.drawing.plates import DrawingPlate, enlargeable
-from reportgen.drawing.scales import IN_REPORT, FigureSize
-from reportgen.drawing.sheet import ENLARGED, lettered
 from reportgen.formula.sheet import Sheet
 from reportgen.friction import brakes, exercise_drawings, exercise_mistakes, exercise_sheets
 

@@ -9,11 +9,11 @@ from collections.abc import Iterable, Sequence
 from reportgen.case.design_case import DesignCase
 from reportgen.drawing import Arc, Arrow, Content, Item, Line, Polyline, Scene, style
 from reportgen.drawing.canvas import Canvas, finish
-from reportgen.drawing.description import angle, names_of, pointing
+from reportgen.drawing.drawing_description import angle, names_of, pointing
+from reportgen.drawing.figure_scale import IN_REPORT, FigureSize
 from reportgen.drawing.geometry import polar, rectangle
 from reportgen.drawing.labels import Request, label
-from reportgen.drawing.plan import Plan, PlanPoint, PlanVector, VectorStyle, plan
-from reportgen.drawing.scales import IN_REPORT, FigureSize
+from reportgen.drawing.vector_plan import Plan, PlanPoint, PlanVector, VectorStyle, plan
 from reportgen.formula import Fraction, Number, Product, Symbol
 
 DOWN = -1j

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from reportgen.drawing.plan import plan
+from reportgen.drawing.vector_plan import plan
 from reportgen.friction import views
 from reportgen.sheets.drawn import Drawn, Sources
 from reportgen.sheets.topic_plates import PlateHooks

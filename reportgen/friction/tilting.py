@@ -14,7 +14,7 @@ import numpy as np
 
 from reportgen.drawing import Arc, Arrow, Item, Line, Scene, style
 from reportgen.drawing.canvas import Canvas, finish
-from reportgen.drawing.description import arrow, direction, fact
+from reportgen.drawing.drawing_description import arrow, direction, fact
 from reportgen.drawing.geometry import polar
 from reportgen.drawing.labels import label
 from reportgen.formula import Symbol, ids

@@ -19,12 +19,12 @@ from reportgen.document.tables import side_by_side
 from reportgen.document.template_rendering import NamedPoint, subscripted
 from reportgen.drawing import Arc, Circle, Item, Line, Scene, style
 from reportgen.drawing.canvas import Canvas, finish
-from reportgen.drawing.description import PaperLength, fact, turning
-from reportgen.drawing.forces import Force, draw_forces
+from reportgen.drawing.drawing_description import PaperLength, fact, turning
+from reportgen.drawing.force_drawings import Force, draw_forces
 from reportgen.drawing.geometry import polar
 from reportgen.drawing.labels import label
-from reportgen.drawing.plan import SAME_POINT, Plan, PlanPoint, PlanVector, plan
 from reportgen.drawing.scheme import mechanism, skeleton
+from reportgen.drawing.vector_plan import SAME_POINT, Plan, PlanPoint, PlanVector, plan
 from reportgen.formula import Number, Symbol, ids, vocabulary
 from reportgen.friction import friction_ids
 from reportgen.friction.joints import FrictionForces, friction_of, relative_sense, with_friction

@@ -28,10 +28,10 @@ from reportgen.drawing.animation import (
     extent,
 )
 from reportgen.drawing.charts import Area
-from reportgen.drawing.description import PaperLength, fact
+from reportgen.drawing.drawing_description import PaperLength, fact
+from reportgen.drawing.drawing_sheet import DrawingSheet, PlacedScene, lettered
+from reportgen.drawing.figure_scale import FigureSize
 from reportgen.drawing.plates import MOST_STEPS, DrawingPlate, enlargeable
-from reportgen.drawing.scales import FigureSize
-from reportgen.drawing.sheet import DrawingSheet, PlacedScene, lettered
 from reportgen.formula import Symbol
 from reportgen.gears import gears_ids, pair_views
 from reportgen.gears.pair_drawings import (

@@ -26,10 +26,10 @@ from reportgen.drawing import (
 )
 from reportgen.drawing.canvas import Canvas, finish
 from reportgen.drawing.charts import Area, Plotted, plotted
-from reportgen.drawing.description import Fact, PaperLength, angle, arrow, fact
+from reportgen.drawing.drawing_description import Fact, PaperLength, angle, arrow, fact
+from reportgen.drawing.figure_scale import IN_REPORT, FigureSize
 from reportgen.drawing.geometry import clipped
 from reportgen.drawing.labels import Request, label
-from reportgen.drawing.scales import IN_REPORT, FigureSize
 from reportgen.formula import Chain, Number, Symbol
 from reportgen.formula.model import model
 from reportgen.gears import gears_ids

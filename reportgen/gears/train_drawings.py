@@ -25,11 +25,11 @@ from reportgen.drawing.animation import (
     extent,
 )
 from reportgen.drawing.canvas import Canvas, finish
-from reportgen.drawing.description import PaperLength, arrow, direction, fact
+from reportgen.drawing.drawing_description import PaperLength, arrow, direction, fact
+from reportgen.drawing.drawing_sheet import lettered
+from reportgen.drawing.figure_scale import IN_REPORT, FigureSize
 from reportgen.drawing.labels import Request, label
 from reportgen.drawing.plates import DrawingPlate, enlargeable
-from reportgen.drawing.scales import IN_REPORT, FigureSize
-from reportgen.drawing.sheet import lettered
 from reportgen.formula import Number, Ref, Symbol
 from reportgen.formula.evaluation import evaluate
 from reportgen.formula.vocabulary import KINDS

@@ -14,8 +14,8 @@ from reportgen.base.words import load_words
 from reportgen.case.answer_key import capitalised
 from reportgen.document import TEXT_WIDTH, Block, Column, Document, Figure, InlineMath, Inlines, Table, Text
 from reportgen.drawing import Content
-from reportgen.drawing.counts import bars, histogram
-from reportgen.drawing.statistics import intervals, scatter
+from reportgen.drawing.count_charts import bars, histogram
+from reportgen.drawing.statistics_charts import intervals, scatter
 from reportgen.formula.plain import formula
 from reportgen.marking.feedback import amended, points_text
 from reportgen.marking.grades import mistake_name, open_cells, section_name, state, who

@@ -43,7 +43,7 @@ from reportgen.drawing.animation import (
     path_items,
     plan_items,
 )
-from reportgen.drawing.plan import Construction
+from reportgen.drawing.vector_plan import Construction
 from reportgen.formula import Symbol, ids, vocabulary
 from reportgen.formula.vocabulary import KINDS
 from reportgen.machine import DRIVER

@@ -21,10 +21,10 @@ from reportgen.drawing import Scene
 from reportgen.drawing import indicator as indicator_figure
 from reportgen.drawing import scheme as scheme_figure
 from reportgen.drawing.canvas import Canvas
-from reportgen.drawing.forces import Sliding, link_and_plan
-from reportgen.drawing.forces import coriolis as coriolis_figure
-from reportgen.drawing.forces import inclination as inclination_figure
-from reportgen.drawing.positions import (
+from reportgen.drawing.force_drawings import Sliding, link_and_plan
+from reportgen.drawing.force_drawings import coriolis as coriolis_figure
+from reportgen.drawing.force_drawings import inclination as inclination_figure
+from reportgen.drawing.position_plan import (
     DrawnCentre,
     PlaneMotion,
     PositionPlan,

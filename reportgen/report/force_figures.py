@@ -13,12 +13,12 @@ from reportgen.derivation.load_entries import Polygon
 from reportgen.document.figure_placement import FigureScenes, beside_one_another, on_paper
 from reportgen.drawing import Circle, Item, Line, Scene
 from reportgen.drawing.canvas import Canvas
-from reportgen.drawing.forces import ArmOf, Couple, Force
-from reportgen.drawing.forces import bodies as bodies_figure
-from reportgen.drawing.forces import lever as lever_figure
+from reportgen.drawing.force_drawings import ArmOf, Couple, Force
+from reportgen.drawing.force_drawings import bodies as bodies_figure
+from reportgen.drawing.force_drawings import lever as lever_figure
 from reportgen.drawing.labels import label
-from reportgen.drawing.plan import plan
 from reportgen.drawing.style import CONSTRUCTION, PAPER, VISIBLE
+from reportgen.drawing.vector_plan import plan
 from reportgen.formula import Chain, Expression, Symbol, constructions, ids, size, vocabulary
 from reportgen.machine import DRIVER
 from reportgen.machine.forces import Load, as_single_force

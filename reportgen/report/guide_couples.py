@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 from reportgen.derivation.load_entries import Polygon
-from reportgen.drawing.forces import Couple
+from reportgen.drawing.force_drawings import Couple
 from reportgen.formula import Symbol, ids, size
 from reportgen.report.groups import Contact
 from reportgen.report.report import Report

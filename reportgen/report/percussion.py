@@ -13,7 +13,7 @@ import numpy as np
 
 from reportgen.drawing import Circle, Item, Line
 from reportgen.drawing.canvas import Canvas
-from reportgen.drawing.forces import LEAST_ARM, TOGETHER
+from reportgen.drawing.force_drawings import LEAST_ARM, TOGETHER
 from reportgen.drawing.labels import joined, label
 from reportgen.drawing.style import CONSTRUCTION, PAPER, VISIBLE
 from reportgen.formula import Symbol, constructions, ids

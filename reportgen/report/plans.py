@@ -1,6 +1,6 @@
 """Plans of velocity, acceleration and force: the ledger's points on paper, in the order of construction.
 
-The ledger's plans are metres on paper; `reportgen/drawing/plan.py` draws them.
+The ledger's plans are metres on paper; `reportgen/drawing/vector_plan.py` draws them.
 """
 
 from __future__ import annotations
@@ -19,8 +19,10 @@ from reportgen.document import Inlines
 from reportgen.document.figure_placement import A3_ACROSS, FIGURE_ROOM, FigureScenes, on_paper
 from reportgen.document.layout import SCENE_GAP
 from reportgen.drawing import Scene
-from reportgen.drawing.mirrors import Mirrored, mirrored
-from reportgen.drawing.plan import (
+from reportgen.drawing.drawing_sheet import sheets
+from reportgen.drawing.mirrored_plans import Mirrored, mirrored
+from reportgen.drawing.scheme import thumbnail
+from reportgen.drawing.vector_plan import (
     Construction,
     Plan,
     PlanLine,
@@ -32,8 +34,6 @@ from reportgen.drawing.plan import (
     plan,
     stages,
 )
-from reportgen.drawing.scheme import thumbnail
-from reportgen.drawing.sheet import sheets
 from reportgen.formula import Chain, Symbol, ids, vocabulary
 from reportgen.report.figures import scale_note
 from reportgen.report.groups import GroupView

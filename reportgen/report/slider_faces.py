@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from reportgen.drawing import Item, Line, style
-from reportgen.drawing.forces import LEAST_ARM
+from reportgen.drawing.force_drawings import LEAST_ARM
 from reportgen.drawing.geometry import unit
 from reportgen.formula import Symbol, constructions, ids, vocabulary
 from reportgen.machine.faces import Faces

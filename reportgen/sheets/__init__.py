@@ -12,8 +12,8 @@ from reportgen.base.languages import setting_of
 from reportgen.base.words import as_error, word
 from reportgen.base.yaml_source import read_source
 from reportgen.case import Case, CaseOfParts, MachineAnalysis
+from reportgen.drawing.drawing_sheet import DrawingSheet, PlacedScene, TooLargeError
 from reportgen.drawing.plates import DrawingPlate
-from reportgen.drawing.sheet import DrawingSheet, PlacedScene, TooLargeError
 from reportgen.sheets.drawn import Sources
 from reportgen.sheets.frame import TitleBlock, blocks, fields_of, framed, numbered, read_block, room
 from reportgen.sheets.packing import Packing

@@ -11,7 +11,7 @@ from reportgen.case import MachineAnalysis
 from reportgen.document import Text, plain
 from reportgen.document.cjk_punctuation import set_out
 from reportgen.drawing import Content, Scene
-from reportgen.drawing.sheet import ENLARGED, grid, widths
+from reportgen.drawing.drawing_sheet import ENLARGED, grid, widths
 from reportgen.formula import Number
 from reportgen.report.groups import GroupView
 from reportgen.report.report import Report

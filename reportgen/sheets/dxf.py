@@ -18,8 +18,8 @@ from typing import TYPE_CHECKING, Any
 from reportgen.base.languages import setting_of
 from reportgen.base.units import Language, rounded
 from reportgen.drawing import Anchor, Arc, Arrow, Circle, Hatch, Item, Label, Line, Pen, Polyline
+from reportgen.drawing.drawing_sheet import CAPITAL, NARROW, DrawingSheet, PlacedScene
 from reportgen.drawing.label_size import POINT
-from reportgen.drawing.sheet import CAPITAL, NARROW, DrawingSheet, PlacedScene
 from reportgen.drawing.style import HEAD_SLENDERNESS, PAPER, arrow_head, clip_hatch
 from reportgen.formula import Symbol
 from reportgen.formula.plain import Plain

@@ -22,9 +22,9 @@ from reportgen.base.words import as_error, close_or_known
 from reportgen.base.yaml_source import read_source
 from reportgen.case import Case
 from reportgen.drawing import Anchor, Description, Item, Label, Line, Pen, Polyline, Scene
-from reportgen.drawing.description import fact
+from reportgen.drawing.drawing_description import fact
+from reportgen.drawing.drawing_sheet import DrawingSheet, PlacedScene, Room, font_size
 from reportgen.drawing.label_size import box
-from reportgen.drawing.sheet import DrawingSheet, PlacedScene, Room, font_size
 
 SIZES: Mapping[str, tuple[float, float]] = {
     "A0": (1189.0, 841.0),

@@ -14,8 +14,8 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import accumulate
 
+from reportgen.drawing.drawing_sheet import GAP, PlacedScene, Room, TooLargeError
 from reportgen.drawing.plates import DUST, Arranged, DrawingPlate
-from reportgen.drawing.sheet import GAP, PlacedScene, Room, TooLargeError
 
 MOST = 20.0
 """Largest distance between rows, mm."""

@@ -16,11 +16,11 @@ from reportgen.derivation.kinematic_entries import What
 from reportgen.derivation.load_entries import Polygon
 from reportgen.document import Inline, InlineMath, Inlines, Table, Text, Value
 from reportgen.drawing import Content, Scene
+from reportgen.drawing.drawing_sheet import ENLARGED, grid, lettered
+from reportgen.drawing.figure_scale import FigureSize
 from reportgen.drawing.geometry import unit
-from reportgen.drawing.plan import Plan, plan
 from reportgen.drawing.plates import DrawingPlate
-from reportgen.drawing.scales import FigureSize
-from reportgen.drawing.sheet import ENLARGED, grid, lettered
+from reportgen.drawing.vector_plan import Plan, plan
 from reportgen.formula import Chain, Number, ids
 from reportgen.formula.plain import formula, quantity
 from reportgen.report import curves

@@ -21,9 +21,9 @@ from reportgen.base.units import Language, by_power_of_ten
 from reportgen.document import layout, spoken_formulas
 from reportgen.document.alt_text import figure_text, sentences, within
 from reportgen.drawing import Scene
+from reportgen.drawing.drawing_sheet import DrawingSheet
 from reportgen.drawing.geometry import moved
 from reportgen.drawing.label_size import box
-from reportgen.drawing.sheet import DrawingSheet
 from reportgen.formula import Chain, Expression, Product, Sum, Symbol, VectorEquation, walk
 from reportgen.formula.setting import EQUALS, NARROW, MathRow, Part, columns, displayed, laid, sides, written
 from reportgen.formula.speech import Speech

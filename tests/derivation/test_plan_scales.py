@@ -13,7 +13,7 @@ from reportgen.cases import MachineCase
 from reportgen.derivation.kinematic_entries import What
 from reportgen.derivation.load_entries import Polygon
 from reportgen.derivation.plan_scales import SHEET_BOXES, TEXT_BOX
-from reportgen.drawing.plan import Plan
+from reportgen.drawing.vector_plan import Plan
 from reportgen.marking.marking import mark
 from reportgen.report.plans import force_plan, motion_plan
 from reportgen.report.report import Report

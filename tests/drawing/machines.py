@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from reportgen.drawing.plan import Plan, PlanLine, PlanPoint, PlanVector
+from reportgen.drawing.vector_plan import Plan, PlanLine, PlanPoint, PlanVector
 from reportgen.formula import Chain, Expression, Number, Symbol
 from reportgen.formula.vocabulary import on_plan
 from reportgen.machine import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint

@@ -9,7 +9,7 @@ import pytest
 
 from reportgen.drawing import Circle, Diagram, Label, PlottedCurve, Polyline, Scene
 from reportgen.drawing.charts import CLOSE, HEIGHT, WIDTH, Area, _telling, _ticks, angle_ticks, chart, polar
-from reportgen.drawing.counts import bars, histogram
+from reportgen.drawing.count_charts import bars, histogram
 from reportgen.formula import Chain, Number, Symbol
 from tests.drawing.overlaps import overlaps
 

@@ -9,7 +9,7 @@ import reportgen
 from reportgen.case import MachineAnalysis
 from reportgen.drawing import Hatch, Label, Polyline, style
 from reportgen.drawing.animation import MovingBody, MovingVector
-from reportgen.drawing.coils import OUTER, TEETH
+from reportgen.drawing.spring_drawings import OUTER, TEETH
 from reportgen.formula import Symbol
 from reportgen.page.sampling import Samples
 from reportgen.report.figures import scheme

@@ -8,7 +8,7 @@ import math
 import pytest
 
 from reportgen.drawing import Arc, Arrow, Scene
-from reportgen.drawing.forces import ArmOf, Couple, Force, Sliding, bodies, coriolis, foot, lever
+from reportgen.drawing.force_drawings import ArmOf, Couple, Force, Sliding, bodies, coriolis, foot, lever
 from reportgen.drawing.scheme import Looks
 from reportgen.formula import Symbol
 from tests.drawing.machines import OMEGA, R, at_positions, twin_engine, velocity_plan

@@ -14,7 +14,7 @@ from reportgen.base.arrays import Complexes
 from reportgen.drawing import Arc, Circle, Hatch, Label, Line, Polyline
 from reportgen.drawing.canvas import finish
 from reportgen.drawing.indicator import Branch, Frame, Reading, beside, indicator
-from reportgen.drawing.positions import PositionPlan, position_plan
+from reportgen.drawing.position_plan import PositionPlan, position_plan
 from reportgen.drawing.scheme import Looks, driver_arrow, groups, scheme, skeleton
 from reportgen.formula import Symbol
 from reportgen.machine import Linkage

@@ -8,8 +8,8 @@ import pymupdf
 import pytest
 import typst
 
+from reportgen.drawing.label_candidates import CLEAR
 from reportgen.drawing.label_size import box
-from reportgen.drawing.spots import CLEAR
 from reportgen.formula import Call, Chain, Expression, Fraction, Number, Symbol, cos, sin
 from reportgen.writers.typst_fonts import added
 from reportgen.writers.typst_math import TypstFormulas

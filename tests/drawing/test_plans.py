@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from reportgen.drawing import Arrow, Circle, Label, Line, Scene
-from reportgen.drawing.plan import TARGET, TINY, Plan, PlanPoint, PlanVector, enlargement, plan, stages
+from reportgen.drawing.vector_plan import TARGET, TINY, Plan, PlanPoint, PlanVector, enlargement, plan, stages
 from reportgen.formula import Symbol
 from reportgen.machine.motion import Motion
 from tests.drawing.machines import acceleration_plan, at_positions, twin_engine, velocity_plan

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from reportgen.drawing import Circle, Label, Line, Polyline, Scene
-from reportgen.drawing.positions import PositionPlan, position_plan
+from reportgen.drawing.position_plan import PositionPlan, position_plan
 from reportgen.drawing.scheme import Looks, groups, scheme
 from reportgen.drawing.style import HEAVY, POINT, body
 from reportgen.formula.vocabulary import point

@@ -15,9 +15,9 @@ import pytest
 from reportgen.document.figure_placement import FigureScenes
 from reportgen.drawing import Arc, Arrow, Circle, Hatch, Label, Line, Pen, Polyline, Scene, style
 from reportgen.drawing.geometry import on_one_line
-from reportgen.drawing.plan import Plan, PlanVector, plan, set_apart
 from reportgen.drawing.scheme import ARROWS, LINES, line_styles
 from reportgen.drawing.style import clip_hatch
+from reportgen.drawing.vector_plan import Plan, PlanVector, plan, set_apart
 from reportgen.formula import Symbol
 from reportgen.report.named_figures import FIGURES
 from reportgen.report.report import Report

@@ -9,8 +9,8 @@ import pytest
 from reportgen.drawing import Circle, Content, Label, Line, Pen, style
 from reportgen.drawing.canvas import Canvas, finish
 from reportgen.drawing.geometry import frame
+from reportgen.drawing.label_replacement import respelled
 from reportgen.drawing.labels import label
-from reportgen.drawing.respelling import respelled
 from reportgen.formula import Symbol
 from tests.drawing.overlaps import overlaps
 

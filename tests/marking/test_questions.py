@@ -10,7 +10,7 @@ import pytest
 
 from reportgen.case.answer_key import Role
 from reportgen.drawing import Circle
-from reportgen.drawing.statistics import intervals, scatter
+from reportgen.drawing.statistics_charts import intervals, scatter
 from reportgen.formula import Symbol
 from reportgen.formula.vocabulary import Chapter
 from reportgen.marking.marks import Marking, Submission, Verdict

@@ -12,7 +12,7 @@ import pytest
 
 import reportgen
 from reportgen import api
-from reportgen.drawing.plan import Construction, Plan
+from reportgen.drawing.vector_plan import Construction, Plan
 from reportgen.page import page as page_of
 from reportgen.report.plans import POLE, force_construction, motion_construction
 from tests.lanes import proof

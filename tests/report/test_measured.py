@@ -11,7 +11,7 @@ import pytest
 from reportgen import document as tree
 from reportgen.derivation.kinematic_entries import POLES
 from reportgen.drawing import Content, Label
-from reportgen.drawing.forces import LEAST_ARM
+from reportgen.drawing.force_drawings import LEAST_ARM
 from reportgen.formula import Symbol, refs, vocabulary
 from reportgen.formula.ledger import Ledger
 from tests.lanes import matrix

@@ -8,8 +8,8 @@ import pytest
 
 from reportgen.cases import open_case
 from reportgen.derivation.kinematic_entries import What
-from reportgen.drawing.mirrors import mirrored
-from reportgen.drawing.plan import Plan, PlanVector
+from reportgen.drawing.mirrored_plans import mirrored
+from reportgen.drawing.vector_plan import Plan, PlanVector
 from reportgen.report.plans import motion_plan
 from reportgen.report.report import Report
 

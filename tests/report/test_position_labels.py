@@ -18,10 +18,10 @@ from reportgen.document import Document, Figure, Paragraph, Plate, plain
 from reportgen.document.figure_placement import FigureScenes, in_text
 from reportgen.drawing import Circle, Label, Line, Scene, style
 from reportgen.drawing.canvas import Canvas, finish
+from reportgen.drawing.drawing_sheet import ENLARGED, lettered
 from reportgen.drawing.geometry import coincident
 from reportgen.drawing.labels import label
-from reportgen.drawing.positions import DOT
-from reportgen.drawing.sheet import ENLARGED, lettered
+from reportgen.drawing.position_plan import DOT
 from reportgen.formula import Chain, Symbol, vocabulary
 from reportgen.report import figures
 from reportgen.report.report import Report

@@ -14,7 +14,7 @@ from reportgen.base.template_folders import search_path
 from reportgen.base.words import load_words
 from reportgen.document import Block, Equation, InlineMath, Paragraph, plain
 from reportgen.drawing import Arc, Arrow, Scene
-from reportgen.drawing.forces import COUPLE_RADIUS
+from reportgen.drawing.force_drawings import COUPLE_RADIUS
 from reportgen.formula import Chain, Expression, Number, Symbol, VectorEquation, walk
 from reportgen.formula.setting import BOUND, MathRow, columns
 from reportgen.formula.sheet import ZERO

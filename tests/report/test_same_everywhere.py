@@ -20,7 +20,7 @@ from numpy._core import _multiarray_umath
 
 from reportgen.base.stable_digits import first_greatest, first_least, settled, significant
 from reportgen.cam.profile import greatest
-from reportgen.drawing.description import direction
+from reportgen.drawing.drawing_description import direction
 from reportgen.drawing.style import decimal
 from reportgen.formula.evaluation import FUNCTIONS
 from tests.lanes import proof

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from reportgen.drawing import Arrow, Line
-from reportgen.drawing.plan import Plan, merged, stages
 from reportgen.drawing.style import NEW
+from reportgen.drawing.vector_plan import Plan, merged, stages
 from reportgen.report.groups import GroupView
 from reportgen.report.plans import force_stages, motion_plan
 from reportgen.report.report import Report

@@ -24,9 +24,9 @@ from reportgen.document import Document, Figure, Plate
 from reportgen.document.alt_text import MOST, figure_text, sentences
 from reportgen.drawing import Arc, Arrow, Circle, Line, Pen, Polyline, Scene
 from reportgen.drawing.charts import PENS
-from reportgen.drawing.counts import bars, histogram
-from reportgen.drawing.description import PaperLength, crossings
-from reportgen.drawing.statistics import intervals, scatter
+from reportgen.drawing.count_charts import bars, histogram
+from reportgen.drawing.drawing_description import PaperLength, crossings
+from reportgen.drawing.statistics_charts import intervals, scatter
 from reportgen.sheets import drawing_sheets
 from reportgen.writers import typst, typst_compiler
 from tests.lanes import matrix

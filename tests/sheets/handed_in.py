@@ -6,9 +6,9 @@ from itertools import combinations
 
 from reportgen.base.errors import AssignmentError
 from reportgen.drawing import Label
+from reportgen.drawing.drawing_sheet import CAPITAL, GAP, DrawingSheet, PlacedScene
 from reportgen.drawing.geometry import bounds
 from reportgen.drawing.label_size import POINT, SCRIPT
-from reportgen.drawing.sheet import CAPITAL, GAP, DrawingSheet, PlacedScene
 from tests.sheets.laid import laid, plates
 
 EDGE = 1e-6

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from reportgen.base.languages import setting_of
-from reportgen.drawing.sheet import DrawingSheet, PlacedScene
+from reportgen.drawing.drawing_sheet import DrawingSheet, PlacedScene
 from reportgen.sheets import drawing_sheets
 from reportgen.sheets.frame import TitleBlock, blocks, read_block
 from tests.report import built

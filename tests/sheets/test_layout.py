@@ -9,8 +9,8 @@ import pytest
 
 from reportgen.base.errors import AssignmentError
 from reportgen.drawing import Label, Line, Scene
+from reportgen.drawing.drawing_sheet import GAP, Room, TooLargeError
 from reportgen.drawing.plates import DrawingPlate
-from reportgen.drawing.sheet import GAP, Room, TooLargeError
 from reportgen.formula import Chain, Number, Symbol
 from reportgen.sheets import laid as divided
 from reportgen.sheets import plates_by_set

@@ -13,7 +13,7 @@ import pytest
 from reportgen.cam.solution import SolvedCam
 from reportgen.case import Case
 from reportgen.drawing import Label, Polyline, Scene
-from reportgen.drawing.sheet import DrawingSheet
+from reportgen.drawing.drawing_sheet import DrawingSheet
 from reportgen.formula import Chain, Number, Symbol
 from reportgen.gears import train_ids
 from reportgen.gears.train_ledger import pole_distance

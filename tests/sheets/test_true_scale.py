@@ -22,7 +22,7 @@ from reportgen.base.template_folders import search_path
 from reportgen.base.words import load_words
 from reportgen.derivation.equation_sides import image
 from reportgen.drawing import Arrow
-from reportgen.drawing.sheet import DrawingSheet
+from reportgen.drawing.drawing_sheet import DrawingSheet
 from reportgen.formula import ids
 from reportgen.report.plans import motion_construction
 from reportgen.report.report import Report

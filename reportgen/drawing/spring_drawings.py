@@ -10,7 +10,7 @@ import numpy as np
 from reportgen.base.arrays import Complexes
 from reportgen.drawing import Circle, Item, Polyline, style
 from reportgen.drawing.canvas import Canvas
-from reportgen.drawing.description import Fact, PaperLength, direction, fact
+from reportgen.drawing.drawing_description import Fact, PaperLength, direction, fact
 from reportgen.drawing.geometry import polar, unit
 from reportgen.drawing.labels import Request, label
 from reportgen.formula import Symbol

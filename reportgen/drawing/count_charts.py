@@ -9,7 +9,7 @@ from reportgen.base.units import nice_up
 from reportgen.drawing import Content, Item, Label, Line, Pen, Polyline, Scene, style
 from reportgen.drawing.canvas import Canvas, finish
 from reportgen.drawing.charts import EDGE, GRID, TICKS, framed
-from reportgen.drawing.description import fact
+from reportgen.drawing.drawing_description import fact
 from reportgen.drawing.label_size import box
 from reportgen.formula import Number
 

@@ -15,11 +15,11 @@ from typing import Literal
 from reportgen.base.stable_digits import settled
 from reportgen.drawing import Arc, Arrow, Circle, Content, Item, Line, Polyline, Scene, style
 from reportgen.drawing.canvas import Canvas, finish
-from reportgen.drawing.description import Fact, PaperLength, direction, fact, pointing, turning
+from reportgen.drawing.drawing_description import Fact, PaperLength, direction, fact, pointing, turning
 from reportgen.drawing.geometry import clusters, on_one_line, polar, unit
 from reportgen.drawing.labels import Request, joined, label
-from reportgen.drawing.plan import CROWDED, Plan, point_names, vector_facts
 from reportgen.drawing.scheme import Looks, mechanism, skeleton
+from reportgen.drawing.vector_plan import CROWDED, Plan, point_names, vector_facts
 from reportgen.formula import Symbol, constructions
 from reportgen.machine import Linkage
 from reportgen.machine.motion import Motion

@@ -11,7 +11,7 @@ from itertools import combinations
 
 import numpy as np
 
-from reportgen.drawing.plan import Plan
+from reportgen.drawing.vector_plan import Plan
 
 SAME_END = 0.01
 """Ends of vectors nearer than this (mm), the last digit of a measured length, are one for any reader."""

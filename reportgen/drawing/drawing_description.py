@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from reportgen.base.stable_digits import first_greatest, first_least, significant
 from reportgen.base.units import rounded
-from reportgen.drawing.diagram import Content, Diagram, PlottedCurve
+from reportgen.drawing.chart_data import Content, Diagram, PlottedCurve
 from reportgen.formula import Number
 
 SAME = 1e-6

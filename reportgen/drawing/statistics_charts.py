@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from reportgen.drawing import Circle, Content, Item, Label, Line, Pen, Scene, style
 from reportgen.drawing.canvas import Canvas, finish
 from reportgen.drawing.charts import EDGE, GRID
-from reportgen.drawing.counts import COUNT_WIDTH, LENGTH, ROW
-from reportgen.drawing.description import fact
+from reportgen.drawing.count_charts import COUNT_WIDTH, LENGTH, ROW
+from reportgen.drawing.drawing_description import fact
 from reportgen.drawing.label_size import box
 from reportgen.formula import Number
 

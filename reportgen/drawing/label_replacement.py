@@ -10,8 +10,8 @@ import numpy as np
 from reportgen.base.arrays import Complexes
 from reportgen.drawing import Content, Item, Label, Scene
 from reportgen.drawing.geometry import corners_of, frame, moved, overlap, segments
+from reportgen.drawing.label_candidates import CLEAR
 from reportgen.drawing.label_size import box
-from reportgen.drawing.spots import CLEAR
 
 Frame = tuple[complex, complex]
 """Centre and half size of a label (mm)."""

@@ -18,7 +18,7 @@ from reportgen.base.stable_digits import settled
 from reportgen.base.units import SERIES
 from reportgen.drawing import Arrow, Circle, Content, Item, Label, Line, Pen, Polyline, Scene, style
 from reportgen.drawing.canvas import MARGIN, Canvas, finish, settle
-from reportgen.drawing.description import Description, arrow, direction, fact
+from reportgen.drawing.drawing_description import Description, arrow, direction, fact
 from reportgen.drawing.geometry import bounds, clipped, clusters, corners_of, on_one_line, unit
 from reportgen.drawing.labels import KEY, Request, label
 

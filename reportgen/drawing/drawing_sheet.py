@@ -22,10 +22,10 @@ from reportgen.drawing import (
     Pen,
     Polyline,
     Scene,
-    description,
+    drawing_description,
     style,
 )
-from reportgen.drawing.description import Fact, fact
+from reportgen.drawing.drawing_description import Fact, fact
 from reportgen.drawing.geometry import enlarged, moved
 from reportgen.drawing.label_size import POINT, SCRIPT, box
 from reportgen.formula import Number
@@ -121,7 +121,7 @@ LETTERS = ENLARGED * style.SMALL
 def lettered(scene: Scene) -> Scene:
     """Return a report's figure, drawn small, as on a sheet: `ENLARGED` times as large, with its title below it."""
     items = [_standard(enlarged(item, ENLARGED)) for item in scene.items]
-    facts = description.enlarged(scene.description, ENLARGED)
+    facts = drawing_description.enlarged(scene.description, ENLARGED)
     width, height = ENLARGED * scene.width, ENLARGED * scene.height
     if not scene.title:
         return Scene(width, height, tuple(items), description=facts)

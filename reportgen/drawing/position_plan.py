@@ -15,8 +15,8 @@ from reportgen.base.arrays import Complexes
 from reportgen.base.stable_digits import settled
 from reportgen.drawing import Arc, Arrow, Circle, Content, Item, Line, Pen, Polyline, Scene, style
 from reportgen.drawing.canvas import Canvas, finish
-from reportgen.drawing.description import Description, Fact, PaperLength, fact, listed, pointing, turning
-from reportgen.drawing.description import angle as angle_told
+from reportgen.drawing.drawing_description import Description, Fact, PaperLength, fact, listed, pointing, turning
+from reportgen.drawing.drawing_description import angle as angle_told
 from reportgen.drawing.geometry import coincident, polar, unit
 from reportgen.drawing.labels import Request, joined, label
 from reportgen.drawing.scheme import Looks, Skeleton, driver_arrow, driver_marks, mechanism, skeleton
