@@ -13,8 +13,8 @@ from reportgen.case.result_entries import ResultEntries
 from reportgen.document import Block, Document
 from reportgen.document.template_rendering import Prose
 from reportgen.exercise.figures import FIGURES
+from reportgen.exercise.literal_solution import SolvedExercise
 from reportgen.exercise.solution_page import solution, task_names
-from reportgen.exercise.solved import SolvedExercise
 
 if TYPE_CHECKING:
     from reportgen.drawing.plates import DrawingPlate

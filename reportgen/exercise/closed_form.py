@@ -16,9 +16,17 @@ import math
 from collections.abc import Sequence
 from itertools import permutations
 
-from reportgen.exercise.closures import Closure, Direction, GeneralizedCoordinate, LoopVector, Turn, WayAlong, legs_of
-from reportgen.exercise.conditions import GROUND
-from reportgen.exercise.derivatives import RateFormulas
+from reportgen.exercise.chain_derivatives import RateFormulas
+from reportgen.exercise.position_chains import (
+    Closure,
+    Direction,
+    GeneralizedCoordinate,
+    LoopVector,
+    Turn,
+    WayAlong,
+    legs_of,
+)
+from reportgen.exercise.rate_conditions import GROUND
 from reportgen.formula import (
     NOTHING,
     ONE,

@@ -7,9 +7,9 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Literal
 
-from reportgen.exercise.centres import Layout
-from reportgen.exercise.places import SAME_DIRECTION, direction_of, parallel
-from reportgen.exercise.solving import InstantMotion
+from reportgen.exercise.instant_centres import Layout
+from reportgen.exercise.point_positions import SAME_DIRECTION, direction_of, parallel
+from reportgen.exercise.rate_solution import InstantMotion
 from reportgen.formula import Chain, Expression, Negative, Number, Product, Ref, Symbol, cos, ids, sqrt, total
 from reportgen.formula.sheet import Family, Sheet, is_short
 

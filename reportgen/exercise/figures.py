@@ -16,8 +16,8 @@ from reportgen.drawing.drawing_description import Fact, PaperLength, alignment, 
 from reportgen.drawing.geometry import bounds, clusters
 from reportgen.drawing.labels import Request, joined, label
 from reportgen.exercise import file
-from reportgen.exercise.conditions import GROUND
-from reportgen.exercise.solved import SolvedExercise
+from reportgen.exercise.literal_solution import SolvedExercise
+from reportgen.exercise.rate_conditions import GROUND
 from reportgen.exercise.views import Axes, DrawnAxis
 from reportgen.formula import Chain, Number, Symbol, ids, vocabulary
 

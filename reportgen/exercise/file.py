@@ -13,7 +13,7 @@ from reportgen.assignment.fields import Angle, Flag, Reader, Whole, fault, quant
 from reportgen.base.units import Given
 from reportgen.catalogue.declared_loads import Name
 from reportgen.catalogue.linkage_file import MOST_NAMES
-from reportgen.exercise.symbols import MOST_SYMBOLS, Substitution, SymbolName, SymbolValue, Told, stated
+from reportgen.exercise.literal_symbols import MOST_SYMBOLS, Substitution, SymbolName, SymbolValue, Told, stated
 
 LAST_BODY = 40
 _ASKED = re.compile(r"(?P<what>v|a|omega|eps|centre)\.(?P<of>[A-Z][0-9]{0,2}|[0-9]{1,2})")

@@ -17,14 +17,22 @@ import numpy as np
 
 from reportgen.catalogue.vector_components import VectorComponents
 from reportgen.exercise import file
-from reportgen.exercise.centres import SAME_PLACE, Layout
-from reportgen.exercise.closures import CoordinateRate, Linked, LoopVector, Turn, WayAlong, given_direction, legs_of
-from reportgen.exercise.conditions import GROUND
+from reportgen.exercise.chain_derivatives import ACCELERATION, RATES, VELOCITY, derivative
 from reportgen.exercise.derivation import Derivation, Step, size_of
-from reportgen.exercise.derivatives import ACCELERATION, RATES, VELOCITY, derivative
-from reportgen.exercise.equations import EquationsOfMotion, VectorSum
-from reportgen.exercise.places import name_of, parallel, unit
-from reportgen.exercise.solving import NEGLIGIBLE, unknowns_of
+from reportgen.exercise.instant_centres import SAME_PLACE, Layout
+from reportgen.exercise.motion_equations import EquationsOfMotion, VectorSum
+from reportgen.exercise.point_positions import name_of, parallel, unit
+from reportgen.exercise.position_chains import (
+    CoordinateRate,
+    Linked,
+    LoopVector,
+    Turn,
+    WayAlong,
+    given_direction,
+    legs_of,
+)
+from reportgen.exercise.rate_conditions import GROUND
+from reportgen.exercise.rate_solution import NEGLIGIBLE, unknowns_of
 from reportgen.formula import (
     NOTHING,
     ONE,

@@ -15,12 +15,12 @@ from pydantic import ValidationError
 
 from reportgen.assignment.common import Draft
 from reportgen.base.errors import Finding, Where
-from reportgen.exercise import file, symbols
-from reportgen.exercise.centres import SAME_PLACE, Layout, lay_out
-from reportgen.exercise.conditions import GROUND
+from reportgen.exercise import file, literal_symbols
 from reportgen.exercise.functions_of_angle import coordinates
-from reportgen.exercise.places import TOP, MisplacedError, direction_of, named, perpendicular, system
-from reportgen.exercise.solving import InstantMotion
+from reportgen.exercise.instant_centres import SAME_PLACE, Layout, lay_out
+from reportgen.exercise.point_positions import TOP, MisplacedError, direction_of, named, perpendicular, system
+from reportgen.exercise.rate_conditions import GROUND
+from reportgen.exercise.rate_solution import InstantMotion
 from reportgen.formula import Negative, Ref
 
 if TYPE_CHECKING:
@@ -65,13 +65,13 @@ class _Names:
     def symbols(self) -> Iterator[Finding]:
         """No symbol is printed as the rotation of a body is, unless it stands for that: ω₂."""
         for name in self.given.symbols:
-            shown = symbols.symbol(name)
+            shown = literal_symbols.symbol(name)
             if shown.base not in ("ω", "ε") or not shown.sub or int(shown.sub) not in self.given.bodies:
                 continue
             kind = "omega" if shown.base == "ω" else "epsilon"
             rates = [one for one in self.given.given if isinstance(one, file.OmegaOf | file.EpsilonOf)]
             stated = [rate.value for rate in rates if rate.type == kind and rate.body == int(shown.sub)]
-            formulas = [one.formula for one in stated if isinstance(one, symbols.Literal)]
+            formulas = [one.formula for one in stated if isinstance(one, literal_symbols.Literal)]
             if not any(formula in (Ref(name), Negative(Ref(name))) for formula in formulas):
                 yield Finding("symbol-of-body", (*TOP, "symbols", name), {"text": name, "body": shown.sub}, at="key")
 
@@ -236,7 +236,9 @@ def _by_symbols(given: file.Parameters, raw: Mapping[str, Any]) -> Iterator[Find
     if not given.symbols:
         return
     changes = {name: 1 + CHANGED * (index + 1) for index, name in enumerate(given.symbols)}
-    changed = {name: f"{one.given.si * changes[name]!r} {symbols.si_unit(one)}" for name, one in given.symbols.items()}
+    changed = {
+        name: f"{one.given.si * changes[name]!r} {literal_symbols.si_unit(one)}" for name, one in given.symbols.items()
+    }
     try:
         changed_motion = InstantMotion(system(file.Parameters.model_validate({**raw, "symbols": changed})))
         moves = not (changed_motion.velocity_conflicts or changed_motion.acceleration_conflicts)

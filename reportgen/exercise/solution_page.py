@@ -29,8 +29,8 @@ from reportgen.document import (
 from reportgen.document.template_rendering import NamedPoint, Prose
 from reportgen.exercise import file
 from reportgen.exercise.figures import FIGURES
-from reportgen.exercise.solved import SolvedExercise
-from reportgen.exercise.symbols import Literal, symbol
+from reportgen.exercise.literal_solution import SolvedExercise
+from reportgen.exercise.literal_symbols import Literal, symbol
 from reportgen.exercise.views import AT, FurtherView, Solution, lettered
 from reportgen.formula import PI, Chain, Expression, Negative, Number, Symbol, ids, vocabulary
 

@@ -16,13 +16,13 @@ from reportgen.base.template_access import view
 from reportgen.base.units import MM
 from reportgen.document import Equation, Inline, InlineMath, Inlines, Text, Value, listed
 from reportgen.document.template_rendering import NamedPoint
-from reportgen.exercise.centres import SAME_PLACE
 from reportgen.exercise.derivation import Axis, Step, Vector
 from reportgen.exercise.file import Asked
-from reportgen.exercise.places import parallel
-from reportgen.exercise.solution import Worked
-from reportgen.exercise.solved import SolvedExercise
-from reportgen.exercise.symbols import symbol
+from reportgen.exercise.instant_centres import SAME_PLACE
+from reportgen.exercise.ledger import Worked
+from reportgen.exercise.literal_solution import SolvedExercise
+from reportgen.exercise.literal_symbols import symbol
+from reportgen.exercise.point_positions import parallel
 from reportgen.formula import Chain, Expression, Number, Symbol, Term, VectorEquation, ids, refs, substitute, vocabulary
 
 AT = 1

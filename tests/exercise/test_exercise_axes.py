@@ -12,7 +12,7 @@ from reportgen.drawing import Arrow
 from reportgen.exercise.case import ExerciseCase
 from reportgen.exercise.derivation import Axis, Step, Vector
 from reportgen.exercise.figures import FIGURES
-from reportgen.exercise.solution import Worked
+from reportgen.exercise.ledger import Worked
 from reportgen.exercise.views import COORDINATES, Axes, Solution
 from reportgen.formula import refs
 from reportgen.formula.evaluation import evaluate

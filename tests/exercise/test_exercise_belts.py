@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 
 from reportgen import catalogue
 from reportgen.exercise.case import ExerciseCase
-from reportgen.exercise.conditions import belt, given_epsilon, given_omega, pin
-from reportgen.exercise.solving import InstantMotion, System
+from reportgen.exercise.rate_conditions import belt, given_epsilon, given_omega, pin
+from reportgen.exercise.rate_solution import InstantMotion, System
 
 DRIVE = """\
 kind: plane-motion

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from pydantic_core import PydanticCustomError
 
 from reportgen.assignment.fields import quantity
-from reportgen.exercise.symbols import MOST_NESTED, Stated, SymbolValue, Told, parsed
+from reportgen.exercise.literal_symbols import MOST_NESTED, Stated, SymbolValue, Told, parsed
 from reportgen.formula.evaluation import evaluate
 
 LENGTH = Told(quantity("mm", least=0.1, below=1e5))

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from reportgen.exercise.conditions import (
+from reportgen.exercise.rate_conditions import (
     Condition,
     distance,
     given_acceleration,
@@ -20,7 +20,7 @@ from reportgen.exercise.conditions import (
     pin,
     slot,
 )
-from reportgen.exercise.solving import InstantMotion, System
+from reportgen.exercise.rate_solution import InstantMotion, System
 
 
 def four_bar(a: float, b: float, c: float, d: float, angle: float) -> dict[str, complex]:

@@ -12,7 +12,7 @@ from reportgen import api, catalogue
 from reportgen.base.errors import AssignmentError
 from reportgen.cases import opened
 from reportgen.exercise.case import ExerciseCase
-from reportgen.exercise.solution import Worked, work_out
+from reportgen.exercise.ledger import Worked, work_out
 from reportgen.formula import ids, refs
 from tests.exercise.displaced import Displaced
 from tests.exercise.test_exercise_equations import FILES, OF_SEVERAL, by_equations

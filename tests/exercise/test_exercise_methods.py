@@ -13,12 +13,12 @@ from hypothesis import strategies as st
 from reportgen import api, catalogue
 from reportgen.base.errors import AssignmentError
 from reportgen.document import text_of
-from reportgen.exercise import centres
+from reportgen.exercise import instant_centres
 from reportgen.exercise.case import ExerciseCase
-from reportgen.exercise.centres import lay_out
 from reportgen.exercise.file import Method
+from reportgen.exercise.instant_centres import lay_out
+from reportgen.exercise.ledger import Worked, belongs, work_out
 from reportgen.exercise.plane_motion import why_not
-from reportgen.exercise.solution import Worked, belongs, work_out
 from reportgen.exercise.solution_page import solution
 
 FOLDER = Path(__file__).parents[2] / "assignments" / "plane-motion"
@@ -224,6 +224,6 @@ def test_no_method_borrows_from_instant_centres(path: Path, method: Any, monkeyp
     """Who knows nothing of normals to velocities finds the same by base points and by projections."""
     case = ExerciseCase(catalogue.load(path))
     own = by(case, method)
-    monkeypatch.setattr(centres, "_next_centre", lambda _: False)
+    monkeypatch.setattr(instant_centres, "_next_centre", lambda _: False)
     found = [step.ids for step in by(case, method).steps if step.kind != "centre-rate"]
     assert found == [step.ids for step in own.steps if step.kind != "centre-rate"]

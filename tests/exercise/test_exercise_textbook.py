@@ -14,7 +14,7 @@ import pytest
 
 from reportgen import catalogue
 from reportgen.exercise.case import ExerciseCase
-from reportgen.exercise.solving import InstantMotion
+from reportgen.exercise.rate_solution import InstantMotion
 from tests.exercise.displaced import Displaced
 
 FOLDER = Path(__file__).parents[2] / "assignments" / "plane-motion"

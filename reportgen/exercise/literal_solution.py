@@ -18,11 +18,11 @@ from reportgen.base.words import word
 from reportgen.case import LoadedAssignment
 from reportgen.exercise import algebra, file
 from reportgen.exercise.algebra import Algebraic, Plane
-from reportgen.exercise.conditions import GROUND, Condition, Rates, Velocities
-from reportgen.exercise.places import Exercise, Geometry, carried, conditions, exercise_of
-from reportgen.exercise.solution import Worked, work_out
-from reportgen.exercise.solving import System
-from reportgen.exercise.symbols import Literal
+from reportgen.exercise.ledger import Worked, work_out
+from reportgen.exercise.literal_symbols import Literal
+from reportgen.exercise.point_positions import Exercise, Geometry, carried, conditions, exercise_of
+from reportgen.exercise.rate_conditions import GROUND, Condition, Rates, Velocities
+from reportgen.exercise.rate_solution import System
 from reportgen.formula import Expression, ids
 from reportgen.formula.constructions import dot
 

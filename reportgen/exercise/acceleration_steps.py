@@ -10,9 +10,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 from reportgen.exercise import file
-from reportgen.exercise.conditions import GROUND
 from reportgen.exercise.derivation import Derivation, DerivationEquation, Projected, Step, Vector, components
-from reportgen.exercise.places import direction_of, parallel, perpendicular, unit
+from reportgen.exercise.point_positions import direction_of, parallel, perpendicular, unit
+from reportgen.exercise.rate_conditions import GROUND
 from reportgen.formula import ids, sqrt
 
 

@@ -10,9 +10,9 @@ import cmath
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from reportgen.exercise.closures import Closure, CoordinateRate, Linked, LoopVector, Turn, WayAlong
-from reportgen.exercise.conditions import GROUND
 from reportgen.exercise.derivation import Derivation
+from reportgen.exercise.position_chains import Closure, CoordinateRate, Linked, LoopVector, Turn, WayAlong
+from reportgen.exercise.rate_conditions import GROUND
 from reportgen.formula import (
     MINUS_ONE,
     NOTHING,

@@ -12,9 +12,9 @@ from dataclasses import dataclass, field, replace
 from typing import Literal
 
 from reportgen.exercise import file
-from reportgen.exercise.conditions import GROUND
-from reportgen.exercise.places import Geometry, parallel, perpendicular, unit
-from reportgen.exercise.solving import InstantMotion
+from reportgen.exercise.point_positions import Geometry, parallel, perpendicular, unit
+from reportgen.exercise.rate_conditions import GROUND
+from reportgen.exercise.rate_solution import InstantMotion
 from reportgen.formula.constructions import meet
 
 CentreRule = Literal["pivot", "contact", "normals", "rate", "translation"]

@@ -14,7 +14,7 @@ from functools import cached_property
 
 import numpy as np
 
-from reportgen.exercise.conditions import GROUND, STILL, Component, Condition, Rates, Velocities
+from reportgen.exercise.rate_conditions import GROUND, STILL, Component, Condition, Rates, Velocities
 
 NEGLIGIBLE = 1e-9
 """Below this share of its scale a number is nothing."""

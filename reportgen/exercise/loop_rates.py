@@ -17,11 +17,11 @@ from itertools import combinations
 
 import numpy as np
 
-from reportgen.exercise.accelerations import Parts
+from reportgen.exercise.acceleration_steps import Parts
 from reportgen.exercise.derivation import Derivation, Step
-from reportgen.exercise.places import direction_of
-from reportgen.exercise.solving import NEGLIGIBLE
-from reportgen.exercise.speeds import derive, is_across
+from reportgen.exercise.point_positions import direction_of
+from reportgen.exercise.rate_solution import NEGLIGIBLE
+from reportgen.exercise.velocity_steps import derive, is_across
 from reportgen.formula import (
     Chain,
     Expression,

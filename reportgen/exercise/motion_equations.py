@@ -14,8 +14,10 @@ from itertools import combinations
 
 import numpy as np
 
+from reportgen.exercise.chain_derivatives import RATES, VELOCITY, RateFormulas, derivative
 from reportgen.exercise.closed_form import X_AXIS, closed_form
-from reportgen.exercise.closures import (
+from reportgen.exercise.derivation import Step, size_of
+from reportgen.exercise.position_chains import (
     Closure,
     CoordinateRate,
     GeneralizedCoordinate,
@@ -25,9 +27,7 @@ from reportgen.exercise.closures import (
     WayAlong,
     legs_of,
 )
-from reportgen.exercise.derivation import Step, size_of
-from reportgen.exercise.derivatives import RATES, VELOCITY, RateFormulas, derivative
-from reportgen.exercise.solving import NEGLIGIBLE
+from reportgen.exercise.rate_solution import NEGLIGIBLE
 from reportgen.formula import (
     NOTHING,
     ONE,

@@ -16,11 +16,11 @@ from dataclasses import dataclass
 from itertools import permutations
 
 from reportgen.exercise import file
-from reportgen.exercise.accelerations import Parts
-from reportgen.exercise.centres import Layout
-from reportgen.exercise.conditions import GROUND
+from reportgen.exercise.acceleration_steps import Parts
 from reportgen.exercise.derivation import Derivation, Step, Vector
-from reportgen.exercise.places import parallel
+from reportgen.exercise.instant_centres import Layout
+from reportgen.exercise.point_positions import parallel
+from reportgen.exercise.rate_conditions import GROUND
 from reportgen.formula import Chain, Expression, Negative, Product, Ref, Sum, ids, signed, total, vocabulary
 
 

@@ -10,9 +10,9 @@ from collections.abc import Iterable, Mapping
 from itertools import combinations, permutations
 
 from reportgen.exercise import file
-from reportgen.exercise.centres import SAME_PLACE, InstantCentre
 from reportgen.exercise.derivation import Derivation, Projected, Step, Vector, along, angle, size_of, towards
-from reportgen.exercise.places import direction_of, parallel, perpendicular
+from reportgen.exercise.instant_centres import SAME_PLACE, InstantCentre
+from reportgen.exercise.point_positions import direction_of, parallel, perpendicular
 from reportgen.formula import Negative, Symbol, cos, ids, sin, sqrt, total
 
 

@@ -11,14 +11,15 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from reportgen.exercise.accelerations import Parts, about_points, by_slots, enter_accelerations
-from reportgen.exercise.centres import SAME_PLACE, InstantCentre, Layout, lay_out, name_of_centre
+from reportgen.exercise.acceleration_steps import Parts, about_points, by_slots, enter_accelerations
 from reportgen.exercise.derivation import Derivation, Quantities, Step
+from reportgen.exercise.drive_trains import by_rack, by_rims, by_train
 from reportgen.exercise.file import Asked, Method
 from reportgen.exercise.functions_of_angle import by_equations
-from reportgen.exercise.loops import enter_proportion, solve_accelerations_together, solve_velocities_together
-from reportgen.exercise.places import Exercise
-from reportgen.exercise.speeds import (
+from reportgen.exercise.instant_centres import SAME_PLACE, InstantCentre, Layout, lay_out, name_of_centre
+from reportgen.exercise.loop_rates import enter_proportion, solve_accelerations_together, solve_velocities_together
+from reportgen.exercise.point_positions import Exercise
+from reportgen.exercise.velocity_steps import (
     about_joints,
     by_base_point,
     by_centre,
@@ -30,7 +31,6 @@ from reportgen.exercise.speeds import (
     enter_given,
     from_base_point,
 )
-from reportgen.exercise.trains import by_rack, by_rims, by_train
 from reportgen.formula import Symbol, ids, refs
 from reportgen.formula.carrying import carried
 from reportgen.formula.ledger import Ledger

@@ -13,10 +13,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 
 from reportgen.exercise import file
-from reportgen.exercise.centres import SAME_PLACE
-from reportgen.exercise.conditions import GROUND
 from reportgen.exercise.derivation import Derivation, angle
-from reportgen.exercise.places import unit
+from reportgen.exercise.instant_centres import SAME_PLACE
+from reportgen.exercise.point_positions import unit
+from reportgen.exercise.rate_conditions import GROUND
 from reportgen.formula import (
     MINUS_ONE,
     NOTHING,

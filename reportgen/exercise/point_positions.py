@@ -10,10 +10,10 @@ from typing import Any
 from reportgen.assignment import Assignment
 from reportgen.base.errors import Finding, Where
 from reportgen.base.units import Given
-from reportgen.exercise import conditions as on
 from reportgen.exercise import file
-from reportgen.exercise.conditions import Condition
-from reportgen.exercise.solving import InstantMotion, System
+from reportgen.exercise import rate_conditions as on
+from reportgen.exercise.rate_conditions import Condition
+from reportgen.exercise.rate_solution import InstantMotion, System
 from reportgen.formula.constructions import circle_circle, circle_line, cross, foot, meet, real_root
 
 TOP: Where = ("parameters",)
