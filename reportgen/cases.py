@@ -25,7 +25,7 @@ from reportgen.case.shafts import Shaft
 from reportgen.derivation.topic_ledger import LEDGER
 from reportgen.document import Block, Document, Paragraph, Strong, Text
 from reportgen.formula import Symbol, ids, vocabulary
-from reportgen.formula.sheet import Family
+from reportgen.formula.calculation import Family
 from reportgen.machine.analysis import Analysis, Machine, motion_at
 from reportgen.machine.laws import FULL_TURN, STEPS
 

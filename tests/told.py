@@ -22,7 +22,7 @@ from reportgen.document import (
     Text,
     Value,
 )
-from reportgen.formula import plain
+from reportgen.formula import plain_text
 
 
 def told(document: Document) -> str:
@@ -39,7 +39,7 @@ def _lines(blocks: Iterable[Block], language: Language) -> Iterator[str]:
                 for item in items:
                     yield from _lines(item, language)
             case Equation(rows=rows):
-                yield from (plain.formula(row, language) for row in rows)
+                yield from (plain_text.formula(row, language) for row in rows)
             case Table(head=head, rows=rows, caption=caption):
                 yield f"[{said(caption, language)}]"
                 yield from (" | ".join(_cell(cell, language) for cell in row) for row in (*head, *rows))
@@ -60,9 +60,9 @@ def said(inlines: Iterable[Inline], language: Language) -> str:
             case Emph(of=of) | Strong(of=of):
                 parts.append(said(of, language))
             case Value(number=number):
-                parts.append(plain.quantity(number, language))
+                parts.append(plain_text.quantity(number, language))
             case InlineMath(expression=expression):
-                parts.append(plain.formula(expression, language))
+                parts.append(plain_text.formula(expression, language))
             case _:
                 parts.append(" ")
     return "".join(parts)

@@ -22,7 +22,7 @@ from reportgen.balancing.piston_orders import acceleration_factor, short_series
 from reportgen.base.units import MM, nice_up
 from reportgen.drawing.geometry import corners_of
 from reportgen.formula import PI, Expression, Number, Ref, cis, size, total
-from reportgen.formula.sheet import Sheet
+from reportgen.formula.calculation import Sheet
 from reportgen.formula.vocabulary import Chapter
 
 ORDERS = (1, 2, 4)

@@ -33,7 +33,7 @@ from reportgen.drawing.animation import (
 )
 from reportgen.drawing.charts import plotted
 from reportgen.formula import Chain, Symbol
-from reportgen.formula.sheet import ZERO
+from reportgen.formula.calculation import ZERO
 from reportgen.formula.vocabulary import KINDS
 
 SAMPLES = 360

@@ -16,8 +16,8 @@ from reportgen.balancing.piston_orders import first_term
 from reportgen.case import Misconceptions
 from reportgen.case.design_case import DesignCase
 from reportgen.formula import PI, Expression, Ref, cis, total
+from reportgen.formula.calculation import Sheet
 from reportgen.formula.ledger import MistakenValues
-from reportgen.formula.sheet import Sheet
 
 FIRST_TERM = "orders-first-term"
 """The name of a factor that was taken as the first term of its series: A₂ = λ."""

@@ -47,7 +47,7 @@ from reportgen.formula import (
     turned,
     unit,
 )
-from reportgen.formula.sheet import Sheet, is_short
+from reportgen.formula.calculation import Sheet, is_short
 from reportgen.formula.vocabulary import Chapter
 from reportgen.machine import DRIVER, Crank, Inertia
 from reportgen.machine.analysis import Analysis

@@ -17,8 +17,8 @@ from reportgen.balancing.orders import BACKWARD, FORWARD, Engine, EngineCylinder
 from reportgen.balancing.piston_orders import acceleration_factor, short_series
 from reportgen.balancing.shaking_force import CrankCurve
 from reportgen.formula import NOTHING, ONE, Expression, Number, Ref, Symbol, cos, ids, plus, sin, sqrt, total
+from reportgen.formula.calculation import Sheet
 from reportgen.formula.evaluation import evaluate
-from reportgen.formula.sheet import Sheet
 from reportgen.machine import Crank
 from reportgen.machine.analysis import Analysis
 

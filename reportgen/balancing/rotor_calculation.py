@@ -13,7 +13,7 @@ from reportgen.balancing.rotor_file import BEARINGS, LEFT, RIGHT, Parameters
 from reportgen.base.units import MM, nice_up
 from reportgen.drawing.geometry import corners_of
 from reportgen.formula import PI, Expression, Number, Ref, Symbol, atan, cis, cos, heading, sin, sqrt, total
-from reportgen.formula.sheet import DUST, Sheet
+from reportgen.formula.calculation import DUST, Sheet
 from reportgen.formula.vocabulary import Chapter
 
 ROOM = 105 + 85j

@@ -12,8 +12,8 @@ from reportgen.balancing.rotor_file import BEARINGS, LEFT, RIGHT, Parameters
 from reportgen.case import Misconceptions
 from reportgen.case.design_case import DesignCase
 from reportgen.formula import PI, Expression, Number, Ref, cis, heading
+from reportgen.formula.calculation import ZERO, Sheet
 from reportgen.formula.ledger import MistakenValues
-from reportgen.formula.sheet import ZERO, Sheet
 
 
 @dataclass(frozen=True)

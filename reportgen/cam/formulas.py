@@ -12,9 +12,9 @@ from functools import lru_cache
 
 from reportgen.cam import cam_ids
 from reportgen.formula import PI, Expression, Ref, acos, asin, atan, cos, signed, sin, sqrt, tan
+from reportgen.formula.calculation import Sheet
 from reportgen.formula.constructions import Value
 from reportgen.formula.evaluation import evaluate
-from reportgen.formula.sheet import Sheet
 
 
 @dataclass(frozen=True)

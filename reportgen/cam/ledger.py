@@ -23,7 +23,7 @@ from reportgen.cam.motion_laws import FollowerMotion, LawInterval
 from reportgen.cam.profile import Cam, CamProfile
 from reportgen.case import Misconceptions, with_another
 from reportgen.formula import PI, Expression, Number, Operand, Ref, Symbol, acos, as_expression, branch, tan
-from reportgen.formula.sheet import Sheet
+from reportgen.formula.calculation import Sheet
 from reportgen.formula.vocabulary import Chapter
 
 LINES: Mapping[str, tuple[str, ...]] = {

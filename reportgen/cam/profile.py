@@ -22,8 +22,8 @@ from reportgen.base.stable_digits import ALIKE, first_greatest
 from reportgen.cam import cam_ids
 from reportgen.cam.formulas import CamKind, enter_lengths, enter_lowest, enter_profile
 from reportgen.cam.motion_laws import NODE, FollowerMotion
-from reportgen.formula.model import model
-from reportgen.formula.sheet import Sheet
+from reportgen.formula.array_evaluation import model
+from reportgen.formula.calculation import Sheet
 
 Numbers = NDArray[np.intp]
 

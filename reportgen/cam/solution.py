@@ -10,7 +10,7 @@ import numpy as np
 from reportgen.cam.file import Parameters
 from reportgen.cam.ledger import CamSolution
 from reportgen.case.design_case import DesignCase
-from reportgen.formula.sheet import Sheet
+from reportgen.formula.calculation import Sheet
 
 
 @dataclass(frozen=True)

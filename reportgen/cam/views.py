@@ -23,7 +23,7 @@ from reportgen.document import Cell, Column, Equation, InlineMath, Inlines, Tabl
 from reportgen.document.template_rendering import Prose
 from reportgen.drawing import Scene
 from reportgen.formula import Call, Chain, Expression, Number, Symbol, substitute
-from reportgen.formula.plain import formula
+from reportgen.formula.plain_text import formula
 
 CHECKS = (74.0, 30.0, 30.0, 26.0)
 ROWS = 16.0

@@ -25,8 +25,8 @@ from reportgen.case.answer_key import INSTANT, Key, Span
 from reportgen.case.result_entries import ResultEntries, entries_of
 from reportgen.document import Block, Cover, Document
 from reportgen.formula import Expression, Operand, Symbol, as_expression, substitute
-from reportgen.formula.rounding import printed
-from reportgen.formula.sheet import Family
+from reportgen.formula.calculation import Family
+from reportgen.formula.rounded_ledger import printed
 
 if TYPE_CHECKING:
     import numpy as np

@@ -31,9 +31,9 @@ from reportgen.document.layout import contents
 from reportgen.document.template_rendering import Prose
 from reportgen.drawing import Scene
 from reportgen.formula import Symbol
-from reportgen.formula.carrying import carried
+from reportgen.formula.calculation import Sheet
 from reportgen.formula.ledger import Ledger
-from reportgen.formula.sheet import Sheet
+from reportgen.formula.printed_decimals import carried
 from reportgen.formula.vocabulary import in_language
 
 DATA = (95.0, 25.0, 40.0)

@@ -11,7 +11,7 @@ from reportgen.catalogue import declared_loads
 from reportgen.catalogue.given_data import GivenSheet
 from reportgen.catalogue.topic_sections import Opening, chapters, entered
 from reportgen.formula import Chain
-from reportgen.formula.sheet import Sheet
+from reportgen.formula.calculation import Sheet
 from reportgen.machine import DRIVER, Crank, Linkage
 from reportgen.machine.analysis import ClosedFormulas, Machine, no_formulas
 from reportgen.machine.loads import LoadsByKind, crank_motion

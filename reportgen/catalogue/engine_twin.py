@@ -22,7 +22,7 @@ from reportgen.catalogue.driven_machine import KindSections, driven
 from reportgen.catalogue.given_data import GivenSheet, cycle_angles
 from reportgen.catalogue.parameters import Driven
 from reportgen.formula import PI, ids
-from reportgen.formula.sheet import Sheet
+from reportgen.formula.calculation import Sheet
 from reportgen.machine import Crank, Dyad, Guide, Linkage, LinkPoint
 from reportgen.machine.analysis import Machine
 from reportgen.machine.gas import STROKES, Stroke, stroke_at

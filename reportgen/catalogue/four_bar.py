@@ -49,7 +49,7 @@ from reportgen.formula import (
     sqrt,
     times,
 )
-from reportgen.formula.sheet import Sheet
+from reportgen.formula.calculation import Sheet
 from reportgen.machine import Crank, Dyad, Linkage, LinkPoint
 from reportgen.machine.analysis import Machine
 from reportgen.machine.laws import ConstantLaw

@@ -15,7 +15,7 @@ from reportgen.catalogue.parameters import Driven, FixedPoint
 from reportgen.catalogue.topic_sections import TopicParameters, sections_of
 from reportgen.catalogue.typed_quantities import as_typed, size_of
 from reportgen.formula import NOTHING, PI, Expression, Number, Operand, Ref, Symbol, ids, signed, turned, vocabulary
-from reportgen.formula.sheet import Sheet
+from reportgen.formula.calculation import Sheet
 from reportgen.formula.vocabulary import KINDS, drawn_length
 from reportgen.machine import DRIVER, Inertia, LinkPoint
 from reportgen.machine.laws import FULL_TURN

@@ -23,7 +23,7 @@ from reportgen.catalogue.given_data import CRANK_DRAWN, GivenSheet
 from reportgen.catalogue.parameters import Driven, FixedPoint
 from reportgen.catalogue.vector_loops import ClosedLoops
 from reportgen.formula import Number, Symbol, acos, cos, ids, sin, sqrt, turned
-from reportgen.formula.sheet import Sheet
+from reportgen.formula.calculation import Sheet
 from reportgen.formula.vocabulary import drawn_length
 from reportgen.machine import Crank, Dyad, Guide, Linkage, LinkPoint
 from reportgen.machine.analysis import Machine

@@ -28,7 +28,7 @@ from reportgen.catalogue.topic_sections import Opening, entered
 from reportgen.catalogue.typed_quantities import size_of
 from reportgen.catalogue.vector_loops import ClosedLoops
 from reportgen.formula import Symbol, ids, turned
-from reportgen.formula.sheet import Sheet
+from reportgen.formula.calculation import Sheet
 from reportgen.formula.vocabulary import drawn_length
 from reportgen.machine import Linkage
 from reportgen.machine.analysis import ClosedFormulas, Machine, lettered

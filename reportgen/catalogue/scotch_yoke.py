@@ -17,7 +17,7 @@ from reportgen.catalogue.driven_machine import driven
 from reportgen.catalogue.given_data import GivenSheet, accelerated, accelerating, cycle_angles, natural_lines
 from reportgen.catalogue.parameters import Driven
 from reportgen.formula import Chain, Symbol, cos, minus, plus, sin, times
-from reportgen.formula.sheet import BELOW_A_TURN, Sheet
+from reportgen.formula.calculation import BELOW_A_TURN, Sheet
 from reportgen.machine import Crank, Dyad, Guide, Linkage
 from reportgen.machine.analysis import Machine
 from reportgen.machine.laws import FULL_TURN, Stroke, TableLaw

@@ -21,7 +21,7 @@ from reportgen.catalogue.given_data import GivenSheet, cycle_angles
 from reportgen.catalogue.parameters import Driven
 from reportgen.catalogue.slotted import HIGHEST, Ram, SlottedCrank
 from reportgen.formula import Symbol, ids
-from reportgen.formula.sheet import Sheet
+from reportgen.formula.calculation import Sheet
 from reportgen.formula.vocabulary import drawn_length
 from reportgen.machine.analysis import Machine
 from reportgen.machine.laws import CuttingLaw

@@ -39,7 +39,7 @@ from reportgen.formula import (
     tan,
     times,
 )
-from reportgen.formula.sheet import BELOW_A_TURN, Sheet
+from reportgen.formula.calculation import BELOW_A_TURN, Sheet
 from reportgen.machine import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
 from reportgen.machine.laws import FULL_TURN, Stroke
 

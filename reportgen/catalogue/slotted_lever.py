@@ -20,7 +20,7 @@ from reportgen.catalogue.given_loads import LinkTorque, torque_on
 from reportgen.catalogue.parameters import Driven
 from reportgen.catalogue.slotted import SlottedCrank
 from reportgen.formula import Symbol
-from reportgen.formula.sheet import Sheet
+from reportgen.formula.calculation import Sheet
 from reportgen.formula.vocabulary import drawn_length
 from reportgen.machine import Linkage, LinkPoint
 from reportgen.machine.analysis import Machine

@@ -21,7 +21,7 @@ from reportgen.catalogue.driven_machine import driven
 from reportgen.catalogue.given_data import GivenSheet, accelerated, cycle_angles, natural_lines
 from reportgen.catalogue.parameters import Driven, FixedPoint
 from reportgen.formula import Symbol, acos, atan2, cos, ids, signed, sin, sqrt
-from reportgen.formula.sheet import Sheet
+from reportgen.formula.calculation import Sheet
 from reportgen.machine import Crank, Dyad, Guide, Linkage
 from reportgen.machine.analysis import Machine
 from reportgen.machine.laws import Stroke, TableLaw

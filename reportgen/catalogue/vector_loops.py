@@ -66,7 +66,7 @@ from reportgen.formula import (
     times,
     vocabulary,
 )
-from reportgen.formula.sheet import Sheet
+from reportgen.formula.calculation import Sheet
 from reportgen.machine import DRIVER, GROUND, Crank, Dyad, DyadKind, Guide, Linkage, LinkPoint, owners, under
 
 TWO = Number(2.0)

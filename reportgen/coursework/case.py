@@ -29,8 +29,8 @@ from reportgen.drawing.drawing_sheet import DrawingSheet
 from reportgen.drawing.plates import DrawingPlate
 from reportgen.drawing.plates import changed as with_change
 from reportgen.formula import Chain, Expression, Number, Ref, Symbol
+from reportgen.formula.calculation import Family
 from reportgen.formula.ledger import Ledger
-from reportgen.formula.sheet import Family
 
 _NUMBER = re.compile(r"\b\d\b")
 """The number of a wheel in what a quantity is called."""

@@ -15,9 +15,9 @@ from reportgen.derivation.plan_scales import no_scales, own_scales
 from reportgen.derivation.topic_ledger import LEDGER
 from reportgen.formula import PI, Expression, Ref, Symbol, call, circle_line, ids, vocabulary
 from reportgen.formula import size as size_of
+from reportgen.formula.calculation import ZERO, Sheet, is_short
 from reportgen.formula.evaluation import evaluate
 from reportgen.formula.ledger import Ledger
-from reportgen.formula.sheet import ZERO, Sheet, is_short
 from reportgen.formula.vocabulary import KINDS, Chapter
 from reportgen.machine import Crank, Linkage
 from reportgen.machine.analysis import Analysis, no_formulas, possible

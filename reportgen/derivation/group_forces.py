@@ -36,7 +36,7 @@ from reportgen.derivation.load_entries import (
 )
 from reportgen.derivation.plan_scales import Scaling, own_scales
 from reportgen.formula import Expression, Ref, Sum, Symbol, call, dot, ids, meet, quotient, sign, total, turned, unit
-from reportgen.formula.sheet import ZERO, Sheet
+from reportgen.formula.calculation import ZERO, Sheet
 from reportgen.formula.vocabulary import drawn_length
 from reportgen.machine import DRIVER, Crank, Dyad, DyadKind, Guide, Linkage
 

@@ -44,7 +44,7 @@ from reportgen.formula import (
     unit,
     vocabulary,
 )
-from reportgen.formula.sheet import Sheet
+from reportgen.formula.calculation import Sheet
 from reportgen.formula.vocabulary import drawn_length, on_plan, segment
 from reportgen.machine import DRIVER, Crank, Dyad, DyadKind, Guide, Linkage, LinkPoint, under
 

@@ -34,7 +34,7 @@ from reportgen.formula import (
     turned,
     unit,
 )
-from reportgen.formula.sheet import TYPED, Sheet, is_short
+from reportgen.formula.calculation import TYPED, Sheet, is_short
 from reportgen.formula.vocabulary import drawn_length, on_plan, point, segment
 from reportgen.machine import DRIVER, GROUND, Crank, Guide, Linkage, SlidingDriver
 

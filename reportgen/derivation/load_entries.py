@@ -17,8 +17,8 @@ from reportgen.derivation.equation_sides import Scheme, image
 from reportgen.derivation.kinematic_entries import NOWHERE, Sizes, longest
 from reportgen.derivation.plan_scales import LEAST_FORCES, Scaling, extents, own_scales
 from reportgen.formula import Expression, Number, Ref, Sum, Symbol, call, cross, heading, ids, quotient, sign
+from reportgen.formula.calculation import Sheet
 from reportgen.formula.evaluation import evaluate
-from reportgen.formula.sheet import Sheet
 from reportgen.formula.vocabulary import segment
 from reportgen.machine import DRIVER, GROUND, Crank, Guide, Inertia
 

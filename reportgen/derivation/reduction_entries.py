@@ -9,7 +9,7 @@ import numpy as np
 from reportgen.derivation.topic_ledger import LEDGER
 from reportgen.derivation.unprinted_values import with_rest
 from reportgen.formula import NOTHING, Expression, Number, Ref, Symbol, ids, total
-from reportgen.formula.sheet import Sheet
+from reportgen.formula.calculation import Sheet
 from reportgen.machine import Inertia, Linkage
 from reportgen.machine.analysis import Analysis
 from reportgen.machine.laws import FULL_TURN

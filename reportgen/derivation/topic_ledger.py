@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from reportgen.base.topics import HookModule
 from reportgen.derivation.load_entries import EnterGuide, Statics
 from reportgen.formula import Expression, Ref
+from reportgen.formula.calculation import Sheet
 from reportgen.formula.ledger import Ledger
-from reportgen.formula.sheet import Sheet
 from reportgen.machine.analysis import Analysis, Machine
 
 Changed = Mapping[str, Sequence[tuple[str, Expression]]]

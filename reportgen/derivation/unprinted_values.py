@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from reportgen.formula import Expression, Ref, Symbol, call, ids
-from reportgen.formula.sheet import Sheet
+from reportgen.formula.calculation import Sheet
 
 
 def with_rest(

@@ -32,7 +32,7 @@ from reportgen.document.inlines import Text as Text
 from reportgen.document.inlines import Value as Value
 from reportgen.drawing import Scene
 from reportgen.formula import Expression
-from reportgen.formula.plain import formula, quantity
+from reportgen.formula.plain_text import formula, quantity
 
 # --- blocks ---------------------------------------------------------------------------------------
 

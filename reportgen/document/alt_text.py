@@ -15,8 +15,8 @@ from reportgen.document.cjk_punctuation import set_out
 from reportgen.drawing import Content, Description, Scene
 from reportgen.drawing.drawing_description import Fact, PaperLength, Told
 from reportgen.formula import Number, Symbol
-from reportgen.formula.plain import Plain
-from reportgen.formula.setting import PRIMES, parted
+from reportgen.formula.formula_layout import PRIMES, parted
+from reportgen.formula.plain_text import Plain
 
 MOST = 600
 """Characters of the text of a drawing."""

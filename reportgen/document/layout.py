@@ -25,7 +25,7 @@ from reportgen.document import (
 from reportgen.drawing import Scene
 from reportgen.drawing.label_size import POINT, Boxes, box
 from reportgen.formula import Expression, VectorEquation
-from reportgen.formula.setting import MathRow, Part
+from reportgen.formula.formula_layout import MathRow, Part
 
 SCENE_GAP = 4.0
 """Between scenes side by side, mm."""

@@ -23,7 +23,7 @@ from reportgen.document import (
     Table,
 )
 from reportgen.formula import Expression, Symbol, VectorEquation, children
-from reportgen.formula.speech import Speech
+from reportgen.formula.formula_speech import Speech
 
 
 def speech(document: Document) -> Speech:

@@ -9,7 +9,7 @@ import numpy as np
 
 from reportgen.base.units import Language, nice_down, nice_up
 from reportgen.formula import Chain, Expression, Number
-from reportgen.formula.plain import formula, quantity
+from reportgen.formula.plain_text import formula, quantity
 
 RATIO = "mm/mm"
 """The unit of a scale that is a ratio of lengths."""

@@ -14,7 +14,7 @@ from functools import lru_cache, reduce
 from pathlib import Path
 
 from reportgen.drawing import Content
-from reportgen.formula import Symbol, setter, setting
+from reportgen.formula import Symbol, formula_layout, formula_setter
 from reportgen.formula.vocabulary import numbered, runs
 
 POINT = 25.4 / 72.27
@@ -28,7 +28,7 @@ OVER = 0.25
 """Height of an arrow or a bar above, in font sizes."""
 RELATION = 0.56
 """Width of the space on both sides of a relation or a sign, in font sizes (thick spaces)."""
-GAPS: Mapping[setting.Role, float] = {"product": RELATION, "separator": 0.5}
+GAPS: Mapping[formula_layout.Role, float] = {"product": RELATION, "separator": 0.5}
 """Width of a sign with its space, in font sizes, where it is not as wide as a plus."""
 BESIDE, BESIDE_HAN = 250, re.compile("(?<=[\u4e00-\u9fff])(?=[0-9A-Za-z])|(?<=[0-9A-Za-z])(?=[\u4e00-\u9fff])")
 """Between letters of Chinese and of another script, in thousandths of the font size, and where that is."""
@@ -112,7 +112,7 @@ def _letters(text: str, em: float) -> Box:
     return whole
 
 
-class Boxes(setter.Setter[Box]):
+class Boxes(formula_setter.Setter[Box]):
     """Formulas as the boxes that both typesetters set for them; em is the font size (mm)."""
 
     def __init__(self, em: float, displayed: bool = False) -> None:
@@ -123,42 +123,44 @@ class Boxes(setter.Setter[Box]):
     def text(self, text: str) -> Box:
         return _text(text, self.em)
 
-    def part(self, part: setting.Part) -> Box:
+    def part(self, part: formula_layout.Part) -> Box:
         em, of = self.em, self.part
         match part:
             case Symbol():
                 return _symbol(part, em)
-            case setting.Written(digits, unit):
+            case formula_layout.Written(digits, unit):
                 return self.text(digits).beside(self.text(" " + unit)) if unit else self.text(digits)
-            case setting.Sign(sign, "prefix" | "slash"):
+            case formula_layout.Sign(sign, "prefix" | "slash"):
                 return self.text(sign)
-            case setting.Sign(_, role):
+            case formula_layout.Sign(_, role):
                 return _gap(GAPS.get(role, 0.78 + RELATION) * em)
-            case setting.MathRow(parts):
+            case formula_layout.MathRow(parts):
                 return _row(map(of, parts))
-            case setting.Raised(base, exponent):
+            case formula_layout.Raised(base, exponent):
                 return _scripts(of(base), NOTHING, self.script.part(exponent), em)
-            case setting.Quotient(top, bottom):
+            case formula_layout.Quotient(top, bottom):
                 return self.quotient(top, bottom)
-            case setting.Radical(inner):
+            case formula_layout.Radical(inner):
                 line = Box(0.85 * em, 0.2 * em, 0.0).beside(of(inner))
                 return Box(line.width, line.height + 0.1 * em, line.depth - 0.1 * em)
-            case setting.Fence("[", inner):
+            case formula_layout.Fence("[", inner):
                 return of(inner).beside(_gap(em))
-            case setting.Fence(left, inner, right):
+            case formula_layout.Fence(left, inner, right):
                 return self.text(left + right).beside(of(inner))
-            case setting.Function(name, exponent, to):
+            case formula_layout.Function(name, exponent, to):
                 power = NOTHING if exponent is None else self.script.part(exponent)
                 function = _scripts(self.text(name), NOTHING, power, em)
-                return function.beside(of(to) if isinstance(to, setting.Fence) else _gap(THIN * em).beside(of(to)))
-            case setting.Grid(rows):
+                return function.beside(
+                    of(to) if isinstance(to, formula_layout.Fence) else _gap(THIN * em).beside(of(to))
+                )
+            case formula_layout.Grid(rows):
                 lines = [_row(map(of, row)).beside(_gap((len(row) - 1) * em)) for row in rows]
                 half = sum(line.height + line.depth for line in lines) / 2
                 width = max((line.width for line in lines), default=0.0)
                 return Box(width, half + 0.25 * em, half - 0.25 * em)
-            case setting.Parenthesis(mark, tall):
+            case formula_layout.Parenthesis(mark, tall):
                 return self.text(mark).beside(_gap(0.35 * em * tall))
-            case setting.Note(text):
+            case formula_layout.Note(text):
                 # Both typesetters set the note in parentheses, a quad away.
                 return _gap(em).beside(self.text(f"({text})"))
 
@@ -166,7 +168,7 @@ class Boxes(setter.Setter[Box]):
     def script(self) -> Boxes:
         return Boxes(SCRIPT * self.em)
 
-    def quotient(self, top: setting.Part, bottom: setting.Part) -> Box:
+    def quotient(self, top: formula_layout.Part, bottom: formula_layout.Part) -> Box:
         """A fraction, whose parts are in the size of scripts and have white beside them within a line of text."""
         em, size, white = self.em, self if self.displayed else self.script, 0.0 if self.displayed else 0.24
         above, below = size.part(top), size.part(bottom)

@@ -7,8 +7,8 @@ from dataclasses import replace
 from typing import ClassVar
 
 from reportgen.formula import Chain, Expression, Symbol
-from reportgen.formula.setter import TextSetter
-from reportgen.formula.setting import NAMED, Fence, Sign, Written, is_tall, parted
+from reportgen.formula.formula_layout import NAMED, Fence, Sign, Written, is_tall, parted
+from reportgen.formula.formula_setter import TextSetter
 from reportgen.formula.vocabulary import numbered, runs
 
 MEANT = {sign: f"\\{sign}" for sign in "$%_#&{}"} | {"\\": r"\backslash ", "^": r"\hat{}", " ": r"\ ", ",": "{,}"}

@@ -11,7 +11,7 @@ from reportgen.exercise.instant_centres import Layout
 from reportgen.exercise.point_positions import SAME_DIRECTION, direction_of, parallel
 from reportgen.exercise.rate_solution import InstantMotion
 from reportgen.formula import Chain, Expression, Negative, Number, Product, Ref, Symbol, cos, ids, sqrt, total
-from reportgen.formula.sheet import Family, Sheet, is_short
+from reportgen.formula.calculation import Family, Sheet, is_short
 
 # --- steps, as data for whoever writes them out ---------------------------------------------------
 

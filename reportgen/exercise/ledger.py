@@ -32,9 +32,9 @@ from reportgen.exercise.velocity_steps import (
     from_base_point,
 )
 from reportgen.formula import Symbol, ids, refs
-from reportgen.formula.carrying import carried
+from reportgen.formula.calculation import DUST, Sheet
 from reportgen.formula.ledger import Ledger
-from reportgen.formula.sheet import DUST, Sheet
+from reportgen.formula.printed_decimals import carried
 
 BELOW_A_TURN = 1e-9
 """An angle this little below a whole turn (degrees) is none."""

@@ -37,7 +37,7 @@ from reportgen.formula import (
     total,
     vocabulary,
 )
-from reportgen.formula.sheet import Sheet
+from reportgen.formula.calculation import Sheet
 
 FIGURES = 4
 """Significant figures of the numbers in a system."""

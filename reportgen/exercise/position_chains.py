@@ -32,8 +32,8 @@ from reportgen.formula import (
     refs,
     signed,
 )
+from reportgen.formula.calculation import is_short
 from reportgen.formula.constructions import cross, dot
-from reportgen.formula.sheet import is_short
 
 HALF_TURN = math.pi
 SAME_ANGLE = 1e-9

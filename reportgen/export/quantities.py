@@ -13,7 +13,7 @@ from reportgen.base.units import Language
 from reportgen.base.words import unknown, word
 from reportgen.case import Case, DriverMotion
 from reportgen.formula import Symbol
-from reportgen.formula.sheet import Family
+from reportgen.formula.calculation import Family
 from reportgen.formula.vocabulary import KINDS
 
 _IN_SI = {"°": "rad", "%": "", "cm": "m", "cm²": "m²", "N/cm²": "Pa", "N/(cm²·mm)": "Pa/m"}

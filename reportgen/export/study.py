@@ -21,8 +21,8 @@ from reportgen.case import Case
 from reportgen.derivation.equation_sides import image
 from reportgen.export.quantities import QuantityArray, quantity
 from reportgen.formula import ids
+from reportgen.formula.calculation import Family
 from reportgen.formula.ledger import Ledger
-from reportgen.formula.sheet import Family
 
 SAME = 1e-13
 """Relative difference below which two numbers are the same number computed twice."""

@@ -10,7 +10,7 @@ from reportgen.derivation.topic_ledger import LedgerHooks
 from reportgen.derivation.unprinted_values import with_rest
 from reportgen.flywheel.regulation import regulated_in
 from reportgen.formula import NOTHING, Expression, Ref, Symbol, atan, call, ids, sqrt, total
-from reportgen.formula.sheet import Sheet
+from reportgen.formula.calculation import Sheet
 from reportgen.machine import DRIVER, Linkage
 from reportgen.machine.analysis import Analysis
 from reportgen.machine.regulation import RegulatedCycle

@@ -38,8 +38,8 @@ from reportgen.formula import (
     refs,
     vocabulary,
 )
+from reportgen.formula.calculation import Family
 from reportgen.formula.evaluation import evaluate
-from reportgen.formula.sheet import Family
 
 MistakenValues = Iterator[tuple[str, str, Expression]]
 """The id of a quantity, the name of a mistake, and the quantity's definition with the mistake."""

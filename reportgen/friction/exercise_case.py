@@ -17,7 +17,7 @@ from reportgen.drawing import Scene
 from reportgen.drawing.drawing_sheet import ENLARGED, lettered
 from reportgen.drawing.figure_scale import IN_REPORT, FigureSize
 from reportgen.drawing.plates import DrawingPlate, enlargeable
-from reportgen.formula.sheet import Sheet
+from reportgen.formula.calculation import Sheet
 from reportgen.friction import brakes, exercise_drawings, exercise_mistakes, exercise_sheets
 
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 
 from reportgen.formula import PI, Expression, Ref, atan, cos, exp, sin, substitute
+from reportgen.formula.calculation import Sheet
 from reportgen.formula.ledger import MistakenValues
-from reportgen.formula.sheet import Sheet
 
 
 def changed(task: str, q: Sheet) -> dict[str, list[tuple[str, Expression]]]:

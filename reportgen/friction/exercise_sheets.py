@@ -10,7 +10,7 @@ import math
 
 from reportgen.base.units import MM, nice_up
 from reportgen.formula import PI, Expression, Number, Ref, atan, cos, exp, sin, sqrt, tan
-from reportgen.formula.sheet import Sheet
+from reportgen.formula.calculation import Sheet
 from reportgen.formula.vocabulary import Chapter
 from reportgen.friction.friction_file import Band, BeltOnDrum, Incline, Screw, Shoe, Wedge
 

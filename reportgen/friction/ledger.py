@@ -22,8 +22,8 @@ from reportgen.derivation.topic_ledger import Changed, LedgerHooks
 from reportgen.derivation.unprinted_values import with_rest
 from reportgen.formula import Call, Expression, Ref, Sum, Symbol, atan, call, ids, signed, total
 from reportgen.formula import size as size_of
+from reportgen.formula.calculation import ZERO, Sheet
 from reportgen.formula.ledger import Ledger
-from reportgen.formula.sheet import ZERO, Sheet
 from reportgen.formula.vocabulary import KINDS
 from reportgen.friction import friction_ids
 from reportgen.friction.cycle import dead_zones, mean_torque

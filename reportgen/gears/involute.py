@@ -15,8 +15,8 @@ from functools import cached_property
 import numpy as np
 
 from reportgen.base.arrays import Complexes, Floats
+from reportgen.formula.array_evaluation import model
 from reportgen.formula.constructions import Value
-from reportgen.formula.model import model
 from reportgen.gears import gears_ids
 from reportgen.gears.pair_formulas import Rack, pair_sheet
 

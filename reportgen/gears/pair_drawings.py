@@ -31,7 +31,7 @@ from reportgen.drawing.figure_scale import IN_REPORT, FigureSize
 from reportgen.drawing.geometry import clipped
 from reportgen.drawing.labels import Request, label
 from reportgen.formula import Chain, Number, Symbol
-from reportgen.formula.model import model
+from reportgen.formula.array_evaluation import model
 from reportgen.gears import gears_ids
 from reportgen.gears.pair_formulas import WHEELS
 from reportgen.gears.pair_ledger import SolvedPair

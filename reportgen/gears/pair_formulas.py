@@ -13,7 +13,7 @@ from functools import lru_cache
 import numpy as np
 
 from reportgen.formula import PI, Operand, Ref, acos, arcinv, cos, sin, tan
-from reportgen.formula.sheet import Sheet
+from reportgen.formula.calculation import Sheet
 from reportgen.formula.vocabulary import row
 from reportgen.gears import gears_ids
 

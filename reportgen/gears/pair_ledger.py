@@ -14,7 +14,7 @@ import numpy as np
 from reportgen.case import Misconceptions, with_another
 from reportgen.case.design_case import DesignCase
 from reportgen.formula import PI, Expression, Operand, Ref, refs, tan
-from reportgen.formula.sheet import Sheet
+from reportgen.formula.calculation import Sheet
 from reportgen.formula.vocabulary import Chapter
 from reportgen.gears import gears_ids
 from reportgen.gears.pair_formulas import WHEELS, PairFormulas, named

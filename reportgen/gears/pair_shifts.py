@@ -13,9 +13,9 @@ from functools import cached_property
 import numpy as np
 
 from reportgen.base.arrays import Floats
+from reportgen.formula.array_evaluation import model
+from reportgen.formula.calculation import Sheet
 from reportgen.formula.constructions import Value
-from reportgen.formula.model import model
-from reportgen.formula.sheet import Sheet
 from reportgen.gears import gears_ids
 from reportgen.gears.involute import Wheel, crossing
 from reportgen.gears.pair_formulas import WHEELS, Rack, pair_sheet, sum_of_shifts

@@ -14,7 +14,7 @@ from reportgen.base.units import MM, SERIES, nice_up
 from reportgen.case import Misconceptions
 from reportgen.case.design_case import DesignCase
 from reportgen.formula import PI, Expression, Operand, Product, Ref, Symbol, as_expression, signed, sin
-from reportgen.formula.sheet import Sheet
+from reportgen.formula.calculation import Sheet
 from reportgen.formula.vocabulary import Chapter
 from reportgen.gears import train_formulas as formulas
 from reportgen.gears import train_ids

@@ -11,7 +11,7 @@ from typing import Any, TypeVar, cast
 import numpy as np
 
 from reportgen.formula import Chain, ids
-from reportgen.formula.sheet import Sheet
+from reportgen.formula.calculation import Sheet
 from reportgen.machine import Crank, Linkage
 from reportgen.machine.coils import Coil
 from reportgen.machine.forces import Forces, Load, inertia_loads, solve_forces, virtual_work_torque, weights

@@ -8,7 +8,7 @@ import numpy as np
 
 from reportgen.base.arrays import Complexes
 from reportgen.formula import Ref, ids
-from reportgen.formula.sheet import Sheet
+from reportgen.formula.calculation import Sheet
 from reportgen.machine.motion import Motion
 
 

@@ -18,7 +18,7 @@ import numpy as np
 
 from reportgen.base.arrays import Flags, Floats
 from reportgen.formula import Expression, Symbol, ids
-from reportgen.formula.sheet import Sheet
+from reportgen.formula.calculation import Sheet
 from reportgen.machine.coils import Coil
 from reportgen.machine.gas import AngleIndicator, Bracket, IndicatorTable, StrokeIndicator, Tabled, crossings
 from reportgen.machine.motion import Motion

@@ -16,8 +16,8 @@ import numpy as np
 
 from reportgen.base.topics import topics
 from reportgen.formula import Call, Ref, ids, refs, vocabulary
+from reportgen.formula.calculation import DUST, ZERO, Family
 from reportgen.formula.ledger import Ledger
-from reportgen.formula.sheet import DUST, ZERO, Family
 from reportgen.marking.topic_marks import MARKS
 
 PAPER_ERROR = 0.5e-3

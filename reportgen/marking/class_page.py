@@ -16,7 +16,7 @@ from reportgen.document import TEXT_WIDTH, Block, Column, Document, Figure, Inli
 from reportgen.drawing import Content
 from reportgen.drawing.count_charts import bars, histogram
 from reportgen.drawing.statistics_charts import intervals, scatter
-from reportgen.formula.plain import formula
+from reportgen.formula.plain_text import formula
 from reportgen.marking.feedback import amended, points_text
 from reportgen.marking.grades import mistake_name, open_cells, section_name, state, who
 from reportgen.marking.marks import Marking, Unmarked

@@ -17,7 +17,7 @@ from reportgen.case.answer_key import Key, KeyRow
 from reportgen.case.quantity_wording import sentence
 from reportgen.document import Block, Column, Document, Inline, InlineMath, Inlines, Paragraph, Table, Text, plain
 from reportgen.formula import Number
-from reportgen.formula.sheet import ZERO
+from reportgen.formula.calculation import ZERO
 from reportgen.marking.key import shown_number, words_of
 from reportgen.marking.key_files import band, band_decimals
 from reportgen.marking.marks import Amendment, Marked, Marking, Verdict, points_of

@@ -23,9 +23,9 @@ from reportgen.case import Case, CaseOfParts
 from reportgen.case.answer_key import Key, KeyRow, Role, headed_chapters
 from reportgen.case.quantity_wording import BY_FORMULA, OPEN, definition_of, phrase
 from reportgen.formula import Expression, Number, ids, refs, substitute
+from reportgen.formula.calculation import Family
 from reportgen.formula.ledger import Ledger
-from reportgen.formula.plain import formula
-from reportgen.formula.sheet import Family
+from reportgen.formula.plain_text import formula
 from reportgen.formula.vocabulary import KINDS, Chapter
 from reportgen.marking.bands import (
     computed_bands,

@@ -15,8 +15,8 @@ from reportgen.base.units import significant_decimals
 from reportgen.case.answer_key import Key, KeyRow, PartOfKey
 from reportgen.document import Cell, Column, Document, InlineMath, Inlines, Paragraph, Table, Text, plain
 from reportgen.formula import Number
-from reportgen.formula.plain import formula
-from reportgen.formula.sheet import ZERO
+from reportgen.formula.calculation import ZERO
+from reportgen.formula.plain_text import formula
 from reportgen.marking.key import shown_number, symbol_text, words_of
 from reportgen.marking.paper import (
     DASH,

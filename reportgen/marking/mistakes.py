@@ -15,9 +15,9 @@ import numpy as np
 
 from reportgen.case.answer_key import Role
 from reportgen.formula import Call, Expression, Negative, Sum, ids, rebuild, refs, walk
+from reportgen.formula.calculation import Family
 from reportgen.formula.evaluation import evaluate
 from reportgen.formula.ledger import follow
-from reportgen.formula.sheet import Family
 from reportgen.machine import DRIVER
 from reportgen.marking.bands import half_unit, is_direction
 from reportgen.marking.marks import Cells, Marked, Place, Verdict

@@ -18,7 +18,7 @@ from reportgen.base.units import Language, write
 from reportgen.base.words import load_words
 from reportgen.case.answer_key import Role
 from reportgen.formula import Symbol
-from reportgen.formula.plain import formula
+from reportgen.formula.plain_text import formula
 from reportgen.marking.grades import DECIMALS, CellValue
 from reportgen.marking.marks import Marking
 from reportgen.marking.policy import Policy

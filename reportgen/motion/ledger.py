@@ -15,7 +15,7 @@ from reportgen.derivation.reduction_entries import TERMS, enter_reduced
 from reportgen.derivation.topic_ledger import LedgerHooks
 from reportgen.derivation.unprinted_values import with_rest
 from reportgen.formula import NOTHING, PI, Expression, Ref, Symbol, call, ids, plus, sqrt, total
-from reportgen.formula.sheet import Sheet
+from reportgen.formula.calculation import Sheet
 from reportgen.machine import DRIVER
 from reportgen.machine.analysis import Analysis
 from reportgen.motion import run_ids

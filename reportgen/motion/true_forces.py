@@ -10,7 +10,7 @@ from reportgen.base.units import figure_decimals
 from reportgen.document import Table
 from reportgen.document.tables import list_table
 from reportgen.formula import Number, Symbol, ids, size
-from reportgen.formula.sheet import ZERO
+from reportgen.formula.calculation import ZERO
 from reportgen.machine.analysis import Analysis, Position
 from reportgen.motion.curves import motion_of
 from reportgen.motion.true_motion import at_true_speeds, motion_in

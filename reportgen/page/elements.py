@@ -17,9 +17,8 @@ from reportgen.drawing import Arc, Arrow, Circle, Content, Hatch, Item, Label, L
 from reportgen.drawing.geometry import frame
 from reportgen.drawing.label_size import POINT, SCRIPT, box
 from reportgen.drawing.style import Bezier, Triangle, arc_with_head, arrow_head, clip_hatch, decimal
-from reportgen.formula import Expression, Sum, Symbol, VectorEquation, setter, setting
-from reportgen.formula.setter import TextSetter
-from reportgen.formula.setting import (
+from reportgen.formula import Expression, Sum, Symbol, VectorEquation, formula_layout, formula_setter
+from reportgen.formula.formula_layout import (
     EQUALS,
     NARROW,
     NEGATIVE,
@@ -38,6 +37,7 @@ from reportgen.formula.setting import (
     pieces,
     sides,
 )
+from reportgen.formula.formula_setter import TextSetter
 from reportgen.formula.vocabulary import numbered, runs
 
 COLOURS = {
@@ -231,7 +231,7 @@ class Painter:
         return "".join(shown)
 
 
-class Runs(setter.Setter[tuple[Run, ...]]):
+class Runs(formula_setter.Setter[tuple[Run, ...]]):
     """Formulas as labels have them: in one line, indices beside their letters."""
 
     linear = True
@@ -239,34 +239,36 @@ class Runs(setter.Setter[tuple[Run, ...]]):
     def text(self, text: str) -> tuple[Run, ...]:
         return (Run(text),) if text else ()
 
-    def part(self, part: setting.Part) -> tuple[Run, ...]:
+    def part(self, part: formula_layout.Part) -> tuple[Run, ...]:
         of, text = self.part, self.text
         match part:
             case Symbol():
                 return tuple(_symbol(part))
-            case setting.Written():
-                return text(part.text(setting.NARROW))
-            case setting.Sign():
+            case formula_layout.Written():
+                return text(part.text(formula_layout.NARROW))
+            case formula_layout.Sign():
                 return text(part.text)
-            case setting.MathRow(parts):
+            case formula_layout.MathRow(parts):
                 return tuple(run for one in parts for run in of(one))
-            case setting.Raised(base, exponent):
+            case formula_layout.Raised(base, exponent):
                 return (*of(base), *_raised(of(exponent)))
-            case setting.Quotient(top, bottom):
+            case formula_layout.Quotient(top, bottom):
                 return (*text("("), *of(top), *text(")/("), *of(bottom), *text(")"))
-            case setting.Radical(inner):
+            case formula_layout.Radical(inner):
                 return (*text("√"), *of(inner))
-            case setting.Fence(left, inner, right):
+            case formula_layout.Fence(left, inner, right):
                 return (*text(left), *of(inner), *text(right))
-            case setting.Function(name, exponent, to):
+            case formula_layout.Function(name, exponent, to):
                 function = (*text(name), *(_raised(of(exponent)) if exponent else ()))
-                return (*function, *of(to)) if isinstance(to, setting.Fence) else (*function, *text(" "), *of(to))
-            case setting.Grid(rows):
+                return (
+                    (*function, *of(to)) if isinstance(to, formula_layout.Fence) else (*function, *text(" "), *of(to))
+                )
+            case formula_layout.Grid(rows):
                 lines = (_parted([of(entry) for entry in row], "; ") for row in rows)
                 return _parted(list(lines), " | ")
-            case setting.Parenthesis(mark):
+            case formula_layout.Parenthesis(mark):
                 return self.text(mark)
-            case setting.Note(note):
+            case formula_layout.Note(note):
                 return text(f"  ({note})")
 
 

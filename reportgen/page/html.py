@@ -25,7 +25,7 @@ from reportgen.document.alt_text import figure_text
 from reportgen.document.named_figures import figure_name, safe
 from reportgen.drawing import Scene
 from reportgen.formula import Expression, VectorEquation
-from reportgen.formula.setting import NARROW, written
+from reportgen.formula.formula_layout import NARROW, written
 from reportgen.page.elements import MathmlFormulas, Painter, Pens, escape
 
 if TYPE_CHECKING:

@@ -21,7 +21,7 @@ from reportgen.document.python_lines import (
     given_values,
     python_name,
 )
-from reportgen.formula.plain import python
+from reportgen.formula.plain_text import python
 from reportgen.formula.vocabulary import Chapter
 from reportgen.machine.laws import FULL_TURN
 from reportgen.report.report import Report

@@ -12,7 +12,7 @@ from reportgen.derivation.equation_sides import Side, image
 from reportgen.document import FIRST_COLUMN, TEXT_WIDTH, Column, InlineMath, Inlines, Table, Text
 from reportgen.document.tables import list_table, side_by_side
 from reportgen.formula import Chain, Number, Power, Symbol, ids
-from reportgen.formula.sheet import ZERO
+from reportgen.formula.calculation import ZERO
 from reportgen.formula.vocabulary import Chapter
 from reportgen.machine import Crank
 from reportgen.report.comments import AT_REST

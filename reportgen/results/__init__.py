@@ -13,8 +13,8 @@ from typing import Any
 import numpy as np
 
 from reportgen.case import Case
+from reportgen.formula.calculation import Family
 from reportgen.formula.ledger import Ledger
-from reportgen.formula.sheet import Family
 
 FORMAT = "reportgen-results/1"
 

@@ -22,7 +22,7 @@ from reportgen.drawing.drawing_sheet import CAPITAL, NARROW, DrawingSheet, Place
 from reportgen.drawing.label_size import POINT
 from reportgen.drawing.style import HEAD_SLENDERNESS, PAPER, arrow_head, clip_hatch
 from reportgen.formula import Symbol
-from reportgen.formula.plain import Plain
+from reportgen.formula.plain_text import Plain
 from reportgen.formula.vocabulary import runs
 
 if TYPE_CHECKING:

@@ -22,7 +22,7 @@ from reportgen.drawing.geometry import unit
 from reportgen.drawing.plates import DrawingPlate
 from reportgen.drawing.vector_plan import Plan, plan
 from reportgen.formula import Chain, Number, ids
-from reportgen.formula.plain import formula, quantity
+from reportgen.formula.plain_text import formula, quantity
 from reportgen.report import curves
 from reportgen.report.figures import centre_state, centres, indicator, positions_scene, scheme
 from reportgen.report.force_figures import lever, separated, separated_driver

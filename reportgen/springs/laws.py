@@ -10,7 +10,7 @@ import numpy as np
 
 from reportgen.base.arrays import Complexes, Floats
 from reportgen.formula import PI, Expression, Number, arg, cis, ids, quotient
-from reportgen.formula.sheet import Sheet
+from reportgen.formula.calculation import Sheet
 from reportgen.machine.coils import Anchor, Coil
 from reportgen.machine.laws import Law, MotionAt
 from reportgen.machine.loads import Direction

@@ -13,7 +13,7 @@ from itertools import groupby
 
 from reportgen.drawing import Anchor, Arc, Arrow, Circle, Hatch, Item, Label, Line, Pen, Polyline, Scene
 from reportgen.drawing.style import Bezier, Triangle, arc_to_beziers, arc_with_head, arrow_head, clip_hatch, decimal
-from reportgen.formula.setter import TextSetter
+from reportgen.formula.formula_setter import TextSetter
 
 ANCHORS: dict[Anchor, tuple[str, float, float]] = {
     "center": ("center+horizon", 0.5, 0.5),

@@ -21,7 +21,7 @@ from reportgen.base.units import Language
 from reportgen.document import layout
 from reportgen.drawing import Scene
 from reportgen.formula import Expression, Symbol, VectorEquation
-from reportgen.formula.setting import columns
+from reportgen.formula.formula_layout import columns
 from reportgen.writers.drawing import paint_latex
 from reportgen.writers.latex_math import LatexFormulas, declarations, escape, hexadecimal
 

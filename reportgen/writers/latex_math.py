@@ -17,8 +17,7 @@ from reportgen.base.errors import TypesetterError
 from reportgen.base.units import MINUS
 from reportgen.document.layout import fits
 from reportgen.formula import Expression, Symbol, VectorEquation
-from reportgen.formula.setter import TextSetter
-from reportgen.formula.setting import (
+from reportgen.formula.formula_layout import (
     NAMED,
     Fence,
     Parenthesis,
@@ -32,6 +31,7 @@ from reportgen.formula.setting import (
     short_end,
     sides,
 )
+from reportgen.formula.formula_setter import TextSetter
 from reportgen.formula.vocabulary import numbered, runs
 
 NARROW_TERMS = 5

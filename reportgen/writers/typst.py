@@ -25,8 +25,8 @@ from reportgen.drawing.drawing_sheet import DrawingSheet
 from reportgen.drawing.geometry import moved
 from reportgen.drawing.label_size import box
 from reportgen.formula import Chain, Expression, Product, Sum, Symbol, VectorEquation, walk
-from reportgen.formula.setting import EQUALS, NARROW, MathRow, Part, columns, displayed, laid, sides, written
-from reportgen.formula.speech import Speech
+from reportgen.formula.formula_layout import EQUALS, NARROW, MathRow, Part, columns, displayed, laid, sides, written
+from reportgen.formula.formula_speech import Speech
 from reportgen.writers.drawing import paint_typst
 from reportgen.writers.typst_fonts import FONT, breadth
 from reportgen.writers.typst_math import TypstFormulas, literal

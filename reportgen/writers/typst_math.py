@@ -9,8 +9,8 @@ from __future__ import annotations
 from typing import ClassVar
 
 from reportgen.formula import Symbol
-from reportgen.formula.setter import TextSetter
-from reportgen.formula.setting import NAMED, PRIMES, Parenthesis, Sign, Written, parted
+from reportgen.formula.formula_layout import NAMED, PRIMES, Parenthesis, Sign, Written, parted
+from reportgen.formula.formula_setter import TextSetter
 from reportgen.formula.vocabulary import numbered, runs
 
 

@@ -15,7 +15,7 @@ from reportgen.base.languages import setting_of
 from reportgen.document import layout
 from reportgen.document.alt_text import figure_text
 from reportgen.drawing import Scene
-from reportgen.formula.setting import NARROW, written
+from reportgen.formula.formula_layout import NARROW, written
 from reportgen.writers.word_elements import (
     A4,
     BOLD,

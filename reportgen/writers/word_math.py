@@ -16,8 +16,7 @@ from reportgen.document import TEXT_WIDTH
 from reportgen.document.layout import ABREAST, fits, in_groups
 from reportgen.drawing.label_size import POINT, Boxes
 from reportgen.formula import Expression, Symbol, VectorEquation
-from reportgen.formula.setter import TextSetter
-from reportgen.formula.setting import (
+from reportgen.formula.formula_layout import (
     EQUALS,
     NARROW,
     Fence,
@@ -31,6 +30,7 @@ from reportgen.formula.setting import (
     displayed,
     parted,
 )
+from reportgen.formula.formula_setter import TextSetter
 from reportgen.formula.vocabulary import numbered, runs
 from reportgen.writers.word_elements import GRID, ITALIC, KEPT, LIGHT, MATH_FONT, escape, paragraph, rule, run, twips
 from reportgen.writers.word_styles import EQUATION_SIZE, KNOWN_SIZE

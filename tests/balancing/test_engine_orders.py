@@ -15,7 +15,7 @@ from reportgen.balancing.engine_drawings import scheme
 from reportgen.balancing.engine_file import Parameters
 from reportgen.cases import opened
 from reportgen.drawing import Polyline
-from reportgen.formula.sheet import Sheet
+from reportgen.formula.calculation import Sheet
 from tests.lanes import proof
 
 PITCH = 0.1

@@ -16,7 +16,7 @@ from reportgen.balancing.rotor_file import BEARINGS, Parameters
 from reportgen.base.errors import AssignmentError
 from reportgen.cases import opened
 from reportgen.document import text_of
-from reportgen.formula.model import model
+from reportgen.formula.array_evaluation import model
 from tests.report import built
 
 FOLDER = Path(__file__).parents[2] / "assignments" / "rotor"

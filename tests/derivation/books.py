@@ -10,8 +10,8 @@ from reportgen.derivation import ONE_QUANTITY
 from reportgen.derivation.group_forces import enter_forces
 from reportgen.derivation.group_motion import enter_kinematics
 from reportgen.derivation.load_entries import Polygon
+from reportgen.formula.calculation import Sheet
 from reportgen.formula.ledger import Ledger
-from reportgen.formula.sheet import Sheet
 from reportgen.machine import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
 from reportgen.machine.forces import Forces, Load, inertia_loads, solve_forces, virtual_work_torque, weights
 from reportgen.machine.motion import Motion, solve_motion

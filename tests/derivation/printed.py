@@ -9,8 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from reportgen.formula import Product, Ref, ids, vocabulary
+from reportgen.formula.calculation import ZERO, Family
 from reportgen.formula.ledger import Ledger
-from reportgen.formula.sheet import ZERO, Family
 
 SHARE, MEDIAN = 2e-3, 2e-4
 """Of the largest value of a computed quantity: at most, and by the median."""

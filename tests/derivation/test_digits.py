@@ -10,7 +10,7 @@ import pytest
 
 from reportgen.cases import MachineCase
 from reportgen.derivation import ONE_QUANTITY
-from reportgen.formula.sheet import is_short, is_typed
+from reportgen.formula.calculation import is_short, is_typed
 from tests.derivation.printed import MEDIAN, SHARE, differences, largest
 from tests.derivation.random_variants import cases
 from tests.lanes import matrix

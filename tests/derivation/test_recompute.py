@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from books import MACHINES, RATE, keep
 
-from reportgen.formula.rounding import printed
+from reportgen.formula.rounded_ledger import printed
 from tests.lanes import matrix
 from tests.report import trees
 from tests.report.calculator import misses

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from reportgen.formula import asin, cos, sin, sqrt
-from reportgen.formula.model import model
-from reportgen.formula.sheet import Sheet
+from reportgen.formula.array_evaluation import model
+from reportgen.formula.calculation import Sheet
 
 R, L, PHI, UP, X, BETA = "l.O1A", "l.AB", "cam.phi", "cam.u", "cam.s", "cam.alpha"
 """Ids that the vocabulary has: for crank, rod, angle of the crank, height of the pin, way of the slider, rod."""

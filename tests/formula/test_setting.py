@@ -11,8 +11,8 @@ import pytest
 from reportgen.base.units import Language
 from reportgen.cases import open_case
 from reportgen.formula import Chain, Expression, Number, Symbol, call, cos, rebuild, sin, sqrt
-from reportgen.formula.plain import Plain
-from reportgen.formula.setting import Part, laid
+from reportgen.formula.formula_layout import Part, laid
+from reportgen.formula.plain_text import Plain
 from reportgen.page.elements import MathmlFormulas, Runs
 from reportgen.sheets.dxf import MText
 from reportgen.writers.latex_math import LatexFormulas

@@ -29,7 +29,7 @@ from reportgen.formula import (
     cos,
     inv,
 )
-from reportgen.formula.speech import Speech
+from reportgen.formula.formula_speech import Speech
 from reportgen.formula.vocabulary import KINDS
 from tests.formula.drawn import drawn, in_units
 from tests.formula.spoken_reader import Listener, Misheard

@@ -18,7 +18,7 @@ from reportgen.derivation import write_ledger
 from reportgen.drawing import Polyline
 from reportgen.flywheel.regulation import flywheel, regulate, regulated_in
 from reportgen.flywheel.views import wittenbauer
-from reportgen.formula.sheet import Sheet
+from reportgen.formula.calculation import Sheet
 from reportgen.machine.analysis import Machine, analyse, motion_at
 from reportgen.machine.laws import FULL_TURN
 from reportgen.machine.quadrature import accumulated

@@ -15,7 +15,7 @@ from time_integration import integrate
 from reportgen import catalogue
 from reportgen.assignment.common import Positions
 from reportgen.flywheel.regulation import flywheel
-from reportgen.formula.sheet import Sheet
+from reportgen.formula.calculation import Sheet
 from reportgen.machine import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
 from reportgen.machine.analysis import Machine, analyse, breaks
 from reportgen.machine.coils import Anchor

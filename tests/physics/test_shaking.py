@@ -31,7 +31,7 @@ from reportgen.balancing.shaking_force import (
     shaking_moment,
 )
 from reportgen.cases import MachineCase, open_case
-from reportgen.formula.sheet import Sheet
+from reportgen.formula.calculation import Sheet
 from reportgen.machine import GROUND, Crank, Dyad, Guide, Inertia, Linkage, LinkPoint, joints
 from reportgen.machine.analysis import Machine, analyse, motion_at
 from reportgen.machine.forces import inertia_loads, reaction_name, solve_forces

@@ -10,7 +10,7 @@ from reportgen.base.units import Language
 from reportgen.document import Block, Equation, InlineMath, Paragraph, Plate, Section, Table, plain
 from reportgen.document import Figure as Drawn
 from reportgen.drawing import Label, Scene
-from reportgen.formula.plain import formula
+from reportgen.formula.plain_text import formula
 from reportgen.report.overview import symbol_kinds
 from reportgen.report.report import Report
 from tests.report.built import Written, walk

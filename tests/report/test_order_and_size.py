@@ -11,8 +11,8 @@ from reportgen.base.template_folders import templates
 from reportgen.document import Figure, Paragraph, Section, Table, plain
 from reportgen.document.layout import FIGURE_HEIGHT, fits, height, in_parts
 from reportgen.formula import Chain, Expression, Symbol
-from reportgen.formula.plain import Plain
-from reportgen.formula.setting import Parenthesis, displayed
+from reportgen.formula.formula_layout import Parenthesis, displayed
+from reportgen.formula.plain_text import Plain
 from tests.report import built
 from tests.report.built import Report, Written
 from tests.report.test_report_figures import captions

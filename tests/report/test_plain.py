@@ -19,7 +19,7 @@ from reportgen.document import (
     text_of,
 )
 from reportgen.formula import PI, Chain, Expression, Negative, Number, Symbol, Term, VectorEquation, call, sqrt
-from reportgen.formula.plain import formula
+from reportgen.formula.plain_text import formula
 
 A, B, C = Symbol("a"), Symbol("b", "2"), Symbol("c", "BA", "n")
 

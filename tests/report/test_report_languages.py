@@ -36,7 +36,7 @@ from reportgen.document import (
 from reportgen.document.numbering import unreferenced
 from reportgen.document.translation_check import FREE_LISTS, SectionContents
 from reportgen.formula import vocabulary
-from reportgen.formula.plain import formula
+from reportgen.formula.plain_text import formula
 from reportgen.machine import DyadKind
 from tests.lanes import matrix
 from tests.report import built

@@ -16,8 +16,8 @@ from reportgen.document import Block, Equation, InlineMath, Paragraph, plain
 from reportgen.drawing import Arc, Arrow, Scene
 from reportgen.drawing.force_drawings import COUPLE_RADIUS
 from reportgen.formula import Chain, Expression, Number, Symbol, VectorEquation, walk
-from reportgen.formula.setting import BOUND, MathRow, columns
-from reportgen.formula.sheet import ZERO
+from reportgen.formula.calculation import ZERO
+from reportgen.formula.formula_layout import BOUND, MathRow, columns
 from reportgen.formula.vocabulary import vector
 from reportgen.machine import SlidingDriver
 from reportgen.report import force_figures, result_tables

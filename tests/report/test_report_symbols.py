@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from reportgen.formula import Symbol
-from reportgen.formula.plain import formula
+from reportgen.formula.plain_text import formula
 from reportgen.formula.vocabulary import in_language, numbered, runs
 from tests.lanes import matrix
 from tests.report import built

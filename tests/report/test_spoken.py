@@ -38,7 +38,7 @@ from reportgen.document import (
     spoken_formulas,
 )
 from reportgen.formula import Chain, Expression, Symbol, VectorEquation, children
-from reportgen.formula.setting import known_of
+from reportgen.formula.formula_layout import known_of
 from reportgen.marking.key import Ask, key_of
 from reportgen.marking.key_files import key_document
 from reportgen.marking.paper import task_of

@@ -9,7 +9,7 @@ import pytest
 
 from reportgen.document import Figure, Plate, lines_of
 from reportgen.drawing import Label
-from reportgen.formula.plain import formula
+from reportgen.formula.plain_text import formula
 from tests.lanes import matrix
 from tests.report import built
 

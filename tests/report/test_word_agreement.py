@@ -20,9 +20,9 @@ from reportgen.document import Block, Document, Equation, List, Plate, Section, 
 from reportgen.document.layout import fits
 from reportgen.drawing import Label
 from reportgen.formula import Expression, VectorEquation
-from reportgen.formula import plain as plain_notation
-from reportgen.formula.plain import Plain
-from reportgen.formula.setting import sides
+from reportgen.formula import plain_text as plain_notation
+from reportgen.formula.formula_layout import sides
+from reportgen.formula.plain_text import Plain
 from reportgen.writers import word
 from tests.lanes import matrix
 from tests.report import built

@@ -27,7 +27,7 @@ from reportgen.formula import (
     cos,
     walk,
 )
-from reportgen.formula.plain import formula
+from reportgen.formula.plain_text import formula
 from reportgen.page import html
 from reportgen.page.elements import MathmlFormulas, Painter, Pens
 from tests.writers import sample

@@ -8,7 +8,7 @@ from reportgen.base.template_folders import search_path
 from reportgen.base.words import load_words
 from reportgen.document import Block, Cell, Column, Equation, Paragraph, Table, Text, Words, layout
 from reportgen.formula import Chain, Fraction, Number, Symbol, Term, VectorEquation
-from reportgen.formula.speech import Speech
+from reportgen.formula.formula_speech import Speech
 from reportgen.writers.latex_math import LatexFormulas
 from reportgen.writers.typst import _Blocks
 

@@ -23,9 +23,9 @@ from collections.abc import Set as AbstractSet
 import numpy as np
 
 from reportgen.formula import vocabulary
+from reportgen.formula.calculation import DUST, ZERO, Family, is_short
 from reportgen.formula.ledger import Ledger, follow
-from reportgen.formula.rounding import by_lines, names_of, usual_decimals, written
-from reportgen.formula.sheet import DUST, ZERO, Family, is_short
+from reportgen.formula.rounded_ledger import by_lines, names_of, usual_decimals, written
 
 UNIT = 1 + 1e-6
 """Units of its last decimal that a printed value may be off, with the dust of floats."""

@@ -8,7 +8,7 @@ from typing import ClassVar, Generic, TypeVar
 
 from reportgen.base.units import Language
 from reportgen.formula import Expression, Symbol
-from reportgen.formula.setting import (
+from reportgen.formula.formula_layout import (
     Fence,
     Function,
     Grid,

@@ -17,8 +17,7 @@ from typing import Any
 from reportgen.base.errors import TemplateError
 from reportgen.base.units import MINUS, Language
 from reportgen.formula import Expression, Symbol, VectorEquation
-from reportgen.formula.setter import Setter
-from reportgen.formula.setting import (
+from reportgen.formula.formula_layout import (
     PRIMES,
     Fence,
     Function,
@@ -36,6 +35,7 @@ from reportgen.formula.setting import (
     parted,
     terms,
 )
+from reportgen.formula.formula_setter import Setter
 from reportgen.formula.vocabulary import raised
 
 PLAINLY, CAPITALS, INDICES = range(3)

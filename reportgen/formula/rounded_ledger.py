@@ -14,8 +14,8 @@ import numpy as np
 
 from reportgen.base.units import figure_decimals, rounded
 from reportgen.formula import Call, Expression, Negative, Ref, ids
+from reportgen.formula.calculation import ZERO, Family, is_short, is_typed, shortened
 from reportgen.formula.ledger import Ledger, follow
-from reportgen.formula.sheet import ZERO, Family, is_short, is_typed, shortened
 
 Ends = Callable[[Family, np.ndarray], bool]
 """Predicate: True if a value, computed from the rounded values above it, has few digits and is printed exactly."""

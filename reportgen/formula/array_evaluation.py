@@ -6,9 +6,9 @@ from collections.abc import Iterable
 
 import numpy as np
 
+from reportgen.formula.calculation import Sheet
 from reportgen.formula.constructions import Value
 from reportgen.formula.evaluation import evaluate
-from reportgen.formula.sheet import Sheet
 
 
 def model(sheet: Sheet, wanted: Iterable[str], **known: Value) -> dict[str, Value]:

@@ -20,8 +20,8 @@ from reportgen.formula import (
     Symbol,
     VectorEquation,
 )
-from reportgen.formula.setter import TextSetter
-from reportgen.formula.setting import Sign, Written, known_of, written
+from reportgen.formula.formula_layout import Sign, Written, known_of, written
+from reportgen.formula.formula_setter import TextSetter
 
 
 class Plain(TextSetter):
