@@ -18,7 +18,7 @@ from reportgen.drawing.drawing_sheet import ENLARGED, lettered
 from reportgen.drawing.figure_scale import IN_REPORT, FigureSize
 from reportgen.drawing.plates import DrawingPlate, enlargeable
 from reportgen.formula.calculation import Sheet
-from reportgen.friction import brakes, exercise_drawings, exercise_mistakes, exercise_sheets
+from reportgen.friction import brake_drawings, exercise_calculations, exercise_drawings, exercise_mistakes
 
 
 @dataclass(frozen=True)
@@ -143,7 +143,10 @@ class InclineCase(FrictionCase):
 
     PAGE = InclinePage
     TASK = FrictionTask(
-        "incline", exercise_sheets.incline_sheet, exercise_drawings.incline_scheme, exercise_drawings.incline_plans
+        "incline",
+        exercise_calculations.incline_sheet,
+        exercise_drawings.incline_scheme,
+        exercise_drawings.incline_plans,
     )
 
     @property
@@ -170,7 +173,7 @@ class WedgeCase(FrictionCase):
 
     PAGE = WedgePage
     TASK = FrictionTask(
-        "wedge", exercise_sheets.wedge_sheet, exercise_drawings.wedge_scheme, exercise_drawings.wedge_plans
+        "wedge", exercise_calculations.wedge_sheet, exercise_drawings.wedge_scheme, exercise_drawings.wedge_plans
     )
 
     @property
@@ -197,7 +200,7 @@ class ScrewCase(FrictionCase):
     """A screw under a load."""
 
     PAGE = ScrewPage
-    TASK = FrictionTask("screw", exercise_sheets.screw_sheet, exercise_drawings.screw_scheme)
+    TASK = FrictionTask("screw", exercise_calculations.screw_sheet, exercise_drawings.screw_scheme)
 
     @property
     def locks(self) -> bool:
@@ -225,7 +228,7 @@ class BeltCase(FrictionCase):
     """A belt on a drum."""
 
     PAGE = BeltPage
-    TASK = FrictionTask("belt", exercise_sheets.belt_sheet, brakes.belt_scheme)
+    TASK = FrictionTask("belt", exercise_calculations.belt_sheet, brake_drawings.belt_scheme)
 
     @property
     def locks(self) -> None:
@@ -247,7 +250,7 @@ class BandCase(FrictionCase):
     """A band brake."""
 
     PAGE = BandPage
-    TASK = FrictionTask("band", exercise_sheets.band_sheet, brakes.band_scheme)
+    TASK = FrictionTask("band", exercise_calculations.band_sheet, brake_drawings.band_scheme)
 
     @property
     def locks(self) -> bool:
@@ -269,7 +272,7 @@ class ShoeCase(FrictionCase):
     """A brake with one shoe."""
 
     PAGE = ShoePage
-    TASK = FrictionTask("shoe", exercise_sheets.shoe_sheet, brakes.shoe_scheme)
+    TASK = FrictionTask("shoe", exercise_calculations.shoe_sheet, brake_drawings.shoe_scheme)
 
     @property
     def locks(self) -> bool:

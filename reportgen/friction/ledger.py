@@ -26,7 +26,7 @@ from reportgen.formula.calculation import ZERO, Sheet
 from reportgen.formula.ledger import Ledger
 from reportgen.formula.vocabulary import KINDS
 from reportgen.friction import friction_ids
-from reportgen.friction.cycle import dead_zones, mean_torque
+from reportgen.friction.cycle_effects import dead_zones, mean_torque
 from reportgen.friction.joints import Friction, FrictionForces, friction_of, pressing, relative_sense, with_friction
 from reportgen.machine import DRIVER, GROUND, Crank, Joint, Linkage
 from reportgen.machine.analysis import Analysis, Machine

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from reportgen.friction.loss import friction_loss
+from reportgen.friction.friction_torque import friction_loss
 from reportgen.machine.shared_results import LOST_TORQUE, PhysicsHooks, Provision
 
 HOOKS = PhysicsHooks(provides=(Provision(LOST_TORQUE, friction_loss),))

@@ -16,8 +16,8 @@ from reportgen.catalogue.declared_loads import MOST_LOADS, Link, Name, listed
 from reportgen.catalogue.topic_sections import Opening, TopicData, TopicParameters, TopicSection, sections_of
 from reportgen.formula import ids
 from reportgen.friction import friction_ids
+from reportgen.friction.friction_torque import LocksError, friction_loss
 from reportgen.friction.joints import Friction, with_friction
-from reportgen.friction.loss import LocksError, friction_loss
 from reportgen.machine import joints
 from reportgen.machine.analysis import Machine, analyse
 from reportgen.machine.faces import Faces

@@ -12,7 +12,7 @@ from reportgen import api
 from reportgen.cases import open_case
 from reportgen.catalogue import sample
 from reportgen.drawing import Arrow, Circle, Line, Polyline, Scene
-from reportgen.friction.brakes import band_scheme, shoe_scheme
+from reportgen.friction.brake_drawings import band_scheme, shoe_scheme
 from reportgen.friction.exercise_drawings import incline_plans, screw_scheme, wedge_plans
 from reportgen.friction.friction_file import TASKS
 from reportgen.marking.key import key_of

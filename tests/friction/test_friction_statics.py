@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from reportgen.friction import exercise_sheets as friction_sheets
+from reportgen.friction import exercise_calculations as friction_sheets
 from reportgen.friction.friction_file import Parameters
 
 SHEETS = {

@@ -13,7 +13,7 @@ from __future__ import annotations
 import numpy as np
 
 from reportgen.base.arrays import Floats
-from reportgen.friction.cycle import turning_back
+from reportgen.friction.cycle_effects import turning_back
 from reportgen.friction.joints import friction_of, with_friction
 from reportgen.machine.analysis import Machine, analyse, breaks
 from reportgen.machine.cycle_torque import SAME_ANGLE, CycleTorque
