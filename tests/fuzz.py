@@ -37,8 +37,8 @@ from reportgen.document import Figure, Plate
 from reportgen.document.template_rendering import Prose
 from reportgen.handin.drawing_file import wanted_plans
 from reportgen.handin.drawing_reader import DrawnMark, WantedPlans
-from reportgen.handin.files import read_file
-from reportgen.handin.red_layer import RedVector, with_corrections
+from reportgen.handin.dxf_corrections import RedVector, with_corrections
+from reportgen.handin.file_kinds import read_file
 from reportgen.handin.word_comments import MarginNote, with_comments
 from reportgen.handin.word_file import open_word
 from reportgen.marking.frame import frame_of

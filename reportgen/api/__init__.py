@@ -341,9 +341,9 @@ def compare(
 
     Raises `AssignmentError`.
     """
-    from reportgen.handin import checking
+    from reportgen.handin import self_check
 
-    return checking.compare(open_case(path, language), open_case(path), files, hint)
+    return self_check.compare(open_case(path, language), open_case(path), files, hint)
 
 
 def read(
@@ -353,15 +353,15 @@ def read(
 
     Raises `AssignmentError`, also if somebody has completed the existing sheet, and `OutputError`.
     """
-    from reportgen.handin import checking, reading_book
+    from reportgen.handin import reading_book, self_check
     from reportgen.marking.key import Ask
 
     case = open_case(path, language)
-    key, own = checking.read(case, open_case(path), files, ask or Ask())
+    key, own = self_check.read(case, open_case(path), files, ask or Ask())
     folder = out / case.assignment.id
-    book = checking.reading(key, own, folder / reading_book.NAME)
+    book = self_check.reading(key, own, folder / reading_book.NAME)
     (written,) = put_files(folder, {reading_book.NAME: book})
-    return written, checking.summary(own, case.assignment.language)
+    return written, self_check.summary(own, case.assignment.language)
 
 
 def check_ask(ask: Ask | None, files: Iterable[Path], language: Language | None) -> None:

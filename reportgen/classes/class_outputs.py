@@ -29,8 +29,8 @@ from reportgen.classes.platforms import Handed
 from reportgen.classes.reading_sheets import marked_copies
 from reportgen.classes.roster import folder_name
 from reportgen.handin import FileReading
-from reportgen.handin.checking import summary as summary_of_reading
 from reportgen.handin.reading_book import NAME, reading_book
+from reportgen.handin.self_check import summary as summary_of_reading
 from reportgen.marking.class_page import class_document
 from reportgen.marking.comment import comment, unmarked_comment
 from reportgen.marking.feedback import feedback_book, feedback_document

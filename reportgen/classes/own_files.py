@@ -22,7 +22,7 @@ from reportgen.classes.roster import comparable
 from reportgen.classes.submission_matching import Collected, Refused, chosen_of, named_after
 from reportgen.handin import FileReading, submission
 from reportgen.handin.drawing_reader import WantedPlans
-from reportgen.handin.files import DRAWING, kinds
+from reportgen.handin.file_kinds import DRAWING, kinds
 from reportgen.handin.reading_book import NAME
 from reportgen.marking.marks import Submission
 from reportgen.marking.policy import Twice

@@ -22,7 +22,7 @@ from reportgen.base.template_folders import languages
 from reportgen.base.words import messages
 from reportgen.classes.archives import ARCHIVE, LARGEST_INSIDE, opened
 from reportgen.classes.roster import folded
-from reportgen.handin import files as own_files
+from reportgen.handin import file_kinds as own_files
 from reportgen.workbook.package import RefusedError
 from reportgen.workbook.reading import BOOKS, LARGEST
 

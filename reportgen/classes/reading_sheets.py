@@ -19,7 +19,7 @@ from reportgen.case.answer_key import Key
 from reportgen.classes.fault_isolation import isolated
 from reportgen.classes.platforms import Handed
 from reportgen.classes.worker_pool import each_within
-from reportgen.handin import FileReading, files
+from reportgen.handin import FileReading, file_kinds
 from reportgen.handin.drawing_reader import WantedPlans
 from reportgen.marking.marks import Marking
 from reportgen.marking.policy import Policy
@@ -83,19 +83,19 @@ def _read(sheet: Handed, language: Language | None) -> Pages:
 
 
 def _read_own(file: Handed, key: Key, plans: WantedPlans | None, language: Language | None) -> FileReading:
-    return files.read_file(file.path, files.content(file.path, file.data, language), key, language, plans)
+    return file_kinds.read_file(file.path, file_kinds.content(file.path, file.data, language), key, language, plans)
 
 
 def _names_in(file: Handed, names: frozenset[str], language: Language | None) -> frozenset[str]:
-    data = files.content(file.path, file.data, language)
-    return frozenset(files.names_in(file.path, data, names, language))
+    data = file_kinds.content(file.path, file.data, language)
+    return frozenset(file_kinds.names_in(file.path, data, names, language))
 
 
 def _marked_copy(
     file: Handed, reading: FileReading, marking: Marking, policy: Policy, language: Language | None
 ) -> tuple[str, bytes]:
-    data = files.content(file.path, file.data, language)
-    return files.marked_copy(file.path, data, reading, marking, policy)
+    data = file_kinds.content(file.path, file.data, language)
+    return file_kinds.marked_copy(file.path, data, reading, marking, policy)
 
 
 def _beyond(path: Path, language: Language | None) -> Problem:

@@ -12,10 +12,10 @@ from reportgen.case import Case, MachineAnalysis
 from reportgen.case.answer_key import Key
 from reportgen.handin import FileReading
 from reportgen.handin.drawing_reader import DrawnMark, WantedPlans, read_drawing
+from reportgen.handin.dxf_corrections import RedVector, with_corrections
 from reportgen.handin.dxf_lines import read_lines
 from reportgen.handin.plan_labels import spoken
 from reportgen.handin.plan_shapes import sketches
-from reportgen.handin.red_layer import RedVector, with_corrections
 from reportgen.marking.feedback import cell_comment
 from reportgen.marking.key import symbol_text, words_of
 from reportgen.marking.marks import Marked, Marking, Verdict

@@ -17,8 +17,8 @@ from reportgen.base.units import MM
 from reportgen.case.answer_key import Key
 from reportgen.handin import FileReading
 from reportgen.handin.dxf_lines import DrawnLines, DrawnText
+from reportgen.handin.line_repair import distinct, meant
 from reportgen.handin.line_set import Lines
-from reportgen.handin.pieces import distinct, meant
 from reportgen.handin.plan_finder import FoundPlans, find
 from reportgen.handin.plan_fit import SEEN, Fit
 from reportgen.handin.plan_labels import Labels

@@ -14,8 +14,8 @@ from functools import cached_property
 from pathlib import Path
 
 from reportgen.base.errors import Fault, Mark
-from reportgen.handin.word_covers import covered_runs
-from reportgen.handin.word_looks import Styles, mark_unseen
+from reportgen.handin.covered_text import covered_runs
+from reportgen.handin.invisible_text import Styles, mark_unseen
 from reportgen.handin.word_nodes import XmlNode, parse
 from reportgen.handin.word_text import TextReader, WordBlock, heading_levels
 from reportgen.workbook.package import Bounds, Package, RefusedError

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 
 from reportgen.case.answer_key import Key, KeyRow
 from reportgen.handin import FileReading
-from reportgen.handin import statements as said
-from reportgen.handin.gathering import Gathering
-from reportgen.handin.numbers import marks_of
-from reportgen.handin.statements import Statement
-from reportgen.handin.symbols import Symbols
-from reportgen.handin.word_frame import read_blanks
+from reportgen.handin import text_statements as said
+from reportgen.handin.entry_collection import Gathering
+from reportgen.handin.symbol_matching import Symbols
+from reportgen.handin.text_numbers import marks_of
+from reportgen.handin.text_statements import Statement
+from reportgen.handin.word_blanks import read_blanks
 from reportgen.handin.word_nodes import XmlNode
 from reportgen.handin.word_tables import read_table
 from reportgen.handin.word_text import OBJECT, TextGrid, TextLine, WordBlock, WordMark

@@ -8,11 +8,11 @@ from dataclasses import dataclass
 
 from reportgen.base.units import QuantityFault
 from reportgen.case.answer_key import KeyRow
-from reportgen.handin import statements as said
-from reportgen.handin.gathering import Gathering
-from reportgen.handin.numbers import NUMBER, UNIT, plain_unit, read_value
-from reportgen.handin.reading_words import any_of, label_of
-from reportgen.handin.symbols import bare
+from reportgen.handin import text_statements as said
+from reportgen.handin.entry_collection import Gathering
+from reportgen.handin.symbol_matching import bare
+from reportgen.handin.text_numbers import NUMBER, UNIT, plain_unit, read_value
+from reportgen.handin.word_patterns import any_of, label_of
 from reportgen.handin.word_text import OBJECT, TextCell, TextGrid, TextLine
 from reportgen.marking.numbers import is_blank
 

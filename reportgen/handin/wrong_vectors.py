@@ -12,8 +12,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from reportgen.handin.line_repair import goes_on
 from reportgen.handin.line_set import Lines
-from reportgen.handin.pieces import goes_on
 from reportgen.handin.plan_finder import FoundPlans
 from reportgen.handin.plan_fit import LONG, SEEN, Fit, off_place
 from reportgen.handin.plan_labels import Labels, names_of

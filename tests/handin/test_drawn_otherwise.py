@@ -11,10 +11,10 @@ import numpy as np
 import pytest
 
 from reportgen.handin import FileReading
+from reportgen.handin.dxf_corrections import LAYER, RedVector, with_corrections
 from reportgen.handin.dxf_lines import read_lines
+from reportgen.handin.line_repair import COVERED, MOST_PIECES, distinct, goes_on, meant
 from reportgen.handin.line_set import Lines
-from reportgen.handin.pieces import COVERED, MOST_PIECES, distinct, goes_on, meant
-from reportgen.handin.red_layer import LAYER, RedVector, with_corrections
 from tests.handin.drawings import Manner, at
 from tests.handin.test_drawing_lines import written
 from tests.handin.test_plans_in_drawings import MACHINES, counts, drawn, opened_at_all, read_as

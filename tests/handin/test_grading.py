@@ -16,8 +16,8 @@ from reportgen.case.answer_key import Key
 from reportgen.cases import open_case
 from reportgen.classes import class_marking, class_outputs
 from reportgen.handin import agree, submission, word_report
-from reportgen.handin.checking import compare, read, reading
 from reportgen.handin.reading_book import NAME, is_unchanged, reading_book
+from reportgen.handin.self_check import compare, read, reading
 from reportgen.marking.comment import comment
 from reportgen.marking.grades import grade_rows
 from reportgen.marking.key import Ask, key_of

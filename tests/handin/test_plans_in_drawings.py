@@ -19,7 +19,7 @@ from reportgen.formula.ledger import follow
 from reportgen.handin import FileReading, submission
 from reportgen.handin.drawing_file import marked, read, wanted_plans
 from reportgen.handin.drawing_reader import DrawnMark
-from reportgen.handin.red_layer import LAYER, RedVector, with_corrections
+from reportgen.handin.dxf_corrections import LAYER, RedVector, with_corrections
 from reportgen.marking.marking import mark
 from reportgen.marking.marks import Verdict
 from reportgen.marking.policy import Policy

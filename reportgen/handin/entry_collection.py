@@ -12,9 +12,9 @@ from reportgen.base.errors import Fault, Mark
 from reportgen.base.units import QuantityFault
 from reportgen.case.answer_key import Key, KeyRow
 from reportgen.handin import FileReading, agree, figures
-from reportgen.handin.numbers import NUMBER, Marks, read_value
-from reportgen.handin.statements import ANTICLOCKWISE, CLOCKWISE
-from reportgen.handin.symbols import Symbols, bare
+from reportgen.handin.symbol_matching import Symbols, bare
+from reportgen.handin.text_numbers import NUMBER, Marks, read_value
+from reportgen.handin.text_statements import ANTICLOCKWISE, CLOCKWISE
 from reportgen.handin.word_text import TextLine, WordMark
 from reportgen.marking.marks import Answer, Place
 

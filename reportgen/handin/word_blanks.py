@@ -5,8 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping, Sequence
 
-from reportgen.handin.gathering import Gathering
-from reportgen.handin.numbers import NUMBER, UNIT
+from reportgen.handin.entry_collection import Gathering
+from reportgen.handin.text_numbers import NUMBER, UNIT
 from reportgen.handin.word_nodes import XmlNode
 from reportgen.handin.word_text import TextLine, put
 from reportgen.marking.frame import blanks

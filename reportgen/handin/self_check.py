@@ -15,7 +15,7 @@ from reportgen.case.answer_key import Key
 from reportgen.handin import FileReading, submission
 from reportgen.handin.drawing_file import wanted_plans
 from reportgen.handin.drawing_reader import WantedPlans
-from reportgen.handin.files import DRAWING, NOT_READ, OWN, content, not_read, read_file
+from reportgen.handin.file_kinds import DRAWING, NOT_READ, OWN, content, not_read, read_file
 from reportgen.handin.reading_book import NAME, is_unchanged, reading_book
 from reportgen.marking.key import Ask, key_of
 from reportgen.marking.marking import compare as compare_sheet

@@ -10,9 +10,9 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
-from reportgen.handin.numbers import NUMBER, UNIT
-from reportgen.handin.reading_words import HAN, any_of, label_of, labelled_position
-from reportgen.handin.symbols import Symbols, bare
+from reportgen.handin.symbol_matching import Symbols, bare
+from reportgen.handin.text_numbers import NUMBER, UNIT
+from reportgen.handin.word_patterns import HAN, any_of, label_of, labelled_position
 from reportgen.handin.word_text import OBJECT
 
 RELATION = re.compile("[=≈]")

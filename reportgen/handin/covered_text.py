@@ -12,7 +12,7 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from reportgen.handin.word_looks import Styles, first_of, looks_of
+from reportgen.handin.invisible_text import Styles, first_of, looks_of
 from reportgen.handin.word_nodes import XmlNode
 
 EMU = 36_000.0
