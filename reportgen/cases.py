@@ -27,7 +27,7 @@ from reportgen.document import Block, Document, Paragraph, Strong, Text
 from reportgen.formula import Symbol, ids, vocabulary
 from reportgen.formula.calculation import Family
 from reportgen.machine.analysis import Analysis, Machine, motion_at
-from reportgen.machine.laws import FULL_TURN, STEPS
+from reportgen.machine.load_laws import FULL_TURN, STEPS
 
 if TYPE_CHECKING:
     from reportgen.drawing.animation import Animation

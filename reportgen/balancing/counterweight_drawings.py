@@ -13,7 +13,7 @@ from reportgen.drawing.drawing_description import Fact, PaperLength, direction, 
 from reportgen.drawing.labels import Request, label
 from reportgen.drawing.scheme import Looks, driver_marks, mechanism, skeleton
 from reportgen.machine import GROUND, Linkage
-from reportgen.machine.motion import Motion
+from reportgen.machine.kinematics import Motion
 
 LARGEST, LEAST = 5.0, 2.0
 """Radii of discs (mm): of the heaviest, and at least; areas are as the masses."""

@@ -16,7 +16,7 @@ from reportgen.base.arrays import Complexes, Floats
 from reportgen.drawing import Circle, Pen, Polyline, style
 from reportgen.drawing.animation import BarScale, MovingBody, MovingItem, MovingVector, Still, Track
 from reportgen.formula import Symbol, vocabulary
-from reportgen.machine.motion import Motion, unit
+from reportgen.machine.kinematics import Motion, unit
 from reportgen.page.topic_layers import LayerHooks
 from reportgen.report.report import Report
 

@@ -51,7 +51,7 @@ from reportgen.formula.calculation import Sheet, is_short
 from reportgen.formula.vocabulary import Chapter
 from reportgen.machine import DRIVER, Crank, Inertia
 from reportgen.machine.analysis import Analysis
-from reportgen.machine.motion import unit as unit_vector
+from reportgen.machine.kinematics import unit as unit_vector
 
 AXES = ("x", "y")
 BEFORE, AFTER = "before", "after"

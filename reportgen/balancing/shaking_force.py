@@ -28,9 +28,9 @@ from reportgen.balancing.counterweights import (
 from reportgen.base.arrays import Complexes, Floats
 from reportgen.machine import DRIVER, GROUND, Crank, Linkage, joints
 from reportgen.machine.analysis import Analysis, Machine, analyse, motion_at
-from reportgen.machine.forces import inertia_loads, reaction_name, solve_forces
-from reportgen.machine.laws import FULL_TURN
-from reportgen.machine.motion import Motion, cross, unit
+from reportgen.machine.force_analysis import inertia_loads, reaction_name, solve_forces
+from reportgen.machine.kinematics import Motion, cross, unit
+from reportgen.machine.load_laws import FULL_TURN
 
 SAMPLES, MOST_SAMPLES = 1440, 46080
 """Places of a turn, a quarter degree apart, of which the curve is made; twice and again as many of one with corners."""

@@ -10,7 +10,7 @@ from reportgen.case.topic_results import RESULTS, Entries
 from reportgen.formula import ids
 from reportgen.machine import Crank
 from reportgen.machine.analysis import Analysis
-from reportgen.machine.forces import Load
+from reportgen.machine.force_analysis import Load
 
 
 @dataclass(frozen=True)

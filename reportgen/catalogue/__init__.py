@@ -46,7 +46,7 @@ from reportgen.catalogue import assembly_checks, declared_loads
 from reportgen.catalogue.parameters import Driven
 from reportgen.catalogue.topic_sections import TopicParameters, sections_of, topic_checks, with_topics
 from reportgen.machine.analysis import Machine
-from reportgen.machine.laws import FULL_TURN, STEPS
+from reportgen.machine.load_laws import FULL_TURN, STEPS
 
 
 def module(kind: str) -> ModuleType:

@@ -43,7 +43,7 @@ from reportgen.formula import (
 )
 from reportgen.formula.calculation import BELOW_A_TURN, Sheet
 from reportgen.machine import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
-from reportgen.machine.laws import FULL_TURN, Stroke, halved
+from reportgen.machine.load_laws import FULL_TURN, Stroke, halved
 
 HALVINGS = 60
 """π halved so often is below the spacing of floats there."""

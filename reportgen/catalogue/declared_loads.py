@@ -41,10 +41,10 @@ from reportgen.catalogue.typed_quantities import as_typed, size_of
 from reportgen.formula import Number, ids
 from reportgen.formula.ids import Name as Family
 from reportgen.machine import DRIVER, Crank, Guide, Linkage
-from reportgen.machine.laws import AngleLaw, ConstantLaw, Law, MotionAt, Resistance, WayLaw, opposing
+from reportgen.machine.kinematics import Motion
+from reportgen.machine.load_laws import AngleLaw, ConstantLaw, Law, MotionAt, Resistance, WayLaw, opposing
 from reportgen.machine.loads import Applied, Torque, fixed
-from reportgen.machine.motion import Motion
-from reportgen.machine.senses import moving, pace
+from reportgen.machine.motion_sense import moving, pace
 
 MOST_LOADS = LAST_LINK = 40
 LEVEL = Given(0.0, 0.0, "deg", "0 deg")

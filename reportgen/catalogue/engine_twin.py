@@ -25,7 +25,7 @@ from reportgen.formula import PI, ids
 from reportgen.formula.calculation import Sheet
 from reportgen.machine import Crank, Dyad, Guide, Linkage, LinkPoint
 from reportgen.machine.analysis import Machine
-from reportgen.machine.gas import STROKES, Stroke, stroke_at
+from reportgen.machine.gas_pressure import STROKES, Stroke, stroke_at
 from reportgen.machine.loads import Piston, gas_forces
 
 TURNS = 2

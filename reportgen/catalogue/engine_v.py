@@ -25,7 +25,7 @@ from reportgen.formula import PI, Symbol, cis, ids
 from reportgen.formula.calculation import Sheet
 from reportgen.machine import Crank, Dyad, Guide, Linkage, LinkPoint
 from reportgen.machine.analysis import Machine, lettered
-from reportgen.machine.laws import ConstantLaw
+from reportgen.machine.load_laws import ConstantLaw
 from reportgen.machine.loads import Applied, Piston, course, crank_motion, fixed, gas_forces
 
 TURNS = 1

@@ -52,7 +52,7 @@ from reportgen.formula import (
 from reportgen.formula.calculation import Sheet
 from reportgen.machine import Crank, Dyad, Linkage, LinkPoint
 from reportgen.machine.analysis import Machine
-from reportgen.machine.laws import ConstantLaw
+from reportgen.machine.load_laws import ConstantLaw
 from reportgen.machine.loads import Applied, fixed
 
 FLAT = 0.01

@@ -18,7 +18,7 @@ from reportgen.formula import NOTHING, PI, Expression, Number, Operand, Ref, Sym
 from reportgen.formula.calculation import Sheet
 from reportgen.formula.vocabulary import KINDS, drawn_length
 from reportgen.machine import DRIVER, Inertia, LinkPoint
-from reportgen.machine.laws import FULL_TURN
+from reportgen.machine.load_laws import FULL_TURN
 
 CRANK_DRAWN = 0.04
 """Default of the drawn length of the crank (m on paper)."""

@@ -23,8 +23,8 @@ from reportgen.base.units import Given
 from reportgen.catalogue.declared_loads import against
 from reportgen.formula import ids
 from reportgen.machine import Linkage
-from reportgen.machine.gas import STROKES, AngleIndicator, IndicatorTable, StrokeIndicator
-from reportgen.machine.laws import ConstantLaw, Law, by_angle, by_stroke
+from reportgen.machine.gas_pressure import STROKES, AngleIndicator, IndicatorTable, StrokeIndicator
+from reportgen.machine.load_laws import ConstantLaw, Law, by_angle, by_stroke
 from reportgen.machine.loads import Torque, crank_motion
 
 # --- the indicator diagram of a four-stroke engine --------------------------------------------------

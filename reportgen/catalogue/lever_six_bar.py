@@ -27,7 +27,7 @@ from reportgen.formula.calculation import Sheet
 from reportgen.formula.vocabulary import drawn_length
 from reportgen.machine import Crank, Dyad, Guide, Linkage, LinkPoint
 from reportgen.machine.analysis import Machine
-from reportgen.machine.laws import ConstantLaw, Law, Stroke
+from reportgen.machine.load_laws import ConstantLaw, Law, Stroke
 from reportgen.machine.loads import Applied, course, crank_motion, fixed, turning_points
 
 TURNS = 1

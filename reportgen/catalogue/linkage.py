@@ -32,9 +32,9 @@ from reportgen.formula.calculation import Sheet
 from reportgen.formula.vocabulary import drawn_length
 from reportgen.machine import Linkage
 from reportgen.machine.analysis import ClosedFormulas, Machine, lettered
-from reportgen.machine.laws import FULL_TURN, GasLaw, MotionAt, TableLaw, by_stroke
+from reportgen.machine.kinematics import Motion, solve_motion
+from reportgen.machine.load_laws import FULL_TURN, GasLaw, MotionAt, TableLaw, by_stroke
 from reportgen.machine.loads import Applied, LoadsByKind, Torque, course, fixed, rails
-from reportgen.machine.motion import Motion, solve_motion
 
 TURNS = 1
 """A cycle of two turns counts the second turn's positions among those added to the first."""

@@ -17,9 +17,9 @@ from reportgen.catalogue import linkage_file as file
 from reportgen.catalogue.assembly_checks import Member
 from reportgen.catalogue.declared_loads import Constant, OverWay, listed, on_link, pins, table
 from reportgen.machine import DRIVER, GROUND, Crank, Linkage, mobility
-from reportgen.machine.laws import FULL_TURN, STEPS
+from reportgen.machine.kinematics import Motion, solve_motion
+from reportgen.machine.load_laws import FULL_TURN, STEPS
 from reportgen.machine.loads import crank_motion
-from reportgen.machine.motion import Motion, solve_motion
 
 TOP: Where = ("parameters",)
 AT_SLOT_END = 1e-9

@@ -20,7 +20,7 @@ from reportgen.formula import Chain, Symbol, cos, minus, plus, sin, times
 from reportgen.formula.calculation import BELOW_A_TURN, Sheet
 from reportgen.machine import Crank, Dyad, Guide, Linkage
 from reportgen.machine.analysis import Machine
-from reportgen.machine.laws import FULL_TURN, Stroke, TableLaw
+from reportgen.machine.load_laws import FULL_TURN, Stroke, TableLaw
 from reportgen.machine.loads import Applied, fixed
 
 TURNS = 1

@@ -24,7 +24,7 @@ from reportgen.formula import Symbol, ids
 from reportgen.formula.calculation import Sheet
 from reportgen.formula.vocabulary import drawn_length
 from reportgen.machine.analysis import Machine
-from reportgen.machine.laws import CuttingLaw
+from reportgen.machine.load_laws import CuttingLaw
 from reportgen.machine.loads import Applied, crank_motion, fixed
 
 TURNS = 1

@@ -26,7 +26,7 @@ from reportgen.catalogue.driven_machine import driven
 from reportgen.catalogue.given_data import MIDDLE, GivenSheet, cycle_angles
 from reportgen.catalogue.parameters import Driven
 from reportgen.machine.analysis import Machine
-from reportgen.machine.laws import TableLaw
+from reportgen.machine.load_laws import TableLaw
 from reportgen.machine.loads import Applied, fixed
 
 TURNS = 1

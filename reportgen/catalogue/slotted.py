@@ -41,7 +41,7 @@ from reportgen.formula import (
 )
 from reportgen.formula.calculation import BELOW_A_TURN, Sheet
 from reportgen.machine import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
-from reportgen.machine.laws import FULL_TURN, Stroke
+from reportgen.machine.load_laws import FULL_TURN, Stroke
 
 DRAWN_CRANKS = (0.05, 0.04, 0.03, 0.025, 0.02, 0.015)
 """Drawn lengths of a crank (m on paper), the best first."""

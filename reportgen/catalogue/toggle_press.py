@@ -24,7 +24,7 @@ from reportgen.formula import Symbol, acos, atan2, cos, ids, signed, sin, sqrt
 from reportgen.formula.calculation import Sheet
 from reportgen.machine import Crank, Dyad, Guide, Linkage
 from reportgen.machine.analysis import Machine
-from reportgen.machine.laws import Stroke, TableLaw
+from reportgen.machine.load_laws import Stroke, TableLaw
 from reportgen.machine.loads import Applied, course, crank_motion, fixed
 
 TURNS = 1

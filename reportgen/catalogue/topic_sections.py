@@ -20,7 +20,7 @@ from reportgen.base.units import Given
 from reportgen.formula import Ref, Symbol
 from reportgen.machine import Linkage
 from reportgen.machine.analysis import Machine
-from reportgen.machine.laws import MotionAt
+from reportgen.machine.load_laws import MotionAt
 from reportgen.machine.loads import Applied, Torque
 from reportgen.machine.shared_results import SharedResult
 

@@ -21,8 +21,8 @@ from reportgen.formula.ledger import Ledger
 from reportgen.formula.vocabulary import KINDS, Chapter
 from reportgen.machine import Crank, Linkage
 from reportgen.machine.analysis import Analysis, no_formulas, possible
-from reportgen.machine.gas import Bracket
-from reportgen.machine.laws import Stroke
+from reportgen.machine.gas_pressure import Bracket
+from reportgen.machine.load_laws import Stroke
 from reportgen.machine.loads import Applied, Torque
 
 ONE_QUANTITY = (("M.eq", "M.vw", "M.least", "M.greatest", "M.difference"), ("M.mean", "M.energy"))

@@ -12,7 +12,7 @@ from reportgen.formula import NOTHING, Expression, Number, Ref, Symbol, ids, tot
 from reportgen.formula.calculation import Sheet
 from reportgen.machine import Inertia, Linkage
 from reportgen.machine.analysis import Analysis
-from reportgen.machine.laws import FULL_TURN
+from reportgen.machine.load_laws import FULL_TURN
 
 TERMS = 4
 """More terms than these do not fit in one line of a page."""

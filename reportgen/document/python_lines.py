@@ -9,7 +9,7 @@ from keyword import iskeyword
 
 import numpy as np
 
-from reportgen.machine.laws import FULL_TURN
+from reportgen.machine.load_laws import FULL_TURN
 
 KINDS_SI = {
     "angle": "rad",

@@ -23,8 +23,8 @@ from reportgen.drawing.vector_plan import BEYOND, PENS, Construction
 from reportgen.formula import Number, vocabulary
 from reportgen.formula.vocabulary import KINDS
 from reportgen.machine import Crank, Linkage
-from reportgen.machine.coils import Coil
-from reportgen.machine.motion import Motion
+from reportgen.machine.kinematics import Motion
+from reportgen.machine.spring_geometry import Coil
 
 ROOM = 9.0
 """White around what moves, for its labels (mm)."""

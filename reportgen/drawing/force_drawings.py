@@ -22,7 +22,7 @@ from reportgen.drawing.scheme import Looks, mechanism, skeleton
 from reportgen.drawing.vector_plan import CROWDED, Plan, point_names, vector_facts
 from reportgen.formula import Symbol, constructions
 from reportgen.machine import Linkage
-from reportgen.machine.motion import Motion
+from reportgen.machine.kinematics import Motion
 
 SHORTEST, STEP, LONGEST = 13.0, 6.5, 26.0
 """Drawn lengths of forces at one point, mm: of two in one direction the second is a step longer."""

@@ -22,7 +22,7 @@ from reportgen.drawing.labels import Request, joined, label
 from reportgen.drawing.scheme import Looks, Skeleton, driver_arrow, driver_marks, mechanism, skeleton
 from reportgen.formula import Number, Symbol, vocabulary
 from reportgen.machine import GROUND, Crank, Linkage
-from reportgen.machine.motion import Motion
+from reportgen.machine.kinematics import Motion
 
 TOGETHER = 0.3
 """Points within this of one another (mm of paper) are one and share a label."""

@@ -22,8 +22,8 @@ from reportgen.drawing.labels import Request, joined, label
 from reportgen.drawing.spring_drawings import coil_symbols
 from reportgen.formula import Symbol, vocabulary
 from reportgen.machine import DRIVER, GROUND, Crank, Dyad, Guide, Linkage
-from reportgen.machine.coils import Coil
-from reportgen.machine.motion import Motion
+from reportgen.machine.kinematics import Motion
+from reportgen.machine.spring_geometry import Coil
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,8 +15,8 @@ from reportgen.drawing.geometry import polar, unit
 from reportgen.drawing.labels import Request, label
 from reportgen.formula import Symbol
 from reportgen.machine import Linkage
-from reportgen.machine.coils import Coil
-from reportgen.machine.motion import Motion
+from reportgen.machine.kinematics import Motion
+from reportgen.machine.spring_geometry import Coil
 
 LEAD, TEETH, SIDE = 0.18, 8, 1.7
 """Straight pieces at both ends (shares of the length), corners between them, and their offset (mm)."""

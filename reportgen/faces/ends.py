@@ -7,10 +7,10 @@ from collections.abc import Mapping
 import numpy as np
 
 from reportgen.machine.analysis import Analysis, Machine
-from reportgen.machine.faces import Faces
-from reportgen.machine.forces import reaction_name
+from reportgen.machine.force_analysis import reaction_name
+from reportgen.machine.kinematics import cross
 from reportgen.machine.loads import carriers
-from reportgen.machine.motion import cross
+from reportgen.machine.slider_faces import Faces
 
 
 def faces_of(machine: Machine) -> Mapping[int, Faces]:

@@ -16,9 +16,9 @@ from reportgen.catalogue.topic_sections import Opening, TopicData, TopicParamete
 from reportgen.formula import ids
 from reportgen.machine import DRIVER, Crank
 from reportgen.machine.analysis import Machine
-from reportgen.machine.faces import Faces
 from reportgen.machine.loads import carriers
 from reportgen.machine.shared_results import FACES
+from reportgen.machine.slider_faces import Faces
 
 
 class Face(Part):

@@ -13,7 +13,7 @@ from reportgen.formula import NOTHING, Expression, Ref, Symbol, atan, call, ids,
 from reportgen.formula.calculation import Sheet
 from reportgen.machine import DRIVER, Linkage
 from reportgen.machine.analysis import Analysis
-from reportgen.machine.regulation import RegulatedCycle
+from reportgen.machine.regulated_cycle import RegulatedCycle
 
 CONSTANT = 1e-9
 """A speed that varies by less than this share of its size is constant."""

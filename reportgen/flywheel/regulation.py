@@ -12,10 +12,10 @@ import numpy as np
 
 from reportgen.base.arrays import Floats
 from reportgen.machine.analysis import Analysis, Machine, analyse, breaks, possible
-from reportgen.machine.laws import FULL_TURN
+from reportgen.machine.load_laws import FULL_TURN
 from reportgen.machine.quadrature import accumulated
 from reportgen.machine.reduction import reduced_inertia, reduced_torque
-from reportgen.machine.regulation import RegulatedCycle
+from reportgen.machine.regulated_cycle import RegulatedCycle
 from reportgen.machine.shared_results import LOST_TORQUE, REGULATED_CYCLE
 
 ORDER = 8

@@ -15,7 +15,7 @@ from reportgen.drawing import Content, Scene, charts
 from reportgen.drawing.chart_data import Diagram, Inclination, PlottedCurve
 from reportgen.flywheel.regulation import regulated_in
 from reportgen.formula import Symbol, ids
-from reportgen.machine.regulation import RegulatedCycle
+from reportgen.machine.regulated_cycle import RegulatedCycle
 from reportgen.machine.shared_results import REGULATED_CYCLE
 from reportgen.report.comments import labels, shown
 from reportgen.report.curves import axis_of, driver_axis

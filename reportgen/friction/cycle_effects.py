@@ -11,10 +11,10 @@ from reportgen.base.arrays import Flags, Floats
 from reportgen.friction.joints import Friction, friction_of, relative_motion, solve_with_friction, with_friction
 from reportgen.machine import Joint
 from reportgen.machine.analysis import ROUNDING, Machine, analyse, breaks, motion_at, possible
-from reportgen.machine.forces import Load
-from reportgen.machine.laws import FULL_TURN, STEPS, Stroke, halved, opposing
+from reportgen.machine.force_analysis import Load
+from reportgen.machine.load_laws import FULL_TURN, STEPS, Stroke, halved, opposing
+from reportgen.machine.motion_sense import moving, pace
 from reportgen.machine.quadrature import mean_over
-from reportgen.machine.senses import moving, pace
 
 HALVINGS = 40
 """Past the spacing of floats beside an angle."""

@@ -17,7 +17,7 @@ from reportgen.friction.cycle_effects import turning_back
 from reportgen.friction.joints import friction_of, with_friction
 from reportgen.machine.analysis import Machine, analyse, breaks
 from reportgen.machine.cycle_torque import SAME_ANGLE, CycleTorque
-from reportgen.machine.laws import FULL_TURN
+from reportgen.machine.load_laws import FULL_TURN
 
 PARTS = 180
 """Parts of a turn at least."""

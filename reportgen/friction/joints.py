@@ -26,10 +26,10 @@ from reportgen.formula import ids
 from reportgen.friction.bearing_equations import BearingEquations
 from reportgen.machine import GROUND, Joint, Linkage, joints
 from reportgen.machine.analysis import Analysis, Machine
-from reportgen.machine.faces import Faces
-from reportgen.machine.forces import Equilibrium, Forces, Load, Reaction, reaction_name
-from reportgen.machine.motion import LinkMotion, Motion, cross
-from reportgen.machine.senses import pace, sense_of
+from reportgen.machine.force_analysis import Equilibrium, Forces, Load, Reaction, reaction_name
+from reportgen.machine.kinematics import LinkMotion, Motion, cross
+from reportgen.machine.motion_sense import pace, sense_of
+from reportgen.machine.slider_faces import Faces
 
 STANDS = 1e-12
 """A round that changes the reactions by less than this share of the greatest has converged."""

@@ -12,7 +12,7 @@ from reportgen.formula import Symbol, vocabulary
 from reportgen.friction.joints import with_friction
 from reportgen.friction.views import rubbing
 from reportgen.machine.analysis import Analysis
-from reportgen.machine.forces import reaction_name
+from reportgen.machine.force_analysis import reaction_name
 from reportgen.page.topic_layers import LayerHooks
 from reportgen.report.report import Report
 

@@ -20,8 +20,8 @@ from reportgen.friction.friction_torque import LocksError, friction_loss
 from reportgen.friction.joints import Friction, with_friction
 from reportgen.machine import joints
 from reportgen.machine.analysis import Machine, analyse
-from reportgen.machine.faces import Faces
 from reportgen.machine.shared_results import FACES, LOST_TORQUE
+from reportgen.machine.slider_faces import Faces
 
 Coefficient = Annotated[Given, Ratio(Interval(least=0, most=2, tiny=1e-6))]
 Radius = Annotated[Given, quantity("mm", least=0, below=1e4, tiny=1e-6)]

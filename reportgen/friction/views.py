@@ -31,7 +31,7 @@ from reportgen.friction.joints import FrictionForces, friction_of, relative_sens
 from reportgen.friction.ledger import RubbingJoint, rubbing_joints
 from reportgen.friction.tilting import FaceForce, Leaning, any_tilts, at_both_ends, face_forces, leaning_forces, tilting
 from reportgen.machine import GROUND
-from reportgen.machine.forces import reaction_name
+from reportgen.machine.force_analysis import reaction_name
 from reportgen.report import equations
 from reportgen.report.figures import as_large_as_asked, drawing_scale, looks
 from reportgen.report.groups import GroupView

@@ -13,13 +13,13 @@ import numpy as np
 from reportgen.formula import Chain, ids
 from reportgen.formula.calculation import Sheet
 from reportgen.machine import Crank, Linkage
-from reportgen.machine.coils import Coil
-from reportgen.machine.forces import Forces, Load, inertia_loads, solve_forces, virtual_work_torque, weights
-from reportgen.machine.gas import indicated_work, stroke_at
-from reportgen.machine.laws import FULL_TURN, STEPS, Stroke
+from reportgen.machine.force_analysis import Forces, Load, inertia_loads, solve_forces, virtual_work_torque, weights
+from reportgen.machine.gas_pressure import indicated_work, stroke_at
+from reportgen.machine.kinematics import Motion, solve_motion
+from reportgen.machine.load_laws import FULL_TURN, STEPS, Stroke
 from reportgen.machine.loads import Applied, Piston, Torque
-from reportgen.machine.motion import Motion, solve_motion
 from reportgen.machine.quadrature import mean_over
+from reportgen.machine.spring_geometry import Coil
 
 Derived = TypeVar("Derived")
 Subject = TypeVar("Subject")

@@ -12,11 +12,11 @@ from reportgen.assignment.common import Positions
 from reportgen.base.arrays import Complexes, Floats
 from reportgen.formula import ids
 from reportgen.machine import GROUND, Dyad, Guide, Linkage
-from reportgen.machine.forces import Load
-from reportgen.machine.gas import IndicatorTable
-from reportgen.machine.laws import BEFORE_A_TURN, FULL_TURN, GasLaw, Law, MotionAt, Stroke, opposing
-from reportgen.machine.motion import Motion, solve_motion
-from reportgen.machine.senses import moving, pace
+from reportgen.machine.force_analysis import Load
+from reportgen.machine.gas_pressure import IndicatorTable
+from reportgen.machine.kinematics import Motion, solve_motion
+from reportgen.machine.load_laws import BEFORE_A_TURN, FULL_TURN, GasLaw, Law, MotionAt, Stroke, opposing
+from reportgen.machine.motion_sense import moving, pace
 
 # --- sliders of a linkage ---------------------------------------------------------------------------
 

@@ -15,8 +15,8 @@ from reportgen.base.topics import HookModule
 if TYPE_CHECKING:
     from reportgen.machine.analysis import Machine
     from reportgen.machine.cycle_torque import CycleTorque
-    from reportgen.machine.faces import Faces
-    from reportgen.machine.regulation import RegulatedCycle
+    from reportgen.machine.regulated_cycle import RegulatedCycle
+    from reportgen.machine.slider_faces import Faces
 
 Result = TypeVar("Result", covariant=True)
 

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from reportgen.base.arrays import Floats
 from reportgen.machine.analysis import Machine, breaks
 from reportgen.machine.cycle_torque import CycleTorque
-from reportgen.machine.laws import FULL_TURN
+from reportgen.machine.load_laws import FULL_TURN
 from reportgen.machine.quadrature import gauss
 from reportgen.machine.reduction import reduced
 from reportgen.motion.drives import Drive

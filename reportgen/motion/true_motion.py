@@ -8,10 +8,10 @@ from typing import Literal
 import numpy as np
 
 from reportgen.machine.analysis import Analysis, Machine
-from reportgen.machine.forces import inertia_loads, solve_forces, virtual_work_torque, weights
-from reportgen.machine.laws import FULL_TURN
-from reportgen.machine.motion import solve_motion
-from reportgen.machine.regulation import RegulatedCycle
+from reportgen.machine.force_analysis import inertia_loads, solve_forces, virtual_work_torque, weights
+from reportgen.machine.kinematics import solve_motion
+from reportgen.machine.load_laws import FULL_TURN
+from reportgen.machine.regulated_cycle import RegulatedCycle
 from reportgen.machine.shared_results import LOST_TORQUE, REGULATED_CYCLE
 from reportgen.motion.drives import ConstantDrive, Drive, MotionAsked
 from reportgen.motion.energy import ReducedMachine, ReducedWay

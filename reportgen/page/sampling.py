@@ -48,9 +48,9 @@ from reportgen.formula import Symbol, ids, vocabulary
 from reportgen.formula.vocabulary import KINDS
 from reportgen.machine import DRIVER
 from reportgen.machine.analysis import Analysis, Machine, analyse, breaks, motion_at
-from reportgen.machine.forces import Load, as_single_force
-from reportgen.machine.laws import FULL_TURN
-from reportgen.machine.motion import Motion
+from reportgen.machine.force_analysis import Load, as_single_force
+from reportgen.machine.kinematics import Motion
+from reportgen.machine.load_laws import FULL_TURN
 from reportgen.page import panes
 from reportgen.page.topic_layers import LAYERS as TOPIC_LAYERS
 from reportgen.page.topic_layers import Box, LayerHooks

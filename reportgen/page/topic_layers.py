@@ -11,7 +11,7 @@ from reportgen.base.topics import HookModule
 from reportgen.drawing.animation import BarScale, Chart, MovingItem, TimedRun
 from reportgen.formula import Symbol
 from reportgen.machine.analysis import Analysis
-from reportgen.machine.motion import Motion
+from reportgen.machine.kinematics import Motion
 from reportgen.report.report import Report
 
 Box = tuple[complex, complex]

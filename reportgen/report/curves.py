@@ -19,7 +19,7 @@ from reportgen.formula import Chain, Symbol, ids
 from reportgen.formula.vocabulary import KINDS
 from reportgen.machine import DRIVER, GROUND, Crank
 from reportgen.machine.cycle_torque import SAME_ANGLE
-from reportgen.machine.laws import FULL_TURN
+from reportgen.machine.load_laws import FULL_TURN
 from reportgen.report.comments import sliders
 from reportgen.report.equations import heading_words
 from reportgen.report.report import Report

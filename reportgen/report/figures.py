@@ -39,9 +39,9 @@ from reportgen.formula.constructions import circle_circle
 from reportgen.machine import DRIVER, Crank
 from reportgen.machine.analysis import Machine, motion_at
 from reportgen.machine.cycle_torque import SAME_ANGLE
-from reportgen.machine.laws import FULL_TURN
+from reportgen.machine.kinematics import Motion, solve_motion
+from reportgen.machine.load_laws import FULL_TURN
 from reportgen.machine.loads import Piston
-from reportgen.machine.motion import Motion, solve_motion
 from reportgen.report.groups import GroupView, PlaneLink
 from reportgen.report.report import DENSE, Report
 

@@ -21,7 +21,7 @@ from reportgen.drawing.style import CONSTRUCTION, PAPER, VISIBLE
 from reportgen.drawing.vector_plan import plan
 from reportgen.formula import Chain, Expression, Symbol, constructions, ids, size, vocabulary
 from reportgen.machine import DRIVER
-from reportgen.machine.forces import Load, as_single_force
+from reportgen.machine.force_analysis import Load, as_single_force
 from reportgen.report import guide_couples, percussion
 from reportgen.report.figures import drawing_scale, looks
 from reportgen.report.groups import GroupView

@@ -23,7 +23,7 @@ from reportgen.document.python_lines import (
 )
 from reportgen.formula.plain_text import python
 from reportgen.formula.vocabulary import Chapter
-from reportgen.machine.laws import FULL_TURN
+from reportgen.machine.load_laws import FULL_TURN
 from reportgen.report.report import Report
 
 CURVES = ("s", "v", "a", "M"), ("x", "y", "v", "a", "M"), ("ω", "ε")

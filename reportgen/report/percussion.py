@@ -18,7 +18,7 @@ from reportgen.drawing.labels import joined, label
 from reportgen.drawing.style import CONSTRUCTION, PAPER, VISIBLE
 from reportgen.formula import Symbol, constructions, ids
 from reportgen.formula.calculation import ZERO
-from reportgen.machine.forces import as_single_force, percussion_points
+from reportgen.machine.force_analysis import as_single_force, percussion_points
 from reportgen.report.groups import BodyView
 from reportgen.report.report import Report
 

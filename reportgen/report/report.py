@@ -26,7 +26,7 @@ from reportgen.formula.ledger import Ledger
 from reportgen.machine import GROUND, Crank, Mobility, mobility
 from reportgen.machine.analysis import Analysis, Machine, Position, analyse
 from reportgen.machine.cycle_torque import SAME_ANGLE
-from reportgen.machine.laws import FULL_TURN
+from reportgen.machine.load_laws import FULL_TURN
 from reportgen.machine.loads import Applied, Piston, Torque
 from reportgen.report.extents import LEFT_OUT, OF_A_TURN, OPENING
 from reportgen.report.groups import BodyView, DriverView, GroupView, PlaneLink, displaced_inertia

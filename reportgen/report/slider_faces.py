@@ -10,9 +10,9 @@ from reportgen.drawing import Item, Line, style
 from reportgen.drawing.force_drawings import LEAST_ARM
 from reportgen.drawing.geometry import unit
 from reportgen.formula import Symbol, constructions, ids, vocabulary
-from reportgen.machine.faces import Faces
 from reportgen.machine.loads import carriers
 from reportgen.machine.shared_results import FACES
+from reportgen.machine.slider_faces import Faces
 from reportgen.report.report import Report
 
 

@@ -29,7 +29,7 @@ from reportgen.document.template_rendering import subscripted
 from reportgen.drawing.label_size import box
 from reportgen.formula import Chain, Expression, Fraction, Number, Symbol, ids, refs, size, vocabulary
 from reportgen.formula.vocabulary import KINDS
-from reportgen.machine.laws import Law
+from reportgen.machine.load_laws import Law
 from reportgen.report.report import Report
 
 MOST_COLUMNS = 9

@@ -11,10 +11,10 @@ import numpy as np
 from reportgen.base.arrays import Complexes, Floats
 from reportgen.formula import PI, Expression, Number, arg, cis, ids, quotient
 from reportgen.formula.calculation import Sheet
-from reportgen.machine.coils import Anchor, Coil
-from reportgen.machine.laws import Law, MotionAt
+from reportgen.machine.kinematics import Motion
+from reportgen.machine.load_laws import Law, MotionAt
 from reportgen.machine.loads import Direction
-from reportgen.machine.motion import Motion
+from reportgen.machine.spring_geometry import Anchor, Coil
 
 Size = TypeVar("Size", Floats, Expression)
 """An array over positions, or a quantity on a sheet."""

@@ -25,9 +25,9 @@ from reportgen.formula import Number, Symbol, ids
 from reportgen.machine import GROUND, Linkage
 from reportgen.machine.analysis import Machine
 from reportgen.machine.analysis import motion_at as motion_of
-from reportgen.machine.coils import Anchor
-from reportgen.machine.laws import FULL_TURN, STEPS, MotionAt
+from reportgen.machine.load_laws import FULL_TURN, STEPS, MotionAt
 from reportgen.machine.loads import Applied, Torque
+from reportgen.machine.spring_geometry import Anchor
 from reportgen.springs.laws import SpringLaw, TorsionLaw, within_half_a_turn
 
 COORDINATE = quantity("mm", above=-1e5, below=1e5, tiny=1e-4)

@@ -9,7 +9,7 @@ from reportgen.document import Inlines, Value, listed
 from reportgen.document.figure_placement import FigureScenes
 from reportgen.formula import Number
 from reportgen.machine.analysis import motion_at
-from reportgen.machine.laws import FULL_TURN
+from reportgen.machine.load_laws import FULL_TURN
 from reportgen.report.curves import ShownCurve, axis, over_the_cycle
 from reportgen.report.report import Report
 from reportgen.report.tables import QuantityTable

@@ -22,7 +22,7 @@ from reportgen.friction.joints import Friction
 from reportgen.friction.joints import with_friction as forces_with_friction
 from reportgen.machine import joints
 from reportgen.machine.analysis import Machine, analyse, motion_at
-from reportgen.machine.gas import StrokeIndicator
+from reportgen.machine.gas_pressure import StrokeIndicator
 
 from .closed_form import Cylinder, Engine, solve
 

@@ -13,8 +13,8 @@ from reportgen.derivation.load_entries import Polygon
 from reportgen.formula.calculation import Sheet
 from reportgen.formula.ledger import Ledger
 from reportgen.machine import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
-from reportgen.machine.forces import Forces, Load, inertia_loads, solve_forces, virtual_work_torque, weights
-from reportgen.machine.motion import Motion, solve_motion
+from reportgen.machine.force_analysis import Forces, Load, inertia_loads, solve_forces, virtual_work_torque, weights
+from reportgen.machine.kinematics import Motion, solve_motion
 
 RATE = 7.0
 """The driver's speed, rad/s or m/s."""

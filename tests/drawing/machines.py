@@ -10,7 +10,7 @@ from reportgen.drawing.vector_plan import Plan, PlanLine, PlanPoint, PlanVector
 from reportgen.formula import Chain, Expression, Number, Symbol
 from reportgen.formula.vocabulary import on_plan
 from reportgen.machine import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
-from reportgen.machine.motion import Motion, solve_motion
+from reportgen.machine.kinematics import Motion, solve_motion
 
 R, L = 0.0475, 0.171
 OMEGA = 2200 * math.pi / 30

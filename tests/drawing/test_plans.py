@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from reportgen.drawing import Arrow, Circle, Label, Line, Scene
 from reportgen.drawing.vector_plan import TARGET, TINY, Plan, PlanPoint, PlanVector, enlargement, plan, stages
 from reportgen.formula import Symbol
-from reportgen.machine.motion import Motion
+from reportgen.machine.kinematics import Motion
 from tests.drawing.machines import acceleration_plan, at_positions, twin_engine, velocity_plan
 from tests.drawing.overlaps import overlaps
 

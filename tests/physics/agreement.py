@@ -8,8 +8,8 @@ from collections.abc import Iterable, Mapping, Sequence
 import newton_euler as ne
 
 from reportgen.machine.analysis import Analysis
-from reportgen.machine.forces import Forces
-from reportgen.machine.motion import Motion
+from reportgen.machine.force_analysis import Forces
+from reportgen.machine.kinematics import Motion
 
 AGREEMENT = 1e-9
 """Of each quantity's greatest size over the positions."""

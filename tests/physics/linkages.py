@@ -15,8 +15,8 @@ import numpy as np
 from hypothesis import strategies as st
 
 from reportgen.machine import Crank, Dyad, DyadKind, Guide, Inertia, Linkage, LinkPoint, SlidingDriver
-from reportgen.machine.forces import Load
-from reportgen.machine.motion import Motion, cross, dot, solve_motion
+from reportgen.machine.force_analysis import Load
+from reportgen.machine.kinematics import Motion, cross, dot, solve_motion
 
 KINDS: tuple[DyadKind, ...] = ("RRR", "RRP", "RPR", "PRP", "RPP")
 REFERENCE = 0.7

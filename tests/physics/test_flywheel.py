@@ -20,10 +20,10 @@ from reportgen.flywheel.regulation import flywheel, regulate, regulated_in
 from reportgen.flywheel.views import wittenbauer
 from reportgen.formula.calculation import Sheet
 from reportgen.machine.analysis import Machine, analyse, motion_at
-from reportgen.machine.laws import FULL_TURN
+from reportgen.machine.load_laws import FULL_TURN
 from reportgen.machine.quadrature import accumulated
 from reportgen.machine.reduction import reduced_inertia
-from reportgen.machine.regulation import RegulatedCycle
+from reportgen.machine.regulated_cycle import RegulatedCycle
 from reportgen.report.report import Report
 from tests.lanes import matrix
 

@@ -23,9 +23,9 @@ from reportgen.base.errors import AssignmentError
 from reportgen.document import text_of
 from reportgen.friction.joints import Friction, FrictionForces, relative_sense, solve_with_friction
 from reportgen.machine import Crank, Dyad, Guide, Linkage, joints
-from reportgen.machine.faces import Faces
-from reportgen.machine.forces import Load, inertia_loads, reaction_name, solve_forces, weights
-from reportgen.machine.motion import Motion, cross, dot, solve_motion
+from reportgen.machine.force_analysis import Load, inertia_loads, reaction_name, solve_forces, weights
+from reportgen.machine.kinematics import Motion, cross, dot, solve_motion
+from reportgen.machine.slider_faces import Faces
 
 r, L, f = 0.1, 0.4, 0.12
 ρ_O, ρ_A, ρ_B = 0.0025, 0.002, 0.0015

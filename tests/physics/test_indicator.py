@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from reportgen.machine.gas import AngleIndicator, StrokeIndicator, indicated_work, stroke_at
+from reportgen.machine.gas_pressure import AngleIndicator, StrokeIndicator, indicated_work, stroke_at
 from reportgen.machine.quadrature import mean_over
 
 ROUNDING = 1e-12

@@ -16,12 +16,22 @@ import reportgen
 from reportgen import api
 from reportgen.base.arrays import Complexes
 from reportgen.derivation import enter_plans
-from reportgen.machine import laws
+from reportgen.machine import load_laws
 from reportgen.machine.analysis import Machine, analyse
-from reportgen.machine.gas import IndicatorTable, StrokeIndicator
-from reportgen.machine.laws import AngleLaw, ConstantLaw, GasLaw, Law, Opposing, Stroke, TableLaw, WayLaw, by_stroke
+from reportgen.machine.gas_pressure import IndicatorTable, StrokeIndicator
+from reportgen.machine.kinematics import Motion
+from reportgen.machine.load_laws import (
+    AngleLaw,
+    ConstantLaw,
+    GasLaw,
+    Law,
+    Opposing,
+    Stroke,
+    TableLaw,
+    WayLaw,
+    by_stroke,
+)
 from reportgen.machine.loads import Applied
-from reportgen.machine.motion import Motion
 
 ROOMS = Path(reportgen.__file__).parent
 FOUR_BAR = ROOMS.parent / "assignments" / "four-bar-01.yaml"
@@ -32,7 +42,7 @@ FOUR_BAR = ROOMS.parent / "assignments" / "four-bar-01.yaml"
 
 def law_classes() -> set[str]:
     """The names of all classes of laws and of their tables."""
-    return {name for name, kind in vars(laws).items() if isinstance(kind, type) and issubclass(kind, Law)} | {
+    return {name for name, kind in vars(load_laws).items() if isinstance(kind, type) and issubclass(kind, Law)} | {
         kind.__name__ for kind in get_args(IndicatorTable)
     }
 

@@ -15,9 +15,9 @@ from hypothesis import HealthCheck, given, reject, settings
 from hypothesis import strategies as st
 
 from reportgen.machine import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint, SlidingDriver
-from reportgen.machine.forces import Forces, Load, inertia_loads, solve_forces, virtual_work_torque
-from reportgen.machine.forces import weights as forces_of_weight
-from reportgen.machine.motion import Motion, solve_motion
+from reportgen.machine.force_analysis import Forces, Load, inertia_loads, solve_forces, virtual_work_torque
+from reportgen.machine.force_analysis import weights as forces_of_weight
+from reportgen.machine.kinematics import Motion, solve_motion
 from tests.lanes import matrix, proof
 
 CONDITION = 1e3

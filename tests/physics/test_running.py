@@ -18,10 +18,10 @@ from reportgen.flywheel.regulation import flywheel
 from reportgen.formula.calculation import Sheet
 from reportgen.machine import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
 from reportgen.machine.analysis import Machine, analyse, breaks
-from reportgen.machine.coils import Anchor
-from reportgen.machine.laws import FULL_TURN, AngleLaw, ConstantLaw, Law, Stroke, TableLaw, by_stroke, opposing
+from reportgen.machine.load_laws import FULL_TURN, AngleLaw, ConstantLaw, Law, Stroke, TableLaw, by_stroke, opposing
 from reportgen.machine.loads import Applied, Torque, course, crank_motion, fixed
 from reportgen.machine.reduction import reduced
+from reportgen.machine.spring_geometry import Anchor
 from reportgen.motion.drives import ConstantDrive, Drive, Geared, KlossDrive, LinearDrive, Motor, TableDrive
 from reportgen.motion.energy import ReducedMachine
 from reportgen.motion.motors import DriveDemand, judged

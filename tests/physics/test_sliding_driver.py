@@ -12,7 +12,7 @@ from agreement import prove
 
 from reportgen import api
 from reportgen.machine.analysis import Analysis, analyse
-from reportgen.machine.laws import WayLaw
+from reportgen.machine.load_laws import WayLaw
 
 FILE = Path(__file__).parents[2] / "assignments" / "linkage-slide.yaml"
 WAYS, FORCES = (0.0, 0.06, 0.1, 0.12), (300.0, 380.0, 600.0, 900.0)

@@ -17,10 +17,10 @@ import reportgen
 from reportgen.base.errors import AssignmentError
 from reportgen.machine import Linkage
 from reportgen.machine.analysis import Analysis
-from reportgen.machine.coils import Anchor
-from reportgen.machine.forces import inertia_loads, solve_forces, weights
+from reportgen.machine.force_analysis import inertia_loads, solve_forces, weights
+from reportgen.machine.kinematics import Motion, solve_motion
 from reportgen.machine.loads import Applied, Torque
-from reportgen.machine.motion import Motion, solve_motion
+from reportgen.machine.spring_geometry import Anchor
 from reportgen.springs.laws import SpringLaw, TorsionLaw
 from tests.lanes import proof
 

@@ -14,7 +14,7 @@ from time_integration import in_time, integrate
 
 from reportgen.machine import Inertia
 from reportgen.machine.analysis import Machine, breaks
-from reportgen.machine.laws import FULL_TURN, TableLaw, by_stroke
+from reportgen.machine.load_laws import FULL_TURN, TableLaw, by_stroke
 from reportgen.motion.drives import ConstantDrive, Drive, KlossDrive, LinearDrive, TableDrive
 from reportgen.motion.energy import ReducedMachine
 from reportgen.motion.running import MotionRun, NoMotionError, levels, mean_torque, steady

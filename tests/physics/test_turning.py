@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from reportgen.machine import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint, joints, mobility
-from reportgen.machine.forces import (
+from reportgen.machine.force_analysis import (
     Load,
     as_single_force,
     inertia_loads,
@@ -18,7 +18,7 @@ from reportgen.machine.forces import (
     virtual_work_torque,
     weights,
 )
-from reportgen.machine.motion import Motion, cross, solve_motion
+from reportgen.machine.kinematics import Motion, cross, solve_motion
 from reportgen.machine.quadrature import mean_over
 
 COUNT = 256

@@ -13,8 +13,8 @@ import pytest
 
 import reportgen
 from reportgen.faces.ends import at_ends
-from reportgen.machine.faces import Faces
-from reportgen.machine.forces import Load
+from reportgen.machine.force_analysis import Load
+from reportgen.machine.slider_faces import Faces
 
 m, g, θ = 52.0, 9.81, math.radians(168)
 FACES = Faces(-0.10, 0.22, 0.06)

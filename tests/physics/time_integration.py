@@ -16,7 +16,7 @@ import newton_euler as ne
 import numpy as np
 
 from reportgen.machine.analysis import Machine
-from reportgen.machine.motion import solve_motion
+from reportgen.machine.kinematics import solve_motion
 
 HARMONIC = (2, 4, 6, 8, 10, 12)
 """Steps of the modified midpoint rule that are extrapolated to none: the error is of the order h¹³."""

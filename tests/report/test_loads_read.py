@@ -10,7 +10,7 @@ import pytest
 from reportgen import api, cases
 from reportgen.document import text_of
 from reportgen.formula import Chain, Number, walk
-from reportgen.machine.motion import solve_motion
+from reportgen.machine.kinematics import solve_motion
 from reportgen.report.report import Report
 from tests.report import built
 

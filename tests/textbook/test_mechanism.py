@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from reportgen.machine import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
-from reportgen.machine.forces import Load, inertia_loads, solve_forces, virtual_work_torque, weights
-from reportgen.machine.motion import Motion, solve_motion
+from reportgen.machine.force_analysis import Load, inertia_loads, solve_forces, virtual_work_torque, weights
+from reportgen.machine.kinematics import Motion, solve_motion
 
 DRAWN = 0.005
 """A plan drawn by hand is read to half a percent of a segment of usual length."""

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from reportgen.base.arrays import Complexes, Floats
-from reportgen.machine.motion import Motion
+from reportgen.machine.kinematics import Motion
 
 STILL = 1e-12
 """A speed below this share of the mechanism's own is rounding."""

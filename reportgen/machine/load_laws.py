@@ -19,9 +19,9 @@ import numpy as np
 from reportgen.base.arrays import Flags, Floats
 from reportgen.formula import Expression, Symbol, ids
 from reportgen.formula.calculation import Sheet
-from reportgen.machine.coils import Coil
-from reportgen.machine.gas import AngleIndicator, Bracket, IndicatorTable, StrokeIndicator, Tabled, crossings
-from reportgen.machine.motion import Motion
+from reportgen.machine.gas_pressure import AngleIndicator, Bracket, IndicatorTable, StrokeIndicator, Tabled, crossings
+from reportgen.machine.kinematics import Motion
+from reportgen.machine.spring_geometry import Coil
 
 FULL_TURN = 2 * np.pi
 STEPS = 720

@@ -9,7 +9,7 @@ import numpy as np
 from reportgen.base.arrays import Complexes
 from reportgen.formula import Ref, ids
 from reportgen.formula.calculation import Sheet
-from reportgen.machine.motion import Motion
+from reportgen.machine.kinematics import Motion
 
 
 @dataclass(frozen=True, slots=True)
