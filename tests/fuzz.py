@@ -41,11 +41,11 @@ from reportgen.handin.dxf_corrections import RedVector, with_corrections
 from reportgen.handin.file_kinds import read_file
 from reportgen.handin.word_comments import MarginNote, with_comments
 from reportgen.handin.word_file import open_word
-from reportgen.marking.frame import frame_of
-from reportgen.marking.key import key_of
-from reportgen.marking.paper import task_of
-from reportgen.marking.policy import read_policy
-from reportgen.marking.sheet import answer_book, read_submission
+from reportgen.marking.answer_sheet import answer_book, read_submission
+from reportgen.marking.blank_report import frame_of
+from reportgen.marking.marking_policy import read_policy
+from reportgen.marking.task_paper import task_of
+from reportgen.marking.toleranced_key import key_of
 from reportgen.report.report import Report
 from reportgen.report.template_names import names
 from reportgen.sheets.frame import FIELDS, blocks, read_block

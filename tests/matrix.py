@@ -36,7 +36,7 @@ from reportgen.case.answer_key import Key
 from reportgen.cases import open_case
 from reportgen.cli import app
 from reportgen.document.named_figures import named_figures
-from reportgen.marking.key import Ask, key_of
+from reportgen.marking.toleranced_key import Ask, key_of
 from reportgen.page.editing import EditSession
 from reportgen.page.live import LiveSession
 from tests.marking.filled import filled

@@ -216,7 +216,7 @@ def test_a_machine_added_as_described_has_its_report(tmp_path: Path) -> None:
 MISTAKEN = """
 from reportgen.base.template_folders import search_path
 from reportgen.base.words import load_words
-from reportgen.marking.marking import mark
+from reportgen.marking.judging import mark
 from reportgen.marking.mistakes import mistakes_in
 from tests.marking import students
 
@@ -274,9 +274,9 @@ from reportgen.base.field_words import field_words
 from reportgen.base.translation_coverage import is_whole
 from reportgen.cases import opened
 from reportgen.formula import ids
-from reportgen.marking.marking import mark
+from reportgen.marking.judging import mark
 from reportgen.marking.mistakes import mistakes_in
-from reportgen.marking.scheme import marking_scheme
+from reportgen.marking.marking_scheme import marking_scheme
 from tests.marking import students
 
 names = ("slider-crank-worn", "unloaded", "dense", "coarse")

@@ -36,8 +36,8 @@ if TYPE_CHECKING:
     from reportgen.case.answer_key import Key
     from reportgen.document import Document
     from reportgen.machine.analysis import Analysis
-    from reportgen.marking.key import Ask
-    from reportgen.marking.policy import Policy
+    from reportgen.marking.marking_policy import Policy
+    from reportgen.marking.toleranced_key import Ask
 
 FORMATS = names("report")
 """Formats of a report."""
@@ -235,9 +235,9 @@ def task_files(
     They contain no answers.
     """
     from reportgen.assignment.student_copy import handed_out
-    from reportgen.marking.key import Ask, key_of
-    from reportgen.marking.paper import task_of
-    from reportgen.marking.sheet import answer_book
+    from reportgen.marking.answer_sheet import answer_book
+    from reportgen.marking.task_paper import task_of
+    from reportgen.marking.toleranced_key import Ask, key_of
     from reportgen.workbook import write_xlsx
 
     case = open_case(path, language)
@@ -252,8 +252,8 @@ def task_files(
 
 def frame_files(path: Path, engine: Engine, language: Language | None, ask: Ask | None = None) -> Mapping[str, bytes]:
     """Return the frame of a report as a Word file, with a field for each requested result, whatever the engine."""
-    from reportgen.marking.frame import frame_of
-    from reportgen.marking.key import Ask, key_of
+    from reportgen.marking.blank_report import frame_of
+    from reportgen.marking.toleranced_key import Ask, key_of
 
     case = open_case(path, language)
     return {"frame.docx": word_file(case.assignment, frame_of(case, (ask or Ask()).of(key_of(case))))}
@@ -268,7 +268,7 @@ def key_files(
     standards: Standards = STANDARDS,
 ) -> Mapping[str, bytes]:
     """Return the answer key in some of `KEY_FORMATS`; it marks the requested cells and contains all values."""
-    from reportgen.marking.key import Ask, key_of
+    from reportgen.marking.toleranced_key import Ask, key_of
 
     step("solve")
     case = open_case(path, language)
@@ -329,7 +329,7 @@ TYPESET = frozenset(product.name for product in PRODUCTS if product.typeset)
 
 def policy(path: Path | None, language: Language | None) -> Policy:
     """Return the marking policy of a file, or the default without one; raise `AssignmentError`."""
-    from reportgen.marking.policy import Policy, read_policy
+    from reportgen.marking.marking_policy import Policy, read_policy
 
     return Policy() if path is None else read_policy(path, language)
 
@@ -354,7 +354,7 @@ def read(
     Raises `AssignmentError`, also if somebody has completed the existing sheet, and `OutputError`.
     """
     from reportgen.handin import reading_book, self_check
-    from reportgen.marking.key import Ask
+    from reportgen.marking.toleranced_key import Ask
 
     case = open_case(path, language)
     key, own = self_check.read(case, open_case(path), files, ask or Ask())
@@ -367,7 +367,7 @@ def read(
 def check_ask(ask: Ask | None, files: Iterable[Path], language: Language | None) -> None:
     """Raise `AssignmentError` if a policy asks for something that no machine of these assignments has."""
 
-    from reportgen.marking.key import key_of
+    from reportgen.marking.toleranced_key import key_of
 
     def keys() -> Iterator[Key]:
         """Yield a key of each kind of machine; cases that cannot be computed are skipped and reported later."""

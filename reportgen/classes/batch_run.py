@@ -25,7 +25,7 @@ from reportgen.classes.batch_manifest import ManifestEntry, entry_of, journal, r
 from reportgen.classes.roster import Assigned, Roster, RosterEntry, match_files, read_roster
 from reportgen.classes.variants import make_variants
 from reportgen.classes.worker_pool import Job, Making, Outcome, Pool, failed, local, making
-from reportgen.marking.key import Ask
+from reportgen.marking.toleranced_key import Ask
 
 if TYPE_CHECKING:
     from rich.progress import ProgressColumn

@@ -28,14 +28,14 @@ from reportgen.classes.submission_matching import Collected, Refused, collect, n
 from reportgen.handin import FileReading, submission
 from reportgen.handin.drawing_file import wanted_plans
 from reportgen.handin.drawing_reader import WantedPlans
-from reportgen.marking.grades import person
-from reportgen.marking.guard import Classmate
-from reportgen.marking.key import key_of
-from reportgen.marking.marking import mark, own_worlds
-from reportgen.marking.marks import Marking, Submission, Unmarked
-from reportgen.marking.parts import check_shares
-from reportgen.marking.policy import Policy
-from reportgen.marking.scheme import MarkingScheme, key_asked, marking_scheme
+from reportgen.marking.authenticity import Classmate
+from reportgen.marking.class_marks import person
+from reportgen.marking.coursework_marking import check_shares
+from reportgen.marking.judging import mark, own_worlds
+from reportgen.marking.marking_data import Marking, Submission, Unmarked
+from reportgen.marking.marking_policy import Policy
+from reportgen.marking.marking_scheme import MarkingScheme, key_asked, marking_scheme
+from reportgen.marking.toleranced_key import key_of
 
 
 @dataclass(frozen=True)

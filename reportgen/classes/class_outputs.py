@@ -31,15 +31,15 @@ from reportgen.classes.roster import folder_name
 from reportgen.handin import FileReading
 from reportgen.handin.reading_book import NAME, reading_book
 from reportgen.handin.self_check import summary as summary_of_reading
+from reportgen.marking.class_marks import grade_rows, open_cells, person
 from reportgen.marking.class_page import class_document
-from reportgen.marking.comment import comment, unmarked_comment
 from reportgen.marking.feedback import feedback_book, feedback_document
-from reportgen.marking.grades import grade_rows, open_cells, person
-from reportgen.marking.marks import Marking
-from reportgen.marking.policy import Policy
-from reportgen.marking.questions import question_rows
-from reportgen.marking.scheme import key_asked
-from reportgen.marking.variant_marks import groups, variant_rows
+from reportgen.marking.item_statistics import question_rows
+from reportgen.marking.marking_data import Marking
+from reportgen.marking.marking_policy import Policy
+from reportgen.marking.marking_scheme import key_asked
+from reportgen.marking.summary_comment import comment, unmarked_comment
+from reportgen.marking.variant_fairness import groups, variant_rows
 from reportgen.workbook import write_csv, write_xlsx
 
 CLASS_PAGE = Path("class.pdf")

@@ -28,8 +28,8 @@ from reportgen.case.answer_key import Key, headed_chapters
 from reportgen.classes.roster import Record, columns, comparable, folded, folder_name, heading_row, records
 from reportgen.document import InlineMath, Inlines, Text
 from reportgen.formula.vocabulary import Chapter
-from reportgen.marking.key import symbol_text, words_of
-from reportgen.marking.marks import Amendment, Marked, Marking, Verdict, points_of
+from reportgen.marking.marking_data import Amendment, Marked, Marking, Verdict, points_of
+from reportgen.marking.toleranced_key import symbol_text, words_of
 from reportgen.workbook import read
 
 NEEDED = ("judgement", "reason")

@@ -15,7 +15,7 @@ from reportgen.base.units import Language
 from reportgen.base.words import as_problem
 from reportgen.base.yaml_source import Scalar
 from reportgen.classes.gradebooks import Gradebook, Participant
-from reportgen.marking.policy import Lateness
+from reportgen.marking.marking_policy import Lateness
 
 NONE = frozenset({"", "-", "–"})
 """Texts that mean a missing date."""

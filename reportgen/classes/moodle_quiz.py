@@ -24,9 +24,9 @@ from reportgen.base.kinds import title
 from reportgen.base.units import Language
 from reportgen.case.answer_key import Key, KeyRow, Role
 from reportgen.cases import open_case
-from reportgen.marking.key import key_of, shown_number, symbol_text, words_of
-from reportgen.marking.paper import given_of
-from reportgen.marking.policy import Policy
+from reportgen.marking.marking_policy import Policy
+from reportgen.marking.task_paper import given_of
+from reportgen.marking.toleranced_key import key_of, shown_number, symbol_text, words_of
 from reportgen.page.elements import Pens
 from reportgen.page.html import Blocks
 from reportgen.writers import pictures

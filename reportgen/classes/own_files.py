@@ -24,8 +24,8 @@ from reportgen.handin import FileReading, submission
 from reportgen.handin.drawing_reader import WantedPlans
 from reportgen.handin.file_kinds import DRAWING, kinds
 from reportgen.handin.reading_book import NAME
-from reportgen.marking.marks import Submission
-from reportgen.marking.policy import Twice
+from reportgen.marking.marking_data import Submission
+from reportgen.marking.marking_policy import Twice
 
 
 @dataclass(frozen=True, slots=True)

@@ -21,8 +21,8 @@ from reportgen.classes.platforms import Handed
 from reportgen.classes.worker_pool import each_within
 from reportgen.handin import FileReading, file_kinds
 from reportgen.handin.drawing_reader import WantedPlans
-from reportgen.marking.marks import Marking
-from reportgen.marking.policy import Policy
+from reportgen.marking.marking_data import Marking
+from reportgen.marking.marking_policy import Policy
 from reportgen.workbook import Page, read
 
 LIMITS = Limits(seconds=60.0, megabytes=1000)

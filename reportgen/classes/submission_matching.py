@@ -18,9 +18,9 @@ from reportgen.classes.platforms import Handed, Owner
 from reportgen.classes.reading_sheets import Pages
 from reportgen.classes.roster import comparable
 from reportgen.handin.reading_book import is_unchanged
-from reportgen.marking.marks import Submission
-from reportgen.marking.policy import Twice
-from reportgen.marking.sheet import read_submission
+from reportgen.marking.answer_sheet import read_submission
+from reportgen.marking.marking_data import Submission
+from reportgen.marking.marking_policy import Twice
 
 
 @dataclass(frozen=True, slots=True)

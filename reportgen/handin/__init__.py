@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 from reportgen.base.errors import Fault, Mark
 from reportgen.base.units import Language
 from reportgen.base.words import as_problem
-from reportgen.marking.marks import Answer, Place, ReadOff, Submission
+from reportgen.marking.marking_data import Answer, Place, ReadOff, Submission
 
 FEWEST_FIGURES = 2
 """Smallest number of figures that a number counts as written with."""

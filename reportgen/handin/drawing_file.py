@@ -17,10 +17,10 @@ from reportgen.handin.dxf_lines import read_lines
 from reportgen.handin.plan_labels import spoken
 from reportgen.handin.plan_shapes import sketches
 from reportgen.marking.feedback import cell_comment
-from reportgen.marking.key import symbol_text, words_of
-from reportgen.marking.marks import Marked, Marking, Verdict
-from reportgen.marking.policy import Policy
-from reportgen.marking.scheme import Values
+from reportgen.marking.marking_data import Marked, Marking, Verdict
+from reportgen.marking.marking_policy import Policy
+from reportgen.marking.marking_scheme import Values
+from reportgen.marking.toleranced_key import symbol_text, words_of
 
 MARKED = "marked-sheet-{number}.dxf"
 AT_FAULT = frozenset({Verdict.wrong, Verdict.implausible})

@@ -24,9 +24,9 @@ from reportgen.handin.plan_fit import SEEN, Fit
 from reportgen.handin.plan_labels import Labels
 from reportgen.handin.plan_shapes import PlanShape, PlanSketch
 from reportgen.handin.wrong_vectors import WrongVector, wrong_vectors
-from reportgen.marking.bands import PAPER_ERROR
-from reportgen.marking.marks import Answer, Place, ReadOff
-from reportgen.marking.scheme import Values
+from reportgen.marking.marking_data import Answer, Place, ReadOff
+from reportgen.marking.marking_scheme import Values
+from reportgen.marking.tolerance_bands import PAPER_ERROR
 from reportgen.workbook.package import RefusedError
 
 OFF = PAPER_ERROR * MM

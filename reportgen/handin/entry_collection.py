@@ -16,7 +16,7 @@ from reportgen.handin.symbol_matching import Symbols, bare
 from reportgen.handin.text_numbers import NUMBER, Marks, read_value
 from reportgen.handin.text_statements import ANTICLOCKWISE, CLOCKWISE
 from reportgen.handin.word_text import TextLine, WordMark
-from reportgen.marking.marks import Answer, Place
+from reportgen.marking.marking_data import Answer, Place
 
 SHOWN = 60
 """Largest number of characters of a quoted text."""

@@ -13,8 +13,8 @@ from reportgen.base.units import Language
 from reportgen.base.words import as_error
 from reportgen.case.answer_key import Key
 from reportgen.handin import FileReading
-from reportgen.marking.marks import Marking
-from reportgen.marking.policy import Policy
+from reportgen.marking.marking_data import Marking
+from reportgen.marking.marking_policy import Policy
 from reportgen.workbook.package import RefusedError
 
 if TYPE_CHECKING:

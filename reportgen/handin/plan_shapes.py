@@ -14,7 +14,7 @@ from reportgen.base.units import MM
 from reportgen.case import Case, MachineAnalysis
 from reportgen.derivation.kinematic_entries import What
 from reportgen.formula import Symbol, ids
-from reportgen.marking.scheme import Values
+from reportgen.marking.marking_scheme import Values
 from reportgen.report.plans import POLE, force_construction, motion_construction
 from reportgen.report.report import Report
 

@@ -11,9 +11,7 @@ from dataclasses import replace
 from hashlib import sha256
 
 from reportgen.case.answer_key import Key, KeyRow
-from reportgen.marking.key import symbol_text, words_of
-from reportgen.marking.marks import Submission
-from reportgen.marking.sheet import (
+from reportgen.marking.answer_sheet import (
     UNSETTLED,
     answer_book,
     asked_positions,
@@ -25,6 +23,8 @@ from reportgen.marking.sheet import (
     page,
     rows_shown,
 )
+from reportgen.marking.marking_data import Submission
+from reportgen.marking.toleranced_key import symbol_text, words_of
 from reportgen.workbook import Book, BookSheet, Entry, write_xlsx
 
 NAME = "reading.xlsx"

@@ -17,13 +17,13 @@ from reportgen.handin.drawing_file import wanted_plans
 from reportgen.handin.drawing_reader import WantedPlans
 from reportgen.handin.file_kinds import DRAWING, NOT_READ, OWN, content, not_read, read_file
 from reportgen.handin.reading_book import NAME, is_unchanged, reading_book
-from reportgen.marking.key import Ask, key_of
-from reportgen.marking.marking import compare as compare_sheet
-from reportgen.marking.marking import compared, own_worlds
-from reportgen.marking.marks import Submission
-from reportgen.marking.policy import Policy
-from reportgen.marking.scheme import key_asked, marking_scheme
-from reportgen.marking.sheet import read_submission
+from reportgen.marking.answer_sheet import read_submission
+from reportgen.marking.judging import compare as compare_sheet
+from reportgen.marking.judging import compared, own_worlds
+from reportgen.marking.marking_data import Submission
+from reportgen.marking.marking_policy import Policy
+from reportgen.marking.marking_scheme import key_asked, marking_scheme
+from reportgen.marking.toleranced_key import Ask, key_of
 
 
 def read(case: Case, papers: Case, files: Sequence[Path], ask: Ask) -> tuple[Key, Submission]:

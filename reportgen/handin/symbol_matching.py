@@ -8,7 +8,7 @@ from functools import cached_property
 
 from reportgen.case.answer_key import Key, KeyRow
 from reportgen.handin.word_text import LETTERS
-from reportgen.marking.key import symbol_text
+from reportgen.marking.toleranced_key import symbol_text
 
 _MARKS = re.compile(r"[\s_^{}|]")
 _BRACES = re.compile(r"[\s{}|]")

@@ -11,8 +11,8 @@ from reportgen.base.languages import decimal_mark, typed_units
 from reportgen.base.typed_characters import SPACES
 from reportgen.base.units import Language, QuantityFault
 from reportgen.case.answer_key import KeyRow
-from reportgen.marking.key import typed_unit
-from reportgen.marking.numbers import DecimalMark, read_number
+from reportgen.marking.student_numbers import DecimalMark, read_number
+from reportgen.marking.toleranced_key import typed_unit
 
 _DECIMALS = re.compile(r"(?<![\d.,])\d+([.,])(\d+)(?![\d]|[.,]\d)")
 BOTH = 0.1

@@ -9,8 +9,8 @@ from reportgen.handin.entry_collection import Gathering
 from reportgen.handin.text_numbers import NUMBER, UNIT
 from reportgen.handin.word_nodes import XmlNode
 from reportgen.handin.word_text import TextLine, put
-from reportgen.marking.frame import blanks
-from reportgen.marking.marks import Place
+from reportgen.marking.blank_report import blanks
+from reportgen.marking.marking_data import Place
 
 _EMPTY = re.compile(r"[\s.…_]*")
 _FILLED = re.compile(rf"\s*({NUMBER})\s*(?:[(\[]\s*({UNIT})\s*[)\]]|({UNIT}))?\s*[.,;]?\s*([^\d=]*)")

@@ -14,11 +14,11 @@ from reportgen.handin.word_comments import MarginNote, with_comments
 from reportgen.handin.word_file import open_word, word_faults
 from reportgen.handin.word_reader import lines_of, read_report
 from reportgen.handin.word_text import WordMark
-from reportgen.marking.comment import comment
 from reportgen.marking.feedback import cell_comment
-from reportgen.marking.key import words_of
-from reportgen.marking.marks import Answer, Marking, Place
-from reportgen.marking.policy import Policy
+from reportgen.marking.marking_data import Answer, Marking, Place
+from reportgen.marking.marking_policy import Policy
+from reportgen.marking.summary_comment import comment
+from reportgen.marking.toleranced_key import words_of
 
 MARKED = "marked.docx"
 

@@ -14,7 +14,7 @@ from reportgen.handin.symbol_matching import bare
 from reportgen.handin.text_numbers import NUMBER, UNIT, plain_unit, read_value
 from reportgen.handin.word_patterns import any_of, label_of
 from reportgen.handin.word_text import OBJECT, TextCell, TextGrid, TextLine
-from reportgen.marking.numbers import is_blank
+from reportgen.marking.student_numbers import is_blank
 
 HEADS = 4
 """Number of rows among which the row with the positions is searched for."""

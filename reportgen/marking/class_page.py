@@ -17,13 +17,13 @@ from reportgen.drawing import Content
 from reportgen.drawing.count_charts import bars, histogram
 from reportgen.drawing.statistics_charts import intervals, scatter
 from reportgen.formula.plain_text import formula
+from reportgen.marking.class_marks import mistake_name, open_cells, section_name, state, who
 from reportgen.marking.feedback import amended, points_text
-from reportgen.marking.grades import mistake_name, open_cells, section_name, state, who
-from reportgen.marking.marks import Marking, Unmarked
-from reportgen.marking.paper import DASH, cells, heading, paper, paragraph
-from reportgen.marking.policy import Policy
-from reportgen.marking.questions import Item, by_question, by_section
-from reportgen.marking.variant_marks import VariantGroup, groups
+from reportgen.marking.item_statistics import Item, by_question, by_section
+from reportgen.marking.marking_data import Marking, Unmarked
+from reportgen.marking.marking_policy import Policy
+from reportgen.marking.task_paper import DASH, cells, heading, paper, paragraph
+from reportgen.marking.variant_fairness import VariantGroup, groups
 
 CLASSES = 10
 """Number of columns of the histogram."""

@@ -18,12 +18,21 @@ from reportgen.case.quantity_wording import sentence
 from reportgen.document import Block, Column, Document, Inline, InlineMath, Inlines, Paragraph, Table, Text, plain
 from reportgen.formula import Number
 from reportgen.formula.calculation import ZERO
-from reportgen.marking.key import shown_number, words_of
+from reportgen.marking.answer_sheet import (
+    NAMES,
+    asked_positions,
+    given_entry,
+    grid,
+    info_page,
+    named_pages,
+    page,
+    rows_shown,
+)
 from reportgen.marking.key_files import band, band_decimals
-from reportgen.marking.marks import Amendment, Marked, Marking, Verdict, points_of
-from reportgen.marking.paper import DASH, cells, fields, heading, paper, paragraph, student_rows
-from reportgen.marking.policy import Policy
-from reportgen.marking.sheet import NAMES, asked_positions, given_entry, grid, info_page, named_pages, page, rows_shown
+from reportgen.marking.marking_data import Amendment, Marked, Marking, Verdict, points_of
+from reportgen.marking.marking_policy import Policy
+from reportgen.marking.task_paper import DASH, cells, fields, heading, paper, paragraph, student_rows
+from reportgen.marking.toleranced_key import shown_number, words_of
 from reportgen.workbook import Book, BookSheet, Entry
 from reportgen.workbook.writing import CellStyle
 

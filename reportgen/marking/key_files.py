@@ -17,8 +17,8 @@ from reportgen.document import Cell, Column, Document, InlineMath, Inlines, Para
 from reportgen.formula import Number
 from reportgen.formula.calculation import ZERO
 from reportgen.formula.plain_text import formula
-from reportgen.marking.key import shown_number, symbol_text, words_of
-from reportgen.marking.paper import (
+from reportgen.marking.answer_sheet import Filling, grid, info_page, number_format, page
+from reportgen.marking.task_paper import (
     DASH,
     cells,
     fields,
@@ -30,7 +30,7 @@ from reportgen.marking.paper import (
     symbol_width,
     unnamed_rows,
 )
-from reportgen.marking.sheet import Filling, grid, info_page, number_format, page
+from reportgen.marking.toleranced_key import shown_number, symbol_text, words_of
 from reportgen.workbook import Book, BookSheet, Entry
 
 FORMAT = "reportgen-key/1"

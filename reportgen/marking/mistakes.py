@@ -19,10 +19,10 @@ from reportgen.formula.calculation import Family
 from reportgen.formula.evaluation import evaluate
 from reportgen.formula.ledger import follow
 from reportgen.machine import DRIVER
-from reportgen.marking.bands import half_unit, is_direction
-from reportgen.marking.marks import Cells, Marked, Place, Verdict
-from reportgen.marking.scheme import MarkingScheme, Values
-from reportgen.marking.working import ChangeValue, Working
+from reportgen.marking.marking_data import Cells, Marked, Place, Verdict
+from reportgen.marking.marking_scheme import MarkingScheme, Values
+from reportgen.marking.student_values import ChangeValue, Working
+from reportgen.marking.tolerance_bands import half_unit, is_direction
 
 WRONG_DATUM = "wrong-datum"
 """Name of the mistake of a misread given datum."""

@@ -15,9 +15,9 @@ import numpy as np
 from reportgen.case.answer_key import Role
 from reportgen.formula import refs, vocabulary
 from reportgen.formula.evaluation import evaluate
-from reportgen.marking.marks import Cells, Marked, Place, Submission, Verdict
-from reportgen.marking.scheme import MarkingScheme, Values
-from reportgen.marking.working import CONFIRMED, ScaleReading, Working, lay_out
+from reportgen.marking.marking_data import Cells, Marked, Place, Submission, Verdict
+from reportgen.marking.marking_scheme import MarkingScheme, Values
+from reportgen.marking.student_values import CONFIRMED, ScaleReading, Working, lay_out
 
 Fitting = Callable[[Working], tuple[int, int]]
 """Returns the number of values of a sheet that a working explains, and the number of values."""

@@ -25,11 +25,11 @@ from reportgen.document import text_of
 from reportgen.drawing import Label
 from reportgen.formula import Chain, Number, Symbol
 from reportgen.marking.feedback import cell_comment
-from reportgen.marking.key import Ask, key_of
-from reportgen.marking.marking import mark
+from reportgen.marking.judging import mark
+from reportgen.marking.marking_policy import Policy
+from reportgen.marking.marking_scheme import MarkingScheme, marking_scheme
 from reportgen.marking.mistakes import Mistake
-from reportgen.marking.policy import Policy
-from reportgen.marking.scheme import MarkingScheme, marking_scheme
+from reportgen.marking.toleranced_key import Ask, key_of
 from reportgen.results import results as results_of
 from reportgen.sheets import drawing_sheets
 from tests.balancing.test_rotor_reports import ROUNDED, arrows, recomputes

@@ -11,9 +11,9 @@ from reportgen.balancing.rotor_calculation import BEFORE
 from reportgen.base.template_folders import languages
 from reportgen.cases import open_case
 from reportgen.classes.class_marking import Graded
-from reportgen.marking.key import Ask
-from reportgen.marking.marking import mark
-from reportgen.marking.scheme import marking_scheme
+from reportgen.marking.judging import mark
+from reportgen.marking.marking_scheme import marking_scheme
+from reportgen.marking.toleranced_key import Ask
 from tests.lanes import proof
 from tests.marking import students
 from tests.marking.designs import STUDENTS, drawn_class, graded_class, named, telling_and_texts, with_ranges

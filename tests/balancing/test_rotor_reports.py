@@ -22,7 +22,7 @@ from reportgen.catalogue import sample
 from reportgen.drawing import Arrow, Label, Scene
 from reportgen.formula import PI, Chain, Number, walk
 from reportgen.formula.evaluation import evaluate
-from reportgen.marking.key import key_of
+from reportgen.marking.toleranced_key import key_of
 from reportgen.results import results as results_of
 from reportgen.sheets import drawing_sheets
 from tests.gears.test_train_reports import chains

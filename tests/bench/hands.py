@@ -15,7 +15,7 @@ from statistics import median
 
 import numpy as np
 
-from reportgen.marking.marking import mark
+from reportgen.marking.judging import mark
 from tests.marking import hands, students
 from tests.marking.machines import MACHINES
 from tests.marking.rates import WORKED, Tally, injected, lost, misread, share

@@ -20,11 +20,11 @@ import numpy as np
 
 from reportgen import api
 from reportgen.cases import open_case, opened
-from reportgen.marking.key import Ask, key_of
-from reportgen.marking.marking import mark
-from reportgen.marking.policy import Policy
-from reportgen.marking.scheme import marking_scheme
-from reportgen.marking.sheet import answer_book
+from reportgen.marking.answer_sheet import answer_book
+from reportgen.marking.judging import mark
+from reportgen.marking.marking_policy import Policy
+from reportgen.marking.marking_scheme import marking_scheme
+from reportgen.marking.toleranced_key import Ask, key_of
 from reportgen.workbook import write_xlsx
 from tests.marking import students
 

@@ -15,9 +15,9 @@ from reportgen.classes.class_marking import Graded
 from reportgen.classes.variants import make_variants
 from reportgen.formula.evaluation import evaluate
 from reportgen.formula.ledger import follow
-from reportgen.marking.key import key_of
-from reportgen.marking.marking import mark
-from reportgen.marking.scheme import marking_scheme
+from reportgen.marking.judging import mark
+from reportgen.marking.marking_scheme import marking_scheme
+from reportgen.marking.toleranced_key import key_of
 from tests.marking import students
 from tests.marking.designs import STUDENTS, drawn_class, graded_class, named, telling_and_texts, with_ranges
 from tests.report import built

@@ -14,7 +14,7 @@ from reportgen.base.units import Language
 from reportgen.cases import open_case
 from reportgen.formula import Chain, Number, Symbol, walk
 from reportgen.formula.evaluation import evaluate
-from reportgen.marking.key import key_of
+from reportgen.marking.toleranced_key import key_of
 from tests.lanes import matrix
 from tests.report import built
 

@@ -18,7 +18,7 @@ from reportgen.cases import opened
 from reportgen.catalogue import sample
 from reportgen.document import text_of
 from reportgen.formula import ids
-from reportgen.marking.key import key_of
+from reportgen.marking.toleranced_key import key_of
 from tests.lanes import matrix
 from tests.report import built
 

@@ -10,12 +10,12 @@ import pytest
 from reportgen.base.errors import AssignmentError, Problem
 from reportgen.classes.corrections import applied, read_corrections
 from reportgen.document import text_of
+from reportgen.marking.class_marks import grade_rows
 from reportgen.marking.class_page import class_document
-from reportgen.marking.comment import comment
 from reportgen.marking.feedback import feedback_book, feedback_document
-from reportgen.marking.grades import grade_rows
-from reportgen.marking.marks import Answer, Marking, Verdict
-from reportgen.marking.policy import Policy
+from reportgen.marking.marking_data import Answer, Marking, Verdict
+from reportgen.marking.marking_policy import Policy
+from reportgen.marking.summary_comment import comment
 from tests.marking.keys import small_key
 from tests.marking.test_feedback import marking
 

@@ -19,12 +19,12 @@ from reportgen.classes.gradebooks import Participant, StudentResult, read_gradeb
 from reportgen.classes.lateness import Handing, days_late
 from reportgen.classes.variants import make_variants
 from reportgen.document import text_of
+from reportgen.marking.class_marks import grade_rows
 from reportgen.marking.class_page import class_document
-from reportgen.marking.comment import comment
 from reportgen.marking.feedback import feedback_document
-from reportgen.marking.grades import grade_rows
-from reportgen.marking.marks import Unmarked
-from reportgen.marking.policy import Lateness, Policy, read_policy
+from reportgen.marking.marking_data import Unmarked
+from reportgen.marking.marking_policy import Lateness, Policy, read_policy
+from reportgen.marking.summary_comment import comment
 from tests.marking import demo
 from tests.marking.keys import small_key
 from tests.marking.test_feedback import marking

@@ -12,12 +12,12 @@ from reportgen.base.errors import Problem
 from reportgen.case import MachineAnalysis
 from reportgen.cases import open_case
 from reportgen.classes import class_marking, class_outputs
-from reportgen.marking.guard import Classmate
-from reportgen.marking.key import Ask, key_of
-from reportgen.marking.marks import Marking, Submission
-from reportgen.marking.policy import Policy
-from reportgen.marking.scheme import MarkingScheme
-from reportgen.marking.sheet import answer_book
+from reportgen.marking.answer_sheet import answer_book
+from reportgen.marking.authenticity import Classmate
+from reportgen.marking.marking_data import Marking, Submission
+from reportgen.marking.marking_policy import Policy
+from reportgen.marking.marking_scheme import MarkingScheme
+from reportgen.marking.toleranced_key import Ask, key_of
 from reportgen.workbook import write_xlsx
 from tests.handin import wml
 from tests.handin.drawings import Manner, draw, true_plans

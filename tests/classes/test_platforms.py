@@ -24,7 +24,7 @@ from reportgen.classes.gradebooks import Participant, StudentResult, read_gradeb
 from reportgen.classes.platforms import Owner, handed_in, owner_of
 from reportgen.classes.roster import read_roster
 from reportgen.classes.variants import make_variants
-from reportgen.marking.policy import Policy, Scale
+from reportgen.marking.marking_policy import Policy, Scale
 from reportgen.workbook.reading import LARGEST
 from tests.commands import reportgen
 from tests.lanes import matrix

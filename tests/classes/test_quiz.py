@@ -23,9 +23,9 @@ from reportgen.case.answer_key import Role
 from reportgen.cases import open_case
 from reportgen.classes import moodle_quiz
 from reportgen.classes.moodle_quiz import _answer, question_bank
-from reportgen.marking.key import Ask, key_of
-from reportgen.marking.paper import task_of
-from reportgen.marking.policy import Policy
+from reportgen.marking.marking_policy import Policy
+from reportgen.marking.task_paper import task_of
+from reportgen.marking.toleranced_key import Ask, key_of
 from tests.lanes import matrix
 from tests.marking.students import ASSIGNMENTS
 

@@ -17,9 +17,9 @@ from reportgen.case.answer_key import Key
 from reportgen.cases import open_case
 from reportgen.classes import class_marking, class_outputs
 from reportgen.document import Document
-from reportgen.marking.key import Ask, key_of
-from reportgen.marking.policy import Policy
-from reportgen.marking.sheet import answer_book
+from reportgen.marking.answer_sheet import answer_book
+from reportgen.marking.marking_policy import Policy
+from reportgen.marking.toleranced_key import Ask, key_of
 from reportgen.workbook import write_xlsx
 from tests.handin import wml
 from tests.handin.drawings import Manner, draw, true_plans

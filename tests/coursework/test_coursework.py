@@ -26,12 +26,12 @@ from reportgen.document import Contents, Document, Section, plain, text_of
 from reportgen.document.numbering import unreferenced
 from reportgen.drawing import Scene
 from reportgen.formula import Symbol
-from reportgen.marking.key import Ask, key_of
-from reportgen.marking.marking import mark
-from reportgen.marking.marks import Answer, Marking, Submission, Verdict
-from reportgen.marking.paper import task_of
-from reportgen.marking.policy import Policy
-from reportgen.marking.scheme import marking_scheme
+from reportgen.marking.judging import mark
+from reportgen.marking.marking_data import Answer, Marking, Submission, Verdict
+from reportgen.marking.marking_policy import Policy
+from reportgen.marking.marking_scheme import marking_scheme
+from reportgen.marking.task_paper import task_of
+from reportgen.marking.toleranced_key import Ask, key_of
 from reportgen.page import panels
 from reportgen.results.files import table, workbook
 from reportgen.sheets import drawing_sheets

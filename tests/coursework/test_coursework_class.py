@@ -20,12 +20,12 @@ from reportgen.classes.roster import assignment_files, beside
 from reportgen.classes.variant_draw import pick
 from reportgen.classes.variants import Variants, make_variants
 from reportgen.classes.worker_pool import Job, making, run_job
-from reportgen.marking.grades import grade_rows
-from reportgen.marking.key import Ask, key_of
-from reportgen.marking.marking import compare, mark
-from reportgen.marking.policy import Policy, read_policy
-from reportgen.marking.scheme import marking_scheme
-from reportgen.marking.sheet import read_submission
+from reportgen.marking.answer_sheet import read_submission
+from reportgen.marking.class_marks import grade_rows
+from reportgen.marking.judging import compare, mark
+from reportgen.marking.marking_policy import Policy, read_policy
+from reportgen.marking.marking_scheme import marking_scheme
+from reportgen.marking.toleranced_key import Ask, key_of
 from reportgen.workbook import write_csv
 from tests.lanes import proof
 from tests.marking.filled import filled

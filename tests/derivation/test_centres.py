@@ -10,7 +10,7 @@ from reportgen.derivation.equation_sides import scheme
 from reportgen.derivation.kinematic_entries import links_in_plane_motion
 from reportgen.formula import Chain, Number
 from reportgen.machine import Crank, Dyad, Linkage, LinkPoint
-from reportgen.marking.key import key_of
+from reportgen.marking.toleranced_key import key_of
 from reportgen.report.equations import lines
 from reportgen.report.report import Report
 from tests.report import built

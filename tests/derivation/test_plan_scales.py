@@ -14,7 +14,7 @@ from reportgen.derivation.kinematic_entries import What
 from reportgen.derivation.load_entries import Polygon
 from reportgen.derivation.plan_scales import SHEET_BOXES, TEXT_BOX
 from reportgen.drawing.vector_plan import Plan
-from reportgen.marking.marking import mark
+from reportgen.marking.judging import mark
 from reportgen.report.plans import force_plan, motion_plan
 from reportgen.report.report import Report
 from tests.marking import students

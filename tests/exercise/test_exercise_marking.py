@@ -15,11 +15,11 @@ from reportgen.classes import class_marking
 from reportgen.classes.class_marking import Graded
 from reportgen.classes.variants import make_variants
 from reportgen.document import text_of
-from reportgen.marking.key import key_of
-from reportgen.marking.marking import compare, mark
+from reportgen.marking.judging import compare, mark
+from reportgen.marking.marking_policy import Policy
+from reportgen.marking.marking_scheme import marking_scheme
 from reportgen.marking.mistakes import Mistake
-from reportgen.marking.policy import Policy
-from reportgen.marking.scheme import marking_scheme
+from reportgen.marking.toleranced_key import key_of
 from tests.marking import demo, students
 
 FOLDER = Path(__file__).parents[2] / "assignments" / "plane-motion"

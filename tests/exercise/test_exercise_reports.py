@@ -18,8 +18,8 @@ from reportgen.exercise.case import ExerciseCase
 from reportgen.exercise.solution_page import solution
 from reportgen.exercise.views import lettered
 from reportgen.formula import Chain, Number
-from reportgen.marking.key import key_of
-from reportgen.marking.paper import task_of
+from reportgen.marking.task_paper import task_of
+from reportgen.marking.toleranced_key import key_of
 from reportgen.results.tables import print_tables
 from tests.lanes import matrix
 from tests.report import built

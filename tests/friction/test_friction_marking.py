@@ -9,10 +9,10 @@ import pytest
 from reportgen.cases import open_case
 from reportgen.classes import class_marking
 from reportgen.classes.variants import make_variants
-from reportgen.marking.key import Ask
-from reportgen.marking.marking import mark
-from reportgen.marking.policy import Policy
-from reportgen.marking.scheme import marking_scheme
+from reportgen.marking.judging import mark
+from reportgen.marking.marking_policy import Policy
+from reportgen.marking.marking_scheme import marking_scheme
+from reportgen.marking.toleranced_key import Ask
 from tests.lanes import proof
 from tests.marking import demo, students
 from tests.marking.designs import named, telling_and_texts

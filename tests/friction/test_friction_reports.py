@@ -15,7 +15,7 @@ from reportgen.drawing import Arrow, Circle, Line, Polyline, Scene
 from reportgen.friction.brake_drawings import band_scheme, shoe_scheme
 from reportgen.friction.exercise_drawings import incline_plans, screw_scheme, wedge_plans
 from reportgen.friction.friction_file import TASKS
-from reportgen.marking.key import key_of
+from reportgen.marking.toleranced_key import key_of
 from reportgen.results import results as results_of
 from reportgen.sheets import drawing_sheets
 from tests.gears.test_pair_reports import recomputes

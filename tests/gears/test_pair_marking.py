@@ -15,11 +15,11 @@ from reportgen.classes.class_marking import Graded
 from reportgen.formula import refs
 from reportgen.formula.evaluation import evaluate
 from reportgen.formula.ledger import standing_on
-from reportgen.marking.marking import compare, mark
-from reportgen.marking.marks import Marking, Verdict
+from reportgen.marking.judging import compare, mark
+from reportgen.marking.marking_data import Marking, Verdict
+from reportgen.marking.marking_scheme import marking_scheme
 from reportgen.marking.mistakes import Mistake
-from reportgen.marking.scheme import marking_scheme
-from reportgen.marking.working import ChangeValue
+from reportgen.marking.student_values import ChangeValue
 from tests.lanes import matrix
 from tests.marking import students
 from tests.marking.designs import STUDENTS, drawn_class, graded_class, named, telling_and_texts

@@ -20,7 +20,7 @@ from reportgen.formula.evaluation import evaluate
 from reportgen.gears import gears_ids
 from reportgen.gears.pair_case import PairCase
 from reportgen.gears.pair_drawings import mesh
-from reportgen.marking.key import key_of
+from reportgen.marking.toleranced_key import key_of
 from reportgen.sheets import drawing_sheets
 from tests.lanes import matrix
 from tests.report import built

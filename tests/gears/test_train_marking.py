@@ -9,9 +9,9 @@ import pytest
 from reportgen.cases import open_case
 from reportgen.classes.class_marking import Graded
 from reportgen.gears import train_ids
-from reportgen.marking.marking import mark
+from reportgen.marking.judging import mark
+from reportgen.marking.marking_scheme import marking_scheme
 from reportgen.marking.mistakes import Mistake
-from reportgen.marking.scheme import marking_scheme
 from tests.marking import students
 from tests.marking.designs import STUDENTS, drawn_class, graded_class, named, telling_and_texts, with_ranges
 from tests.report import built

@@ -17,7 +17,7 @@ from reportgen.formula.evaluation import evaluate
 from reportgen.gears import train_ids
 from reportgen.gears.tooth_numbers import turned
 from reportgen.gears.train_drawings import velocity_triangles
-from reportgen.marking.key import key_of
+from reportgen.marking.toleranced_key import key_of
 from reportgen.results import results as results_of
 from reportgen.sheets import drawing_sheets
 from tests.lanes import matrix

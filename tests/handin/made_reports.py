@@ -13,7 +13,7 @@ import numpy as np
 from reportgen.base.units import Language
 from reportgen.case.answer_key import Key, KeyRow
 from reportgen.cases import open_case
-from reportgen.marking.key import Ask, key_of
+from reportgen.marking.toleranced_key import Ask, key_of
 from tests.handin import wml
 
 ROOT = Path(__file__).parents[2] / "assignments"

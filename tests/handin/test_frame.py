@@ -18,8 +18,8 @@ from reportgen import api
 from reportgen.case.answer_key import Key
 from reportgen.cases import open_case
 from reportgen.handin import FileReading, word_report
-from reportgen.marking.frame import LONGEST, blank_name, bookmark_name
-from reportgen.marking.key import Ask, key_of
+from reportgen.marking.blank_report import LONGEST, blank_name, bookmark_name
+from reportgen.marking.toleranced_key import Ask, key_of
 from tests.handin import made_reports
 from tests.lanes import matrix, proof
 

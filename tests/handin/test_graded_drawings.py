@@ -9,10 +9,10 @@ import pytest
 from reportgen.cases import open_case
 from reportgen.classes.class_marking import grade
 from reportgen.classes.class_outputs import files_of
-from reportgen.marking.key import key_of
-from reportgen.marking.marks import Verdict
-from reportgen.marking.policy import Policy
-from reportgen.marking.sheet import answer_book
+from reportgen.marking.answer_sheet import answer_book
+from reportgen.marking.marking_data import Verdict
+from reportgen.marking.marking_policy import Policy
+from reportgen.marking.toleranced_key import key_of
 from reportgen.workbook import write_xlsx
 from tests.handin.drawings import Manner, draw, true_plans
 from tests.lanes import proof

@@ -18,14 +18,14 @@ from reportgen.classes import class_marking, class_outputs
 from reportgen.handin import agree, submission, word_report
 from reportgen.handin.reading_book import NAME, is_unchanged, reading_book
 from reportgen.handin.self_check import compare, read, reading
-from reportgen.marking.comment import comment
-from reportgen.marking.grades import grade_rows
-from reportgen.marking.key import Ask, key_of
-from reportgen.marking.marking import mark
-from reportgen.marking.marks import Answer, Submission, Verdict
-from reportgen.marking.policy import Policy, read_policy
-from reportgen.marking.scheme import marking_scheme
-from reportgen.marking.sheet import read_submission
+from reportgen.marking.answer_sheet import read_submission
+from reportgen.marking.class_marks import grade_rows
+from reportgen.marking.judging import mark
+from reportgen.marking.marking_data import Answer, Submission, Verdict
+from reportgen.marking.marking_policy import Policy, read_policy
+from reportgen.marking.marking_scheme import marking_scheme
+from reportgen.marking.summary_comment import comment
+from reportgen.marking.toleranced_key import Ask, key_of
 from tests.handin import made_reports, reports, wml
 from tests.lanes import proof
 

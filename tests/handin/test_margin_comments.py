@@ -14,10 +14,10 @@ from reportgen.cases import open_case
 from reportgen.handin import submission, word_report
 from reportgen.handin.word_comments import MarginNote, with_comments
 from reportgen.handin.word_file import open_word
-from reportgen.marking.marking import mark
-from reportgen.marking.marks import Verdict
-from reportgen.marking.policy import Policy
-from reportgen.marking.scheme import marking_scheme
+from reportgen.marking.judging import mark
+from reportgen.marking.marking_data import Verdict
+from reportgen.marking.marking_policy import Policy
+from reportgen.marking.marking_scheme import marking_scheme
 from tests.handin import made_reports, reports, wml
 from tests.lanes import matrix
 

@@ -11,7 +11,7 @@ from reportgen.assignment.common import Extent
 from reportgen.base.languages import languages
 from reportgen.handin.word_file import open_word
 from reportgen.handin.word_reader import read_report
-from reportgen.marking.key import Ask, key_of
+from reportgen.marking.toleranced_key import Ask, key_of
 from reportgen.writers import word
 from tests.handin.made_reports import ROOT
 from tests.lanes import matrix

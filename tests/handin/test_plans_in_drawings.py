@@ -20,10 +20,10 @@ from reportgen.handin import FileReading, submission
 from reportgen.handin.drawing_file import marked, read, wanted_plans
 from reportgen.handin.drawing_reader import DrawnMark
 from reportgen.handin.dxf_corrections import LAYER, RedVector, with_corrections
-from reportgen.marking.marking import mark
-from reportgen.marking.marks import Verdict
-from reportgen.marking.policy import Policy
-from reportgen.marking.scheme import MarkingScheme, key_asked, marking_scheme
+from reportgen.marking.judging import mark
+from reportgen.marking.marking_data import Verdict
+from reportgen.marking.marking_policy import Policy
+from reportgen.marking.marking_scheme import MarkingScheme, key_asked, marking_scheme
 from reportgen.sheets import drawing_sheets
 from reportgen.sheets.dxf import write_sheet
 from tests.handin.drawings import RELEASES, Manner, Truth, at, draw, seen, true_plans

@@ -18,10 +18,10 @@ from reportgen.case.answer_key import Key
 from reportgen.cases import open_case
 from reportgen.classes.variants import make_variants
 from reportgen.formula.vocabulary import Chapter
-from reportgen.marking.marks import Answer, Place, Submission
+from reportgen.marking.answer_sheet import NAMES, asked_positions
+from reportgen.marking.marking_data import Answer, Place, Submission
+from reportgen.marking.marking_scheme import MarkingScheme, marking_scheme
 from reportgen.marking.mistakes import mistakes_in
-from reportgen.marking.scheme import MarkingScheme, marking_scheme
-from reportgen.marking.sheet import NAMES, asked_positions
 from reportgen.workbook import write_csv, write_xlsx
 from tests.marking import students
 from tests.marking.keys import csv_rows

@@ -15,10 +15,10 @@ from reportgen.classes import class_marking
 from reportgen.classes.class_marking import Graded
 from reportgen.classes.variants import make_variants
 from reportgen.formula.evaluation import evaluate
-from reportgen.marking.key import key_of
+from reportgen.marking.marking_policy import Policy
+from reportgen.marking.marking_scheme import MarkingScheme, marking_scheme
 from reportgen.marking.mistakes import Mistake
-from reportgen.marking.policy import Policy
-from reportgen.marking.scheme import MarkingScheme, marking_scheme
+from reportgen.marking.toleranced_key import key_of
 from tests.marking import demo, students
 
 STUDENTS = 12

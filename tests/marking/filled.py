@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from reportgen.case.answer_key import Key
-from reportgen.marking.sheet import answer_book
+from reportgen.marking.answer_sheet import answer_book
 from reportgen.workbook import Book, write_xlsx
 
 

@@ -14,9 +14,9 @@ import numpy as np
 from reportgen.base.errors import Mark
 from reportgen.case.answer_key import Role
 from reportgen.cases import opened
-from reportgen.marking.key import Ask
-from reportgen.marking.marks import Answer, Submission
-from reportgen.marking.scheme import MarkingScheme
+from reportgen.marking.marking_data import Answer, Submission
+from reportgen.marking.marking_scheme import MarkingScheme
+from reportgen.marking.toleranced_key import Ask
 from tests.marking import students
 from tests.marking.hand import Change, Hand
 from tests.marking.machines import WAYS

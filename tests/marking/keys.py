@@ -11,7 +11,7 @@ from reportgen.base.units import Language, rounded
 from reportgen.case.answer_key import Key, KeyRow, Role
 from reportgen.formula import Symbol
 from reportgen.formula.vocabulary import Chapter
-from reportgen.marking.sheet import HEAD, answer_book
+from reportgen.marking.answer_sheet import HEAD, answer_book
 
 LABELS = ("1", "2", "3", "4")
 

@@ -12,8 +12,8 @@ from statistics import median
 
 import numpy as np
 
-from reportgen.marking.marking import mark
-from reportgen.marking.marks import Marking, Verdict
+from reportgen.marking.judging import mark
+from reportgen.marking.marking_data import Marking, Verdict
 from reportgen.marking.mistakes import WRONG_DATUM
 from tests.marking import hands, students
 

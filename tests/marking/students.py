@@ -20,12 +20,12 @@ from reportgen.base.errors import AssignmentError, Mark
 from reportgen.case.answer_key import Key, KeyRow
 from reportgen.cases import opened
 from reportgen.formula.ledger import follow
-from reportgen.marking.bands import PAPER_ERROR, measuring_errors
-from reportgen.marking.key import words_of
-from reportgen.marking.marks import Answer, Submission
+from reportgen.marking.answer_sheet import asked_positions, grid, info_page, page, rows_shown
+from reportgen.marking.marking_data import Answer, Submission
+from reportgen.marking.marking_scheme import MarkingScheme, marking_scheme
 from reportgen.marking.mistakes import Mistake
-from reportgen.marking.scheme import MarkingScheme, marking_scheme
-from reportgen.marking.sheet import asked_positions, grid, info_page, page, rows_shown
+from reportgen.marking.tolerance_bands import PAPER_ERROR, measuring_errors
+from reportgen.marking.toleranced_key import words_of
 from reportgen.workbook import Book, Entry
 
 ASSIGNMENTS = Path(__file__).parents[2] / "assignments"

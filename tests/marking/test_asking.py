@@ -15,12 +15,12 @@ from reportgen.case.answer_key import Key
 from reportgen.cases import open_case, opened
 from reportgen.document import PageBreak, text_of
 from reportgen.formula.vocabulary import Chapter
-from reportgen.marking.key import EVERYTHING, Ask, key_of
-from reportgen.marking.marks import Verdict
-from reportgen.marking.paper import answer_tables, task_of
-from reportgen.marking.policy import Policy, Scale, read_policy
-from reportgen.marking.scheme import marking_scheme
-from reportgen.marking.sheet import answer_book, read_submission
+from reportgen.marking.answer_sheet import answer_book, read_submission
+from reportgen.marking.marking_data import Verdict
+from reportgen.marking.marking_policy import Policy, Scale, read_policy
+from reportgen.marking.marking_scheme import marking_scheme
+from reportgen.marking.task_paper import answer_tables, task_of
+from reportgen.marking.toleranced_key import EVERYTHING, Ask, key_of
 from reportgen.workbook import write_csv, write_xlsx
 from tests.lanes import matrix, proof
 from tests.marking import students

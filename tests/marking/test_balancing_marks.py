@@ -11,10 +11,10 @@ from reportgen.balancing import balance_ids
 from reportgen.base.template_folders import search_path
 from reportgen.base.words import load_words
 from reportgen.cases import open_case, opened
-from reportgen.marking.marking import mark
-from reportgen.marking.marks import Verdict
+from reportgen.marking.judging import mark
+from reportgen.marking.marking_data import Verdict
+from reportgen.marking.marking_scheme import MarkingScheme, marking_scheme
 from reportgen.marking.mistakes import mistakes_in
-from reportgen.marking.scheme import MarkingScheme, marking_scheme
 from tests.lanes import proof
 from tests.marking import students
 

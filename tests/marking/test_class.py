@@ -13,10 +13,10 @@ from reportgen.cases import open_case
 from reportgen.classes import class_marking, class_outputs
 from reportgen.classes.class_marking import Graded
 from reportgen.classes.variants import make_variants
-from reportgen.marking.key import EVERYTHING, Ask, key_of
-from reportgen.marking.marking import compare
+from reportgen.marking.judging import compare
+from reportgen.marking.marking_policy import Policy, read_policy
 from reportgen.marking.mistakes import WRONG_DATUM
-from reportgen.marking.policy import Policy, read_policy
+from reportgen.marking.toleranced_key import EVERYTHING, Ask, key_of
 from reportgen.workbook import read, write_csv
 from tests.lanes import proof
 from tests.marking import demo

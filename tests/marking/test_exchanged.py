@@ -7,11 +7,11 @@ from dataclasses import replace
 import pytest
 
 from reportgen.document import text_of
-from reportgen.marking.exchanged import NAME
+from reportgen.marking.exchanged_positions import NAME
 from reportgen.marking.feedback import feedback_document
-from reportgen.marking.marking import mark
-from reportgen.marking.marks import Marking, Submission, Verdict
-from reportgen.marking.scheme import MarkingScheme
+from reportgen.marking.judging import mark
+from reportgen.marking.marking_data import Marking, Submission, Verdict
+from reportgen.marking.marking_scheme import MarkingScheme
 from tests.marking import students
 
 PAIR = (2, 5)

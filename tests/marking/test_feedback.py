@@ -17,13 +17,13 @@ from reportgen.base.units import Language
 from reportgen.base.words import load_words
 from reportgen.document import Figure, Table, plain, text_of
 from reportgen.drawing import Label
+from reportgen.marking.class_marks import grade_rows
 from reportgen.marking.class_page import class_document
-from reportgen.marking.comment import comment
 from reportgen.marking.feedback import FIRST, STYLES, feedback_book, feedback_document, mistake_inlines, points_text
-from reportgen.marking.grades import grade_rows
-from reportgen.marking.marks import Answer, Marked, Marking, Notice, Submission, Unmarked, Verdict
+from reportgen.marking.marking_data import Answer, Marked, Marking, Notice, Submission, Unmarked, Verdict
+from reportgen.marking.marking_policy import Policy
 from reportgen.marking.mistakes import CONVENTIONS, WRONG_DATUM
-from reportgen.marking.policy import Policy
+from reportgen.marking.summary_comment import comment
 from reportgen.workbook import write_csv, write_xlsx
 from reportgen.workbook.writing import FILLS
 from tests.marking.keys import small_key

@@ -7,8 +7,8 @@ import pytest
 
 from reportgen.formula import Ref, refs
 from reportgen.formula.ledger import follow
-from reportgen.marking.bands import is_direction
-from reportgen.marking.scheme import MarkingScheme
+from reportgen.marking.marking_scheme import MarkingScheme
+from reportgen.marking.tolerance_bands import is_direction
 from tests.lanes import matrix
 from tests.marking import hands, students
 

@@ -14,9 +14,9 @@ from reportgen.classes import class_marking
 from reportgen.classes.batch_run import Order, run_batch
 from reportgen.classes.class_marking import Graded
 from reportgen.classes.variants import make_variants
-from reportgen.marking.key import Ask
-from reportgen.marking.policy import Policy
-from reportgen.marking.scheme import marking_scheme
+from reportgen.marking.marking_policy import Policy
+from reportgen.marking.marking_scheme import marking_scheme
+from reportgen.marking.toleranced_key import Ask
 from reportgen.workbook import read, write_xlsx
 from tests.lanes import proof
 from tests.marking import students

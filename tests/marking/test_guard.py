@@ -13,12 +13,12 @@ from reportgen.base.units import Language
 from reportgen.base.words import load_words
 from reportgen.cases import opened
 from reportgen.formula.vocabulary import Chapter
-from reportgen.marking.guard import Classmate
-from reportgen.marking.marking import mark
-from reportgen.marking.marks import Submission, Verdict
+from reportgen.marking.authenticity import Classmate
+from reportgen.marking.judging import mark
+from reportgen.marking.marking_data import Submission, Verdict
+from reportgen.marking.marking_policy import FLAGS_ONLY, TAKES, Policy
+from reportgen.marking.marking_scheme import MarkingScheme
 from reportgen.marking.mistakes import Mistake
-from reportgen.marking.policy import FLAGS_ONLY, TAKES, Policy
-from reportgen.marking.scheme import MarkingScheme
 from tests.lanes import matrix, proof
 from tests.marking import hands, students
 

@@ -13,9 +13,9 @@ from reportgen import catalogue
 from reportgen.base.units import Language
 from reportgen.cases import MachineCase, open_case
 from reportgen.document import Table, Text, text_of
-from reportgen.marking.key import key_of
+from reportgen.marking.answer_sheet import read_submission
 from reportgen.marking.key_files import band, key_book, key_data, key_document, key_rows
-from reportgen.marking.sheet import read_submission
+from reportgen.marking.toleranced_key import key_of
 from reportgen.workbook import write_xlsx
 from tests.marking.keys import small_key
 from tests.report import built

@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 from reportgen.formula.ledger import follow
-from reportgen.marking.key import Ask
-from reportgen.marking.marking import mark
+from reportgen.marking.judging import mark
+from reportgen.marking.toleranced_key import Ask
 from tests.lanes import matrix
 from tests.marking import hands, students
 from tests.marking.hand import unit_of

@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from reportgen.marking.marking import mark
-from reportgen.marking.marks import Marking
+from reportgen.marking.judging import mark
+from reportgen.marking.marking_data import Marking
 from reportgen.marking.mistakes import Mistake
 from tests.lanes import matrix
 from tests.marking import hands, students

@@ -11,11 +11,11 @@ import pytest
 
 from reportgen.case.answer_key import KeyRow
 from reportgen.cases import open_case, opened
-from reportgen.marking.marking import mark
-from reportgen.marking.marks import Marking, Verdict
+from reportgen.marking.judging import mark
+from reportgen.marking.marking_data import Marking, Verdict
+from reportgen.marking.marking_policy import Policy
+from reportgen.marking.marking_scheme import marking_scheme
 from reportgen.marking.mistakes import Mistake
-from reportgen.marking.policy import Policy
-from reportgen.marking.scheme import marking_scheme
 from tests.lanes import matrix
 from tests.marking import students
 

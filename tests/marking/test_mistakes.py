@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 from reportgen.cases import opened
-from reportgen.marking.marking import mark
-from reportgen.marking.marks import Marking, Submission
+from reportgen.marking.judging import mark
+from reportgen.marking.marking_data import Marking, Submission
+from reportgen.marking.marking_scheme import MarkingScheme
 from reportgen.marking.mistakes import WRONG_DATUM, Mistake, general_mistakes, mistakes_in
-from reportgen.marking.scheme import MarkingScheme
 from tests.lanes import proof
 from tests.marking import students
 from tests.marking.students import NAMES, OF_FURTHER_KEYS, World

@@ -13,10 +13,10 @@ from reportgen.drawing import Circle
 from reportgen.drawing.statistics_charts import intervals, scatter
 from reportgen.formula import Symbol
 from reportgen.formula.vocabulary import Chapter
-from reportgen.marking.marks import Marking, Submission, Verdict
-from reportgen.marking.policy import Policy
-from reportgen.marking.questions import by_cell, by_question, by_section, question_rows
-from reportgen.marking.variant_marks import groups, variant_rows
+from reportgen.marking.item_statistics import by_cell, by_question, by_section, question_rows
+from reportgen.marking.marking_data import Marking, Submission, Verdict
+from reportgen.marking.marking_policy import Policy
+from reportgen.marking.variant_fairness import groups, variant_rows
 from tests.lanes import proof
 from tests.marking.keys import row, small_key
 from tests.marking.test_feedback import cell

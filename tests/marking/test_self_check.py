@@ -14,10 +14,10 @@ from reportgen.assignment.student_copy import handed_out
 from reportgen.base.errors import AssignmentError
 from reportgen.base.units import Language
 from reportgen.cases import open_case
-from reportgen.marking.key import Ask, key_of
-from reportgen.marking.marking import compare
-from reportgen.marking.policy import read_policy
-from reportgen.marking.sheet import answer_book
+from reportgen.marking.answer_sheet import answer_book
+from reportgen.marking.judging import compare
+from reportgen.marking.marking_policy import read_policy
+from reportgen.marking.toleranced_key import Ask, key_of
 from reportgen.workbook import write_xlsx
 from tests.lanes import matrix
 from tests.marking.students import ASSIGNMENTS

@@ -14,9 +14,9 @@ import pytest
 
 from reportgen.case.answer_key import KeyRow
 from reportgen.cases import MachineCase, open_case
-from reportgen.marking.marking import mark
-from reportgen.marking.marks import Marking, Verdict
-from reportgen.marking.scheme import MarkingScheme, marking_scheme
+from reportgen.marking.judging import mark
+from reportgen.marking.marking_data import Marking, Verdict
+from reportgen.marking.marking_scheme import MarkingScheme, marking_scheme
 from reportgen.results import results as results_of
 from tests.lanes import matrix
 from tests.marking import students

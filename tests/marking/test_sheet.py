@@ -14,9 +14,9 @@ from openpyxl import load_workbook
 from reportgen.base.units import Language, write
 from reportgen.case.answer_key import Key, Role
 from reportgen.document import Document, Table, plain, text_of
-from reportgen.marking.key import key_of, words_of
-from reportgen.marking.paper import answer_tables, task_of
-from reportgen.marking.sheet import answer_book, number_format
+from reportgen.marking.answer_sheet import answer_book, number_format
+from reportgen.marking.task_paper import answer_tables, task_of
+from reportgen.marking.toleranced_key import key_of, words_of
 from reportgen.workbook import write_xlsx
 from tests.lanes import matrix
 from tests.marking.keys import small_key

@@ -7,11 +7,11 @@ from collections.abc import Callable
 import pytest
 
 from reportgen.cases import opened
-from reportgen.marking.marking import mark
-from reportgen.marking.marks import Marking
+from reportgen.marking.judging import mark
+from reportgen.marking.marking_data import Marking
+from reportgen.marking.marking_policy import Policy
+from reportgen.marking.marking_scheme import MarkingScheme
 from reportgen.marking.mistakes import AGREED, Mistake
-from reportgen.marking.policy import Policy
-from reportgen.marking.scheme import MarkingScheme
 from tests.marking import students
 
 WORKED = (4, 12)

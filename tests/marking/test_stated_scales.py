@@ -13,10 +13,10 @@ import pytest
 
 from reportgen.case.answer_key import Role
 from reportgen.classes.class_marking import asked_of
-from reportgen.marking.key import Ask
-from reportgen.marking.marking import mark
-from reportgen.marking.marks import Answer, Marking, Submission, Verdict
-from reportgen.marking.scheme import MarkingScheme
+from reportgen.marking.judging import mark
+from reportgen.marking.marking_data import Answer, Marking, Submission, Verdict
+from reportgen.marking.marking_scheme import MarkingScheme
+from reportgen.marking.toleranced_key import Ask
 from tests.lanes import matrix
 from tests.marking import hands, students
 from tests.marking.machines import MACHINES

@@ -19,9 +19,9 @@ from reportgen.base.errors import AssignmentError
 from reportgen.base.units import Language, QuantityFault
 from reportgen.case.answer_key import Key
 from reportgen.formula.vocabulary import KINDS
-from reportgen.marking.marks import Submission
-from reportgen.marking.numbers import decimal_mark, is_blank, read_number
-from reportgen.marking.sheet import answer_book, read_submission
+from reportgen.marking.answer_sheet import answer_book, read_submission
+from reportgen.marking.marking_data import Submission
+from reportgen.marking.student_numbers import decimal_mark, is_blank, read_number
 from reportgen.workbook import write_csv, write_xlsx
 from tests.marking.keys import csv_rows, small_key
 

@@ -8,8 +8,8 @@ import pytest
 
 from reportgen.base.template_folders import languages
 from reportgen.cases import open_case
-from reportgen.marking.key import key_of
-from reportgen.marking.paper import task_of
+from reportgen.marking.task_paper import task_of
+from reportgen.marking.toleranced_key import key_of
 from tests.lanes import matrix
 from tests.report import built
 from tests.told import told

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from reportgen.marking.marking import mark
+from reportgen.marking.judging import mark
+from reportgen.marking.marking_scheme import MarkingScheme
 from reportgen.marking.mistakes import mistakes_in
-from reportgen.marking.scheme import MarkingScheme
 from tests.marking import students
 
 EVERY = tuple(range(1, 9))

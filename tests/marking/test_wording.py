@@ -15,9 +15,9 @@ from reportgen.case.answer_key import Key
 from reportgen.cases import open_case
 from reportgen.document import plain
 from reportgen.formula import vocabulary
-from reportgen.marking.key import key_of
-from reportgen.marking.paper import answer_tables
-from reportgen.marking.sheet import answer_book
+from reportgen.marking.answer_sheet import answer_book
+from reportgen.marking.task_paper import answer_tables
+from reportgen.marking.toleranced_key import key_of
 from tests.lanes import matrix, proof
 from tests.marking import students
 from tests.report import built

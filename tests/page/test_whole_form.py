@@ -10,7 +10,7 @@ import pytest
 
 from reportgen import catalogue
 from reportgen.cases import open_case
-from reportgen.marking.key import key_of
+from reportgen.marking.toleranced_key import key_of
 from reportgen.page.editing import EditSession
 from tests.lanes import proof
 

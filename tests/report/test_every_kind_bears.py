@@ -14,8 +14,8 @@ from reportgen import api
 from reportgen.base.kinds import kinds
 from reportgen.cases import opened
 from reportgen.catalogue import sample
-from reportgen.marking.key import key_of
-from reportgen.marking.paper import task_of
+from reportgen.marking.task_paper import task_of
+from reportgen.marking.toleranced_key import key_of
 from tests.lanes import matrix
 
 REMARKED = re.compile(r"^  # (?=(at|loads|springs|faces|friction|epsilon1): )", re.MULTILINE)

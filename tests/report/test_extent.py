@@ -16,8 +16,8 @@ from reportgen.cli import app
 from reportgen.document import Contents, Document, Figure, Plate, Section, Table, Text, plain
 from reportgen.document.layout import contents
 from reportgen.document.numbering import unreferenced
-from reportgen.marking.key import key_of
-from reportgen.marking.paper import task_of
+from reportgen.marking.task_paper import task_of
+from reportgen.marking.toleranced_key import key_of
 from reportgen.report.extents import LEFT_OUT
 from reportgen.report.report import Report
 from reportgen.sheets import drawing_sheets, plates_by_set

@@ -19,8 +19,8 @@ from reportgen.base.words import SECTION, load_words, sections
 from reportgen.cases import opened
 from reportgen.document import Block
 from reportgen.document.template_rendering import GLOBALS, Prose, _environment
-from reportgen.marking.key import key_of
-from reportgen.marking.paper import task_of
+from reportgen.marking.task_paper import task_of
+from reportgen.marking.toleranced_key import key_of
 from reportgen.report import named_figures, named_tables, template_names
 from reportgen.report.topic_views import VIEWS
 

@@ -11,8 +11,8 @@ from reportgen import api
 from reportgen.cases import opened
 from reportgen.document import text_of
 from reportgen.formula import Symbol
-from reportgen.marking.key import key_of
 from reportgen.marking.key_files import key_document
+from reportgen.marking.toleranced_key import key_of
 from tests.lanes import matrix
 from tests.report import built
 

@@ -17,8 +17,8 @@ from reportgen.base.template_folders import search_path, templates
 from reportgen.base.units import Language
 from reportgen.base.words import load_words
 from reportgen.document import text_of
-from reportgen.marking.key import key_of
-from reportgen.marking.paper import task_of
+from reportgen.marking.task_paper import task_of
+from reportgen.marking.toleranced_key import key_of
 from reportgen.sheets import drawing_sheets
 from tests.lanes import matrix, proof
 

@@ -39,9 +39,9 @@ from reportgen.document import (
 )
 from reportgen.formula import Chain, Expression, Symbol, VectorEquation, children
 from reportgen.formula.formula_layout import known_of
-from reportgen.marking.key import Ask, key_of
 from reportgen.marking.key_files import key_document
-from reportgen.marking.paper import task_of
+from reportgen.marking.task_paper import task_of
+from reportgen.marking.toleranced_key import Ask, key_of
 from reportgen.writers import typst, typst_compiler
 from reportgen.writers.typst_math import TypstFormulas
 from tests.formula.drawn import DIGITS, drawn, in_units, opened

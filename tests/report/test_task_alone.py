@@ -12,8 +12,8 @@ import yaml
 from reportgen import api
 from reportgen.base.units import Language
 from reportgen.cases import open_case
-from reportgen.marking.key import key_of
-from reportgen.marking.paper import task_of
+from reportgen.marking.task_paper import task_of
+from reportgen.marking.toleranced_key import key_of
 from tests.lanes import matrix
 from tests.report import built, exercise_reader
 from tests.report.task_reader import file_of

@@ -17,7 +17,7 @@ from reportgen.drawing.drawing_sheet import DrawingSheet
 from reportgen.formula import Chain, Number, Symbol
 from reportgen.gears import train_ids
 from reportgen.gears.train_ledger import pole_distance
-from reportgen.marking.key import key_of
+from reportgen.marking.toleranced_key import key_of
 from reportgen.sheets import drawing_sheets
 from tests.lanes import matrix
 from tests.report import built

@@ -15,7 +15,7 @@ import pytest
 
 import reportgen
 from reportgen.cases import MachineCase, open_case
-from reportgen.marking.key import Ask, key_of
+from reportgen.marking.toleranced_key import Ask, key_of
 
 FILE = Path(__file__).parents[2] / "assignments" / "four-bar-03.yaml"
 LAST_DIGIT = 0.5e-6

@@ -13,9 +13,9 @@ from reportgen.case.answer_key import KeyRow, Role
 from reportgen.formula import Expression, ids, refs, vocabulary
 from reportgen.formula.evaluation import evaluate
 from reportgen.formula.ledger import follow
-from reportgen.marking.bands import half_unit
-from reportgen.marking.marks import Place, Submission
-from reportgen.marking.scheme import MarkingScheme, Values, makes_scale
+from reportgen.marking.marking_data import Place, Submission
+from reportgen.marking.marking_scheme import MarkingScheme, Values, makes_scale
+from reportgen.marking.tolerance_bands import half_unit
 
 ChangeValue = Callable[[np.ndarray, Values], np.ndarray]
 """Returns a quantity's value (SI) from its computed value and all values before it."""

@@ -16,9 +16,9 @@ from reportgen.base.template_folders import search_path
 from reportgen.base.units import Language
 from reportgen.base.words import load_words
 from reportgen.case.answer_key import Key, KeyRow
-from reportgen.marking.grades import DECIMALS, CellValue, section_name
-from reportgen.marking.key import symbol_text
-from reportgen.marking.marks import Marked, Marking, Place, Verdict
+from reportgen.marking.class_marks import DECIMALS, CellValue, section_name
+from reportgen.marking.marking_data import Marked, Marking, Place, Verdict
+from reportgen.marking.toleranced_key import symbol_text
 
 LEAST = 10
 """Smallest number of students for a correlation: with fewer, 0.6 may be chance (1 in 20)."""

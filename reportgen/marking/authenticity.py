@@ -24,11 +24,11 @@ from reportgen.case.answer_key import Key, KeyRow, Role
 from reportgen.formula import vocabulary
 from reportgen.formula.evaluation import evaluate
 from reportgen.formula.vocabulary import Chapter
-from reportgen.marking.bands import is_direction
-from reportgen.marking.marks import Cells, Marked, Notice, Place, Submission, Verdict
+from reportgen.marking.marking_data import Cells, Marked, Notice, Place, Submission, Verdict
+from reportgen.marking.marking_scheme import MarkingScheme
 from reportgen.marking.mistakes import WRONG_DATUM
-from reportgen.marking.scheme import MarkingScheme
-from reportgen.marking.working import Working, last_half_unit
+from reportgen.marking.student_values import Working, last_half_unit
+from reportgen.marking.tolerance_bands import is_direction
 
 FOREIGN_SHARE = 0.8
 """Share of a sheet's, a column's or a chapter's values that must be foreign for a notice."""

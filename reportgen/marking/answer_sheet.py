@@ -26,9 +26,9 @@ from reportgen.base.words import as_error, as_problem, common_words
 from reportgen.case.answer_key import Key, KeyRow, Role
 from reportgen.document import plain
 from reportgen.formula.vocabulary import Chapter
-from reportgen.marking.key import shown_number, symbol_text, typed_unit, words_of
-from reportgen.marking.marks import Answer, Place, Submission
-from reportgen.marking.numbers import DecimalMark, decimal_mark, is_blank, read_number
+from reportgen.marking.marking_data import Answer, Place, Submission
+from reportgen.marking.student_numbers import DecimalMark, decimal_mark, is_blank, read_number
+from reportgen.marking.toleranced_key import shown_number, symbol_text, typed_unit, words_of
 from reportgen.workbook import Book, BookSheet, Entry, Page, SheetCell, read
 
 NAMES = 5

@@ -14,9 +14,9 @@ from reportgen.case import Case
 from reportgen.case.answer_key import Key, KeyRow
 from reportgen.document import Blank, Block, Document, Inline, InlineMath, Paragraph, Text
 from reportgen.formula import Chain, refs
-from reportgen.marking.key import formula_in_symbols, symbol_text, words_of
-from reportgen.marking.marks import Place
-from reportgen.marking.paper import fields, heading, paper, paragraph, student_rows
+from reportgen.marking.marking_data import Place
+from reportgen.marking.task_paper import fields, heading, paper, paragraph, student_rows
+from reportgen.marking.toleranced_key import formula_in_symbols, symbol_text, words_of
 
 LONGEST = 40
 """Largest number of characters in a bookmark's name."""

@@ -12,11 +12,11 @@ from typing import Any
 
 from reportgen.case.answer_key import Key
 from reportgen.document import Text, plain
+from reportgen.marking.class_marks import open_text
 from reportgen.marking.feedback import amended, blank_positions, blank_rows, lateness, mistake_inlines, points_text
-from reportgen.marking.grades import open_text
-from reportgen.marking.key import symbol_text, words_of
-from reportgen.marking.marks import Marked, Marking, Unmarked, points_of
-from reportgen.marking.policy import Policy
+from reportgen.marking.marking_data import Marked, Marking, Unmarked, points_of
+from reportgen.marking.marking_policy import Policy
+from reportgen.marking.toleranced_key import symbol_text, words_of
 
 FIRSTS = 5
 """Largest number of first mistakes listed; the feedback page lists them all."""

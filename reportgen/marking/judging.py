@@ -18,19 +18,19 @@ import numpy as np
 from reportgen.case import Case
 from reportgen.case.answer_key import KeyRow, Role
 from reportgen.formula.ledger import Ledger
-from reportgen.marking.bands import half_unit, is_direction
-from reportgen.marking.exchanged import Exchange, possible_exchanges
-from reportgen.marking.guard import Classmate, guard, not_from_own, unseen_text
-from reportgen.marking.key import Ask, symbol_text, words_of
-from reportgen.marking.marks import Cells, Marked, Marking, Notice, Place, Submission, Verdict, points_of
-from reportgen.marking.misread import misread_by_many, misread_data, mistakes_of_plans, redesigned
+from reportgen.marking.answer_sheet import read_submission
+from reportgen.marking.authenticity import Classmate, guard, not_from_own, unseen_text
+from reportgen.marking.coursework_marking import joined, sheets_of
+from reportgen.marking.exchanged_positions import Exchange, possible_exchanges
+from reportgen.marking.marking_data import Cells, Marked, Marking, Notice, Place, Submission, Verdict, points_of
+from reportgen.marking.marking_policy import Policy
+from reportgen.marking.marking_scheme import MarkingScheme, Values, marking_scheme
+from reportgen.marking.misread_data import misread_by_many, misread_data, mistakes_of_plans, redesigned
 from reportgen.marking.mistakes import WRONG_DATUM, Mistake, mistakes_of_working, slips_of_writing
-from reportgen.marking.parts import joined, sheets_of
-from reportgen.marking.policy import Policy
 from reportgen.marking.scale_readings import best_working, charged_for_scales, left_out, optional_scales, without_cells
-from reportgen.marking.scheme import MarkingScheme, Values, marking_scheme
-from reportgen.marking.sheet import read_submission
-from reportgen.marking.working import Working
+from reportgen.marking.student_values import Working
+from reportgen.marking.tolerance_bands import half_unit, is_direction
+from reportgen.marking.toleranced_key import Ask, symbol_text, words_of
 
 SEARCHES: tuple[Callable[[Working, Cells], dict[Place, Mistake]], ...] = (
     slips_of_writing,

@@ -19,9 +19,9 @@ from reportgen.base.words import load_words
 from reportgen.case.answer_key import Role
 from reportgen.formula import Symbol
 from reportgen.formula.plain_text import formula
-from reportgen.marking.grades import DECIMALS, CellValue
-from reportgen.marking.marks import Marking
-from reportgen.marking.policy import Policy
+from reportgen.marking.class_marks import DECIMALS, CellValue
+from reportgen.marking.marking_data import Marking
+from reportgen.marking.marking_policy import Policy
 
 LEAST = 2
 """Smallest number of students in a group; a single one has no spread."""

@@ -27,7 +27,7 @@ from reportgen.formula.calculation import Family
 from reportgen.formula.ledger import Ledger
 from reportgen.formula.plain_text import formula
 from reportgen.formula.vocabulary import KINDS, Chapter
-from reportgen.marking.bands import (
+from reportgen.marking.tolerance_bands import (
     computed_bands,
     drawn_bands,
     is_chosen_length,

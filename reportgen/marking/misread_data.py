@@ -15,11 +15,11 @@ import numpy as np
 
 from reportgen.formula import ids, refs, vocabulary
 from reportgen.formula.ledger import follow
-from reportgen.marking.bands import half_unit, is_direction
-from reportgen.marking.marks import Cells, Marked, Place, Verdict
+from reportgen.marking.marking_data import Cells, Marked, Place, Verdict
+from reportgen.marking.marking_scheme import MarkingScheme
 from reportgen.marking.mistakes import WRONG_DATUM, Mistake, foreseen, unseen_mistakes
-from reportgen.marking.scheme import MarkingScheme
-from reportgen.marking.working import ChangeValue, Working, last_half_unit
+from reportgen.marking.student_values import ChangeValue, Working, last_half_unit
+from reportgen.marking.tolerance_bands import half_unit, is_direction
 
 FACTORS = np.geomspace(1 / 4, 4, 120)
 WIDE = np.geomspace(1 / 5, 5, 400)

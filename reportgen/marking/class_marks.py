@@ -14,9 +14,9 @@ from reportgen.case.answer_key import Key, KeyRow
 from reportgen.document import plain
 from reportgen.formula.vocabulary import Chapter
 from reportgen.marking.feedback import amended
-from reportgen.marking.key import symbol_text
-from reportgen.marking.marks import Marked, Marking, Submission, Unmarked, points_of
-from reportgen.marking.policy import Policy
+from reportgen.marking.marking_data import Marked, Marking, Submission, Unmarked, points_of
+from reportgen.marking.marking_policy import Policy
+from reportgen.marking.toleranced_key import symbol_text
 
 CellValue = str | float | None
 

@@ -12,10 +12,10 @@ from reportgen.case import Case, Misconceptions
 from reportgen.case.answer_key import Key, KeyRow, Role
 from reportgen.formula import Product, Ref, vocabulary
 from reportgen.formula.ledger import Ledger, standing_on
-from reportgen.marking.bands import computed_bands, drawn_bands, is_chosen_length, is_direction
-from reportgen.marking.key import key_of
-from reportgen.marking.marks import Place, Submission
-from reportgen.marking.policy import Policy
+from reportgen.marking.marking_data import Place, Submission
+from reportgen.marking.marking_policy import Policy
+from reportgen.marking.tolerance_bands import computed_bands, drawn_bands, is_chosen_length, is_direction
+from reportgen.marking.toleranced_key import key_of
 
 Values = Mapping[str, np.ndarray]
 """Values (SI) by id, [N] or [1]."""

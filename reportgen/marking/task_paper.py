@@ -18,8 +18,8 @@ from reportgen.document.numbering import number
 from reportgen.drawing.label_size import box
 from reportgen.formula import Number
 from reportgen.formula.vocabulary import Chapter
-from reportgen.marking.key import words_of
-from reportgen.marking.sheet import asked_positions, info_rows, open_cells
+from reportgen.marking.answer_sheet import asked_positions, info_rows, open_cells
+from reportgen.marking.toleranced_key import words_of
 from reportgen.report.report import PLATES_UP_TO
 
 MOST_POSITIONS, MOST_FILLED = 8, 4

@@ -16,8 +16,8 @@ from reportgen.assignment.common import Part
 from reportgen.assignment.fields import Decimal, Flag, Interval, Percent, TypedText, Until, Whole, quantity
 from reportgen.assignment.reading import read_model
 from reportgen.base.units import Given, Language
-from reportgen.marking.bands import DIGITS, PAPER_ERROR
-from reportgen.marking.key import Ask
+from reportgen.marking.tolerance_bands import DIGITS, PAPER_ERROR
+from reportgen.marking.toleranced_key import Ask
 
 TAKES = frozenset({"stock", "columns", "other-data", "classmate-key", "classmate-sheet"})
 """Kinds of flags that cost marks by default, because they are certain."""

@@ -15,10 +15,10 @@ from reportgen.base.units import Language
 from reportgen.base.words import as_error
 from reportgen.base.yaml_source import read_source
 from reportgen.case.answer_key import Key, PartOfKey
-from reportgen.marking.guard import Classmate
-from reportgen.marking.marks import Marked, Marking, Notice, Place, Submission
-from reportgen.marking.policy import Policy
-from reportgen.marking.scheme import MarkingScheme
+from reportgen.marking.authenticity import Classmate
+from reportgen.marking.marking_data import Marked, Marking, Notice, Place, Submission
+from reportgen.marking.marking_policy import Policy
+from reportgen.marking.marking_scheme import MarkingScheme
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,8 +11,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations
 
-from reportgen.marking.marks import Cells, Marked, Notice, Place, Submission, Verdict
-from reportgen.marking.scheme import MarkingScheme
+from reportgen.marking.marking_data import Cells, Marked, Notice, Place, Submission, Verdict
+from reportgen.marking.marking_scheme import MarkingScheme
 
 NAME = "positions-exchanged"
 
