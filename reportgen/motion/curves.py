@@ -12,7 +12,7 @@ from reportgen.drawing import Content, Diagram, PlottedCurve, Scene, charts
 from reportgen.drawing.geometry import moved
 from reportgen.formula import Chain, Symbol
 from reportgen.motion import run_ids
-from reportgen.motion.running import MotionRun
+from reportgen.motion.steady_running import MotionRun
 from reportgen.motion.true_motion import TrueMotion, motion_in
 from reportgen.report.curves import axis
 from reportgen.report.report import Report

@@ -8,7 +8,7 @@ import numpy as np
 
 from reportgen.drawing.animation import Chart, Curve, TimedRun, Track
 from reportgen.motion.curves import characteristic_chart
-from reportgen.motion.running import MotionRun
+from reportgen.motion.steady_running import MotionRun
 from reportgen.motion.true_motion import motion_in
 from reportgen.page.topic_layers import LayerHooks
 from reportgen.report.report import Report

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from reportgen.motion.drives import Motor
-from reportgen.motion.running import SteadyMotion
+from reportgen.motion.steady_running import SteadyMotion
 
 
 @dataclass(frozen=True, slots=True)

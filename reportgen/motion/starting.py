@@ -9,9 +9,17 @@ import numpy as np
 
 from reportgen.base.arrays import Floats
 from reportgen.motion.drives import Drive
-from reportgen.motion.energy import PARTS, SAME_ANGLE, ReducedMachine
-from reportgen.motion.running import MOST_CYCLES, MotionRun, NoMotionError, SteadyMotion, passage, run_in_time, stalled
-from reportgen.motion.time_steps import TimeStepper
+from reportgen.motion.energy_equation import PARTS, SAME_ANGLE, ReducedMachine
+from reportgen.motion.steady_running import (
+    MOST_CYCLES,
+    MotionRun,
+    NoMotionError,
+    SteadyMotion,
+    passage,
+    run_in_time,
+    stalled,
+)
+from reportgen.motion.time_integration import TimeStepper
 
 NEAR_STEADY = 0.01
 """A start is over at the end of the first cycle whose last speed is as near to the steady one."""

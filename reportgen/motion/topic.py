@@ -40,7 +40,7 @@ from reportgen.motion.drives import (
     Motor,
     TableDrive,
 )
-from reportgen.motion.running import NoMotionError
+from reportgen.motion.steady_running import NoMotionError
 from reportgen.motion.true_motion import OFF_SPEED, true_motion_of
 
 FIND = "find"

@@ -14,10 +14,10 @@ from reportgen.machine.load_laws import FULL_TURN
 from reportgen.machine.regulated_cycle import RegulatedCycle
 from reportgen.machine.shared_results import LOST_TORQUE, REGULATED_CYCLE
 from reportgen.motion.drives import ConstantDrive, Drive, MotionAsked
-from reportgen.motion.energy import ReducedMachine, ReducedWay
+from reportgen.motion.energy_equation import ReducedMachine, ReducedWay
 from reportgen.motion.motors import DriveDemand, MotorChecks, judged
-from reportgen.motion.running import MotionRun, NoMotionError, SteadyMotion, mean_torque, steady
 from reportgen.motion.starting import StartFromRest, start, stop
+from reportgen.motion.steady_running import MotionRun, NoMotionError, SteadyMotion, mean_torque, steady
 
 NO_INERTIA = 1e-12
 """A reduced moment of inertia below this share of its greatest is zero."""

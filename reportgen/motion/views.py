@@ -17,7 +17,7 @@ from reportgen.motion import motor_choice, run_ids
 from reportgen.motion.curves import FIGURES, motion_of
 from reportgen.motion.drives import ConstantDrive, Geared, TableDrive
 from reportgen.motion.motor_choice import chosen_motor
-from reportgen.motion.running import MotionRun
+from reportgen.motion.steady_running import MotionRun
 from reportgen.motion.true_forces import asks_forces, forces_table
 from reportgen.motion.true_motion import OFF_SPEED, motion_in
 from reportgen.report.report import Report

@@ -23,10 +23,10 @@ from reportgen.machine.loads import Applied, Torque, course, crank_motion, fixed
 from reportgen.machine.reduction import reduced
 from reportgen.machine.spring_geometry import Anchor
 from reportgen.motion.drives import ConstantDrive, Drive, Geared, KlossDrive, LinearDrive, Motor, TableDrive
-from reportgen.motion.energy import ReducedMachine
+from reportgen.motion.energy_equation import ReducedMachine
 from reportgen.motion.motors import DriveDemand, judged
-from reportgen.motion.running import MotionRun, NoMotionError, mean_torque, steady
 from reportgen.motion.starting import start, stop
+from reportgen.motion.steady_running import MotionRun, NoMotionError, mean_torque, steady
 from reportgen.motion.true_motion import at_positions, at_true_speeds
 from reportgen.springs.laws import SpringLaw
 from tests.lanes import matrix, proof

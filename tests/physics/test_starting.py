@@ -16,9 +16,9 @@ from reportgen.machine import Inertia
 from reportgen.machine.analysis import Machine, breaks
 from reportgen.machine.load_laws import FULL_TURN, TableLaw, by_stroke
 from reportgen.motion.drives import ConstantDrive, Drive, KlossDrive, LinearDrive, TableDrive
-from reportgen.motion.energy import ReducedMachine
-from reportgen.motion.running import MotionRun, NoMotionError, levels, mean_torque, steady
+from reportgen.motion.energy_equation import ReducedMachine
 from reportgen.motion.starting import start, stop
+from reportgen.motion.steady_running import MotionRun, NoMotionError, levels, mean_torque, steady
 from tests.lanes import matrix
 
 STRONG = LinearDrive(1000.0, 40.0)

@@ -11,8 +11,8 @@ import pytest
 
 from reportgen import api
 from reportgen.motion.drives import MotionAsked
-from reportgen.motion.energy import ReducedMachine
-from reportgen.motion.running import steady
+from reportgen.motion.energy_equation import ReducedMachine
+from reportgen.motion.steady_running import steady
 from reportgen.motion.true_motion import at_positions
 
 SHAPER = (Path(__file__).parents[2] / "assignments" / "shaper-04.yaml").read_text(encoding="utf-8")

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from reportgen.base.arrays import Floats
 from reportgen.motion.drives import ConstantDrive, Drive
-from reportgen.motion.energy import (
+from reportgen.motion.energy_equation import (
     LEAST_ENERGY,
     LEFT,
     MOST_STEPS,
@@ -34,7 +34,7 @@ from reportgen.motion.energy import (
     linear,
     smooth,
 )
-from reportgen.motion.time_steps import TimeStepper, UnsettledError, times
+from reportgen.motion.time_integration import TimeStepper, UnsettledError, times
 
 BALANCED = 1e-9
 """A mean torque below this share of the mean of its size is zero."""

@@ -15,7 +15,7 @@ import numpy as np
 
 from reportgen.base.arrays import Floats
 from reportgen.motion.drives import Drive
-from reportgen.motion.energy import STAGES, A, B, C, ReducedMachine, tail
+from reportgen.motion.energy_equation import STAGES, A, B, C, ReducedMachine, tail
 
 SETTLED = 1e-13
 """The rounds of a step end where ω moves by less than this share of its greatest value in the step."""
