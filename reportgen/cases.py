@@ -212,7 +212,7 @@ class MachineCase(MachineAnalysis):
         return (title, kind), (*given, *prose.render("task", known))
 
     def animations(self) -> tuple[Animation, ...]:
-        from reportgen.page.sampling import animation
+        from reportgen.page.motion_samples import animation
 
         return (animation(self),)
 

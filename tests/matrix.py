@@ -37,8 +37,8 @@ from reportgen.cases import open_case
 from reportgen.cli import app
 from reportgen.document.named_figures import named_figures
 from reportgen.marking.toleranced_key import Ask, key_of
-from reportgen.page.editing import EditSession
-from reportgen.page.live import LiveSession
+from reportgen.page.edit_session import EditSession
+from reportgen.page.live_view import LiveSession
 from tests.marking.filled import filled
 
 OWN: Language | Literal[""] = ""

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 from reportgen.api.typesetting import typeset
 from reportgen.base.units import Language
 from reportgen.cases import opener
-from reportgen.page import watch as served
-from reportgen.page.watch import Products
+from reportgen.page import file_watch as served
+from reportgen.page.file_watch import Products
 
 if TYPE_CHECKING:
     from reportgen.case import Case

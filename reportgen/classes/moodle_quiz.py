@@ -27,8 +27,8 @@ from reportgen.cases import open_case
 from reportgen.marking.marking_policy import Policy
 from reportgen.marking.task_paper import given_of
 from reportgen.marking.toleranced_key import key_of, shown_number, symbol_text, words_of
-from reportgen.page.elements import Pens
 from reportgen.page.html import Blocks
+from reportgen.page.svg_elements import Pens
 from reportgen.writers import pictures
 
 DOTS = 110

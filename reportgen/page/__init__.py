@@ -13,7 +13,7 @@ def panels(case: Case) -> tuple[Panel, ...]:
     animations = case.animations()
     if not animations:
         return ()
-    from reportgen.page.panel import panel
+    from reportgen.page.animation_panel import panel
 
     return tuple(panel(animation, case.assignment.language, case.words) for animation in animations)
 

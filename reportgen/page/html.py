@@ -26,7 +26,7 @@ from reportgen.document.named_figures import figure_name, safe
 from reportgen.drawing import Scene
 from reportgen.formula import Expression, VectorEquation
 from reportgen.formula.formula_layout import NARROW, written
-from reportgen.page.elements import MathmlFormulas, Painter, Pens, escape
+from reportgen.page.svg_elements import MathmlFormulas, Painter, Pens, escape
 
 if TYPE_CHECKING:
     from jinja2 import Environment, Template

@@ -23,9 +23,9 @@ from reportgen import catalogue
 from reportgen.base.yaml_source import MappingNode, Scalar, Source, read_source
 from reportgen.base.yaml_values import at, path_text, put
 from reportgen.cases import open_case, opener
-from reportgen.page.dragging import Resident
-from reportgen.page.ownership import moved
-from reportgen.page.watch import edited
+from reportgen.page.controlled_parts import moved
+from reportgen.page.drag_samples import Resident
+from reportgen.page.file_watch import edited
 from tests.bench.page import ROOT, browser
 
 DRAWN = {

@@ -11,7 +11,7 @@ from reportgen.drawing import Hatch, Label, Polyline, style
 from reportgen.drawing.animation import MovingBody, MovingVector
 from reportgen.drawing.spring_drawings import OUTER, TEETH
 from reportgen.formula import Symbol
-from reportgen.page.sampling import Samples
+from reportgen.page.motion_samples import Samples
 from reportgen.report.figures import scheme
 from reportgen.report.report import Report
 from reportgen.sheets.plates import Sources, plates_of

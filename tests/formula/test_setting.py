@@ -13,7 +13,7 @@ from reportgen.cases import open_case
 from reportgen.formula import Chain, Expression, Number, Symbol, call, cos, rebuild, sin, sqrt
 from reportgen.formula.formula_layout import Part, laid
 from reportgen.formula.plain_text import Plain
-from reportgen.page.elements import MathmlFormulas, Runs
+from reportgen.page.svg_elements import MathmlFormulas, Runs
 from reportgen.sheets.dxf import MText
 from reportgen.writers.latex_math import LatexFormulas
 from reportgen.writers.typst_math import TypstFormulas

@@ -14,10 +14,10 @@ from reportgen.base.yaml_source import MappingNode, Scalar, Source, read_source
 from reportgen.base.yaml_values import at, put
 from reportgen.case import MachineAnalysis
 from reportgen.cases import open_case, opened
-from reportgen.page.dragging import Resident, tracks
-from reportgen.page.ownership import Owned, moved, owners
-from reportgen.page.panel import PanelWriter
-from reportgen.page.sampling import Samples
+from reportgen.page.animation_panel import PanelWriter
+from reportgen.page.controlled_parts import Owned, moved, owners
+from reportgen.page.drag_samples import Resident, tracks
+from reportgen.page.motion_samples import Samples
 from tests.lanes import matrix
 
 FOLDER = Path(__file__).parents[2] / "assignments"

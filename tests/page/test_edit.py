@@ -19,7 +19,7 @@ from reportgen.base.units import Language
 from reportgen.base.yaml_source import read_text
 from reportgen.base.yaml_values import at
 from reportgen.cases import opener
-from reportgen.page.watch import edited
+from reportgen.page.file_watch import edited
 from tests.lanes import proof
 from tests.page.browser import Browser, axe
 

@@ -28,11 +28,11 @@ from reportgen.base.units import Language
 from reportgen.base.words import load_words
 from reportgen.base.yaml_source import LARGEST, MappingNode, read_text
 from reportgen.cases import open_case
-from reportgen.page import editing, html
-from reportgen.page.choosing import Chooser
-from reportgen.page.editing import EditSession, RefusedChangeError
-from reportgen.page.fields import FieldGroup, FieldLine, Form
-from reportgen.page.serving import Server
+from reportgen.page import edit_session, html
+from reportgen.page.edit_session import EditSession, RefusedChangeError
+from reportgen.page.form_fields import FieldGroup, FieldLine, Form
+from reportgen.page.kind_chooser import Chooser
+from reportgen.page.local_server import Server
 from tests.lanes import matrix
 
 SHAPER = catalogue.sample("shaper", "en")
@@ -95,8 +95,8 @@ def test_the_form_is_small(tmp_path: Path) -> None:
     """The longest form has 60 kB, what only a form needs of scripts and styles 36 kB."""
     edited = session(tmp_path, catalogue.sample("linkage", "vi"))
     assert len(edited.form().encode()) < 60_000
-    scripts = [html.lean(name) for name in (*editing.SCRIPTS, html.FEED) if name != "live.js"]
-    styles = [html.read(name) for name in editing.STYLES if name != "live.css"]
+    scripts = [html.lean(name) for name in (*edit_session.SCRIPTS, html.FEED) if name != "live.js"]
+    styles = [html.read(name) for name in edit_session.STYLES if name != "live.css"]
     assert sum(len(text.encode()) for text in (*scripts, *styles)) < 36_000
 
 
@@ -243,7 +243,7 @@ def test_what_is_refused_is_told_in_the_language_of_the_form(language: Language)
     """Every reason that the code names has its words, and no words are left over."""
     words = load_words(search_path(language))["edit"]
     named = re.compile(r'(?:EditError|RefusedChangeError)\("(\w+)"')
-    keys = {key for module in (yaml_edit, editing) for key in named.findall(inspect.getsource(module))}
+    keys = {key for module in (yaml_edit, edit_session) for key in named.findall(inspect.getsource(module))}
     assert keys == words["refused"].keys()
     assert {"ENOSPC", "EACCES", "EROFS"} <= words["reasons"].keys() <= set(errno.errorcode.values())
     full = OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
@@ -262,7 +262,7 @@ def test_more_rows_than_a_list_takes_are_told(tmp_path: Path, monkeypatch: pytes
     assert 'data-list="2000"' in form
     edited.edit({"op": "undo"})
     before = edited.path.read_bytes()
-    for module in (yaml_source, editing):
+    for module in (yaml_source, edit_session):
         monkeypatch.setattr(module, "MOST_TOKENS", 2000)
     for count, told in ((900, "too large"), (1100, "0, 0, …")):
         refused = put(edited, ("indicator", "intake"), ", ".join(["0"] * count), list=True)["refused"]

@@ -12,7 +12,7 @@ import pytest
 from reportgen import catalogue
 from reportgen.base.errors import Where
 from reportgen.base.yaml_source import MappingNode, Scalar, read_text
-from reportgen.page.editing import EditSession
+from reportgen.page.edit_session import EditSession
 from tests.lanes import matrix
 from tests.page.browser import Browser
 from tests.page.typist import SHIFT, Model, Typist, edit_beside, form_alone, play, until, value

@@ -14,7 +14,7 @@ import pytest
 from reportgen import api
 from reportgen.base.template_folders import languages, search_path
 from reportgen.base.words import load_words
-from reportgen.page.making import Maker
+from reportgen.page.background_builds import Maker
 
 
 def maker(folder: Path, script: str) -> tuple[Maker, list[Any]]:

@@ -27,9 +27,9 @@ from reportgen.base.errors import TemplateError
 from reportgen.base.template_folders import languages, search_path
 from reportgen.cases import open_case
 from reportgen.cli import app
-from reportgen.page import serving
-from reportgen.page.live import LiveSession
-from reportgen.page.serving import Server
+from reportgen.page import local_server
+from reportgen.page.live_view import LiveSession
+from reportgen.page.local_server import Server
 from tests.lanes import matrix, proof
 from tests.page.browser import Browser
 from tests.report import built
@@ -268,8 +268,8 @@ def test_each_edition_is_told_and_a_late_one_dropped(file: Path, served: Server)
 @pytest.fixture
 def server(monkeypatch: pytest.MonkeyPatch) -> Iterator[Server]:
     """A server whose patience is short, with a page that has no news."""
-    monkeypatch.setattr(serving, "REQUEST", 0.4)
-    monkeypatch.setattr(serving, "BEAT", 0.1)
+    monkeypatch.setattr(local_server, "REQUEST", 0.4)
+    monkeypatch.setattr(local_server, "BEAT", 0.1)
     session = LiveSession(partial(open_case, FILE, None))
     server = Server(session)
     thread = threading.Thread(target=server.serve_forever, args=(0.05,), daemon=True)
@@ -310,10 +310,10 @@ def test_a_request_that_comes_letter_by_letter_ends(server: Server) -> None:
 def test_a_page_that_waits_for_news_stays(server: Server) -> None:
     """Its stream is idle by nature: it hears that the server is there, long after a request would have ended."""
     with socket.create_connection(server.server_address[:2]) as connection:
-        host = f"{serving.HOST}:{server.server_port}"
+        host = f"{local_server.HOST}:{server.server_port}"
         connection.sendall(f"GET /{server.token}/news HTTP/1.1\r\nHost: {host}\r\n\r\n".encode())
         connection.settimeout(PATIENCE)
-        heard, end = b"", time.monotonic() + 4 * serving.REQUEST
+        heard, end = b"", time.monotonic() + 4 * local_server.REQUEST
         while time.monotonic() < end:
             more = connection.recv(1000)
             assert more
@@ -333,7 +333,7 @@ def test_at_the_limit_of_open_files_it_waits(server: Server, monkeypatch: pytest
     monkeypatch.setattr(socket.socket, "accept", full)
     with socket.create_connection(server.server_address[:2]) as connection:
         until(lambda: len(asked) > 3)
-        assert (asked[-1] - asked[0]) / (len(asked) - 1) >= serving.RESPITE
+        assert (asked[-1] - asked[0]) / (len(asked) - 1) >= local_server.RESPITE
         # And where there is room again, it is served.
         monkeypatch.setattr(socket.socket, "accept", accept)
         connection.sendall(b"GET / HTTP/1.1\r\nHost: elsewhere\r\n\r\n")

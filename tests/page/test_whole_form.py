@@ -11,7 +11,7 @@ import pytest
 from reportgen import catalogue
 from reportgen.cases import open_case
 from reportgen.marking.toleranced_key import key_of
-from reportgen.page.editing import EditSession
+from reportgen.page.edit_session import EditSession
 from tests.lanes import proof
 
 FOLDER = Path(__file__).parents[2] / "assignments" / "coursework"

@@ -19,10 +19,10 @@ from reportgen.base.errors import ReportgenError, Where
 from reportgen.base.yaml_source import Scalar, read_text
 from reportgen.base.yaml_values import at
 from reportgen.case import Case
-from reportgen.page.editing import EditSession
-from reportgen.page.fields import written_at
-from reportgen.page.serving import Server
-from reportgen.page.watch import edited
+from reportgen.page.edit_session import EditSession
+from reportgen.page.file_watch import edited
+from reportgen.page.form_fields import written_at
+from reportgen.page.local_server import Server
 from tests.page.browser import Browser
 
 PATIENCE = 20.0

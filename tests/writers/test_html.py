@@ -29,7 +29,7 @@ from reportgen.formula import (
 )
 from reportgen.formula.plain_text import formula
 from reportgen.page import html
-from reportgen.page.elements import MathmlFormulas, Painter, Pens
+from reportgen.page.svg_elements import MathmlFormulas, Painter, Pens
 from tests.writers import sample
 
 SCRIPTED = {"msub": 2, "msup": 2, "msubsup": 3, "mover": 2, "mfrac": 2}

@@ -15,8 +15,8 @@ import numpy as np
 from reportgen.assignment import Assignment
 from reportgen.case import Case, MachineAnalysis
 from reportgen.drawing.animation import MomentValue, MovingBody, MovingName, MovingVector, Pane, Still, Track
-from reportgen.page.panel import PanelWriter, samples
-from reportgen.page.sampling import Samples
+from reportgen.page.animation_panel import PanelWriter, samples
+from reportgen.page.motion_samples import Samples
 
 KEPT = "words", "written", "printed"
 """Members of a case that are computed once and not needed for a dragged value: its words, ledgers, symbols."""

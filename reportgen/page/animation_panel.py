@@ -39,8 +39,8 @@ from reportgen.drawing.label_size import POINT
 from reportgen.drawing.style import HEAD_SLENDERNESS, LABEL, SMALL, decimal
 from reportgen.formula import Symbol
 from reportgen.formula.vocabulary import KINDS
-from reportgen.page.elements import MathmlFormulas, Painter, Pens
 from reportgen.page.html import Panel, data, save_buttons, template
+from reportgen.page.svg_elements import MathmlFormulas, Painter, Pens
 
 SPEEDS = (0.1, 0.25, 0.5, 1.0, 2.0)
 """Speeds of the motion shown: shares of the usual one."""

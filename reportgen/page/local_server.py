@@ -19,7 +19,7 @@ from typing import Any
 from urllib.parse import urlsplit
 
 from reportgen.base.yaml_source import LARGEST
-from reportgen.page.live import PART, LiveSession
+from reportgen.page.live_view import PART, LiveSession
 
 HOST = "127.0.0.1"
 BEAT = 10.0

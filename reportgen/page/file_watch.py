@@ -23,10 +23,10 @@ from reportgen.base.words import language_of
 from reportgen.base.yaml_source import read_source
 from reportgen.case import Case
 from reportgen.document import Document
-from reportgen.page.choosing import Chooser
-from reportgen.page.editing import EditSession
-from reportgen.page.live import LiveSession
-from reportgen.page.serving import Server
+from reportgen.page.edit_session import EditSession
+from reportgen.page.kind_chooser import Chooser
+from reportgen.page.live_view import LiveSession
+from reportgen.page.local_server import Server
 
 QUIET, LONGEST = 20, 200
 """Changes are taken together until nothing changes for the first time (ms), and no longer than the second."""

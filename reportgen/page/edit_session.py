@@ -43,12 +43,12 @@ from reportgen.base.yaml_source import (
 )
 from reportgen.base.yaml_values import at, put
 from reportgen.page import html
-from reportgen.page.dragging import Resident
-from reportgen.page.fields import Form, written_at
+from reportgen.page.background_builds import Maker
+from reportgen.page.controlled_parts import owners
+from reportgen.page.drag_samples import Resident
+from reportgen.page.form_fields import Form, written_at
 from reportgen.page.html import Live
-from reportgen.page.live import PART, LiveSession, empty_document
-from reportgen.page.making import Maker
-from reportgen.page.ownership import owners
+from reportgen.page.live_view import PART, LiveSession, empty_document
 
 PART_KEYS = "kind", "parameters"
 """Keys with which a new part begins."""

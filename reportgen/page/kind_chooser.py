@@ -15,9 +15,9 @@ from reportgen.base.units import Language
 from reportgen.case import Case
 from reportgen.document import Figure
 from reportgen.page import html
-from reportgen.page.elements import Painter, Pens
 from reportgen.page.html import Live
-from reportgen.page.live import LiveSession, empty_document
+from reportgen.page.live_view import LiveSession, empty_document
+from reportgen.page.svg_elements import Painter, Pens
 
 READY = 60.0
 """The page waits so long (s) for the file that it has begun."""
