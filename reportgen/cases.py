@@ -32,7 +32,7 @@ from reportgen.machine.load_laws import FULL_TURN, STEPS
 if TYPE_CHECKING:
     from reportgen.drawing.animation import Animation
     from reportgen.drawing.plates import DrawingPlate
-    from reportgen.report.report import Report
+    from reportgen.report.context import Report
 
 
 GENERAL, HEIGHT = "vasntωεφαl", "y"
@@ -125,14 +125,14 @@ class MachineCase(MachineAnalysis):
     def _report(self) -> Report:
         """The case as its templates see it."""
         # It loads the template renderer, which most commands do not need.
-        from reportgen.report.report import Report
+        from reportgen.report.context import Report
 
         return Report(self)
 
     @cached_property
     def _ways(self) -> Mapping[str, str]:
         """The positive directions of the motion of its sliders, in words, by their points."""
-        from reportgen.report.equations import heading_words
+        from reportgen.report.template_equations import heading_words
 
         report = self._report
         ways = report.slider_senses.items()

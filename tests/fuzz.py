@@ -46,7 +46,7 @@ from reportgen.marking.blank_report import frame_of
 from reportgen.marking.marking_policy import read_policy
 from reportgen.marking.task_paper import task_of
 from reportgen.marking.toleranced_key import key_of
-from reportgen.report.report import Report
+from reportgen.report.context import Report
 from reportgen.report.template_names import names
 from reportgen.sheets.frame import FIELDS, blocks, read_block
 from reportgen.workbook import write_csv, write_xlsx

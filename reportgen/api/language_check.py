@@ -15,7 +15,7 @@ from reportgen.base.words import as_problem, common_words, messages, spoken
 from reportgen.cases import MachineCase, open_case
 from reportgen.document.proof_sheet import proof
 from reportgen.document.translation_check import faults
-from reportgen.report.report import Report
+from reportgen.report.context import Report
 from reportgen.writers.typst_fonts import added, lacking, there_is_one_of
 
 BATCH = 400

@@ -18,7 +18,7 @@ from reportgen.drawing.animation import BarScale, MovingBody, MovingItem, Moving
 from reportgen.formula import Symbol, vocabulary
 from reportgen.machine.kinematics import Motion, unit
 from reportgen.page.topic_layers import LayerHooks
-from reportgen.report.report import Report
+from reportgen.report.context import Report
 
 LAYERS = ("shaking", "balanced")
 """Without counterweights and with them."""

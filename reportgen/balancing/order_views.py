@@ -13,8 +13,8 @@ from reportgen.balancing.stars import star
 from reportgen.document import Value
 from reportgen.document.figure_placement import FigureScenes
 from reportgen.formula import Number, vocabulary
-from reportgen.report.report import Report
-from reportgen.report.tables import bare
+from reportgen.report.context import Report
+from reportgen.report.quantity_tables import bare
 
 
 def _engine(report: Report) -> Engine | None:

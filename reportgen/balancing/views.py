@@ -22,9 +22,9 @@ from reportgen.formula.vocabulary import KINDS
 from reportgen.machine import DRIVER
 from reportgen.machine.kinematics import unit
 from reportgen.machine.load_laws import FULL_TURN
-from reportgen.report.figures import drawing_scale, looks, reduction, shown_at
-from reportgen.report.report import Report
-from reportgen.report.tables import QuantityTable, RowTable, bare
+from reportgen.report.context import Report
+from reportgen.report.mechanism_figures import drawing_scale, looks, reduction, shown_at
+from reportgen.report.quantity_tables import QuantityTable, RowTable, bare
 from reportgen.report.topic_views import ViewHooks, always
 
 __all__ = ["FIGURES", "FUNCTIONS", "VALUES", "factors_table"]

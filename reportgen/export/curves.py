@@ -20,7 +20,7 @@ from reportgen.case import Case, DriverMotion
 from reportgen.drawing import Content, Diagram, PlottedCurve
 from reportgen.export.quantities import Found, quantity
 from reportgen.formula import Chain, Symbol
-from reportgen.report.equations import heading_of
+from reportgen.report.template_equations import heading_of
 from reportgen.workbook import SheetCell, read
 
 Over = Literal["phi", "time"]

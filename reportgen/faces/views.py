@@ -9,9 +9,9 @@ from reportgen.base.template_access import view
 from reportgen.document.template_rendering import NamedPoint
 from reportgen.formula import ids
 from reportgen.machine.loads import carriers
-from reportgen.report.report import Report
+from reportgen.report.context import Report
+from reportgen.report.quantity_tables import RowTable, bare
 from reportgen.report.slider_faces import tilts, wide_sliders_of
-from reportgen.report.tables import RowTable, bare
 from reportgen.report.topic_views import ViewHooks, always
 
 

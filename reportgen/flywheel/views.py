@@ -17,10 +17,10 @@ from reportgen.flywheel.regulation import regulated_in
 from reportgen.formula import Symbol, ids
 from reportgen.machine.regulated_cycle import RegulatedCycle
 from reportgen.machine.shared_results import REGULATED_CYCLE
-from reportgen.report.comments import labels, shown
-from reportgen.report.curves import axis_of, driver_axis
-from reportgen.report.report import Report
-from reportgen.report.tables import tables
+from reportgen.report.context import Report
+from reportgen.report.cycle_curves import axis_of, driver_axis
+from reportgen.report.quantity_tables import tables
+from reportgen.report.table_remarks import labels, shown
 from reportgen.report.topic_views import ViewHooks, always
 
 THINNED = 4

@@ -14,7 +14,7 @@ from reportgen.friction.views import rubbing
 from reportgen.machine.analysis import Analysis
 from reportgen.machine.force_analysis import reaction_name
 from reportgen.page.topic_layers import LayerHooks
-from reportgen.report.report import Report
+from reportgen.report.context import Report
 
 LAYER = "friction"
 CIRCLE = Pen(0.2, style.RED)

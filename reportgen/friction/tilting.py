@@ -20,7 +20,7 @@ from reportgen.drawing.labels import label
 from reportgen.formula import Symbol, ids
 from reportgen.friction.joints import friction_of, reactions_that_press, with_friction
 from reportgen.machine import Joint
-from reportgen.report.report import Report
+from reportgen.report.context import Report
 from reportgen.report.slider_faces import ends_of
 
 DETAIL = 26.0

@@ -32,13 +32,13 @@ from reportgen.friction.ledger import RubbingJoint, rubbing_joints
 from reportgen.friction.tilting import FaceForce, Leaning, any_tilts, at_both_ends, face_forces, leaning_forces, tilting
 from reportgen.machine import GROUND
 from reportgen.machine.force_analysis import reaction_name
-from reportgen.report import equations
-from reportgen.report.figures import as_large_as_asked, drawing_scale, looks
-from reportgen.report.groups import GroupView
-from reportgen.report.plans import force_plan
-from reportgen.report.report import Report
+from reportgen.report import template_equations
+from reportgen.report.context import Report
+from reportgen.report.link_views import GroupView
+from reportgen.report.mechanism_figures import as_large_as_asked, drawing_scale, looks
+from reportgen.report.plan_figures import force_plan
+from reportgen.report.quantity_tables import QuantityTable, RowTable, bare
 from reportgen.report.slider_faces import face
-from reportgen.report.tables import QuantityTable, RowTable, bare
 from reportgen.report.topic_views import Passages, ViewHooks
 
 ENLARGED = 8.0
@@ -96,7 +96,7 @@ def data(report: Report) -> Inlines:
     at = dict.fromkeys(str(each.point) if each.kind == "pin" else str(each.link) for each in joints)
     names = (friction_ids.coefficient, friction_ids.pin_radius, friction_ids.circle)
     given = (name(place) for place in at for name in names)
-    shown = [equations.quantity(report, id) for id in given if id in report.machine.sheet]
+    shown = [template_equations.quantity(report, id) for id in given if id in report.machine.sheet]
     return tuple(inline for n, carried in enumerate(shown) for inline in (*((Text("; "),) if n else ()), *carried))
 
 

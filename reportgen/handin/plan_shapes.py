@@ -15,8 +15,8 @@ from reportgen.case import Case, MachineAnalysis
 from reportgen.derivation.kinematic_entries import What
 from reportgen.formula import Symbol, ids
 from reportgen.marking.marking_scheme import Values
-from reportgen.report.plans import POLE, force_construction, motion_construction
-from reportgen.report.report import Report
+from reportgen.report.context import Report
+from reportgen.report.plan_figures import POLE, force_construction, motion_construction
 
 NOTHING = 0.01
 """Length (mm) below which a vector is a point on any paper."""

@@ -20,7 +20,7 @@ from reportgen.formula import Number
 from reportgen.formula.vocabulary import Chapter
 from reportgen.marking.answer_sheet import asked_positions, info_rows, open_cells
 from reportgen.marking.toleranced_key import words_of
-from reportgen.report.report import PLATES_UP_TO
+from reportgen.report.context import PLATES_UP_TO
 
 MOST_POSITIONS, MOST_FILLED = 8, 4
 """Largest numbers of position columns in a table: for given values, and for values to be filled in."""

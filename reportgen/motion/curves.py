@@ -14,8 +14,8 @@ from reportgen.formula import Chain, Symbol
 from reportgen.motion import run_ids
 from reportgen.motion.steady_running import MotionRun
 from reportgen.motion.true_motion import TrueMotion, motion_in
-from reportgen.report.curves import axis
-from reportgen.report.report import Report
+from reportgen.report.context import Report
+from reportgen.report.cycle_curves import axis
 
 THINNED = 3
 """Every third of the samples is enough for a curve."""

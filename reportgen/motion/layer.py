@@ -11,7 +11,7 @@ from reportgen.motion.curves import characteristic_chart
 from reportgen.motion.steady_running import MotionRun
 from reportgen.motion.true_motion import motion_in
 from reportgen.page.topic_layers import LayerHooks
-from reportgen.report.report import Report
+from reportgen.report.context import Report
 
 MOST = 1500
 """So many samples of a run go to the page; between them its angle is drawn along straight lines of time."""

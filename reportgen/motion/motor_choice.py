@@ -12,7 +12,7 @@ from reportgen.document.tables import list_table
 from reportgen.formula import Number
 from reportgen.motion.motors import MotorChecks
 from reportgen.motion.true_motion import motion_in
-from reportgen.report.report import Report
+from reportgen.report.context import Report
 
 WIDTHS = (24.0, 22.0, 34.0, 34.0, 34.0, 14.0)
 FIGURES = 4

@@ -14,7 +14,7 @@ from reportgen.formula.calculation import ZERO
 from reportgen.machine.analysis import Analysis, Position
 from reportgen.motion.curves import motion_of
 from reportgen.motion.true_motion import at_true_speeds, motion_in
-from reportgen.report.report import Report
+from reportgen.report.context import Report
 
 WIDTHS = (36.0, 40.0, 40.0, 30.0)
 

@@ -20,8 +20,8 @@ from reportgen.motion.motor_choice import chosen_motor
 from reportgen.motion.steady_running import MotionRun
 from reportgen.motion.true_forces import asks_forces, forces_table
 from reportgen.motion.true_motion import OFF_SPEED, motion_in
-from reportgen.report.report import Report
-from reportgen.report.tables import tables
+from reportgen.report.context import Report
+from reportgen.report.quantity_tables import tables
 from reportgen.report.topic_views import ViewHooks, always
 
 RPM = 30 / math.pi

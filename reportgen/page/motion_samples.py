@@ -54,10 +54,10 @@ from reportgen.machine.load_laws import FULL_TURN
 from reportgen.page import panes
 from reportgen.page.topic_layers import LAYERS as TOPIC_LAYERS
 from reportgen.page.topic_layers import Box, LayerHooks
-from reportgen.report.curves import axis, curves_of_motion, over_a_turn, over_the_cycle, torque_chart
-from reportgen.report.figures import drawing_scale, looks
-from reportgen.report.plans import POLE, force_construction, motion_construction
-from reportgen.report.report import Report
+from reportgen.report.context import Report
+from reportgen.report.cycle_curves import axis, curves_of_motion, over_a_turn, over_the_cycle, torque_chart
+from reportgen.report.mechanism_figures import drawing_scale, looks
+from reportgen.report.plan_figures import POLE, force_construction, motion_construction
 
 SAMPLES = 360
 """Even samples of a turn."""

@@ -12,7 +12,7 @@ from reportgen.drawing.animation import BarScale, Chart, MovingItem, TimedRun
 from reportgen.formula import Symbol
 from reportgen.machine.analysis import Analysis
 from reportgen.machine.kinematics import Motion
-from reportgen.report.report import Report
+from reportgen.report.context import Report
 
 Box = tuple[complex, complex]
 """The lower left and the upper right corner of a drawing (mm)."""

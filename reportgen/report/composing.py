@@ -14,8 +14,8 @@ from reportgen.document.figure_placement import PAPERS
 from reportgen.document.layout import contents, plates_last
 from reportgen.document.used_symbols import used_symbols
 from reportgen.report import phrases
+from reportgen.report.context import Report
 from reportgen.report.named_tables import table
-from reportgen.report.report import Report
 from reportgen.report.template_names import names
 
 LISTING = "symbols"

@@ -23,10 +23,10 @@ from reportgen.formula import Chain, Expression, Symbol, constructions, ids, siz
 from reportgen.machine import DRIVER
 from reportgen.machine.force_analysis import Load, as_single_force
 from reportgen.report import guide_couples, percussion
-from reportgen.report.figures import drawing_scale, looks
-from reportgen.report.groups import GroupView
-from reportgen.report.plans import force_plan, motion_plan
-from reportgen.report.report import Report
+from reportgen.report.context import Report
+from reportgen.report.link_views import GroupView
+from reportgen.report.mechanism_figures import drawing_scale, looks
+from reportgen.report.plan_figures import force_plan, motion_plan
 from reportgen.report.slider_faces import at_ends, face, wide_sliders_of
 
 

@@ -8,8 +8,8 @@ from __future__ import annotations
 from reportgen.derivation.load_entries import Polygon
 from reportgen.drawing.force_drawings import Couple
 from reportgen.formula import Symbol, ids, size
-from reportgen.report.groups import Contact
-from reportgen.report.report import Report
+from reportgen.report.context import Report
+from reportgen.report.link_views import Contact
 
 
 def is_couple(report: Report, contact: Contact, k: int) -> bool:

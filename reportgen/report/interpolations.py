@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from reportgen.base.template_access import shown
 from reportgen.formula import ids
 from reportgen.machine.loads import Applied, Torque
-from reportgen.report.report import Report
+from reportgen.report.context import Report
 
 
 @shown("id", "stroke", "line", "ways")

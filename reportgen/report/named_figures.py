@@ -10,21 +10,21 @@ from typing import Any
 from reportgen.document import Figure, InlineMath, Inlines, Plate, Text
 from reportgen.document.figure_placement import FigureScenes, close
 from reportgen.machine.analysis import Position
-from reportgen.report import curves, figures, force_figures, phrases, plans, topic_views
-from reportgen.report.groups import GroupView
-from reportgen.report.report import Report
+from reportgen.report import cycle_curves, force_figures, mechanism_figures, phrases, plan_figures, topic_views
+from reportgen.report.context import Report
+from reportgen.report.link_views import GroupView
 from reportgen.report.topic_views import DrawnFigure
 
-VELOCITY, ACCELERATION = plans.MotionFigures("v"), plans.MotionFigures("a")
+VELOCITY, ACCELERATION = plan_figures.MotionFigures("v"), plan_figures.MotionFigures("a")
 
 FIGURES: Mapping[str, tuple[str, Callable[..., FigureScenes]]] = {
-    "line-styles": ("fig.line-styles", figures.line_styles),
+    "line-styles": ("fig.line-styles", mechanism_figures.line_styles),
     # the machine
-    "scheme": ("fig.scheme", figures.scheme),
-    "groups": ("fig.groups", figures.groups),
-    "positions": ("fig.positions", figures.positions),
-    "extremes": ("fig.extremes", figures.extremes),
-    "swing": ("fig.swing", figures.swing),
+    "scheme": ("fig.scheme", mechanism_figures.scheme),
+    "groups": ("fig.groups", mechanism_figures.groups),
+    "positions": ("fig.positions", mechanism_figures.positions),
+    "extremes": ("fig.extremes", mechanism_figures.extremes),
+    "swing": ("fig.swing", mechanism_figures.swing),
     # motion
     "velocity": ("fig.v", VELOCITY.whole),
     "velocity-stages": ("fig.v.stages", VELOCITY.in_stages),
@@ -32,23 +32,23 @@ FIGURES: Mapping[str, tuple[str, Callable[..., FigureScenes]]] = {
     "acceleration": ("fig.a", ACCELERATION.whole),
     "acceleration-stages": ("fig.a.stages", ACCELERATION.in_stages),
     "acceleration-plates": ("fig.a.plates", ACCELERATION.on_plates),
-    "coriolis": ("fig.coriolis", figures.coriolis),
-    "inclination": ("fig.inclination", figures.inclination),
-    "two-equations": ("fig.twice", figures.two_equations),
-    "similarity": ("fig.similarity", figures.similarity),
-    "centres": ("fig.centres", figures.centres),
-    "motion": ("fig.motion", curves.motion),
+    "coriolis": ("fig.coriolis", mechanism_figures.coriolis),
+    "inclination": ("fig.inclination", mechanism_figures.inclination),
+    "two-equations": ("fig.twice", mechanism_figures.two_equations),
+    "similarity": ("fig.similarity", mechanism_figures.similarity),
+    "centres": ("fig.centres", mechanism_figures.centres),
+    "motion": ("fig.motion", cycle_curves.motion),
     # forces
-    "indicator": ("fig.indicator", figures.indicator),
+    "indicator": ("fig.indicator", mechanism_figures.indicator),
     "bodies": ("fig.bodies", force_figures.bodies),
-    "forces": ("fig.R", plans.forces),
-    "force-stages": ("fig.R.stages", plans.force_stages),
-    "force-plates": ("fig.R.plates", plans.force_plates),
+    "forces": ("fig.R", plan_figures.forces),
+    "force-stages": ("fig.R.stages", plan_figures.force_stages),
+    "force-plates": ("fig.R.plates", plan_figures.force_plates),
     "crank": ("fig.crank", force_figures.driver),
     "slide": ("fig.slide", force_figures.driver),
     "lever": ("fig.lever", force_figures.lever),
-    "polar": ("fig.polar", curves.polar),
-    "torque": ("fig.M", curves.torque),
+    "polar": ("fig.polar", cycle_curves.polar),
+    "torque": ("fig.M", cycle_curves.torque),
 }
 """Beginning of a figure's key, and the function that draws it; its caption is in `words.yaml` under `captions`."""
 

@@ -8,9 +8,9 @@ from typing import Any
 
 from reportgen.document import Paragraph, Table
 from reportgen.machine.analysis import Position
-from reportgen.report import overview, result_tables, tables, topic_views
-from reportgen.report.report import Report
-from reportgen.report.tables import QuantityTable, RowTable
+from reportgen.report import overview, quantity_tables, result_tables, topic_views
+from reportgen.report.context import Report
+from reportgen.report.quantity_tables import QuantityTable, RowTable
 
 TABLES: Mapping[str, Callable[..., Any]] = {
     # results at the front, symbols
@@ -18,22 +18,22 @@ TABLES: Mapping[str, Callable[..., Any]] = {
     "main.figures": RowTable(overview.main_figures, (74.0, 22.0, 36.0, 28.0)),
     "symbols": RowTable(overview.symbols, (40.0, 92.0, 28.0)),
     # given data
-    "given": tables.given_data,
-    "indicator": tables.indicator,
-    "force": tables.working_force,
-    "gas.law": tables.gas_law,
-    "law": tables.load_law,
+    "given": quantity_tables.given_data,
+    "indicator": quantity_tables.indicator,
+    "force": quantity_tables.working_force,
+    "gas.law": quantity_tables.gas_law,
+    "law": quantity_tables.load_law,
     # the machine
-    "joints": RowTable(tables.joints, (20.0, 30.0, 40.0, 50.0)),
-    "lengths": tables.lengths,
+    "joints": RowTable(quantity_tables.joints, (20.0, 30.0, 40.0, 50.0)),
+    "lengths": quantity_tables.lengths,
     "positions": result_tables.coordinates,
     "dead": RowTable(result_tables.dead_centres, (20.0, 46.0, 44.0, 46.0)),
     "labels": RowTable(result_tables.labels, (24.0, 50.0, 50.0)),
     # a declared linkage
-    "frame": RowTable(tables.frame, (30.0, 50.0, 50.0)),
-    "groups": RowTable(tables.groups, (20.0, 20.0, 30.0, 85.0)),
-    "guides": RowTable(tables.guides, (20.0, 40.0, 32.0, 32.0, 30.0)),
-    "points": RowTable(tables.further_points, (18.0, 18.0, 28.0, 32.0, 32.0, 32.0)),
+    "frame": RowTable(quantity_tables.frame, (30.0, 50.0, 50.0)),
+    "groups": RowTable(quantity_tables.groups, (20.0, 20.0, 30.0, 85.0)),
+    "guides": RowTable(quantity_tables.guides, (20.0, 40.0, 32.0, 32.0, 30.0)),
+    "points": RowTable(quantity_tables.further_points, (18.0, 18.0, 28.0, 32.0, 32.0, 32.0)),
     # motion
     "omega": RowTable(result_tables.angular_velocities, (34.0, 40.0, 60.0)),
     "eps": RowTable(result_tables.angular_accelerations, (34.0, 40.0, 60.0)),
@@ -78,4 +78,4 @@ def _of_ids(
     ids: Sequence[str],
     positions: Iterable[int] | None = None,
 ) -> tuple[Table | Paragraph, ...]:
-    return tables.tables(report, key, caption, ids, positions or report.load_positions)
+    return quantity_tables.tables(report, key, caption, ids, positions or report.load_positions)

@@ -8,10 +8,10 @@ from itertools import islice
 
 from reportgen.document import Cell, Column, Inline, InlineMath, Inlines, Table, Text, Value, listed
 from reportgen.formula import Expression, Number, Symbol, ids, size, vocabulary
-from reportgen.report.comments import Peak, each_peak, reaction_ids, slider_rates, turning_rates
+from reportgen.report.context import Report
 from reportgen.report.guide_couples import guide_couples
 from reportgen.report.phrases import sign
-from reportgen.report.report import Report
+from reportgen.report.table_remarks import Peak, each_peak, reaction_ids, slider_rates, turning_rates
 
 BESIDE = 2
 """Sets of columns side by side."""

@@ -24,9 +24,9 @@ from reportgen.document import Inline, InlineMath, Inlines, Reference, Text, Val
 from reportgen.document.template_rendering import NamedPoint, subscripted
 from reportgen.document.value_insertion import inlines
 from reportgen.formula import Chain, Number, Symbol, ids
-from reportgen.report.equations import a, image, math, quantity, slider_ways, v, value
-from reportgen.report.groups import CarriedPoint, GroupView
-from reportgen.report.report import Report
+from reportgen.report.context import Report
+from reportgen.report.link_views import CarriedPoint, GroupView
+from reportgen.report.template_equations import a, image, math, quantity, slider_ways, v, value
 
 if TYPE_CHECKING:
     from reportgen.catalogue.linkage_words import GroupRow

@@ -15,11 +15,11 @@ from reportgen.formula import Chain, Number, Power, Symbol, ids
 from reportgen.formula.calculation import ZERO
 from reportgen.formula.vocabulary import Chapter
 from reportgen.machine import Crank
-from reportgen.report.comments import AT_REST
-from reportgen.report.groups import GroupView
+from reportgen.report.context import Report
 from reportgen.report.guide_couples import guide_couples
-from reportgen.report.report import Report
-from reportgen.report.tables import bare
+from reportgen.report.link_views import GroupView
+from reportgen.report.quantity_tables import bare
+from reportgen.report.table_remarks import AT_REST
 from reportgen.report.topic_views import VIEWS
 
 MOST_COORDINATES, MOST_WIDE = 10, 8

@@ -13,7 +13,7 @@ from reportgen.formula import Symbol, constructions, ids, vocabulary
 from reportgen.machine.loads import carriers
 from reportgen.machine.shared_results import FACES
 from reportgen.machine.slider_faces import Faces
-from reportgen.report.report import Report
+from reportgen.report.context import Report
 
 
 def wide_sliders_of(report: Report) -> Mapping[int, Faces]:

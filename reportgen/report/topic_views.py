@@ -8,7 +8,7 @@ from typing import Any
 
 from reportgen.base.topics import HookModule
 from reportgen.document.figure_placement import FigureScenes
-from reportgen.report.report import Report
+from reportgen.report.context import Report
 
 Passages = Callable[[Report], Sequence[str]]
 """The sections of words that a topic puts at a place of a shared chapter, none if it has nothing to say there."""

@@ -13,8 +13,8 @@ from reportgen.document.cjk_punctuation import set_out
 from reportgen.drawing import Content, Scene
 from reportgen.drawing.drawing_sheet import ENLARGED, grid, widths
 from reportgen.formula import Number
-from reportgen.report.groups import GroupView
-from reportgen.report.report import Report
+from reportgen.report.context import Report
+from reportgen.report.link_views import GroupView
 
 WIDEST, MOST_ROWS = 180.0, 24
 """Largest width (mm) and number of positions of a table; then another is placed beside it."""

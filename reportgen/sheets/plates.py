@@ -23,10 +23,11 @@ from reportgen.drawing.plates import DrawingPlate
 from reportgen.drawing.vector_plan import Plan, plan
 from reportgen.formula import Chain, Number, ids
 from reportgen.formula.plain_text import formula, quantity
-from reportgen.report import curves
-from reportgen.report.figures import centre_state, centres, indicator, positions_scene, scheme
+from reportgen.report import cycle_curves
+from reportgen.report.context import Report
 from reportgen.report.force_figures import lever, separated, separated_driver
-from reportgen.report.plans import (
+from reportgen.report.mechanism_figures import centre_state, centres, indicator, positions_scene, scheme
+from reportgen.report.plan_figures import (
     SHARES,
     ForcePlans,
     MotionFigures,
@@ -36,7 +37,6 @@ from reportgen.report.plans import (
     one_turn,
     positions_mirrored,
 )
-from reportgen.report.report import Report
 from reportgen.report.result_tables import (
     acceleration_segments,
     accelerations,
@@ -244,18 +244,18 @@ def _drawn_forces(sources: Sources, plans: ForcePlans, called: str, times: float
 
 def _motion(sources: Sources) -> Iterator[Drawn]:
     if sources.report.parts("diagrams"):
-        yield Drawn("motion", "curves", curves.motion(sources.small).scenes)
+        yield Drawn("motion", "curves", cycle_curves.motion(sources.small).scenes)
 
 
 def _torque(sources: Sources) -> Iterator[Drawn]:
     if sources.report.parts("torque-curve"):
-        yield Drawn("torque", "curves", curves.torque(sources.small).scenes)
+        yield Drawn("torque", "curves", cycle_curves.torque(sources.small).scenes)
 
 
 def _polar(sources: Sources) -> Iterator[Drawn]:
     report = sources.report
     if report.loads_crank and report.driver.centre and report.parts("polar"):
-        yield Drawn("polar", "curves", curves.polar(sources.small).scenes)
+        yield Drawn("polar", "curves", cycle_curves.polar(sources.small).scenes)
 
 
 def _velocity_table(sources: Sources) -> Iterator[Drawn]:

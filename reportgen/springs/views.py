@@ -10,9 +10,9 @@ from reportgen.document.figure_placement import FigureScenes
 from reportgen.formula import Number
 from reportgen.machine.analysis import motion_at
 from reportgen.machine.load_laws import FULL_TURN
-from reportgen.report.curves import ShownCurve, axis, over_the_cycle
-from reportgen.report.report import Report
-from reportgen.report.tables import QuantityTable
+from reportgen.report.context import Report
+from reportgen.report.cycle_curves import ShownCurve, axis, over_the_cycle
+from reportgen.report.quantity_tables import QuantityTable
 from reportgen.report.topic_views import ViewHooks, always
 from reportgen.springs.laws import SpringLaw, TorsionLaw
 from reportgen.springs.topic import SpringRow

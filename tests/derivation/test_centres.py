@@ -11,8 +11,8 @@ from reportgen.derivation.kinematic_entries import links_in_plane_motion
 from reportgen.formula import Chain, Number
 from reportgen.machine import Crank, Dyad, Linkage, LinkPoint
 from reportgen.marking.toleranced_key import key_of
-from reportgen.report.equations import lines
-from reportgen.report.report import Report
+from reportgen.report.context import Report
+from reportgen.report.template_equations import lines
 from tests.report import built
 
 SWINGING_BLOCK = Linkage(

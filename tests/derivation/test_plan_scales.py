@@ -15,8 +15,8 @@ from reportgen.derivation.load_entries import Polygon
 from reportgen.derivation.plan_scales import SHEET_BOXES, TEXT_BOX
 from reportgen.drawing.vector_plan import Plan
 from reportgen.marking.judging import mark
-from reportgen.report.plans import force_plan, motion_plan
-from reportgen.report.report import Report
+from reportgen.report.context import Report
+from reportgen.report.plan_figures import force_plan, motion_plan
 from tests.marking import students
 from tests.report import built
 

@@ -12,8 +12,8 @@ from reportgen.drawing.animation import MovingBody, MovingVector
 from reportgen.drawing.spring_drawings import OUTER, TEETH
 from reportgen.formula import Symbol
 from reportgen.page.motion_samples import Samples
-from reportgen.report.figures import scheme
-from reportgen.report.report import Report
+from reportgen.report.context import Report
+from reportgen.report.mechanism_figures import scheme
 from reportgen.sheets.plates import Sources, plates_of
 
 TEXT = """

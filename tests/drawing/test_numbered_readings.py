@@ -7,8 +7,8 @@ from pathlib import Path
 from reportgen import api, cases
 from reportgen.drawing import Label
 from reportgen.formula import Symbol
-from reportgen.report import figures
-from reportgen.report.report import Report
+from reportgen.report import mechanism_figures
+from reportgen.report.context import Report
 
 ENGINE = """
 kind: engine-v
@@ -39,7 +39,10 @@ def test_no_position_of_two_pistons_is_without_its_number(tmp_path: Path) -> Non
     file.write_text(ENGINE.lstrip(), encoding="utf-8")
     report = Report(cases.opened(api.load(file, "en")))
     shown = {
-        item.content for scene in figures.indicator(report).scenes for item in scene.items if isinstance(item, Label)
+        item.content
+        for scene in mechanism_figures.indicator(report).scenes
+        for item in scene.items
+        if isinstance(item, Label)
     }
     numbers = {Symbol(str(k), f"({link})") for k in report.all_positions for link in (3, 5)}
     assert len(numbers) == 48

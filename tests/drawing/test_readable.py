@@ -19,8 +19,8 @@ from reportgen.drawing.scheme import ARROWS, LINES, line_styles
 from reportgen.drawing.style import clip_hatch
 from reportgen.drawing.vector_plan import Plan, PlanVector, plan, set_apart
 from reportgen.formula import Symbol
+from reportgen.report.context import Report
 from reportgen.report.named_figures import FIGURES
-from reportgen.report.report import Report
 from tests.lanes import matrix
 from tests.report import built
 

@@ -17,7 +17,7 @@ from reportgen.drawing.animation import Animation, Pane, Track
 from reportgen.machine.analysis import Analysis, analyse
 from reportgen.page import page
 from reportgen.page.motion_samples import animation
-from reportgen.report.report import Report
+from reportgen.report.context import Report
 from tests.lanes import matrix
 from tests.report import built
 

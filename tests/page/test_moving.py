@@ -14,7 +14,7 @@ import reportgen
 from reportgen import api
 from reportgen.drawing.vector_plan import Construction, Plan
 from reportgen.page import page as page_of
-from reportgen.report.plans import POLE, force_construction, motion_construction
+from reportgen.report.plan_figures import POLE, force_construction, motion_construction
 from tests.lanes import proof
 from tests.page.browser import Browser
 from tests.page.made import MM, Made

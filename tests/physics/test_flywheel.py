@@ -24,7 +24,7 @@ from reportgen.machine.load_laws import FULL_TURN
 from reportgen.machine.quadrature import accumulated
 from reportgen.machine.reduction import reduced_inertia
 from reportgen.machine.regulated_cycle import RegulatedCycle
-from reportgen.report.report import Report
+from reportgen.report.context import Report
 from tests.lanes import matrix
 
 ASSIGNMENTS = Path(__file__).parents[2] / "assignments"

@@ -12,7 +12,7 @@ from reportgen import api
 from reportgen.cases import MachineCase
 from reportgen.document import InlineMath, Table, Value
 from reportgen.formula import Symbol
-from reportgen.report.report import Report
+from reportgen.report.context import Report
 from tests.lanes import matrix
 from tests.report.built import walk
 

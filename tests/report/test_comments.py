@@ -10,8 +10,8 @@ import pytest
 
 from reportgen.document import Block, Paragraph, Table, plain
 from reportgen.formula import vocabulary
-from reportgen.report import comments, overview
-from reportgen.report.report import Report
+from reportgen.report import overview, table_remarks
+from reportgen.report.context import Report
 from tests.lanes import matrix
 from tests.report import built
 
@@ -34,18 +34,22 @@ def sizes(report: Report, id: str, count: int) -> np.ndarray:
 @FILES
 def test_extremes_are_those_of_the_arrays(path: Path) -> None:
     report = opened(path)
-    motion = [*comments.slider_rates(report, "v"), *comments.slider_rates(report, "a")]
-    motion += [*comments.turning_rates(report, "omega"), *comments.turning_rates(report, "eps")]
-    whole = [*comments.reaction_ids(report), *comments.inertia_forces(report), *comments.load_ids(report)]
+    motion = [*table_remarks.slider_rates(report, "v"), *table_remarks.slider_rates(report, "a")]
+    motion += [*table_remarks.turning_rates(report, "omega"), *table_remarks.turning_rates(report, "eps")]
+    whole = [
+        *table_remarks.reaction_ids(report),
+        *table_remarks.inertia_forces(report),
+        *table_remarks.load_ids(report),
+    ]
     for ids, positions in ((motion, report.positions), (whole, report.all_positions)):
-        for one in comments.each_peak(report, ids, positions):
+        for one in table_remarks.each_peak(report, ids, positions):
             values = sizes(report, one.ids[0], len(positions))
             unit = HALF * 10.0 ** -(one.value.number.decimals or 0) if one.value.number.decimals is not None else 1e-9
             assert one.value.number.value == pytest.approx(np.nanmax(values), abs=unit, rel=1e-9)
             assert all(values[k - 1] == pytest.approx(np.nanmax(values), abs=2 * unit, rel=1e-9) for k in one.places)
             assert one.zeros <= np.sum(values <= unit)
         nothing = set(report.known(ids)) - {
-            id for one in comments.peaks(report, ids, positions is not report.positions) for id in one.ids
+            id for one in table_remarks.peaks(report, ids, positions is not report.positions) for id in one.ids
         }
         assert all(report.is_zero(id, k) for id in nothing for k in positions)
 
@@ -55,7 +59,7 @@ def test_the_balancing_torque_has_each_position_once(path: Path) -> None:
     report = opened(path)
     if not report.has_forces:
         pytest.skip("no forces")
-    course, motion = comments.balance_course(report), report.analysis.motion
+    course, motion = table_remarks.balance_course(report), report.analysis.motion
     power = report.analysis.torque * motion.rate
     nothing = np.array([report.is_zero("M.eq", k) for k in report.all_positions])
     for found, chosen in (
@@ -64,7 +68,7 @@ def test_the_balancing_torque_has_each_position_once(path: Path) -> None:
         (course.none, nothing),
     ):
         assert list(found) == [k for k, here in zip(report.all_positions, chosen, strict=True) if here]
-        assert numbers(report, comments.labels(report, found)) == [str(report.machine.position(k)) for k in found]
+        assert numbers(report, table_remarks.labels(report, found)) == [str(report.machine.position(k)) for k in found]
 
 
 def numbers(report: Report, text: str) -> list[str]:
@@ -83,16 +87,16 @@ def numbers(report: Report, text: str) -> list[str]:
     [((3,), "3"), ((1, 5), "1 và 5"), ((1, 2, 3), "1–3"), ((2, 4, 6, 7, 8), "2, 4 và 6–8"), ((), "")],
 )
 def test_positions_are_listed_as_a_reader_does(positions: tuple[int, ...], text: str) -> None:
-    assert comments.labels(opened(built.SAMPLE), positions) == text
+    assert table_remarks.labels(opened(built.SAMPLE), positions) == text
 
 
 def test_quantities_that_go_alike_are_named_together() -> None:
     """Both pistons of the twin are half a turn apart and have one greatest speed at the same positions."""
     report = opened(built.SAMPLE)
-    (speed,) = comments.peaks(report, comments.slider_rates(report, "v"))
+    (speed,) = table_remarks.peaks(report, table_remarks.slider_rates(report, "v"))
     assert speed.ids == ("v.B", "v.D")
-    assert comments.reverses(report, speed)
-    tops = comments.greatest(report, comments.reaction_ids(report))
+    assert table_remarks.reverses(report, speed)
+    tops = table_remarks.greatest(report, table_remarks.reaction_ids(report))
     assert {id for top in tops for id in top.ids} == {"R.14", "R.12"}
 
 
@@ -105,9 +109,12 @@ def test_every_report_remarks_on_its_main_tables(written: built.Written) -> None
     report = Report(written.case)
     found = remarks(written.document.blocks)
     wanted = (
-        2 + bool(report.has_forces) * 2 + bool(comments.inertia_forces(report)) + ("flywheel" in report.machine.topics)
+        2
+        + bool(report.has_forces) * 2
+        + bool(table_remarks.inertia_forces(report))
+        + ("flywheel" in report.machine.topics)
     )
-    wanted += bool(report.has_forces and comments.peaks(report, comments.load_ids(report), True))
+    wanted += bool(report.has_forces and table_remarks.peaks(report, table_remarks.load_ids(report), True))
     assert len(found) == (0 if report.instants else wanted), "at single instants nothing is a course to remark on"
     assert all(len(text) > len("Nhận xét. ") + 20 for text in found)
 

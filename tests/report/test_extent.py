@@ -18,8 +18,8 @@ from reportgen.document.layout import contents
 from reportgen.document.numbering import unreferenced
 from reportgen.marking.task_paper import task_of
 from reportgen.marking.toleranced_key import key_of
-from reportgen.report.extents import LEFT_OUT
-from reportgen.report.report import Report
+from reportgen.report.context import Report
+from reportgen.report.report_extents import LEFT_OUT
 from reportgen.sheets import drawing_sheets, plates_by_set
 from tests.lanes import matrix
 from tests.report import built

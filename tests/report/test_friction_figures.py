@@ -17,8 +17,8 @@ from reportgen.formula import Symbol
 from reportgen.friction import views as friction
 from reportgen.friction.joints import relative_sense, with_friction
 from reportgen.friction.tilting import face_forces
-from reportgen.report.figures import drawing_scale
-from reportgen.report.report import Report
+from reportgen.report.context import Report
+from reportgen.report.mechanism_figures import drawing_scale
 from tests.lanes import matrix
 
 ROOT = Path(__file__).parents[2] / "assignments"

@@ -16,7 +16,7 @@ from reportgen.base.units import Language
 from reportgen.base.words import common_words
 from reportgen.document import Figure, Table, plain, text_of
 from reportgen.drawing import Arc
-from reportgen.report.report import Report
+from reportgen.report.context import Report
 from tests.report import built
 
 YOKE = """

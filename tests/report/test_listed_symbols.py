@@ -11,8 +11,8 @@ from reportgen.document import Block, Equation, InlineMath, Paragraph, Plate, Se
 from reportgen.document import Figure as Drawn
 from reportgen.drawing import Label, Scene
 from reportgen.formula.plain_text import formula
+from reportgen.report.context import Report
 from reportgen.report.overview import symbol_kinds
-from reportgen.report.report import Report
 from tests.report.built import Written, walk
 
 MOBILITY, WATTS = "W = 3", " W"

@@ -11,7 +11,7 @@ from reportgen import api, cases
 from reportgen.document import text_of
 from reportgen.formula import Chain, Number, walk
 from reportgen.machine.kinematics import solve_motion
-from reportgen.report.report import Report
+from reportgen.report.context import Report
 from tests.report import built
 
 PRESS = """

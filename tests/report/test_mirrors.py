@@ -10,8 +10,8 @@ from reportgen.cases import open_case
 from reportgen.derivation.kinematic_entries import What
 from reportgen.drawing.mirrored_plans import mirrored
 from reportgen.drawing.vector_plan import Plan, PlanVector
-from reportgen.report.plans import motion_plan
-from reportgen.report.report import Report
+from reportgen.report.context import Report
+from reportgen.report.plan_figures import motion_plan
 
 ASSIGNMENTS = Path(__file__).parents[2] / "assignments"
 

@@ -12,8 +12,8 @@ from reportgen import api, cases
 from reportgen.document import Figure, InlineMath, Paragraph, text_of
 from reportgen.drawing import Label, Scene
 from reportgen.formula import Expression, Symbol, walk
+from reportgen.report.context import Report
 from reportgen.report.percussion import percussion
-from reportgen.report.report import Report
 from tests.lanes import matrix
 from tests.report import built
 

@@ -23,8 +23,8 @@ from reportgen.drawing.geometry import coincident
 from reportgen.drawing.labels import label
 from reportgen.drawing.position_plan import DOT
 from reportgen.formula import Chain, Symbol, vocabulary
-from reportgen.report import figures
-from reportgen.report.report import Report
+from reportgen.report import mechanism_figures
+from reportgen.report.context import Report
 from reportgen.sheets.plates import Sources
 from tests.drawing.overlaps import astray, cross, overlaps, watched
 from tests.lanes import matrix
@@ -52,8 +52,8 @@ def drawn(name: str, kind: str) -> tuple[Report, list[FigureScenes]]:
     shown = report(assignment(name, "short" if kind == "short" else "full"))
     if kind == "sheet":
         shown = Sources.of(shown.case).small
-        return shown, [FigureScenes((figures.positions_scene(shown),))]
-    return shown, [figures.positions(shown), *([figures.indicator(shown)] if shown.has_gas else [])]
+        return shown, [FigureScenes((mechanism_figures.positions_scene(shown),))]
+    return shown, [mechanism_figures.positions(shown), *([mechanism_figures.indicator(shown)] if shown.has_gas else [])]
 
 
 def rows(scene: Scene) -> Iterator[list[Symbol]]:
@@ -74,7 +74,7 @@ def places(shown: Report) -> dict[Symbol, complex]:
     points, scale = shown.analysis.motion.points, MM / float(shown.ledger["mu.l"].values[0])
     return {
         Symbol(vocabulary.point(name).base, str(k)): complex(points[name].p[k - 1]) * scale
-        for name in figures._numbered(shown)
+        for name in mechanism_figures._numbered(shown)
         for k in shown.positions
     }
 
@@ -142,7 +142,9 @@ def test_text_and_caption_say_how_much_smaller_a_plan_is(name: str, language: st
     scale = Chain((shown.ledger.symbol("mu.l"), shown.ledger.number("mu.l")))
     said = " ".join(plain(b.inlines, language) for b in built.walk(document.blocks) if isinstance(b, Paragraph))
     captions = {b.key: b for b in built.walk(document.blocks) if isinstance(b, (Figure, Plate)) and b.key in PLANS}
-    for key, draw in zip(PLANS, (figures.positions, figures.indicator, figures.extremes), strict=True):
+    for key, draw in zip(
+        PLANS, (mechanism_figures.positions, mechanism_figures.indicator, mechanism_figures.extremes), strict=True
+    ):
         if key not in captions:
             continue
         plan = draw(shown)
@@ -165,7 +167,7 @@ def test_text_and_caption_say_how_much_smaller_a_plan_is(name: str, language: st
 def test_labels_of_a_short_report_stand_at_their_own_points(path: Path) -> None:
     """Where labels have no room a plan is drawn larger, so none stands nearer to another's point."""
     shown = report(built.assignment(path).with_extent("short"))
-    plans = [figures.positions(shown), *([figures.indicator(shown)] if shown.has_gas else [])]
+    plans = [mechanism_figures.positions(shown), *([mechanism_figures.indicator(shown)] if shown.has_gas else [])]
     assert not any(scene.crowded for plan in plans for scene in plan.scenes)
 
 
@@ -174,7 +176,7 @@ def test_leaders_of_a_sheet_tell_points_apart(name: str) -> None:
     """They are short and cross none; what they alone tie to its point keeps clear of the points of others."""
     small = Sources.of(MachineCase(assignment(name))).small
     with watched() as found:
-        figures.positions_scene(small)
+        mechanism_figures.positions_scene(small)
     (labels,) = found
     leaders = [one.leader for one in labels if one.leader]
     assert max((abs(leader.end - leader.start) for leader in leaders), default=0.0) <= 12.0
@@ -192,7 +194,7 @@ def test_many_positions_keep_their_letters(count: int, tmp_path: Path) -> None:
     file = tmp_path / "many.yaml"
     file.write_text(variants.content("many"), encoding="utf-8")
     shown = report(api.load(file).with_extent("short"))
-    (scene,) = figures.positions(shown).scenes
+    (scene,) = mechanism_figures.positions(shown).scenes
     written = [symbol for row in rows(scene) for symbol in row]
     assert [symbol for symbol in places(shown) if written.count(symbol) != 1] == []
     assert overlaps(scene) == []

@@ -21,7 +21,7 @@ from reportgen.formula.formula_layout import BOUND, MathRow, columns
 from reportgen.formula.vocabulary import vector
 from reportgen.machine import SlidingDriver
 from reportgen.report import force_figures, result_tables
-from reportgen.report.report import Report
+from reportgen.report.context import Report
 from tests.derivation.printed import SHARE
 from tests.lanes import matrix
 from tests.report import built

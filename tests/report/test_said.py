@@ -12,8 +12,8 @@ import pytest
 
 from reportgen.base.template_folders import templates
 from reportgen.document import Section, Table, plain, text_of
-from reportgen.report.comments import top_reactions
-from reportgen.report.report import Report
+from reportgen.report.context import Report
+from reportgen.report.table_remarks import top_reactions
 from tests.lanes import matrix
 from tests.report import built
 

@@ -17,7 +17,7 @@ from reportgen.cases import open_case
 from reportgen.document import text_of
 from reportgen.document.template_rendering import Prose
 from reportgen.formula import Symbol
-from reportgen.report.report import Report
+from reportgen.report.context import Report
 from reportgen.report.template_names import names
 from reportgen.sheets import frame
 from reportgen.writers import latex, pdflatex, typst_math

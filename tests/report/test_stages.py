@@ -9,9 +9,9 @@ import pytest
 from reportgen.drawing import Arrow, Line
 from reportgen.drawing.style import NEW
 from reportgen.drawing.vector_plan import Plan, merged, stages
-from reportgen.report.groups import GroupView
-from reportgen.report.plans import force_stages, motion_plan
-from reportgen.report.report import Report
+from reportgen.report.context import Report
+from reportgen.report.link_views import GroupView
+from reportgen.report.plan_figures import force_stages, motion_plan
 from tests.lanes import matrix
 from tests.report import built
 

@@ -16,7 +16,7 @@ from reportgen.formula import Number
 from reportgen.motion import views as running
 from reportgen.motion.curves import stopping
 from reportgen.motion.true_motion import at_positions, motion_in
-from reportgen.report.report import Report
+from reportgen.report.context import Report
 from reportgen.report.result_tables import residuals
 from tests.lanes import proof
 from tests.report import built, trees

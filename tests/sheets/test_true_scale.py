@@ -24,8 +24,8 @@ from reportgen.derivation.equation_sides import image
 from reportgen.drawing import Arrow
 from reportgen.drawing.drawing_sheet import DrawingSheet
 from reportgen.formula import ids
-from reportgen.report.plans import motion_construction
-from reportgen.report.report import Report
+from reportgen.report.context import Report
+from reportgen.report.plan_figures import motion_construction
 from reportgen.sheets import dxf
 from reportgen.writers import typst, typst_compiler
 from tests.lanes import matrix, proof

@@ -25,7 +25,7 @@ from reportgen.machine import Linkage, joints
 from reportgen.machine.loads import carriers
 from reportgen.machine.shared_results import PHYSICS
 from reportgen.notebook import Model
-from reportgen.report.report import Report
+from reportgen.report.context import Report
 from tests.lanes import matrix
 
 MACHINES = [kind for kind in kinds() if issubclass(catalogue.kind(kind).base, TopicParameters)]

@@ -35,10 +35,10 @@ from reportgen.drawing.vector_plan import (
     stages,
 )
 from reportgen.formula import Chain, Symbol, ids, vocabulary
-from reportgen.report.figures import scale_note
-from reportgen.report.groups import GroupView
+from reportgen.report.context import Report
+from reportgen.report.link_views import GroupView
+from reportgen.report.mechanism_figures import scale_note
 from reportgen.report.phrases import counted
-from reportgen.report.report import Report
 
 SHEET = (385.0, 232.0)
 """Width and height (mm) of an A3 page (landscape) that plans may fill."""

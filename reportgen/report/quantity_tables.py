@@ -30,7 +30,7 @@ from reportgen.drawing.label_size import box
 from reportgen.formula import Chain, Expression, Fraction, Number, Symbol, ids, refs, size, vocabulary
 from reportgen.formula.vocabulary import KINDS
 from reportgen.machine.load_laws import Law
-from reportgen.report.report import Report
+from reportgen.report.context import Report
 
 MOST_COLUMNS = 9
 TITLES = 40.0

@@ -36,8 +36,8 @@ from reportgen.formula import (
 )
 from reportgen.formula.vocabulary import on_plan, segment
 from reportgen.machine import mobility
-from reportgen.report.groups import Contact, GroupView
-from reportgen.report.report import Report
+from reportgen.report.context import Report
+from reportgen.report.link_views import Contact, GroupView
 
 # --- numbers and symbols
 

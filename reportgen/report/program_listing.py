@@ -24,7 +24,7 @@ from reportgen.document.python_lines import (
 from reportgen.formula.plain_text import python
 from reportgen.formula.vocabulary import Chapter
 from reportgen.machine.load_laws import FULL_TURN
-from reportgen.report.report import Report
+from reportgen.report.context import Report
 
 CURVES = ("s", "v", "a", "M"), ("x", "y", "v", "a", "M"), ("ω", "ε")
 """Letters of what is drawn: the first of these sets that begins with a letter which the formulas give."""

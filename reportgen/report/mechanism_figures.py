@@ -42,8 +42,8 @@ from reportgen.machine.cycle_torque import SAME_ANGLE
 from reportgen.machine.kinematics import Motion, solve_motion
 from reportgen.machine.load_laws import FULL_TURN
 from reportgen.machine.loads import Piston
-from reportgen.report.groups import GroupView, PlaneLink
-from reportgen.report.report import DENSE, Report
+from reportgen.report.context import DENSE, Report
+from reportgen.report.link_views import GroupView, PlaneLink
 
 SCHEME_BOX = (120.0, 75.0)
 HALF_PAGE = 100.0

@@ -15,8 +15,8 @@ from reportgen.document import InlineMath, Inlines, Text, Value, listed
 from reportgen.formula import ids
 from reportgen.machine import DRIVER, GROUND
 from reportgen.machine.analysis import Position
+from reportgen.report.context import Report
 from reportgen.report.phrases import at_positions, say
-from reportgen.report.report import Report
 
 RUN = 3
 """So many positions in a row are written as from – to."""

@@ -20,9 +20,9 @@ from reportgen.formula.vocabulary import KINDS
 from reportgen.machine import DRIVER, GROUND, Crank
 from reportgen.machine.cycle_torque import SAME_ANGLE
 from reportgen.machine.load_laws import FULL_TURN
-from reportgen.report.comments import sliders
-from reportgen.report.equations import heading_words
-from reportgen.report.report import Report
+from reportgen.report.context import Report
+from reportgen.report.table_remarks import sliders
+from reportgen.report.template_equations import heading_words
 
 # --- axes
 

@@ -8,7 +8,7 @@ from reportgen.formula import Number, ids, walk
 from reportgen.formula.vocabulary import on_plan
 from reportgen.machine import DRIVER
 from reportgen.machine.loads import Applied
-from reportgen.report.report import Report
+from reportgen.report.context import Report
 
 UNIFORM = Number(12.0)
 """Divisor of m l² in the moment of inertia of a uniform rod."""

@@ -28,8 +28,8 @@ from reportgen.machine.analysis import Analysis, Machine, Position, analyse
 from reportgen.machine.cycle_torque import SAME_ANGLE
 from reportgen.machine.load_laws import FULL_TURN
 from reportgen.machine.loads import Applied, Piston, Torque
-from reportgen.report.extents import LEFT_OUT, OF_A_TURN, OPENING
-from reportgen.report.groups import BodyView, DriverView, GroupView, PlaneLink, displaced_inertia
+from reportgen.report.link_views import BodyView, DriverView, GroupView, PlaneLink, displaced_inertia
+from reportgen.report.report_extents import LEFT_OUT, OF_A_TURN, OPENING
 
 PLATES_UP_TO = 24
 """Above this many positions of a turn, plates are drawn for worked ones only, and not all are shown."""
