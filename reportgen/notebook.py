@@ -196,7 +196,7 @@ class Model:
 
     def table(self, positions: int | None = None) -> ResultTable:
         """Return the results as a table with a row per position, for `positions` per turn; raise `NotOfferedError`."""
-        from reportgen.results.files import result_rows
+        from reportgen.results.result_files import result_rows
 
         head, *rows = result_rows(api.solve(self.assignment, positions))
         return ResultTable(tuple(map(str, head)), tuple(map(tuple, rows)))

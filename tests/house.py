@@ -283,7 +283,7 @@ OFFERED: Mapping[str, frozenset[str]] = {
     "reportgen.cli.student": frozenset({"balancing"}),
     # The torque that balances the loads has this name in the results of any machine.
     "reportgen.case.result_entries": frozenset({"balancing_force", "balancing_torque"}),
-    "reportgen.results.tables": frozenset({"balancing_force", "balancing_torque"}),
+    "reportgen.results.terminal_tables": frozenset({"balancing_force", "balancing_torque"}),
     # A chapter of the key.
     "reportgen.formula.vocabulary": frozenset({"balancing"}),
 }

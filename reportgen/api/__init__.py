@@ -74,9 +74,9 @@ def solve(assignment: Assignment, positions: int | None = None, printed: bool = 
 
 def print_tables(results: Mapping[str, Any], language: Language) -> None:
     """Print results as tables on a terminal."""
-    from reportgen.results import tables
+    from reportgen.results import terminal_tables
 
-    tables.print_tables(results, language)
+    terminal_tables.print_tables(results, language)
 
 
 RESULT_FORMATS = names("results")

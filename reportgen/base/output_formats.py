@@ -107,9 +107,9 @@ FORMATS = (
     Format("plots", "pdf", "reportgen.writers.figure:saved", needs=(MATPLOTLIB,), stem=".+"),
     Format("plots", "eps", "reportgen.writers.figure:saved", needs=(MATPLOTLIB,), stem=".+"),
     # Of results: the JSON object of `solve` → bytes.
-    Format("results", "csv", "reportgen.results.files:table", per_part=True),
-    Format("results", "xlsx", "reportgen.results.files:workbook", needs=(OPENPYXL,)),
-    Format("results", "json", "reportgen.results.files:text"),
+    Format("results", "csv", "reportgen.results.result_files:table", per_part=True),
+    Format("results", "xlsx", "reportgen.results.result_files:workbook", needs=(OPENPYXL,)),
+    Format("results", "json", "reportgen.results.result_files:text"),
     # Of variants: one with a stem is one file for the class: assignment files, policy, title, language → bytes.
     Format("variants", "yaml", "reportgen.classes.variants:make_variants", usual=True),
     Format(

@@ -33,7 +33,7 @@ from reportgen.marking.marking_scheme import marking_scheme
 from reportgen.marking.task_paper import task_of
 from reportgen.marking.toleranced_key import Ask, key_of
 from reportgen.page import panels
-from reportgen.results.files import table, workbook
+from reportgen.results.result_files import table, workbook
 from reportgen.sheets import drawing_sheets
 from tests.drawing.overlaps import overlaps
 from tests.lanes import proof

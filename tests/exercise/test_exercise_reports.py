@@ -20,7 +20,7 @@ from reportgen.exercise.views import lettered
 from reportgen.formula import Chain, Number
 from reportgen.marking.task_paper import task_of
 from reportgen.marking.toleranced_key import key_of
-from reportgen.results.tables import print_tables
+from reportgen.results.terminal_tables import print_tables
 from tests.lanes import matrix
 from tests.report import built
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from reportgen import api
-from reportgen.results.tables import _column, print_tables, tables
+from reportgen.results.terminal_tables import _column, print_tables, tables
 
 ASSIGNMENTS = Path(__file__).parents[2] / "assignments"
 
