@@ -48,7 +48,7 @@ from reportgen.marking.task_paper import task_of
 from reportgen.marking.toleranced_key import key_of
 from reportgen.report.context import Report
 from reportgen.report.template_names import names
-from reportgen.sheets.frame import FIELDS, blocks, read_block
+from reportgen.sheets.title_block import FIELDS, blocks, read_block
 from reportgen.workbook import write_csv, write_xlsx
 from reportgen.workbook.letterhead import read_letterhead
 from reportgen.writers import word

@@ -312,9 +312,9 @@ def sheet_files(
 
 def blocks(assignment: Assignment) -> dict[str, Path]:
     """Return the title blocks that have a name: the program's, and those of the assignment's school."""
-    from reportgen.sheets import frame
+    from reportgen.sheets import title_block
 
-    return frame.blocks(assignment.school or "", assignment.language)
+    return title_block.blocks(assignment.school or "", assignment.language)
 
 
 MAKERS: Mapping[str, Maker] = {product.name: product.load() for product in PRODUCTS}

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from reportgen.balancing import views
 from reportgen.balancing.shaking_force import balanced_in
-from reportgen.sheets.drawn import Drawn, Sources, table_of
+from reportgen.sheets.plate_sources import Drawn, Sources, table_of
 from reportgen.sheets.topic_plates import PlateHooks
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from reportgen.flywheel.views import flywheel_speed, flywheel_torque, flywheel_work, needs_flywheel, wittenbauer
-from reportgen.sheets.drawn import Drawn, Sources
+from reportgen.sheets.plate_sources import Drawn, Sources
 from reportgen.sheets.topic_plates import PlateHooks
 
 

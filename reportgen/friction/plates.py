@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from reportgen.drawing.vector_plan import plan
 from reportgen.friction import views
-from reportgen.sheets.drawn import Drawn, Sources
+from reportgen.sheets.plate_sources import Drawn, Sources
 from reportgen.sheets.topic_plates import PlateHooks
 
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from reportgen.motion.curves import characteristic, sheet
 from reportgen.motion.true_motion import motion_in
-from reportgen.sheets.drawn import Drawn, Sources
+from reportgen.sheets.plate_sources import Drawn, Sources
 from reportgen.sheets.topic_plates import PlateHooks
 
 

@@ -14,10 +14,10 @@ from reportgen.base.yaml_source import read_source
 from reportgen.case import Case, CaseOfParts, MachineAnalysis
 from reportgen.drawing.drawing_sheet import DrawingSheet, PlacedScene, TooLargeError
 from reportgen.drawing.plates import DrawingPlate
-from reportgen.sheets.drawn import Sources
-from reportgen.sheets.frame import TitleBlock, blocks, fields_of, framed, numbered, read_block, room
 from reportgen.sheets.packing import Packing
+from reportgen.sheets.plate_sources import Sources
 from reportgen.sheets.plates import plates_of, sets_of
+from reportgen.sheets.title_block import TitleBlock, blocks, fields_of, framed, numbered, read_block, room
 
 Plates = Mapping[str, Sequence[DrawingPlate]]
 """The plates of each set."""

@@ -47,7 +47,7 @@ from reportgen.report.result_tables import (
     velocities,
     velocity_segments,
 )
-from reportgen.sheets.drawn import Drawn, Sources, bare, table_of, unit_of
+from reportgen.sheets.plate_sources import Drawn, Sources, bare, table_of, unit_of
 from reportgen.sheets.topic_plates import PLATES, DrawPlates, PlateHooks
 
 LARGER_FORCES = (2.0, 3.0)

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 from reportgen.base.topics import HookModule
-from reportgen.sheets.drawn import Drawn, Sources
+from reportgen.sheets.plate_sources import Drawn, Sources
 
 DrawPlates = Callable[[Sources], Iterator[Drawn]]
 """Draws the plates of one sort."""

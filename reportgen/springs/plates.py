@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from reportgen.report.mechanism_figures import scheme
-from reportgen.sheets.drawn import Drawn, Sources, grids
+from reportgen.sheets.plate_sources import Drawn, Sources, grids
 from reportgen.sheets.topic_plates import PlateHooks
 from reportgen.springs.views import loads_over_cycle, spring_lines
 

@@ -19,7 +19,7 @@ from reportgen.document.template_rendering import Prose
 from reportgen.formula import Symbol
 from reportgen.report.context import Report
 from reportgen.report.template_names import names
-from reportgen.sheets import frame
+from reportgen.sheets import title_block
 from reportgen.writers import latex, pdflatex, typst_math
 from tests.lanes import matrix, proof
 from tests.report.built import needs_tex
@@ -217,4 +217,4 @@ def test_the_sample_school_shows_all_that_a_school_changes(language: Language, o
     for section in ("foreword", "references"):
         heading = sections(folder / f"{language}.md")[section].text.splitlines()[0].split("{{")[0].strip("# ")
         assert heading in text
-    assert frame.blocks("sample-school")["tcvn"].is_relative_to(folder)
+    assert title_block.blocks("sample-school")["tcvn"].is_relative_to(folder)

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import argparse
 
-from reportgen.sheets.frame import SIZES
+from reportgen.sheets.title_block import SIZES
 from tests.sheets.handed_in import check
 from tests.sheets.laid import EVERY
 

@@ -10,7 +10,7 @@ from typing import Any
 from reportgen.base.languages import setting_of
 from reportgen.drawing.drawing_sheet import DrawingSheet, PlacedScene
 from reportgen.sheets import drawing_sheets
-from reportgen.sheets.frame import TitleBlock, blocks, read_block
+from reportgen.sheets.title_block import TitleBlock, blocks, read_block
 from tests.report import built
 
 ROOT = Path(__file__).parents[2]

@@ -22,7 +22,7 @@ from reportgen.drawing import Label
 from reportgen.drawing.geometry import frame
 from reportgen.sheets import drawing_sheets
 from reportgen.sheets.dxf import MText
-from reportgen.sheets.frame import FIELDS, blocks, fields_of, frame_scene, read_block
+from reportgen.sheets.title_block import FIELDS, blocks, fields_of, frame_scene, read_block
 from tests.classes.classes import here, write_class
 from tests.sheets.laid import ROOT
 

@@ -14,8 +14,8 @@ from reportgen.drawing.plates import DrawingPlate
 from reportgen.formula import Chain, Number, Symbol
 from reportgen.sheets import laid as divided
 from reportgen.sheets import plates_by_set
-from reportgen.sheets.frame import SIZES as PAPER
 from reportgen.sheets.packing import Packing
+from reportgen.sheets.title_block import SIZES as PAPER
 from tests.lanes import matrix
 from tests.sheets.handed_in import check
 from tests.sheets.laid import EVERY, EXERCISES, block_of, laid, numbers, opened, plates
