@@ -28,7 +28,7 @@ from reportgen.machine.analysis import motion_at as motion_of
 from reportgen.machine.load_laws import FULL_TURN, STEPS, MotionAt
 from reportgen.machine.loads import Applied, Torque
 from reportgen.machine.spring_geometry import Anchor
-from reportgen.springs.laws import SpringLaw, TorsionLaw, within_half_a_turn
+from reportgen.springs.spring_laws import SpringLaw, TorsionLaw, within_half_a_turn
 
 COORDINATE = quantity("mm", above=-1e5, below=1e5, tiny=1e-4)
 STIFFNESS = quantity("N/mm", least=0, most=1e9, tiny=1e-9)

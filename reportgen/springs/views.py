@@ -14,7 +14,7 @@ from reportgen.report.context import Report
 from reportgen.report.cycle_curves import ShownCurve, axis, over_the_cycle
 from reportgen.report.quantity_tables import QuantityTable
 from reportgen.report.topic_views import ViewHooks, always
-from reportgen.springs.laws import SpringLaw, TorsionLaw
+from reportgen.springs.spring_laws import SpringLaw, TorsionLaw
 from reportgen.springs.topic import SpringRow
 
 FIGURES = 5

@@ -28,7 +28,7 @@ from reportgen.motion.motors import DriveDemand, judged
 from reportgen.motion.starting import start, stop
 from reportgen.motion.steady_running import MotionRun, NoMotionError, mean_torque, steady
 from reportgen.motion.true_motion import at_positions, at_true_speeds
-from reportgen.springs.laws import SpringLaw
+from reportgen.springs.spring_laws import SpringLaw
 from tests.lanes import matrix, proof
 
 ASSIGNMENTS = Path(__file__).parents[2] / "assignments"

@@ -21,7 +21,7 @@ from reportgen.machine.force_analysis import inertia_loads, solve_forces, weight
 from reportgen.machine.kinematics import Motion, solve_motion
 from reportgen.machine.loads import Applied, Torque
 from reportgen.machine.spring_geometry import Anchor
-from reportgen.springs.laws import SpringLaw, TorsionLaw
+from reportgen.springs.spring_laws import SpringLaw, TorsionLaw
 from tests.lanes import proof
 
 TEXT = """
