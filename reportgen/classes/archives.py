@@ -20,8 +20,8 @@ from pathlib import Path, PurePosixPath
 
 from reportgen.base.errors import Fault, Mark
 from reportgen.base.files import cause
-from reportgen.workbook.package import MOST_RATIO, SMALL, UNREADABLE_ZIP, RefusedError
-from reportgen.workbook.writing import MOMENT
+from reportgen.workbook.table_writing import MOMENT
+from reportgen.workbook.zip_package import MOST_RATIO, SMALL, UNREADABLE_ZIP, RefusedError
 
 ARCHIVE = ".zip"
 MOST_MEMBERS = 20_000

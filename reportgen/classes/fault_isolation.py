@@ -13,7 +13,7 @@ from typing import TypeVar
 from reportgen.base.errors import AssignmentError, Fault, Mark, OutputError, Problem, ReportgenError
 from reportgen.base.units import Language
 from reportgen.base.words import as_problem
-from reportgen.workbook.package import RefusedError
+from reportgen.workbook.zip_package import RefusedError
 
 Result = TypeVar("Result")
 

@@ -21,7 +21,7 @@ from reportgen.base.units import Language
 from reportgen.base.words import as_error
 from reportgen.base.yaml_source import encoding_of
 from reportgen.workbook import read
-from reportgen.workbook.reading import BOOKS, SEPARATORS
+from reportgen.workbook.table_reading import BOOKS, SEPARATORS
 
 OWN = '<p class="reportgen">'
 """Beginning of the program's own text in a comment; it is replaced when the table is filled in again."""

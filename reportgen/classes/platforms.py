@@ -23,8 +23,8 @@ from reportgen.base.words import messages
 from reportgen.classes.archives import ARCHIVE, LARGEST_INSIDE, opened
 from reportgen.classes.roster import folded
 from reportgen.handin import file_kinds as own_files
-from reportgen.workbook.package import RefusedError
-from reportgen.workbook.reading import BOOKS, LARGEST
+from reportgen.workbook.table_reading import BOOKS, LARGEST
+from reportgen.workbook.zip_package import RefusedError
 
 SHEETS = BOOKS | {".csv"}
 """Suffixes of files that may be sheets; a fault is reported for those that cannot be read."""

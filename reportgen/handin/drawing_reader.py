@@ -27,7 +27,7 @@ from reportgen.handin.wrong_vectors import WrongVector, wrong_vectors
 from reportgen.marking.marking_data import Answer, Place, ReadOff
 from reportgen.marking.marking_scheme import Values
 from reportgen.marking.tolerance_bands import PAPER_ERROR
-from reportgen.workbook.package import RefusedError
+from reportgen.workbook.zip_package import RefusedError
 
 OFF = PAPER_ERROR * MM
 """Largest error (mm) of a drawn end in each direction, as for measuring on paper."""

@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 from reportgen.base.errors import Mark
 from reportgen.handin.dxf_lines import encoding_of
 from reportgen.handin.dxf_tags import PAPER, Tags, pairs
-from reportgen.workbook.package import RefusedError
+from reportgen.workbook.zip_package import RefusedError
 
 LAYER = "CORRECTIONS"
 RED = 1

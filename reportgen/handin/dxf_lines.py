@@ -17,7 +17,7 @@ import numpy as np
 
 from reportgen.base.errors import Fault, Mark
 from reportgen.handin.dxf_tags import MOST, Entities, Entity, read_entities
-from reportgen.workbook.package import RefusedError
+from reportgen.workbook.zip_package import RefusedError
 
 UNITS = {1: 25.4, 2: 304.8, 4: 1.0, 5: 10.0, 6: 1000.0, 14: 100.0}
 """Millimetres per unit, by the unit codes of a drawing."""

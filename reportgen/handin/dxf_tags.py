@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 
 from reportgen.base.errors import Mark
-from reportgen.workbook.package import RefusedError
+from reportgen.workbook.zip_package import RefusedError
 
 LARGEST = 50_000_000
 """Largest size (bytes) of a drawing."""

@@ -15,7 +15,7 @@ from reportgen.case.answer_key import Key
 from reportgen.handin import FileReading
 from reportgen.marking.marking_data import Marking
 from reportgen.marking.marking_policy import Policy
-from reportgen.workbook.package import RefusedError
+from reportgen.workbook.zip_package import RefusedError
 
 if TYPE_CHECKING:
     from reportgen.handin.drawing_reader import WantedPlans

@@ -18,7 +18,7 @@ from reportgen.handin.covered_text import covered_runs
 from reportgen.handin.invisible_text import Styles, mark_unseen
 from reportgen.handin.word_nodes import XmlNode, parse
 from reportgen.handin.word_text import TextReader, WordBlock, heading_levels
-from reportgen.workbook.package import Bounds, Package, RefusedError
+from reportgen.workbook.zip_package import Bounds, Package, RefusedError
 
 LARGEST = 50_000_000
 """Largest size (bytes) of the file."""

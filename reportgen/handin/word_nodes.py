@@ -8,7 +8,7 @@ from functools import lru_cache
 from typing import Any
 from xml.parsers import expat
 
-from reportgen.workbook.package import Package
+from reportgen.workbook.zip_package import Package
 
 MOST_ELEMENTS = 300_000
 """Largest number of elements of a part; a report of a hundred pages with all its formulas has some 60 000."""

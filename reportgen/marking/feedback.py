@@ -34,7 +34,7 @@ from reportgen.marking.marking_policy import Policy
 from reportgen.marking.task_paper import DASH, cells, fields, heading, paper, paragraph, student_rows
 from reportgen.marking.toleranced_key import shown_number, words_of
 from reportgen.workbook import Book, BookSheet, Entry
-from reportgen.workbook.writing import CellStyle
+from reportgen.workbook.table_writing import CellStyle
 
 STYLES: Mapping[Verdict, CellStyle] = {
     Verdict.right: "good",

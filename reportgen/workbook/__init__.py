@@ -3,8 +3,8 @@
 `read` takes either; `write_csv` and `write_xlsx` return bytes that depend on their content alone.
 """
 
-from reportgen.workbook.package import Page, SheetCell
-from reportgen.workbook.reading import read
-from reportgen.workbook.writing import Book, BookSheet, Entry, write_csv, write_xlsx
+from reportgen.workbook.table_reading import read
+from reportgen.workbook.table_writing import Book, BookSheet, Entry, write_csv, write_xlsx
+from reportgen.workbook.zip_package import Page, SheetCell
 
 __all__ = ["Book", "BookSheet", "Entry", "Page", "SheetCell", "read", "write_csv", "write_xlsx"]

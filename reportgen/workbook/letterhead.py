@@ -16,7 +16,7 @@ from reportgen.base.errors import Fault, Mark, TemplateError
 from reportgen.base.files import cause, contents
 from reportgen.base.units import Language
 from reportgen.base.words import as_problem
-from reportgen.workbook.package import Attributes, Package, RefusedError
+from reportgen.workbook.zip_package import Attributes, Package, RefusedError
 
 LETTERHEAD = "report.docx"
 """Name of the Word file in a folder of templates."""

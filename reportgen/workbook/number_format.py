@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from reportgen.workbook.package import number_text
+from reportgen.workbook.zip_package import number_text
 
 LARGEST = 1e15
 """From here on a spreadsheet does not keep every digit."""

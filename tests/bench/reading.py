@@ -14,7 +14,7 @@ from timeit import Timer
 from reportgen.base.yaml_source import LARGEST
 from reportgen.catalogue import check
 from reportgen.workbook import read
-from reportgen.workbook.package import guarded
+from reportgen.workbook.zip_package import guarded
 from tests.bench.__main__ import Row, of_this_machine, table
 from tests.broken.endless import ENDLESS, endless
 from tests.workbook.tables import bordered

@@ -20,7 +20,7 @@ from reportgen.catalogue import check
 from reportgen.classes.variants import _state
 from reportgen.cli import app
 from reportgen.document.template_rendering import Prose
-from reportgen.workbook.reading import read
+from reportgen.workbook.table_reading import read
 from tests.lanes import proof
 
 ROOT = Path(__file__).parents[2]

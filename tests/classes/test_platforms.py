@@ -25,7 +25,7 @@ from reportgen.classes.platforms import Owner, handed_in, owner_of
 from reportgen.classes.roster import read_roster
 from reportgen.classes.variants import make_variants
 from reportgen.marking.marking_policy import Policy, Scale
-from reportgen.workbook.reading import LARGEST
+from reportgen.workbook.table_reading import LARGEST
 from tests.commands import reportgen
 from tests.lanes import matrix
 from tests.marking import demo

@@ -12,7 +12,7 @@ from ezdxf import disassemble
 
 from reportgen.handin.dxf_lines import read_lines
 from reportgen.handin.dxf_tags import LARGEST
-from reportgen.workbook.package import RefusedError
+from reportgen.workbook.zip_package import RefusedError
 from tests.handin.drawings import RELEASES, at
 from tests.lanes import matrix
 

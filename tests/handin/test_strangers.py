@@ -12,7 +12,7 @@ from reportgen.handin import word_file, word_nodes
 from reportgen.handin.word_comments import MarginNote, with_comments
 from reportgen.handin.word_file import open_word
 from reportgen.handin.word_reader import read_report
-from reportgen.workbook.package import RefusedError
+from reportgen.workbook.zip_package import RefusedError
 from tests.handin import made_reports, wml
 
 BODY = wml.paragraph(wml.run("v_D = 0,25 m/s"))

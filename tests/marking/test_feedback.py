@@ -25,7 +25,7 @@ from reportgen.marking.marking_policy import Policy
 from reportgen.marking.mistakes import CONVENTIONS, WRONG_DATUM
 from reportgen.marking.summary_comment import comment
 from reportgen.workbook import write_csv, write_xlsx
-from reportgen.workbook.writing import FILLS
+from reportgen.workbook.table_writing import FILLS
 from tests.marking.keys import small_key
 from tests.marking.students import NAMES, OF_BALANCING, OF_FURTHER_KEYS, OF_TRUE_MOTION
 

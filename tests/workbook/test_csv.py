@@ -14,7 +14,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from reportgen.workbook import read, write_csv
-from reportgen.workbook.package import guarded, unguarded
+from reportgen.workbook.zip_package import guarded, unguarded
 from tests.workbook.tables import CYNICAL, refusal, texts
 
 NAME = unicodedata.normalize("NFD", "Đỗ Hữu Trường")

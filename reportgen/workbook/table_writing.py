@@ -17,7 +17,7 @@ from copy import copy
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
-from reportgen.workbook.package import LONGEST_CELL, guarded, number_text
+from reportgen.workbook.zip_package import LONGEST_CELL, guarded, number_text
 
 if TYPE_CHECKING:
     from openpyxl.worksheet.worksheet import Worksheet

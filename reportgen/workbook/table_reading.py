@@ -26,7 +26,7 @@ from reportgen.base.units import Language
 from reportgen.base.words import as_error
 from reportgen.base.yaml_source import decoded
 from reportgen.workbook.number_format import displayed
-from reportgen.workbook.package import (
+from reportgen.workbook.zip_package import (
     CONTENT_TYPES,
     LONGEST_CELL,
     MOST_GROUPS,
