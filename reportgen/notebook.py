@@ -228,9 +228,9 @@ class Model:
         `look` are arguments of matplotlib's `plot`.
         """
         if ax is None:
-            from reportgen.writers import figure
+            from reportgen.writers import matplotlib_figures
 
-            ax = figure.current_axes()
+            ax = matplotlib_figures.current_axes()
         return self.diagram(*of, over=over, label=label).on(ax, self.assignment.language, **look)
 
     @property

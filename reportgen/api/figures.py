@@ -19,7 +19,7 @@ from reportgen.export import curves, figures
 from reportgen.export.curves import Over
 from reportgen.export.figures import FORMATS as FIGURE_FORMATS
 from reportgen.export.figures import MOVING, MovingFigure
-from reportgen.writers import figure
+from reportgen.writers import matplotlib_figures
 
 __all__ = ["FIGURE_FORMATS", "MOVING", "PLOT_FORMATS", "figure_files", "figure_list", "plot_files", "worked_at"]
 
@@ -72,7 +72,10 @@ def plot_files(
     curves.check_turning(cases)
     points = curves.read_measured(measured, cases[0], of) if measured is not None else ()
     spoken = cases[0].assignment.language
-    made = {safe(name): figure.chart(one, spoken) for name, one in curves.diagrams(cases, of, over, points).items()}
+    made = {
+        safe(name): matplotlib_figures.chart(one, spoken)
+        for name, one in curves.diagrams(cases, of, over, points).items()
+    }
     rows = chosen("plots", formats)
     return {f"{name}.{row.suffix}": row.load()(one, row.name, dpi) for name, one in made.items() for row in rows}
 

@@ -77,7 +77,7 @@ def _written(assignment: Assignment, tree: Document, look: Path | None) -> bytes
     """Return a Word file with the look of a school's Word file, if there is one."""
     from reportgen.document.layout import Letter
     from reportgen.workbook.letterhead import read_letterhead
-    from reportgen.writers import pictures
+    from reportgen.writers import picture_files
     from reportgen.writers import word as writer
     from reportgen.writers.word_elements import Own
 
@@ -89,7 +89,7 @@ def _written(assignment: Assignment, tree: Document, look: Path | None) -> bytes
     if look is not None and look.exists():
         letterhead = read_letterhead(look, tree.language)
         own = Own(letterhead.styles, letterhead.header, letterhead.footer, letterhead.margins)
-    drawn = partial(pictures.for_word, language=tree.language)
+    drawn = partial(picture_files.for_word, language=tree.language)
     return writer.write(tree, drawn, Letter(given.font or default.font, size), own)
 
 

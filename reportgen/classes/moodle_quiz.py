@@ -29,7 +29,7 @@ from reportgen.marking.task_paper import given_of
 from reportgen.marking.toleranced_key import key_of, shown_number, symbol_text, words_of
 from reportgen.page.html import Blocks
 from reportgen.page.svg_elements import Pens
-from reportgen.writers import pictures
+from reportgen.writers import picture_files
 
 DOTS = 110
 """Resolution of a picture (dots per inch), for reading on a screen."""
@@ -105,7 +105,7 @@ class _QuestionBlocks(Blocks):
         if not isinstance(block, tree.Figure):
             return super().block(block, room)
         caption = self.caption(self.words.figure, block)
-        shown = "".join(map(self._picture, pictures.pngs(block.scenes, self.language, DOTS)))
+        shown = "".join(map(self._picture, picture_files.pngs(block.scenes, self.language, DOTS)))
         return f"{shown}<p>{caption}</p>" if caption else shown
 
     def _picture(self, data: bytes) -> str:

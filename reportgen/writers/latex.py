@@ -22,8 +22,8 @@ from reportgen.document import layout
 from reportgen.drawing import Scene
 from reportgen.formula import Expression, Symbol, VectorEquation
 from reportgen.formula.formula_layout import columns
-from reportgen.writers.drawing import paint_latex
 from reportgen.writers.latex_math import LatexFormulas, declarations, escape, hexadecimal
+from reportgen.writers.scene_source import paint_latex
 
 if TYPE_CHECKING:
     from jinja2 import Template

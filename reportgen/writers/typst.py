@@ -27,7 +27,7 @@ from reportgen.drawing.label_size import box
 from reportgen.formula import Chain, Expression, Product, Sum, Symbol, VectorEquation, walk
 from reportgen.formula.formula_layout import EQUALS, NARROW, MathRow, Part, columns, displayed, laid, sides, written
 from reportgen.formula.formula_speech import Speech
-from reportgen.writers.drawing import paint_typst
+from reportgen.writers.scene_source import paint_typst
 from reportgen.writers.typst_fonts import FONT, breadth
 from reportgen.writers.typst_math import TypstFormulas, literal
 

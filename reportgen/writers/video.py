@@ -18,7 +18,7 @@ from reportgen.base.errors import TypesetterError
 from reportgen.base.units import Language
 from reportgen.base.words import word
 from reportgen.drawing import Scene
-from reportgen.writers import pictures
+from reportgen.writers import picture_files
 
 SECONDS = 0.05
 """Duration of a frame in seconds; GIF counts in hundredths."""
@@ -66,4 +66,4 @@ def mp4(scenes: Sequence[Scene], language: Language, dpi: int) -> bytes:
 
 
 def _frames(scenes: Sequence[Scene], language: Language, dpi: int) -> list[Image.Image]:
-    return [Image.open(io.BytesIO(png)).convert("RGB") for png in pictures.pngs(scenes, language, dpi)]
+    return [Image.open(io.BytesIO(png)).convert("RGB") for png in picture_files.pngs(scenes, language, dpi)]

@@ -113,7 +113,7 @@ BRIEF = {path.stem: path for path in (TWIN, SHAPER, ROOT / "assignments" / "link
 @pytest.mark.parametrize("name", matrix(BRIEF, [SLIDER_CRANK.stem]))
 def test_every_label_can_be_set_by_matplotlib(name: str, caplog: pytest.LogCaptureFixture) -> None:
     """Each formula and each word of a report is understood as mathtext, and has all its letters, in both languages."""
-    from reportgen.writers import figure
+    from reportgen.writers import matplotlib_figures
 
     labels = dict.fromkeys(
         item.content
@@ -124,17 +124,17 @@ def test_every_label_can_be_set_by_matplotlib(name: str, caplog: pytest.LogCaptu
     )
     shown = [one for one in labels if isinstance(one, Expression) or not one.isascii()]
     rows = tuple(Label(complex(1, 6 * number + 3), one, "left") for number, one in enumerate(shown))
-    made = figure.figure(Scene(100.0, 6.0 * len(rows) + 6, rows), "vi")
-    assert figure.saved(made, "png", 72).startswith(b"\x89PNG")
+    made = matplotlib_figures.figure(Scene(100.0, 6.0 * len(rows) + 6, rows), "vi")
+    assert matplotlib_figures.saved(made, "png", 72).startswith(b"\x89PNG")
     assert [record.message for record in caplog.records if "glyph" in record.message] == []
 
 
 def test_exponents_of_units_are_set_in_any_font(caplog: pytest.LogCaptureFixture) -> None:
     """A raised minus, 1/s² as s⁻², is not in every font."""
-    from reportgen.writers import figure
+    from reportgen.writers import matplotlib_figures
 
     rows = (Label(30 + 10j, Number(2.5, 1, "mm·rad⁻²")), Label(30 + 30j, Number(2.5, 1, "m/s²")))
-    assert figure.eps(Scene(60.0, 40.0, rows), "en").startswith(b"%!PS")
+    assert matplotlib_figures.eps(Scene(60.0, 40.0, rows), "en").startswith(b"%!PS")
     assert caplog.records == []
 
 

@@ -9,8 +9,8 @@ import pytest
 
 from reportgen.document import Figure
 from reportgen.drawing import Arc, Arrow, Circle, Hatch, Label, Line, Pen, Polyline, Scene
-from reportgen.writers.drawing import paint_latex
 from reportgen.writers.latex_math import LatexFormulas
+from reportgen.writers.scene_source import paint_latex
 from tests.writers import sample
 from tests.writers.pages import MM, by_latex, needs_tex
 

@@ -15,7 +15,7 @@ from reportgen.document import Block, Equation, Figure, Paragraph, Plate, Sectio
 from reportgen.document.layout import Letter
 from reportgen.drawing import Scene
 from reportgen.formula import Matrix, Symbol, VectorEquation
-from reportgen.writers import pictures as drawn
+from reportgen.writers import picture_files as drawn
 from reportgen.writers import word
 from tests.writers import sample
 from tests.writers.pages import document

@@ -13,7 +13,7 @@ from typing import Any
 import pytest
 
 from reportgen.document import Cell, Section, Table, plain
-from reportgen.writers import pictures as drawn
+from reportgen.writers import picture_files as drawn
 from reportgen.writers import word
 from tests.lanes import matrix, proof
 from tests.report import built

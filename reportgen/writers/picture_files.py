@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from reportgen.base.units import Language
 from reportgen.drawing import Scene
 from reportgen.writers import typst, typst_compiler
-from reportgen.writers.drawing import paint_typst
+from reportgen.writers.scene_source import paint_typst
 from reportgen.writers.typst_math import TypstFormulas
 
 DPI = 220
