@@ -32,7 +32,7 @@ from reportgen.machine.load_laws import FULL_TURN, STEPS
 if TYPE_CHECKING:
     from reportgen.drawing.animation import Animation
     from reportgen.drawing.plates import DrawingPlate
-    from reportgen.report.context import Report
+    from reportgen.report.context import ReportContext
 
 
 GENERAL, HEIGHT = "vasntωεφαl", "y"
@@ -122,12 +122,12 @@ class MachineCase(MachineAnalysis):
         return positive_sense(id, self.ledger, self.words, self._ways)
 
     @property
-    def _report(self) -> Report:
+    def _report(self) -> ReportContext:
         """The case as its templates see it."""
         # It loads the template renderer, which most commands do not need.
-        from reportgen.report.context import Report
+        from reportgen.report.context import ReportContext
 
-        return Report(self)
+        return ReportContext(self)
 
     @cached_property
     def _ways(self) -> Mapping[str, str]:

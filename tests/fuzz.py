@@ -36,7 +36,7 @@ from reportgen.classes.variant_spec import read_spec
 from reportgen.document import Figure, Plate
 from reportgen.document.template_rendering import Prose
 from reportgen.handin.drawing_file import wanted_plans
-from reportgen.handin.drawing_reader import DrawnMark, WantedPlans
+from reportgen.handin.drawing_reader import DrawnLocation, WantedPlans
 from reportgen.handin.dxf_corrections import RedVector, with_corrections
 from reportgen.handin.file_kinds import read_file
 from reportgen.handin.word_comments import MarginNote, with_comments
@@ -46,7 +46,7 @@ from reportgen.marking.blank_report import frame_of
 from reportgen.marking.marking_policy import read_policy
 from reportgen.marking.task_paper import task_of
 from reportgen.marking.toleranced_key import key_of
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 from reportgen.report.template_names import names
 from reportgen.sheets.title_block import FIELDS, blocks, read_block
 from reportgen.workbook import write_csv, write_xlsx
@@ -217,8 +217,8 @@ def _case() -> MachineAnalysis:
 
 
 @cache
-def _report() -> Report:
-    return Report(_case())
+def _report() -> ReportContext:
+    return ReportContext(_case())
 
 
 def _sheet(number: int, chance: random.Random, folder: Path) -> None:
@@ -271,7 +271,7 @@ def _drawing(number: int, chance: random.Random, folder: Path) -> None:
     file = folder / "sheet.dxf"
     file.write_bytes(data)
     reading = read_file(file, data, key, "en", plans)
-    places = [answer.mark for answer in reading.values.values() if isinstance(answer.mark, DrawnMark)]
+    places = [answer.mark for answer in reading.values.values() if isinstance(answer.mark, DrawnLocation)]
     with_corrections(data, [RedVector(mark.at, mark.right, ("đúng",)) for mark in places], 1.0)
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from reportgen import catalogue
 from reportgen.api import typeset
-from reportgen.base.errors import AssignmentError, Fault, Mark, Problem
+from reportgen.base.errors import AssignmentError, Fault, Location, Problem
 from reportgen.base.languages import read_setting
 from reportgen.base.template_folders import LANGUAGE_FILE, REFERENCE, languages, templates
 from reportgen.base.units import Language
@@ -15,7 +15,7 @@ from reportgen.base.words import as_problem, common_words, messages, spoken
 from reportgen.cases import MachineCase, open_case
 from reportgen.document.proof_sheet import proof
 from reportgen.document.translation_check import faults
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 from reportgen.writers.typst_fonts import added, lacking, there_is_one_of
 
 BATCH = 400
@@ -37,7 +37,7 @@ def compared(folder: Path, language: Language) -> list[Problem]:
     wanted = read_setting(file).typst.fonts if (file := folder / LANGUAGE_FILE).is_file() else ()
     if wanted and not there_is_one_of(wanted):
         # Without its fonts, nearly every line would be reported.
-        missing = Fault("no-letters", Mark(str(file)), {"text": folder.name, "known": ", ".join(wanted)})
+        missing = Fault("no-letters", Location(str(file)), {"text": folder.name, "known": ", ".join(wanted)})
         return [_problem(fault, language) for fault in (missing, *faults(folder))]
     return [_problem(fault, language) for fault in faults(folder, _lacking)]
 
@@ -80,4 +80,4 @@ def _names(kind: str, language: Language) -> Mapping[str, object]:
         return {}
     if not isinstance(case, MachineCase):
         return {}
-    return {**names(Report(case)), "k": case.assignment.worked_positions[0]}
+    return {**names(ReportContext(case)), "k": case.assignment.worked_positions[0]}

@@ -18,7 +18,7 @@ from reportgen.assignment.checks import instants, school_of, worked_positions
 from reportgen.assignment.common import PARTS, Assignment, Draft, Drawing, Kind, Positions, sections
 from reportgen.assignment.fields import RESERVED
 from reportgen.assignment.schema import keys_at
-from reportgen.base.errors import Fault, Finding, Mark, Where
+from reportgen.base.errors import Fault, Finding, Location, Where
 from reportgen.base.files import contents, leads_out
 from reportgen.base.template_folders import school_files
 from reportgen.base.typing_mistakes import meant, slip
@@ -83,7 +83,7 @@ def name_faults(path: Path) -> Iterator[Fault]:
         return
     outside = stem.strip(" .") == "" or stem != shown.strip() or stem.endswith(".")
     if outside or RESERVED.fullmatch(stem.partition(".")[0].strip().upper()):
-        yield Fault("file-name", Mark(str(path)), {"text": stem})
+        yield Fault("file-name", Location(str(path)), {"text": stem})
 
 
 def inputs(path: Path) -> tuple[bytes, dict[str, bytes]]:
@@ -334,7 +334,7 @@ def _placed(finding: Finding, top: MappingNode) -> Fault:
         return Fault(finding.code, key_mark, finding.arguments, finding.where)
     unwritten = isinstance(node, Scalar) and node.null
     at_key = finding.at == "key"
-    mark: Mark = key_mark if at_key or unwritten else node.mark
+    mark: Location = key_mark if at_key or unwritten else node.mark
     text = str(finding.where[-1]) if at_key else node.text if isinstance(node, Scalar) and not node.quoted else ""
     # Faults of a valid value, for example that it is out of range, stay.
     mistyped = slip(text, mark) if finding.code in MISTYPED else None

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from reportgen.formula.ids import Name
-from reportgen.formula.vocabulary import Chapter, QuantityKind, VocabularyRow
+from reportgen.formula.vocabulary import KeyChapter, QuantityKind, VocabularyRow
 
 # --- shaking force and moment
 
@@ -64,7 +64,7 @@ after_component = Name("balance.after.F.{axis}")
 
 KINDS: Mapping[str, QuantityKind] = {"counterweight product": QuantityKind("kg·m")}
 
-_B = Chapter("balancing")
+_B = KeyChapter("balancing")
 
 ROWS: tuple[VocabularyRow, ...] = (
     VocabularyRow(Name(FORCE), "F", "force", _B, below="qt"),

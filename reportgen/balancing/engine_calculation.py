@@ -22,8 +22,8 @@ from reportgen.balancing.piston_orders import acceleration_factor, short_series
 from reportgen.base.units import MM, nice_up
 from reportgen.drawing.geometry import corners_of
 from reportgen.formula import PI, Expression, Number, Ref, cis, size, total
-from reportgen.formula.calculation import Sheet
-from reportgen.formula.vocabulary import Chapter
+from reportgen.formula.calculation import Calculation
+from reportgen.formula.vocabulary import KeyChapter
 
 ORDERS = (1, 2, 4)
 """Orders in the report; higher ones are too small to be felt."""
@@ -35,27 +35,27 @@ STAR = 46.0
 """The width or height that the largest star of a kind has on a page at most (mm)."""
 
 
-class EngineSheet:
+class EngineCalculation:
     """The sheet of an engine while it is written."""
 
     def __init__(self, given: Parameters) -> None:
-        self.given, self.q = given, Sheet()
+        self.given, self.q = given, Calculation()
         self.cylinders = tuple(str(number) for number in range(1, len(given.cylinders) + 1))
         self.stars = {"forces": FORCES[:1] if given.is_inline else FORCES}
         if given.has_length:
             self.stars["couples"] = COUPLES[:1] if given.is_inline else COUPLES
 
-    def written(self) -> Sheet:
-        with self.q.within(Chapter.data):
+    def written(self) -> Calculation:
+        with self.q.within(KeyChapter.data):
             self._enter_given()
-        with self.q.within(Chapter.geometry):
+        with self.q.within(KeyChapter.geometry):
             self._enter_factors()
             self._enter_arms()
-        with self.q.within(Chapter.forces):
+        with self.q.within(KeyChapter.forces):
             for stars in self.stars.values():
                 self._enter_stars(stars)
             self._enter_forces()
-        with self.q.within(Chapter.torque):
+        with self.q.within(KeyChapter.torque):
             self._enter_counterweight()
         return self.q
 

@@ -10,13 +10,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from reportgen.balancing import orders_ids
-from reportgen.balancing.engine_calculation import COUPLES, ORDERS, EngineSheet
+from reportgen.balancing.engine_calculation import COUPLES, ORDERS, EngineCalculation
 from reportgen.balancing.engine_file import Parameters
 from reportgen.balancing.piston_orders import first_term
 from reportgen.case import Misconceptions
 from reportgen.case.design_case import DesignCase
 from reportgen.formula import PI, Expression, Ref, cis, total
-from reportgen.formula.calculation import Sheet
+from reportgen.formula.calculation import Calculation
 from reportgen.formula.ledger import MistakenValues
 
 FIRST_TERM = "orders-first-term"
@@ -33,14 +33,14 @@ class SolvedEngine(DesignCase):
         return parameters
 
     @cached_property
-    def entered(self) -> EngineSheet:
+    def entered(self) -> EngineCalculation:
         """The sheet together with the object that wrote it."""
-        sheet = EngineSheet(self.given)
+        sheet = EngineCalculation(self.given)
         sheet.written()
         return sheet
 
     @property
-    def sheet(self) -> Sheet:
+    def sheet(self) -> Calculation:
         return self.entered.q
 
     @property

@@ -18,7 +18,7 @@ from reportgen.drawing.animation import BarScale, MovingBody, MovingItem, Moving
 from reportgen.formula import Symbol, vocabulary
 from reportgen.machine.kinematics import Motion, unit
 from reportgen.page.topic_layers import LayerHooks
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 
 LAYERS = ("shaking", "balanced")
 """Without counterweights and with them."""
@@ -40,7 +40,7 @@ def forces(turn: BalancedTurn, motion: Motion) -> list[tuple[str, str, Complexes
 
 
 def shown(
-    report: Report, motion: Motion, scale: float, longest: float, chosen: Callable[[str, Callable[[], Any]], Any]
+    report: ReportContext, motion: Motion, scale: float, longest: float, chosen: Callable[[str, Callable[[], Any]], Any]
 ) -> tuple[list[MovingItem], list[BarScale]]:
     """Return the shaking forces and their scale, on a drawing of `scale` mm to a metre; empty if they are not
     requested.
@@ -53,7 +53,7 @@ def shown(
     return list(_items(report, turn, motion, scale, per)), [BarScale(per, "force", LAYERS)]
 
 
-def _items(report: Report, turn: BalancedTurn, motion: Motion, scale: float, per: float) -> Iterator[MovingItem]:
+def _items(report: ReportContext, turn: BalancedTurn, motion: Motion, scale: float, per: float) -> Iterator[MovingItem]:
     """Yield the arrows, traces and counterweights, `per` N to a millimetre."""
     centre = motion.points[report.driver.centre].p * scale
     arrows = forces(turn, motion)
@@ -75,7 +75,9 @@ def _place(weight: Counterweight, motion: Motion) -> Complexes:
     return motion.origins[weight.link].p + weight.place * unit(motion.links[weight.link].angle)
 
 
-def with_room(report: Report, motion: Motion, scale: float, box: tuple[complex, complex]) -> tuple[complex, complex]:
+def with_room(
+    report: ReportContext, motion: Motion, scale: float, box: tuple[complex, complex]
+) -> tuple[complex, complex]:
     """Return the corners of a drawing (mm) that also includes the counterweights."""
     turn = balanced_in(report.analysis)
     places = [_place(weight, motion) * scale for weight in turn.weights]
@@ -91,7 +93,7 @@ def with_room(report: Report, motion: Motion, scale: float, box: tuple[complex, 
     )
 
 
-def values(report: Report, motion: Motion) -> Iterator[tuple[Symbol, str, Floats]]:
+def values(report: ReportContext, motion: Motion) -> Iterator[tuple[Symbol, str, Floats]]:
     """Yield the sizes of these forces and the moment on the frame: symbol, kind, values [N]; nothing if not
     requested.
     """

@@ -47,8 +47,8 @@ from reportgen.formula import (
     turned,
     unit,
 )
-from reportgen.formula.calculation import Sheet, is_short
-from reportgen.formula.vocabulary import Chapter
+from reportgen.formula.calculation import Calculation, is_short
+from reportgen.formula.vocabulary import KeyChapter
 from reportgen.machine import DRIVER, Crank, Inertia
 from reportgen.machine.analysis import Analysis
 from reportgen.machine.kinematics import unit as unit_vector
@@ -61,11 +61,11 @@ ON_ITS_LINK = 1e-12
 """A component below this share of a length is zero."""
 
 
-def enter(q: Sheet, analysis: Analysis) -> None:
+def enter(q: Calculation, analysis: Analysis) -> None:
     """Enter force and moment on the frame, and the requested counterweights with their effects."""
     turn = balanced_in(analysis)
     entry = _Entry(q, analysis, turn)
-    with q.within(Chapter("balancing")):
+    with q.within(KeyChapter("balancing")):
         entry.shaking()
         if turn.products:
             entry.rules()
@@ -81,7 +81,7 @@ def enter(q: Sheet, analysis: Analysis) -> None:
 class _Entry:
     """The sheet of an analysis while its balancing is entered."""
 
-    q: Sheet
+    q: Calculation
     analysis: Analysis
     turn: BalancedTurn
 

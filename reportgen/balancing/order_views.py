@@ -13,15 +13,15 @@ from reportgen.balancing.stars import star
 from reportgen.document import Value
 from reportgen.document.figure_placement import FigureScenes
 from reportgen.formula import Number, vocabulary
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 from reportgen.report.quantity_tables import bare
 
 
-def _engine(report: Report) -> Engine | None:
+def _engine(report: ReportContext) -> Engine | None:
     return engine(report.machine.linkage)
 
 
-def orders_state(report: Report) -> str:
+def orders_state(report: ReportContext) -> str:
     """Return the state of the orders: "none", of a "single" cylinder, of several in a "line" or in a "vee", or of
     the "whole" force alone.
     """
@@ -35,7 +35,7 @@ def orders_state(report: Report) -> str:
     return "line" if layout.in_line else "vee"
 
 
-def factor_lines(report: Report) -> list[str]:
+def factor_lines(report: ReportContext) -> list[str]:
     """Return the ids of λ, the orders of a piston's acceleration by the series, and the reciprocating mass."""
     series = (balance_ids.series(order) for order in EXACT)
     masses = [id for id in report.ledger.families if id in balance_ids.point_mass]
@@ -43,12 +43,12 @@ def factor_lines(report: Report) -> list[str]:
     return report.known([balance_ids.RATIO, *series, *first[:2], balance_ids.TO_AND_FRO])
 
 
-def _told_later(report: Report) -> bool:
+def _told_later(report: ReportContext) -> bool:
     """Return True if a rule prints the masses of the rods."""
     return bool({"rotating", "share"} & balanced_in(report.analysis).products.keys())
 
 
-def star_lines(report: Report) -> list[str]:
+def star_lines(report: ReportContext) -> list[str]:
     """Return the sums of the cylinders' vectors, order by order, and the couples."""
     lines: list[str] = []
     for order in ORDERS:
@@ -59,12 +59,12 @@ def star_lines(report: Report) -> list[str]:
     return report.known(lines)
 
 
-def order_lines(report: Report) -> list[str]:
+def order_lines(report: ReportContext) -> list[str]:
     """Return the greatest force of each order."""
     return report.known(balance_ids.order_force(order) for order in OF_ALL)
 
 
-def factors_table(report: Report) -> Iterator[Sequence[object]]:
+def factors_table(report: ReportContext) -> Iterator[Sequence[object]]:
     """Yield rows of A_n: exactly, by the series, and the error of the series."""
     yield "1", (Value(Number(1.0)),), (Value(Number(1.0)),), (Value(Number(0.0)),)
     for order in EXACT:
@@ -72,7 +72,7 @@ def factors_table(report: Report) -> Iterator[Sequence[object]]:
         yield str(order), *(bare(report, id, None) for id in ids)
 
 
-def stars(report: Report) -> FigureScenes:
+def stars(report: ReportContext) -> FigureScenes:
     """Return the star of each order that turns forward, and of cylinders at an angle that which turns backward."""
     layout = _engine(report)
     assert layout is not None
@@ -90,7 +90,7 @@ def stars(report: Report) -> FigureScenes:
     return FigureScenes(tuple(scenes))
 
 
-VALUES: Mapping[str, Callable[[Report], Any]] = {
+VALUES: Mapping[str, Callable[[ReportContext], Any]] = {
     "factor_lines": factor_lines,
     "order_lines": order_lines,
     "orders_state": orders_state,

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from reportgen.formula.ids import Name
-from reportgen.formula.vocabulary import Chapter, QuantityKind, VocabularyRow
+from reportgen.formula.vocabulary import KeyChapter, QuantityKind, VocabularyRow
 
 crank = Name("orders.crank.{cylinder}")
 bank = Name("orders.bank.{cylinder}")
@@ -34,7 +34,7 @@ KINDS: Mapping[str, QuantityKind] = {
     "product of mass, radius and distance": QuantityKind("kg·m²"),
 }
 
-_G, _F = Chapter.geometry, Chapter.forces
+_G, _F = KeyChapter.geometry, KeyChapter.forces
 _STARS = "fgpq"
 
 ROWS: tuple[VocabularyRow, ...] = (
@@ -74,10 +74,10 @@ ROWS: tuple[VocabularyRow, ...] = (
     ),
     VocabularyRow(force, "F", "force", _F, below="{order}", name="orders force"),
     VocabularyRow(couple, "M", "torque", _F, below="{order}", name="orders couple"),
-    VocabularyRow(Name("orders.rotating"), "F", "force", Chapter.torque, below="rot"),
-    VocabularyRow(Name("orders.U"), "U", "product of mass and radius", Chapter.torque, below="c"),
-    VocabularyRow(Name("orders.left"), "F", "force", Chapter.torque, below="1", above="′"),
-    VocabularyRow(Name("orders.rotating.M"), "M", "torque", Chapter.torque, below="rot"),
-    VocabularyRow(Name("orders.U.M"), "D", "product of mass, radius and distance", Chapter.torque, below="c"),
-    VocabularyRow(Name("orders.left.M"), "M", "torque", Chapter.torque, below="1", above="′"),
+    VocabularyRow(Name("orders.rotating"), "F", "force", KeyChapter.torque, below="rot"),
+    VocabularyRow(Name("orders.U"), "U", "product of mass and radius", KeyChapter.torque, below="c"),
+    VocabularyRow(Name("orders.left"), "F", "force", KeyChapter.torque, below="1", above="′"),
+    VocabularyRow(Name("orders.rotating.M"), "M", "torque", KeyChapter.torque, below="rot"),
+    VocabularyRow(Name("orders.U.M"), "D", "product of mass, radius and distance", KeyChapter.torque, below="c"),
+    VocabularyRow(Name("orders.left.M"), "M", "torque", KeyChapter.torque, below="1", above="′"),
 )

@@ -17,7 +17,7 @@ from reportgen.balancing.orders import BACKWARD, FORWARD, Engine, EngineCylinder
 from reportgen.balancing.piston_orders import acceleration_factor, short_series
 from reportgen.balancing.shaking_force import CrankCurve
 from reportgen.formula import NOTHING, ONE, Expression, Number, Ref, Symbol, cos, ids, plus, sin, sqrt, total
-from reportgen.formula.calculation import Sheet
+from reportgen.formula.calculation import Calculation
 from reportgen.formula.evaluation import evaluate
 from reportgen.machine import Crank
 from reportgen.machine.analysis import Analysis
@@ -34,7 +34,9 @@ PointMasses = Callable[[CrankRod], tuple[Expression, Expression]]
 """Function that returns the mass of a rod that turns with its pin, and the mass that reciprocates with its slider."""
 
 
-def enter_orders(q: Sheet, analysis: Analysis, curve: CrankCurve, force: float, point_masses: PointMasses) -> None:
+def enter_orders(
+    q: Calculation, analysis: Analysis, curve: CrankCurve, force: float, point_masses: PointMasses
+) -> None:
     """Enter the orders of an engine, or of another machine of rods and sliders; `force` (N) is a reference size."""
     linkage = analysis.machine.linkage
     layout = engine(linkage)
@@ -50,7 +52,7 @@ def enter_orders(q: Sheet, analysis: Analysis, curve: CrankCurve, force: float, 
             q.give(balance_ids.order_force(order), size, exact=False, scale=force)
 
 
-def _of_engine(q: Sheet, layout: Engine, centre: str, point_masses: PointMasses) -> None:
+def _of_engine(q: Calculation, layout: Engine, centre: str, point_masses: PointMasses) -> None:
     first = layout.rods[0]
     r, l = q[ids.length(centre, first.crank_pin)], q[ids.length(first.crank_pin, first.end)]  # noqa: E741
     λ = q.find("lambda") or q.define(balance_ids.RATIO, r / l, Symbol("λ"))
@@ -80,7 +82,7 @@ def _size(factor: Expression, order: int) -> Expression:
     return -factor if order == 4 else factor
 
 
-def _angles(q: Sheet, layout: Engine, cylinder: EngineCylinder) -> tuple[Expression, Expression]:
+def _angles(q: Calculation, layout: Engine, cylinder: EngineCylinder) -> tuple[Expression, Expression]:
     """Enter β and γ = ψ − β of a cylinder, both relative to those of the first."""
     first = layout.cylinders[0]
     parts: list[Expression] = []
@@ -103,7 +105,7 @@ def _whole(angle: float) -> bool:
     return bool(abs(hundredths - round(hundredths)) < 1e-7)
 
 
-def _star(q: Sheet, layout: Engine, order: int, sense: str) -> Ref:
+def _star(q: Calculation, layout: Engine, order: int, sense: str) -> Ref:
     """Return the size of the sum of the cylinders' unit vectors, by its components."""
     across: list[Expression] = []
     up: list[Expression] = []
@@ -121,7 +123,7 @@ def _star(q: Sheet, layout: Engine, order: int, sense: str) -> Ref:
     return q.define(balance_ids.star_size(order, sense), sqrt(x**2 + y**2), scale=1.0)
 
 
-def _couple(q: Sheet, layout: Engine, order: int) -> None:
+def _couple(q: Calculation, layout: Engine, order: int) -> None:
     """Enter the couple of an order over m r ω² A_n and the pitch of the cylinders, about the middle of the shaft."""
     middle = (len(layout.cylinders) - 1) / 2
     across: list[Expression] = []

@@ -13,8 +13,8 @@ from reportgen.balancing.rotor_file import BEARINGS, LEFT, RIGHT, Parameters
 from reportgen.base.units import MM, nice_up
 from reportgen.drawing.geometry import corners_of
 from reportgen.formula import PI, Expression, Number, Ref, Symbol, atan, cis, cos, heading, sin, sqrt, total
-from reportgen.formula.calculation import DUST, Sheet
-from reportgen.formula.vocabulary import Chapter
+from reportgen.formula.calculation import DUST, Calculation
+from reportgen.formula.vocabulary import KeyChapter
 
 ROOM = 105 + 85j
 """Largest width and height of a plan on a page (mm)."""
@@ -23,29 +23,29 @@ STRAIGHT, WHOLE_TURN = Number(180.0, unit="°"), Number(360.0, unit="°")
 BEFORE, AFTER = "before", "after"
 
 
-class RotorSheet:
+class RotorCalculation:
     """The sheet of a rotor while it is written."""
 
     def __init__(self, given: Parameters) -> None:
-        self.given, self.q = given, Sheet()
+        self.given, self.q = given, Calculation()
         self.masses = tuple(str(number) for number in range(1, len(given.masses) + 1))
         self.α: dict[str, Ref] = {}
         self.U: dict[str, Ref] = {}
         self.V: dict[str, Ref] = {}
         self.z: dict[str, Ref] = {}
 
-    def written(self) -> Sheet:
-        with self.q.within(Chapter.data):
+    def written(self) -> Calculation:
+        with self.q.within(KeyChapter.data):
             self._enter_given()
-        with self.q.within(Chapter.geometry):
+        with self.q.within(KeyChapter.geometry):
             self._enter_products()
-        with self.q.within(Chapter.loads):
+        with self.q.within(KeyChapter.loads):
             self._enter_plans()
-        with self.q.within(Chapter.formulas):
+        with self.q.within(KeyChapter.formulas):
             self._enter_components()
-        with self.q.within(Chapter.forces):
+        with self.q.within(KeyChapter.forces):
             self._enter_bearings()
-        with self.q.within(Chapter.cycle):
+        with self.q.within(KeyChapter.cycle):
             self._enter_grade()
         return self.q
 
@@ -260,7 +260,7 @@ def resultant(sizes: Mapping[str, Expression], directions: Mapping[str, Expressi
     return total([size * cis(directions[place]) for place, size in sizes.items()])
 
 
-def angle_of(q: Sheet, x: Ref, y: Ref) -> Expression:
+def angle_of(q: Calculation, x: Ref, y: Ref) -> Expression:
     """Return the direction of a vector from its components, from 0° to 360°."""
     across, along = q.si(y), q.si(x)
     if abs(along) <= DUST * abs(across) or along == 0:

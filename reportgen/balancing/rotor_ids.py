@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from reportgen.formula.ids import Name
-from reportgen.formula.vocabulary import Chapter, QuantityKind, VocabularyRow
+from reportgen.formula.vocabulary import KeyChapter, QuantityKind, VocabularyRow
 
 mass = Name("rotor.m.{place}")
 radius = Name("rotor.r.{place}")
@@ -41,7 +41,7 @@ KINDS: Mapping[str, QuantityKind] = {
     "eccentricity": QuantityKind("mm", 1e-3),
 }
 
-_G, _L, _F = Chapter.geometry, Chapter.loads, Chapter.forces
+_G, _L, _F = KeyChapter.geometry, KeyChapter.loads, KeyChapter.forces
 _AXIS = "{place}{axis}"
 
 ROWS: tuple[VocabularyRow, ...] = (
@@ -88,8 +88,8 @@ ROWS: tuple[VocabularyRow, ...] = (
         bearing_force.only(when="after"), "N", "force", _F, below="{place}", above="′", name="rotor force after"
     ),
     VocabularyRow(bearing_force, "N", "force", _F, below="{place}", name="rotor force"),
-    VocabularyRow(permitted.only(of="e"), "e", "eccentricity", Chapter.cycle, below="per"),
-    VocabularyRow(permitted.only(of="U"), "U", "rotor unbalance", Chapter.cycle, below="per"),
-    VocabularyRow(permitted.only(of="plane"), "U", "rotor unbalance", Chapter.cycle, below="per,1"),
-    VocabularyRow(tolerance, "Δm", "mass", Chapter.cycle, below="{place}", name="rotor tolerance"),
+    VocabularyRow(permitted.only(of="e"), "e", "eccentricity", KeyChapter.cycle, below="per"),
+    VocabularyRow(permitted.only(of="U"), "U", "rotor unbalance", KeyChapter.cycle, below="per"),
+    VocabularyRow(permitted.only(of="plane"), "U", "rotor unbalance", KeyChapter.cycle, below="per,1"),
+    VocabularyRow(tolerance, "Δm", "mass", KeyChapter.cycle, below="{place}", name="rotor tolerance"),
 )

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from reportgen.balancing import rotor_ids
-from reportgen.balancing.rotor_calculation import AFTER, BEFORE, RotorSheet, resultant
+from reportgen.balancing.rotor_calculation import AFTER, BEFORE, RotorCalculation, resultant
 from reportgen.balancing.rotor_file import BEARINGS, LEFT, RIGHT, Parameters
 from reportgen.case import Misconceptions
 from reportgen.case.design_case import DesignCase
 from reportgen.formula import PI, Expression, Number, Ref, cis, heading
-from reportgen.formula.calculation import ZERO, Sheet
+from reportgen.formula.calculation import ZERO, Calculation
 from reportgen.formula.ledger import MistakenValues
 
 
@@ -40,8 +40,8 @@ class SolvedRotor(DesignCase):
         return self.masses if self.given.has_couple else ()
 
     @cached_property
-    def sheet(self) -> Sheet:
-        return RotorSheet(self.given).written()
+    def sheet(self) -> Calculation:
+        return RotorCalculation(self.given).written()
 
     @property
     def speed(self) -> float | None:

@@ -22,7 +22,7 @@ from reportgen.formula.vocabulary import KINDS
 from reportgen.machine import DRIVER
 from reportgen.machine.kinematics import unit
 from reportgen.machine.load_laws import FULL_TURN
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 from reportgen.report.mechanism_figures import drawing_scale, looks, reduction, shown_at
 from reportgen.report.quantity_tables import QuantityTable, RowTable, bare
 from reportgen.report.topic_views import ViewHooks, always
@@ -33,7 +33,7 @@ ROUND = 181
 """Points of a circle that is drawn among curves."""
 
 
-def _turn(report: Report) -> BalancedTurn:
+def _turn(report: ReportContext) -> BalancedTurn:
     return balanced_in(report.analysis)
 
 
@@ -66,7 +66,7 @@ class BalancingRule:
         return self.name
 
 
-def shaken(report: Report) -> tuple[ShakenLink, ...]:
+def shaken(report: ReportContext) -> tuple[ShakenLink, ...]:
     """Return the links with a part in force or moment on the frame, in the order of the file."""
     entered = []
     for body in report.machine.linkage.inertias:
@@ -78,18 +78,18 @@ def shaken(report: Report) -> tuple[ShakenLink, ...]:
     return tuple(entered)
 
 
-def shaking_lines(report: Report) -> list[str]:
+def shaking_lines(report: ReportContext) -> list[str]:
     """Return the ids of F by its components, its direction, and M."""
     components = (balance_ids.component(axis) for axis in AXES)
     return report.known([*components, balance_ids.FORCE, balance_ids.DIRECTION, balance_ids.MOMENT])
 
 
-def seen_lines(report: Report) -> list[str]:
+def seen_lines(report: ReportContext) -> list[str]:
     """Return the ids of F as seen from the crank."""
     return report.known(balance_ids.seen(axis) for axis in AXES)
 
 
-def balance_rules(report: Report) -> tuple[BalancingRule, ...]:
+def balance_rules(report: ReportContext) -> tuple[BalancingRule, ...]:
     """Return the requested rules, in their order; the first one is applied."""
     shown_before: set[str] = set()
     rules = []
@@ -114,7 +114,7 @@ def balance_rules(report: Report) -> tuple[BalancingRule, ...]:
 RODS = ("rotating", "share")
 
 
-def balancing_state(report: Report) -> str:
+def balancing_state(report: ReportContext) -> str:
     """Return the request: "none", the shaking force on the "frame", a counterweight on the "crank", one in "vain"
     that is zero, or the whole balance by counterweights on the "links" of a four-bar.
     """
@@ -124,7 +124,7 @@ def balancing_state(report: Report) -> str:
     return "links" if turn.weights else "frame"
 
 
-def counterweight_lines(report: Report) -> list[str]:
+def counterweight_lines(report: ReportContext) -> list[str]:
     """Return the ids of U of each applied counterweight with its angle, its mass and its weight."""
     turn = _turn(report)
     lines: list[str] = []
@@ -136,7 +136,7 @@ def counterweight_lines(report: Report) -> list[str]:
     return report.known([*lines, *masses, balance_ids.centrifugal(DRIVER)])
 
 
-def after_lines(report: Report) -> list[str]:
+def after_lines(report: ReportContext) -> list[str]:
     """Return the ids of the remaining values at a position with the counterweights: force, reaction, moments."""
     weights = balanced_in(report.analysis).weights
     arms = [balance_ids.place(f"W{weight.link}", "x") for weight in weights]
@@ -146,23 +146,23 @@ def after_lines(report: Report) -> list[str]:
     return report.known([*components, balance_ids.AFTER_FORCE, *rest])
 
 
-def on_link_lines(report: Report) -> list[str]:
+def on_link_lines(report: ReportContext) -> list[str]:
     """Return the ids of the places of a four-bar's mass centres on their links."""
     return [id for id in report.ledger.families if id in balance_ids.on_link]
 
 
-def main_rule(report: Report) -> str:
+def main_rule(report: ReportContext) -> str:
     """Return the name of the rule that is applied, for use in a sentence."""
     return str(report.words["balancing"]["chosen"][next(iter(_turn(report).products))])
 
 
-def other_rules(report: Report) -> list[str]:
+def other_rules(report: ReportContext) -> list[str]:
     """Return the rules that are compared with it, in words."""
     _, *others = _turn(report).products
     return [report.words["balancing"]["told"][rule] for rule in others]
 
 
-def greatest_left(report: Report) -> Value:
+def greatest_left(report: ReportContext) -> Value:
     """Return the greatest force that the counterweight which is carried out leaves."""
     return Value(report.ledger.number(balance_ids.greatest("F", next(iter(_turn(report).products)))))
 
@@ -170,7 +170,7 @@ def greatest_left(report: Report) -> Value:
 # --- tables -------------------------------------------------------------------------------------------
 
 
-def balanced_table(report: Report) -> list[str]:
+def balanced_table(report: ReportContext) -> list[str]:
     """Return the ids of the values that the counterweights change, each beside its original."""
     pairs = (
         (balance_ids.FORCE, balance_ids.AFTER_FORCE),
@@ -181,7 +181,7 @@ def balanced_table(report: Report) -> list[str]:
     return [id for pair in pairs if pair[1] in report.ledger for id in pair]
 
 
-def rules_table(report: Report) -> Iterator[Sequence[object]]:
+def rules_table(report: ReportContext) -> Iterator[Sequence[object]]:
     """Yield each rule with its U, angle, greatest and mean force, the first row without a counterweight."""
     words, turn = report.words["balancing"]["rules"], _turn(report)
     for state in (BEFORE, *turn.products):
@@ -191,7 +191,7 @@ def rules_table(report: Report) -> Iterator[Sequence[object]]:
         yield words[state], *product, *forces
 
 
-def cost_table(report: Report) -> Iterator[Sequence[object]]:
+def cost_table(report: ReportContext) -> Iterator[Sequence[object]]:
     """Yield the greatest force, moments and the masses before and after."""
     after = next(iter(_turn(report).products), AFTER)
     for quantity, state in (("F", after), ("M", AFTER), ("cb", AFTER)):
@@ -201,7 +201,7 @@ def cost_table(report: Report) -> Iterator[Sequence[object]]:
     yield _compared(report, "mass", [balance_ids.whole_mass(state) for state in (BEFORE, AFTER)])
 
 
-def _compared(report: Report, name: str, pair: Sequence[str]) -> Sequence[object]:
+def _compared(report: ReportContext, name: str, pair: Sequence[str]) -> Sequence[object]:
     unit_of = report.ledger.printed_unit(report.ledger[pair[0]].how.unit)
     return report.words["balancing"]["costs"][name], *(bare(report, id, None) for id in pair), unit_of
 
@@ -209,7 +209,7 @@ def _compared(report: Report, name: str, pair: Sequence[str]) -> Sequence[object
 # --- checks -------------------------------------------------------------------------------------------
 
 
-def residuals(report: Report) -> dict[str, float]:
+def residuals(report: ReportContext) -> dict[str, float]:
     """Return shares: the difference of F from the inertia reactions on the frame, and the remaining force of a
     four-bar.
     """
@@ -228,7 +228,7 @@ def residuals(report: Report) -> dict[str, float]:
 # --- figures ------------------------------------------------------------------------------------------
 
 
-def _of_turn(report: Report) -> tuple[np.ndarray, np.ndarray, tuple[int, ...], tuple[str, ...]]:
+def _of_turn(report: ReportContext) -> tuple[np.ndarray, np.ndarray, tuple[int, ...], tuple[str, ...]]:
     """Return F (N) at the samples of a turn, e^{iφ} there, the indices of the shown positions, and their names."""
     cycle = report.dense_cycle
     count = int(np.searchsorted(cycle.cycle_angle, FULL_TURN * (1 + 1e-9), side="right"))
@@ -238,14 +238,14 @@ def _of_turn(report: Report) -> tuple[np.ndarray, np.ndarray, tuple[int, ...], t
     return force, unit(cycle.motion.driver)[:count], tuple(map(int, marks)), tuple(map(str, shown))
 
 
-def hodograph(report: Report) -> FigureScenes:
+def hodograph(report: ReportContext) -> FigureScenes:
     """Return the ends of F, laid off from one pole, over the turn."""
     force, _, marks, names = _of_turn(report)
     curve = PlottedCurve("", force.real, force.imag, marks, names)
     return FigureScenes((_polar(report, (curve,), balance_ids.component),))
 
 
-def balanced_hodograph(report: Report) -> FigureScenes:
+def balanced_hodograph(report: ReportContext) -> FigureScenes:
     """Return the hodographs of F without and with the counterweight that is carried out."""
     force, crank, marks, names = _of_turn(report)
     (weight,) = _turn(report).weights
@@ -257,7 +257,7 @@ def balanced_hodograph(report: Report) -> FigureScenes:
     return FigureScenes((_polar(report, curves, balance_ids.component),))
 
 
-def discs(report: Report) -> FigureScenes:
+def discs(report: ReportContext) -> FigureScenes:
     """Return the scheme with the counterweights that are carried out."""
     factor, index, motion = reduction(report), shown_at(report), report.analysis.motion
     scale = drawing_scale(report) * factor
@@ -272,7 +272,7 @@ def discs(report: Report) -> FigureScenes:
     return FigureScenes((with_discs(linkage, motion, index, scale, looks(report, scale, factor), shown),))
 
 
-def seen_curve(report: Report) -> FigureScenes:
+def seen_curve(report: ReportContext) -> FigureScenes:
     """Return F as the crank sees it, the smallest circle round it with its touching points, and the origin by each
     rule.
     """
@@ -297,7 +297,7 @@ def seen_curve(report: Report) -> FigureScenes:
     return FigureScenes((_polar(report, tuple(curves), balance_ids.seen),))
 
 
-def _polar(report: Report, curves: tuple[PlottedCurve, ...], component: ids.Name) -> Scene:
+def _polar(report: ReportContext, curves: tuple[PlottedCurve, ...], component: ids.Name) -> Scene:
     """Draw hodographs whose axes have the symbols of these components."""
     ledger = report.ledger
     across, up = (
@@ -310,7 +310,7 @@ def _polar(report: Report, curves: tuple[PlottedCurve, ...], component: ids.Name
 
 # --- names of all views in templates ------------------------------------------------------------------
 
-VALUES: Mapping[str, Callable[[Report], Any]] = {
+VALUES: Mapping[str, Callable[[ReportContext], Any]] = {
     "after_lines": after_lines,
     "balancing_state": balancing_state,
     "on_link_lines": on_link_lines,

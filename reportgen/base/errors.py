@@ -12,7 +12,7 @@ from typing import Literal
 
 
 @dataclass(frozen=True, slots=True)
-class Mark:
+class Location:
     """A place in a file; `line` and `column` count from 1."""
 
     file: str
@@ -22,7 +22,7 @@ class Mark:
     def __str__(self) -> str:
         return f"{self.file}:{self.line}:{self.column}"
 
-    def __lt__(self, other: Mark) -> bool:
+    def __lt__(self, other: Location) -> bool:
         return self.place < other.place
 
     @property
@@ -32,7 +32,7 @@ class Mark:
 
 
 @dataclass(frozen=True, slots=True)
-class CellMark(Mark):
+class CellLocation(Location):
     """A cell of a spreadsheet file: `line` is its row; `number` orders the sheets, from 1."""
 
     sheet: str = ""
@@ -69,7 +69,7 @@ class Fault:
     """
 
     code: str
-    mark: Mark
+    mark: Location
     arguments: Mapping[str, str] = field(default_factory=dict)
     where: Where = field(default=(), compare=False)
     """The place in the content of its file, as far as there is one."""
@@ -107,7 +107,7 @@ class Problem:
 
     code: str
     message: str
-    mark: Mark
+    mark: Location
     hint: str | None = None
     level: Level = "error"
     advice: str = "hint"

@@ -19,7 +19,7 @@ from hashlib import sha256
 from importlib import metadata
 from pathlib import Path
 
-from reportgen.base.errors import Fault, Mark, OutputError
+from reportgen.base.errors import Fault, Location, OutputError
 from reportgen.base.output_formats import endings, file_names
 
 _STREAMS = ("/dev", "/proc")
@@ -209,7 +209,7 @@ def overwritten(outputs: Iterable[Path], inputs: Iterable[Path]) -> Iterator[Fau
     known = {identity: path for path in inputs for identity in _identities(path)}
     for output in outputs:
         if same := [known[identity] for identity in _identities(output) if identity in known]:
-            yield Fault("is-input", Mark(str(output)), {"text": str(same[0])})
+            yield Fault("is-input", Location(str(output)), {"text": str(same[0])})
 
 
 def _identities(path: Path) -> list[str | tuple[int, int]]:

@@ -8,7 +8,7 @@ from numbers import Real
 from string import Formatter
 from typing import Any
 
-from reportgen.base.errors import Mark
+from reportgen.base.errors import Location
 
 FILLS = (str, Real)
 """Types of the values that a placeholder accepts."""
@@ -45,7 +45,7 @@ def filled(text: str, values: Sequence[Any], named: Mapping[str, Any]) -> str:
     return str.format(text, *values, **named)
 
 
-def place_of(text: str, words: Any) -> Mark | None:
+def place_of(text: str, words: Any) -> Location | None:
     """Return the place of a text among words that know their places; None if it is not among them."""
     if isinstance(words, str):
         return getattr(words, "mark", None) if words == text else None

@@ -10,7 +10,7 @@ import re
 from collections import Counter
 from collections.abc import Iterator
 
-from reportgen.base.errors import Fault, Mark
+from reportgen.base.errors import Fault, Location
 
 _NAME = r"[^\W\d]\w*(?:\.\w+)*"
 _UNPARTED = re.compile(rf"(?P<lead>[ ]*(?:- )?)(?P<key>{_NAME})(?::(?![\s/])|[ ]*=[ ]*)(?P<value>\S.*?)\s*")
@@ -33,7 +33,7 @@ def meant(key: str) -> str:
     return unparted["key"] if unparted else in_quotes(key) or _ODD_BLANK.sub("", key)
 
 
-def slip(text: str, mark: Mark) -> Fault | None:
+def slip(text: str, mark: Location) -> Fault | None:
     """Return the typing mistake in a text that was meant to be a key, a value or a section; None if there is none."""
     if odd := _ODD_BLANK.search(text):
         return _odd_blank(odd, mark)
@@ -55,13 +55,13 @@ def slips_above(lines: list[str], line: int, file: str) -> list[Fault]:
     return faults
 
 
-def misplaced(lines: list[str], mark: Mark) -> Mark:
+def misplaced(lines: list[str], mark: Location) -> Location:
     """Return the mark of a line or of the line above it, whichever has the indentation that is unusual in this file."""
     indents = {number: len(line) - len(line.lstrip(" ")) for number, line in enumerate(lines, 1) if _bare(line).strip()}
     usual = Counter(filter(None, indents.values())).most_common(1)
     above = max((number for number in indents if number < mark.line), default=0)
     if above and usual and indents[above] % usual[0][0] and indents.get(mark.line, 0) % usual[0][0] == 0:
-        return Mark(mark.file, above, indents[above] + 1)
+        return Location(mark.file, above, indents[above] + 1)
     return mark
 
 
@@ -72,19 +72,19 @@ def _bare(line: str) -> str:
 
 def _slips_in(line: str, number: int, file: str) -> Iterator[Fault]:
     if odd := _ODD_BLANK.search(_bare(line)):
-        yield _odd_blank(odd, Mark(file, number))
+        yield _odd_blank(odd, Location(file, number))
     else:
         indent = len(line) - len(line.lstrip(" "))
-        fault = _unparted(_bare(line).strip(), Mark(file, number, indent + 1))
+        fault = _unparted(_bare(line).strip(), Location(file, number, indent + 1))
         yield from [fault] if fault else []
 
 
-def _odd_blank(blank: re.Match[str], mark: Mark) -> Fault:
+def _odd_blank(blank: re.Match[str], mark: Location) -> Fault:
     about = {"text": f"U+{ord(blank[0]):04X}"}
-    return Fault("odd-blank", Mark(mark.file, mark.line, mark.column + blank.start()), about)
+    return Fault("odd-blank", Location(mark.file, mark.line, mark.column + blank.start()), about)
 
 
-def _unparted(text: str, mark: Mark) -> Fault | None:
+def _unparted(text: str, mark: Location) -> Fault | None:
     """Return a fault for a key and its value without a separator, or with an equals sign."""
     match = _UNPARTED.fullmatch(text)
     if match is None:
@@ -94,4 +94,4 @@ def _unparted(text: str, mark: Mark) -> Fault | None:
     code = "equals-sign" if "=" in text[len(match["key"]) : end] else "no-blank"
     column = mark.column + len(match["lead"])
     fixed = f"{match['key']}: {value}"
-    return Fault(code, Mark(mark.file, mark.line, column), {"text": text[:end].lstrip() + value, "line": fixed})
+    return Fault(code, Location(mark.file, mark.line, column), {"text": text[:end].lstrip() + value, "line": fixed})

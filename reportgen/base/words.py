@@ -20,7 +20,7 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
-from reportgen.base.errors import AssignmentError, Fault, Level, Mark, Problem, TemplateError, Where
+from reportgen.base.errors import AssignmentError, Fault, Level, Location, Problem, TemplateError, Where
 from reportgen.base.placeholders import FILLS, filled, gaps, plain_gaps
 from reportgen.base.template_folders import (
     DEFAULT_LANGUAGE,
@@ -84,7 +84,7 @@ def named_school() -> Path | None:
         return None
     folder = Path(named).absolute()
     if strays := school_strays(folder):
-        mark = Mark(str(strays[0]))
+        mark = Location(str(strays[0]))
         raise TemplateError(str(as_problem(Fault("path-outside", mark, {"text": strays[0].name}), None)))
     if not is_school(folder):
         raise TemplateError(word("no_templates", None, place=folder))
@@ -171,7 +171,7 @@ def _as_written(section: Passage, place: Path, of_others: bool) -> Mapping[str, 
 class _Word(str):
     """A word that knows its place: a placeholder in it that cannot be filled is a fault there."""
 
-    mark = Mark("")
+    mark = Location("")
 
     def format(self, *values: object, **named: object) -> str:
         """Fill the placeholders like `str.format`. Raises `TemplateError`."""
@@ -203,7 +203,7 @@ def _table(source: Source, above: int = 0) -> Mapping[str, Any]:
     if source.faults:
         raise TemplateError("\n".join(f"{_below(fault.mark, above)}: {fault.wordless}" for fault in source.faults))
     if not isinstance(source.top, MappingNode):
-        raise TemplateError(f"{_below(Mark(source.file), above)}: a table of words is wanted here")
+        raise TemplateError(f"{_below(Location(source.file), above)}: a table of words is wanted here")
 
     def said(scalar: Scalar) -> str:
         text = _Word(in_a_line(scalar.text))
@@ -214,7 +214,7 @@ def _table(source: Source, above: int = 0) -> Mapping[str, Any]:
     return content
 
 
-def _below(mark: Mark, above: int) -> Mark:
+def _below(mark: Location, above: int) -> Location:
     return replace(mark, line=mark.line + above)
 
 

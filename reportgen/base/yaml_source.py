@@ -20,7 +20,7 @@ from typing import Any, NoReturn
 import yaml
 
 from reportgen.base import chinese, cyrillic
-from reportgen.base.errors import Fault, Mark
+from reportgen.base.errors import Fault, Location
 from reportgen.base.files import cause, contents
 from reportgen.base.typing_mistakes import misplaced, slips_above
 
@@ -64,7 +64,7 @@ class Scalar:
     """
 
     text: str
-    mark: Mark
+    mark: Location
     null: bool = False
     quoted: bool = False
     span: Span = field(default=NOWHERE, compare=False, repr=False)
@@ -79,7 +79,7 @@ class Quoted(str):
 @dataclass(frozen=True, slots=True)
 class SequenceNode:
     items: tuple[Node, ...]
-    mark: Mark
+    mark: Location
     span: Span = field(default=NOWHERE, compare=False, repr=False)
 
 
@@ -88,7 +88,7 @@ class MappingNode:
     """A mapping: its entries in the order of the file, each key once."""
 
     entries: tuple[tuple[Scalar, Node], ...]
-    mark: Mark
+    mark: Location
     span: Span = field(default=NOWHERE, compare=False, repr=False)
 
     def find(self, key: object) -> tuple[Scalar, Node] | None:
@@ -138,12 +138,12 @@ def text_in(path: Path) -> str | Fault:
     try:
         data = contents(path, LARGEST + 1)
         if len(data) > LARGEST:
-            return Fault("too-large", Mark(file), {"largest": str(LARGEST // 1000)})
+            return Fault("too-large", Location(file), {"largest": str(LARGEST // 1000)})
     except IsADirectoryError as error:
         about = {"reason": cause(error), "known": str(path.resolve()), "hint": "folder"}
-        return Fault("unreadable", Mark(file), about)
+        return Fault("unreadable", Location(file), about)
     except OSError as error:
-        return Fault("unreadable", Mark(file), {"reason": cause(error)})
+        return Fault("unreadable", Location(file), {"reason": cause(error)})
     return decoded(data, file)
 
 
@@ -199,16 +199,16 @@ def read_text(text: str, file: str = "") -> Source:
         return Source(file, text, faults=(*loader.faults, *(slips_above(lines, told.mark.line, file) or [told])))
     except ValueError:
         # A number in an escape or a directive that Python refuses to read.
-        here = Mark(file, loader.line + 1, loader.column + 1)
+        here = Location(file, loader.line + 1, loader.column + 1)
         return Source(file, text, faults=(*loader.faults, Fault("syntax", here)))
     finally:
         loader.dispose()
     if root is None:
-        return Source(file, text, faults=(*loader.faults, Fault("empty", Mark(file))))
+        return Source(file, text, faults=(*loader.faults, Fault("empty", Location(file))))
     faults = [*loader.faults]
     top = _node(root, file, faults)
     if isinstance(top, Scalar) and top.null:
-        faults.append(Fault("empty", Mark(file)))
+        faults.append(Fault("empty", Location(file)))
     return Source(file, text, top, tuple(faults))
 
 
@@ -267,7 +267,7 @@ class _Loader(yaml.SafeLoader):
 
     def fetch_more_tokens(self) -> None:
         if self.tokens_taken > MOST_TOKENS:
-            here = Mark(self.file, self.line + 1, self.column + 1)
+            here = Location(self.file, self.line + 1, self.column + 1)
             self.stop(Fault("too-long", here, {"most": str(MOST_TOKENS)}))
         scanner: Any = super()  # whose methods the stubs leave without types
         scanner.fetch_more_tokens()
@@ -305,8 +305,8 @@ class _Loader(yaml.SafeLoader):
         raise _StoppedError
 
 
-def _mark(place: yaml.Mark, file: str) -> Mark:
-    return Mark(file, place.line + 1, place.column + 1)
+def _mark(place: yaml.Mark, file: str) -> Location:
+    return Location(file, place.line + 1, place.column + 1)
 
 
 def _node(node: yaml.Node, file: str, faults: list[Fault]) -> Node:
@@ -328,7 +328,7 @@ def _node(node: yaml.Node, file: str, faults: list[Fault]) -> Node:
 
 def _entries(node: yaml.MappingNode, file: str, faults: list[Fault]) -> Iterator[tuple[Scalar, Node]]:
     """Yield the entries of a mapping; a key met again is a fault and is left out."""
-    seen: dict[str, Mark] = {}
+    seen: dict[str, Location] = {}
     for key_node, value_node in _rejoined(node):
         key, value = _node(key_node, file, faults), _node(value_node, file, faults)
         if not isinstance(key, Scalar):
@@ -374,7 +374,7 @@ def _tabs(text: str, file: str) -> Iterator[Fault]:
     """Yield tabs in places where YAML requires blanks: at the beginning of a line or right after a key."""
     for number, line in enumerate(_lines(text), start=1):
         if match := re.match(r" *(?:[\w.-]+:)?(\t)", line):
-            yield Fault("tab", Mark(file, number, match.start(1) + 1))
+            yield Fault("tab", Location(file, number, match.start(1) + 1))
 
 
 def _lines(text: str) -> list[str]:
@@ -383,7 +383,7 @@ def _lines(text: str) -> list[str]:
 
 def _syntax(fault: yaml.MarkedYAMLError, file: str) -> Fault:
     place = fault.problem_mark or fault.context_mark
-    mark = _mark(place, file) if place else Mark(file)
+    mark = _mark(place, file) if place else Location(file)
     problem = f"{fault.context or ''} {fault.problem or ''}"
     if "'\\t'" in problem:
         return Fault("tab", mark)
@@ -391,6 +391,6 @@ def _syntax(fault: yaml.MarkedYAMLError, file: str) -> Fault:
     return Fault("syntax", mark, {"hint": hint})
 
 
-def mark_after(before: str, file: str) -> Mark:
+def mark_after(before: str, file: str) -> Location:
     """Return the place right after a piece of text from the beginning of a file."""
-    return Mark(file, before.count("\n") + 1, len(before) - before.rfind("\n"))
+    return Location(file, before.count("\n") + 1, len(before) - before.rfind("\n"))

@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 
 from reportgen.formula.ids import Name
-from reportgen.formula.vocabulary import Chapter, QuantityKind, VocabularyRow
+from reportgen.formula.vocabulary import KeyChapter, QuantityKind, VocabularyRow
 
 phase = Name("cam.phase.{phase}")
 arc = Name("cam.arc.{phase}")
@@ -36,7 +36,7 @@ KINDS: Mapping[str, QuantityKind] = {
     "arc": QuantityKind("rad", digits=6),
 }
 
-_G, _V, _A = Chapter.geometry, Chapter.velocity, Chapter.acceleration
+_G, _V, _A = KeyChapter.geometry, KeyChapter.velocity, KeyChapter.acceleration
 
 ROWS: tuple[VocabularyRow, ...] = (
     VocabularyRow(Name("cam.h"), "h", "cam length"),

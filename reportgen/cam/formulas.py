@@ -12,7 +12,7 @@ from functools import lru_cache
 
 from reportgen.cam import cam_ids
 from reportgen.formula import PI, Expression, Ref, acos, asin, atan, cos, signed, sin, sqrt, tan
-from reportgen.formula.calculation import Sheet
+from reportgen.formula.calculation import Calculation
 from reportgen.formula.constructions import Value
 from reportgen.formula.evaluation import evaluate
 
@@ -46,13 +46,13 @@ class CamKind:
         return tuple(id for id, wanted in has.items() if wanted)
 
 
-def enter_lengths(q: Sheet, kind: CamKind, lengths: Mapping[str, float]) -> None:
+def enter_lengths(q: Calculation, kind: CamKind, lengths: Mapping[str, float]) -> None:
     """The lengths (m) that such a cam has, by their ids."""
     for id in kind.lengths:
         q.give(id, lengths[id])
 
 
-def enter_lowest(q: Sheet, kind: CamKind) -> None:
+def enter_lowest(q: Calculation, kind: CamKind) -> None:
     """s₀ = √(r₀² − e²), the height of the lowest position of a translating follower with a tip."""
     q.define("cam.s0", sqrt(q["cam.r0"] ** 2 - q["cam.e"] ** 2) if kind.offset else q["cam.r0"])
 
@@ -172,12 +172,12 @@ def factor(dψ: Expression, opposite: int) -> Expression:
     return 1 + dψ if opposite > 0 else 1 - dψ
 
 
-def enter_profile(q: Sheet, kind: CamKind) -> None:
+def enter_profile(q: Calculation, kind: CamKind) -> None:
     """Pitch curve by inversion, pressure angle, radius of curvature and profile from the motion at angles φ."""
     (_enter_under_face if kind.flat else _enter_under_tip)(q, kind)
 
 
-def _enter_under_tip(q: Sheet, kind: CamKind) -> None:
+def _enter_under_tip(q: Calculation, kind: CamKind) -> None:
     φ, r0 = q["cam.phi"], q.si("cam.r0")
     if kind.translating:
         s0, e, (s, ds, dds) = q["cam.s0"], q["cam.e"], (q[id] for id in kind.moved)
@@ -217,7 +217,7 @@ def _enter_under_tip(q: Sheet, kind: CamKind) -> None:
         q.define("cam.rho.working", ρ_B - roller)
 
 
-def _enter_under_face(q: Sheet, kind: CamKind) -> None:
+def _enter_under_face(q: Calculation, kind: CamKind) -> None:
     φ, r0, (s, ds, dds) = q["cam.phi"], q["cam.r0"], (q[id] for id in kind.moved)
     x: Expression
     y: Expression
@@ -240,7 +240,7 @@ def _enter_under_face(q: Sheet, kind: CamKind) -> None:
     q.define("cam.rho", ρ)
 
 
-def _inverted(q: Sheet, kind: CamKind, across: Expression, up: Expression) -> tuple[Expression, Expression]:
+def _inverted(q: Calculation, kind: CamKind, across: Expression, up: Expression) -> tuple[Expression, Expression]:
     """A point of an oscillating follower, so far from the cam's centre towards the pivot and up, turned by −φ."""
     φ = q["cam.phi"]
     if kind.opposite > 0:

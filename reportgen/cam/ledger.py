@@ -23,8 +23,8 @@ from reportgen.cam.motion_laws import FollowerMotion, LawInterval
 from reportgen.cam.profile import Cam, CamProfile
 from reportgen.case import Misconceptions, with_another
 from reportgen.formula import PI, Expression, Number, Operand, Ref, Symbol, acos, as_expression, branch, tan
-from reportgen.formula.calculation import Sheet
-from reportgen.formula.vocabulary import Chapter
+from reportgen.formula.calculation import Calculation
+from reportgen.formula.vocabulary import KeyChapter
 
 LINES: Mapping[str, tuple[str, ...]] = {
     "arcs": ("cam.arc.rise", "cam.arc.return", "cam.arc.swing"),
@@ -93,8 +93,8 @@ class CamSolution:
         return tuple(self.motion.intervals[number] for number in self.motion.of(self.φ))
 
     @cached_property
-    def sheet(self) -> Sheet:
-        q = CamSheet(self)
+    def sheet(self) -> Calculation:
+        q = CamCalculation(self)
         q.enter_given()
         q.enter_motion()
         q.enter_scales()
@@ -166,19 +166,19 @@ class CamSolution:
         return self.cam.kind.moved
 
 
-class CamSheet:
+class CamCalculation:
     """The sheet of a cam while it is written."""
 
     def __init__(self, of: CamSolution) -> None:
         self.of, self.cam, self.given = of, of.cam, of.given
-        self.q = Sheet(len(of.degrees))
+        self.q = Calculation(len(of.degrees))
         self.σ = of.cam.opposite
 
     # --- what is given and chosen
 
     def enter_given(self) -> None:
         q, given, cam = self.q, self.given, self.cam
-        with q.within(Chapter.data):
+        with q.within(KeyChapter.data):
             self.stroke = q.give("cam.h" if cam.translating else "cam.swing", cam.motion.stroke)
             for phase, degrees in zip(("rise", "far", "return", "near"), given.phase_degrees, strict=True):
                 q.give(cam_ids.phase(phase), math.radians(degrees))

@@ -23,7 +23,7 @@ from reportgen.cam import cam_ids
 from reportgen.cam.formulas import CamKind, enter_lengths, enter_lowest, enter_profile
 from reportgen.cam.motion_laws import NODE, FollowerMotion
 from reportgen.formula.array_evaluation import model
-from reportgen.formula.calculation import Sheet
+from reportgen.formula.calculation import Calculation
 
 Numbers = NDArray[np.intp]
 
@@ -59,9 +59,9 @@ class Cam:
         return {"cam.e": self.e, "cam.a": self.a, "cam.l": self.arm, "cam.r0": self.r0, "cam.roller": self.roller}
 
     @cached_property
-    def sheet(self) -> Sheet:
+    def sheet(self) -> Calculation:
         """Its formulas, by which it is traced: those of the report, at one angle."""
-        q = Sheet()
+        q = Calculation()
         enter_lengths(q, self.kind, self.lengths)
         for id in ("cam.phi", *self.kind.moved):
             q.give(id, 0.0)

@@ -10,7 +10,7 @@ import numpy as np
 from reportgen.cam.file import Parameters
 from reportgen.cam.ledger import CamSolution
 from reportgen.case.design_case import DesignCase
-from reportgen.formula.calculation import Sheet
+from reportgen.formula.calculation import Calculation
 
 
 @dataclass(frozen=True)
@@ -23,7 +23,7 @@ class SolvedCam(DesignCase):
         return CamSolution(given)
 
     @property
-    def sheet(self) -> Sheet:
+    def sheet(self) -> Calculation:
         return self.solution.sheet
 
     @property

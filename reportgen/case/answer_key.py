@@ -18,17 +18,17 @@ from reportgen.base.units import Language
 from reportgen.base.words import common_words
 from reportgen.document import InlineMath, Inlines, Text
 from reportgen.formula import Chain, Expression, Symbol
-from reportgen.formula.vocabulary import Chapter
+from reportgen.formula.vocabulary import KeyChapter
 
 if TYPE_CHECKING:
     import numpy as np
 
 
 @cache
-def headed_chapters() -> tuple[Chapter, ...]:
+def headed_chapters() -> tuple[KeyChapter, ...]:
     """Return the chapters that a key may have: those with a heading in the words."""
     headings = common_words(REFERENCE)["parts"]
-    return tuple(chapter for chapter in Chapter if chapter in headings)
+    return tuple(chapter for chapter in KeyChapter if chapter in headings)
 
 
 class Role(StrEnum):
@@ -51,7 +51,7 @@ class KeyRow:
     """
 
     id: str
-    part: Chapter
+    part: KeyChapter
     role: Role
     symbol: Symbol
     kind: str

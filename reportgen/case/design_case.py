@@ -31,7 +31,7 @@ from reportgen.document.layout import contents
 from reportgen.document.template_rendering import Prose
 from reportgen.drawing import Scene
 from reportgen.formula import Symbol
-from reportgen.formula.calculation import Sheet
+from reportgen.formula.calculation import Calculation
 from reportgen.formula.ledger import Ledger
 from reportgen.formula.printed_decimals import carried
 from reportgen.formula.vocabulary import in_language
@@ -51,7 +51,7 @@ class DesignCase(LoadedAssignment):
 
     @property
     @abstractmethod
-    def sheet(self) -> Sheet:
+    def sheet(self) -> Calculation:
         """Every quantity with its formula."""
 
     @cached_property

@@ -127,9 +127,9 @@ def _out_of_reach(machine: Machine) -> Iterator[Finding]:
             yield from assembly_checks.too_large(machine.linkage, angles, machine.drawn, ("drawing", "crank"))
         return
     driven_through = (
-        assembly_checks.Way(machine.start, machine.start + machine.turn * machine.span, False)
+        assembly_checks.DriverTravel(machine.start, machine.start + machine.turn * machine.span, False)
         if machine.span
-        else assembly_checks.Way()
+        else assembly_checks.DriverTravel()
     )
     yield from assembly_checks.near_dead_point(machine.linkage, driven_through, ("parameters",))
     if machine.drawn:

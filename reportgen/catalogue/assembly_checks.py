@@ -47,7 +47,7 @@ class Member:
 
 
 @dataclass(frozen=True, slots=True)
-class Way:
+class DriverTravel:
     """The driver's coordinates to go through: a whole turn of a crank (rad), or a slide's way (m)."""
 
     start: float = 0.0
@@ -59,11 +59,11 @@ class Way:
         return f"{np.degrees(np.angle(np.exp(1j * place))) if self.turning else place * 1e3:.4g}"
 
 
-WHOLE_TURN = Way()
+WHOLE_TURN = DriverTravel()
 
 
 def findings(
-    linkage: Linkage, members: Mapping[tuple[int, int], Member], driven: Way = WHOLE_TURN
+    linkage: Linkage, members: Mapping[tuple[int, int], Member], driven: DriverTravel = WHOLE_TURN
 ) -> Iterator[Finding]:
     """Report the first group that the driver cannot carry through all its way: with its links and the driver's
     places.
@@ -100,7 +100,7 @@ def findings(
             return
 
 
-def near_dead_point(linkage: Linkage, driven: Way, where: Where) -> Iterator[Finding]:
+def near_dead_point(linkage: Linkage, driven: DriverTravel, where: Where) -> Iterator[Finding]:
     """Report the first group that comes so near to a dead point that its accelerations and forces are mere rounding."""
     places = np.linspace(driven.start, driven.end, STEPS + 1)
     motion = solve_motion(linkage, places, 1.0)
@@ -129,7 +129,7 @@ def at_instants(linkage: Linkage, places: Floats, turning: bool) -> Iterator[Fin
     """Report the instants at which a group does not assemble, or is so near to a dead point that its forces are
     rounding.
     """
-    motion, shown = solve_motion(linkage, places, 1.0), Way(turning=turning).shown
+    motion, shown = solve_motion(linkage, places, 1.0), DriverTravel(turning=turning).shown
     size, limit = _size(motion), np.sin(np.radians(LEAST_ANGLE))
     for index, place in enumerate(map(float, places)):
         where = ("positions", "at", index)
@@ -231,7 +231,7 @@ def _size(motion: Motion) -> float:
     return max(float(np.ptp(places.real)), float(np.ptp(places.imag)))
 
 
-def _first_gap(clear: Clear, driven: Way, places: Floats, inside: np.ndarray) -> tuple[float, float]:
+def _first_gap(clear: Clear, driven: DriverTravel, places: Floats, inside: np.ndarray) -> tuple[float, float]:
     """Return the ends of the first range where the group does not assemble; of a turn, the first after it assembles."""
     if driven.turning:
         places = places + places[int(np.flatnonzero(inside)[0])] - driven.start
@@ -262,7 +262,7 @@ def _edge(clear: Clear, inside: float, outside: float) -> float:
     return float(reached[0])
 
 
-def _least(clear: Clear, driven: Way, places: Floats, clearances: Floats) -> tuple[float, float]:
+def _least(clear: Clear, driven: DriverTravel, places: Floats, clearances: Floats) -> tuple[float, float]:
     """Return the place and size of the group's least clearance; small clearances are refined."""
     best = float(places[np.argmin(clearances)]), float(clearances.min())
     before, after = np.roll(clearances[:-1], 1), np.roll(clearances[:-1], -1)

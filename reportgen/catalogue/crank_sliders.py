@@ -41,7 +41,7 @@ from reportgen.formula import (
     tan,
     times,
 )
-from reportgen.formula.calculation import BELOW_A_TURN, Sheet
+from reportgen.formula.calculation import BELOW_A_TURN, Calculation
 from reportgen.machine import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
 from reportgen.machine.load_laws import FULL_TURN, Stroke, halved
 
@@ -58,7 +58,7 @@ def compared(plans: Iterable[str]) -> tuple[tuple[str, str], ...]:
 
 
 def centred_slider(
-    q: Sheet,
+    q: Calculation,
     turn: int,
     rod: int,
     slider: int,
@@ -102,7 +102,7 @@ def centred_slider(
 
 
 def components(
-    q: Sheet, what: str, point: str, x: Expression, y: Expression, *, axes: str = "xy"
+    q: Calculation, what: str, point: str, x: Expression, y: Expression, *, axes: str = "xy"
 ) -> tuple[Ref, Ref, Ref]:
     """Return the velocity or acceleration of a point by its components along axes of these letters, and its size."""
     kind = {"v": "velocity", "a": "acceleration"}[what]
@@ -114,7 +114,7 @@ def components(
 # --- the second cylinder of a V engine --------------------------------------------------------------
 
 
-def second_cylinder(q: Sheet, turn: int, joint: str) -> None:
+def second_cylinder(q: Calculation, turn: int, joint: str) -> None:
     """Enter the closed formulas of piston E, whose rod 4 hangs on D on the main rod, at l_BD from the crank pin, or
     on B.
 
@@ -153,7 +153,7 @@ def second_cylinder(q: Sheet, turn: int, joint: str) -> None:
     q.set_out("acceleration_second", a1, a2, a, ε4)
 
 
-def _joint_of_second_rod(q: Sheet, turn: int, joint: str) -> None:
+def _joint_of_second_rod(q: Calculation, turn: int, joint: str) -> None:
     """Enter ξ and η of the joint of the second rod: crank pin B with its rates, or D, whose rates are already
     entered.
     """
@@ -257,7 +257,7 @@ class OffsetSlider:
         )
 
 
-def offset_slider(q: Sheet, turn: int, angle: Floats, offset: Expression | None, centre: bool) -> None:
+def offset_slider(q: Calculation, turn: int, angle: Floats, offset: Expression | None, centre: bool) -> None:
     """Enter the closed formulas at φ = `angle` [N], with `offset` e or none, of S2 too if there is a `centre`.
 
     Enters `phi.3`, `beta.2`, `x.C`, `f.omega.2`, `f.v.C`, `f.eps.2`, `f.a.C`, and of S2 its components, `f.v.S2`,

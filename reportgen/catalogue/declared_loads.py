@@ -42,7 +42,7 @@ from reportgen.formula import Number, ids
 from reportgen.formula.ids import Name as Family
 from reportgen.machine import DRIVER, Crank, Guide, Linkage
 from reportgen.machine.kinematics import Motion
-from reportgen.machine.load_laws import AngleLaw, ConstantLaw, Law, MotionAt, Resistance, WayLaw, opposing
+from reportgen.machine.load_laws import AngleLaw, ConstantLaw, Law, MotionAt, Resistance, TravelLaw, opposing
 from reportgen.machine.loads import Applied, Torque, fixed
 from reportgen.machine.motion_sense import moving, pace
 
@@ -107,7 +107,7 @@ class OverAngle(_Listed):
         return self.angle
 
 
-class OverWay(_Listed):
+class OverTravel(_Listed):
     """A force or a torque over the way of a sliding driver from its start."""
 
     by: Literal["way"]
@@ -121,7 +121,7 @@ class OverWay(_Listed):
         return self.way
 
 
-PlainLoad = Constant | OverAngle | OverWay
+PlainLoad = Constant | OverAngle | OverTravel
 CrankLoading = Annotated[Constant | OverAngle, Field(discriminator="by")]
 """Loads of a machine with a crank besides those of its kind."""
 
@@ -261,7 +261,7 @@ def law_of(load: PlainLoad, motion_at: MotionAt, *, through: bool = True, span: 
         unit = load.torque_unit if load.at is None else load.unit
         assert unit is not None, "a table without its unit is refused by the kind's checks"
         nodes, sizes = tuple(node.si for node in load.nodes), tuple(value * unit.si for value in load.values)
-        return WayLaw(nodes, sizes, span) if isinstance(load, OverWay) else AngleLaw(nodes, sizes)
+        return TravelLaw(nodes, sizes, span) if isinstance(load, OverTravel) else AngleLaw(nodes, sizes)
     size = load.M if load.at is None else load.F
     assert size is not None, "a load without its size is refused by the kind's checks"
     if not load.against:

@@ -8,10 +8,10 @@ from typing import Any
 
 from reportgen.assignment.common import Assignment
 from reportgen.catalogue import declared_loads
-from reportgen.catalogue.given_data import GivenSheet
+from reportgen.catalogue.given_data import GivenData
 from reportgen.catalogue.topic_sections import Opening, chapters, entered
 from reportgen.formula import Chain
-from reportgen.formula.calculation import Sheet
+from reportgen.formula.calculation import Calculation
 from reportgen.machine import DRIVER, Crank, Linkage
 from reportgen.machine.analysis import ClosedFormulas, Machine, no_formulas
 from reportgen.machine.loads import LoadsByKind, crank_motion
@@ -62,7 +62,7 @@ def outline(
     )
 
 
-def with_crank(q: GivenSheet, linkage: Linkage) -> Linkage:
+def with_crank(q: GivenData, linkage: Linkage) -> Linkage:
     """Return the linkage with the body of its crank, if the file gives one and the kind does not place it."""
     driver, given = linkage.driver, q.given
     centre = f"S{DRIVER}"
@@ -91,12 +91,12 @@ def with_crank(q: GivenSheet, linkage: Linkage) -> Linkage:
 
 def driven(
     assignment: Assignment,
-    q: GivenSheet,
+    q: GivenData,
     linkage: Linkage,
     start: float,
     sections: KindSections | None = None,
     *,
-    formulas: Callable[[Sheet], None] = no_formulas,
+    formulas: Callable[[Calculation], None] = no_formulas,
     compared: tuple[tuple[str, str], ...] = (),
     equations: Mapping[str, tuple[Chain, ...]] | None = None,
     **own: Any,

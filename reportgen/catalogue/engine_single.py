@@ -27,7 +27,7 @@ from reportgen.catalogue.crank_sliders import (
     offset_slider,
 )
 from reportgen.catalogue.driven_machine import KindSections, driven
-from reportgen.catalogue.given_data import CRANK_DRAWN, GivenSheet, cycle_angles
+from reportgen.catalogue.given_data import CRANK_DRAWN, GivenData, cycle_angles
 from reportgen.catalogue.parameters import Driven
 from reportgen.formula import PI, Number, Ref, Symbol, sqrt, tan
 from reportgen.machine.analysis import Machine, lettered
@@ -134,7 +134,7 @@ CHECKS = (
 # --- the machine ----------------------------------------------------------------------------------
 
 
-def _enter_lengths(q: GivenSheet, given: Parameters) -> tuple[Ref, Ref]:
+def _enter_lengths(q: GivenData, given: Parameters) -> tuple[Ref, Ref]:
     """Enter crank R and rod L, from the triangle of A and the dead centres, or as given, and then the stroke.
 
     The triangle has the sides L + R, L − R and H, at A the angle θ = 180°(K − 1)/(K + 1) and the height e, whence
@@ -160,7 +160,7 @@ def _enter_lengths(q: GivenSheet, given: Parameters) -> tuple[Ref, Ref]:
 
 def _geometry(given: Parameters, positions: Positions) -> OffsetSlider:
     """Return the mechanism in the axes that turn with the rotation, the cylinder on their positive side."""
-    q = GivenSheet(given)
+    q = GivenData(given)
     R, L = _enter_lengths(q, given)
     return OffsetSlider(q.si(R), q.si(L), given.e.si, UP, positions.sign)
 
@@ -169,7 +169,7 @@ def machine(assignment: Assignment) -> Machine:
     """Return the engine of an assignment: synthesis of crank and rod, linkage, gas, closed formulas."""
     given: Parameters = assignment.parameters
     positions, crank = assignment.positions, assignment.drawing.crank
-    q = GivenSheet(given)
+    q = GivenData(given)
     R, L = _enter_lengths(q, given)
     D, s = q.datum("D", given.D), q.datum("s", given.s)
     if given.gravity:

@@ -19,10 +19,10 @@ from reportgen.base.units import Given
 from reportgen.catalogue import given_loads
 from reportgen.catalogue.crank_sliders import centred_slider, compared
 from reportgen.catalogue.driven_machine import KindSections, driven
-from reportgen.catalogue.given_data import GivenSheet, cycle_angles
+from reportgen.catalogue.given_data import GivenData, cycle_angles
 from reportgen.catalogue.parameters import Driven
 from reportgen.formula import PI, ids
-from reportgen.formula.calculation import Sheet
+from reportgen.formula.calculation import Calculation
 from reportgen.machine import Crank, Dyad, Guide, Linkage, LinkPoint
 from reportgen.machine.analysis import Machine
 from reportgen.machine.gas_pressure import STROKES, Stroke, stroke_at
@@ -105,7 +105,7 @@ def machine(assignment: Assignment) -> Machine:
     """Return the engine of an assignment: synthesis R = H/2, L = R/λ, linkage, gas, closed formulas."""
     given: Parameters = assignment.parameters
     positions, turn = assignment.positions, assignment.positions.sign
-    q = GivenSheet(given)
+    q = GivenData(given)
     H, λ = q.datum("H", given.H), q.datum("lambda", given.lambda_)
     D, s = q.datum("D", given.D), q.datum("s", given.s)
     if given.gravity:
@@ -155,7 +155,7 @@ def machine(assignment: Assignment) -> Machine:
     )
     steps = cycle_angles(positions, TURNS)
 
-    def formulas(q: Sheet) -> None:
+    def formulas(q: Calculation) -> None:
         centred_slider(q, turn, 2, 3, "B", angle=phases[0] + steps, along="l.AS2", centre="S2")
         centred_slider(q, turn, 4, 5, "D", angle=phases[1] + steps, along="l.CS4", centre="S4")
 

@@ -19,10 +19,10 @@ from reportgen.catalogue import assembly_checks, given_loads
 from reportgen.catalogue.assembly_checks import Member
 from reportgen.catalogue.crank_sliders import centred_slider, compared, second_cylinder
 from reportgen.catalogue.driven_machine import driven
-from reportgen.catalogue.given_data import GivenSheet, cycle_angles
+from reportgen.catalogue.given_data import GivenData, cycle_angles
 from reportgen.catalogue.parameters import Driven
 from reportgen.formula import PI, Symbol, cis, ids
-from reportgen.formula.calculation import Sheet
+from reportgen.formula.calculation import Calculation
 from reportgen.machine import Crank, Dyad, Guide, Linkage, LinkPoint
 from reportgen.machine.analysis import Machine, lettered
 from reportgen.machine.load_laws import ConstantLaw
@@ -128,11 +128,11 @@ WARNINGS = (_idle_engine,)
 # --- the machine ----------------------------------------------------------------------------------
 
 
-def _sheet(given: Parameters, turn: int = 1, crank: Given | None = None) -> GivenSheet:
+def _sheet(given: Parameters, turn: int = 1, crank: Given | None = None) -> GivenData:
     """Return the sheet: given data, λ = R/L, the angle between the cylinders, masses, moments of inertia, a
     piston's area.
     """
-    q, rod = GivenSheet(given), f"{given.joint}E"
+    q, rod = GivenData(given), f"{given.joint}E"
     for id, length in {"AB": given.AB, "BC": given.BC, "BD": given.BD, rod: given.DE}.items():
         if length.si:
             q.datum(ids.length(id), length)
@@ -156,7 +156,7 @@ def _sheet(given: Parameters, turn: int = 1, crank: Given | None = None) -> Give
     return q
 
 
-def _linkage(given: Parameters, q: GivenSheet) -> Linkage:
+def _linkage(given: Parameters, q: GivenData) -> Linkage:
     articulation = (LinkPoint("D", 2, complex(given.BD.si)),) if given.BD.si else ()
     first, second = (Guide(0j, axis.si) for axis in (given.alpha, given.beta))
     return Linkage(
@@ -192,7 +192,7 @@ def machine(assignment: Assignment) -> Machine:
     angle = turn * (start - given.alpha.si) + cycle_angles(positions, given.turns, places)
     on_rod = given.joint == "D"
 
-    def formulas(q: Sheet) -> None:
+    def formulas(q: Calculation) -> None:
         centred_slider(q, turn, 2, 3, "C", angle=angle, along="l.BD", centre="D" if on_rod else "", axes="ξη")
         second_cylinder(q, turn, given.joint)
 

@@ -24,7 +24,7 @@ from reportgen.base.units import Given
 from reportgen.catalogue import assembly_checks
 from reportgen.catalogue.crank_sliders import compared, components
 from reportgen.catalogue.driven_machine import driven
-from reportgen.catalogue.given_data import GivenSheet, accelerated, accelerating, cycle_angles, driver_acceleration
+from reportgen.catalogue.given_data import GivenData, accelerated, accelerating, cycle_angles, driver_acceleration
 from reportgen.catalogue.given_loads import LinkTorque, torque_on
 from reportgen.catalogue.parameters import Driven
 from reportgen.formula import (
@@ -49,7 +49,7 @@ from reportgen.formula import (
     sqrt,
     times,
 )
-from reportgen.formula.calculation import Sheet
+from reportgen.formula.calculation import Calculation
 from reportgen.machine import Crank, Dyad, Linkage, LinkPoint
 from reportgen.machine.analysis import Machine
 from reportgen.machine.load_laws import ConstantLaw
@@ -60,12 +60,12 @@ FLAT = 0.01
 STRAIGHT = Number(180.0, None, "°")
 
 
-def _rocks(q: Sheet) -> bool:
+def _rocks(q: Calculation) -> bool:
     """Return True if CD only swings: the crank, not the frame, is the shortest link."""
     return q.si("l.AB") < q.si("l.AD")
 
 
-def _turns(q: Sheet) -> bool:
+def _turns(q: Calculation) -> bool:
     """Return True if the crank turns fully, by Grashof's theorem: shortest + longest < sum of the two others."""
     AB, BC, CD, AD = (q.si(ids.length(id)) for id in ("AB", "BC", "DC", "AD"))
     first, second, third, last = sorted((AB, BC, CD, AD))
@@ -80,7 +80,7 @@ def cosine(a: Expression, b: Expression, opposite: Expression) -> Expression:
 # --- proportions ----------------------------------------------------------------------------------
 
 
-def proportions(q: Sheet) -> None:
+def proportions(q: Calculation) -> None:
     """Enter Grashof's two sums; for a rocker the extreme positions C₁, C₂, its swing ψ and the ratio of times K."""
     AB, BC, CD, AD = sides = tuple(q[ids.length(id)] for id in ("AB", "BC", "DC", "AD"))
     first, second, third, last = sorted(sides, key=q.si)
@@ -93,7 +93,14 @@ def proportions(q: Sheet) -> None:
 
 
 def extremes(
-    q: Sheet, crank: Ref, coupler: Ref, rocker: Ref, ends: tuple[str, str], *, frame: Expression, square: Expression
+    q: Calculation,
+    crank: Ref,
+    coupler: Ref,
+    rocker: Ref,
+    ends: tuple[str, str],
+    *,
+    frame: Expression,
+    square: Expression,
 ) -> None:
     """Enter both extreme positions of a rocker, its swing ψ = ψ₁ − ψ₂ and the ratio of times K = (180° + θ)/(180° − θ).
 
@@ -116,7 +123,7 @@ def extremes(
     q.set_out("swing", angle("swing", ψ[0] - ψ[1], "ψ"), θ, K)
 
 
-def triangle(q: Sheet, name: str) -> None:
+def triangle(q: Calculation, name: str) -> None:
     """Enter l_BE² = x² + y² of a coupler point given by x along BC and y across it; off BC, l_CE² = (l − x)² + y²."""
     x, y, BC = q[ids.along_link(name)], q[ids.across_link(name)], q["l.BC"]
     BE = q.define(ids.length("B", name), sqrt(x**2 + y**2) if q.si(y) else abs(x))
@@ -133,7 +140,7 @@ def triangle(q: Sheet, name: str) -> None:
 # --- the analytic method --------------------------------------------------------------------------
 
 
-def analytic_method(q: Sheet, angle: Floats, points: Iterable[LinkPoint], turn: int, side: int) -> None:
+def analytic_method(q: Calculation, angle: Floats, points: Iterable[LinkPoint], turn: int, side: int) -> None:
     """Enter positions, entries of the matrices and rates at φ₁ = `angle` [N], C on the `side` ±1 of BD in these axes.
 
     ω and ε are positive anticlockwise, φ with the crank.
@@ -173,7 +180,7 @@ def analytic_method(q: Sheet, angle: Floats, points: Iterable[LinkPoint], turn: 
         _coupler_point(q, point, turn)
 
 
-def _positions(q: Sheet, angle: Floats, side: int) -> tuple[Ref, Ref, Ref]:
+def _positions(q: Calculation, angle: Floats, side: int) -> tuple[Ref, Ref, Ref]:
     """Enter BD, then φ₂ = sβ − δ and φ₃ = 180° − δ − sγ, each directly from BD, since sums of rounded angles lose
     a digit.
     """
@@ -190,7 +197,7 @@ def _positions(q: Sheet, angle: Floats, side: int) -> tuple[Ref, Ref, Ref]:
 
 
 def _entries(
-    q: Sheet, matrix: str, letter: str, kind: str, scale: float, entries: Mapping[str, Expression]
+    q: Calculation, matrix: str, letter: str, kind: str, scale: float, entries: Mapping[str, Expression]
 ) -> list[Ref]:
     """Return the entries of a matrix by their places: a₁₁ of [A], ȧ₁₁ of [Ȧ]."""
     return [
@@ -199,7 +206,7 @@ def _entries(
     ]
 
 
-def _coupler_point(q: Sheet, point: LinkPoint, turn: int) -> None:
+def _coupler_point(q: Calculation, point: LinkPoint, turn: int) -> None:
     """Enter v and a of a point P of the coupler by components, BP at the angle φ₂ + η from x."""
     name, AB, BP, φ1, ω1 = point.name, q["l.AB"], q[ids.length("B", point.name)], q["f.phi.1"], q["omega.1"]
     ω2, ε2 = q["f.omega.2"], q["f.eps.2"]
@@ -305,9 +312,9 @@ class Parameters(Driven, masses=(1, 2, 3), moments=(1, 2, 3), shares=(1, 2, 3), 
         return 1 if self.branch == "open" else -1
 
 
-def _sheet(given: Parameters, crank: Given | None = None) -> GivenSheet:
+def _sheet(given: Parameters, crank: Given | None = None) -> GivenData:
     """Return the sheet of given data, coupler points, mass centres, masses and moments of inertia, Grashof's sums."""
-    q = GivenSheet(given)
+    q = GivenData(given)
     for id, length in {"AB": given.AB, "BC": given.BC, "DC": given.CD, "AD": given.AD}.items():
         q.datum(ids.length(id), length, Symbol("l", "CD" if id == "DC" else id))
     if given.frame.si:
@@ -333,7 +340,7 @@ def _sheet(given: Parameters, crank: Given | None = None) -> GivenSheet:
     return q
 
 
-def _linkage(given: Parameters, q: GivenSheet) -> Linkage:
+def _linkage(given: Parameters, q: GivenData) -> Linkage:
     """Return the mechanism with A in the origin."""
     e = () if given.E is None else (LinkPoint("E", 2, complex(given.E.along.si, given.E.across.si)),)
     f = () if given.BF is None else (LinkPoint("F", 2, complex(given.BF.si)),)

@@ -15,7 +15,7 @@ from reportgen.catalogue.parameters import Driven, FixedPoint
 from reportgen.catalogue.topic_sections import TopicParameters, sections_of
 from reportgen.catalogue.typed_quantities import as_typed, size_of
 from reportgen.formula import NOTHING, PI, Expression, Number, Operand, Ref, Symbol, ids, signed, turned, vocabulary
-from reportgen.formula.calculation import Sheet
+from reportgen.formula.calculation import Calculation
 from reportgen.formula.vocabulary import KINDS, drawn_length
 from reportgen.machine import DRIVER, Inertia, LinkPoint
 from reportgen.machine.load_laws import FULL_TURN
@@ -35,7 +35,7 @@ def _figures(value: float) -> int:
     return len(f"{abs(value):.11e}".partition("e")[0].replace(".", "").rstrip("0"))
 
 
-class GivenSheet(Sheet):
+class GivenData(Calculation):
     """The sheet that a machine opens: its given data as typed, and the data of its links in the file."""
 
     def __init__(self, given: Driven | None = None) -> None:
@@ -218,7 +218,7 @@ def natural_sizes(r: float, ω: float) -> dict[str, float]:
     }
 
 
-def natural_lines(q: Sheet, crank: str) -> Callable[..., Ref]:
+def natural_lines(q: Calculation, crank: str) -> Callable[..., Ref]:
     """Return `q.define` with a scale by the kind of the quantity: the natural size for the crank of this id."""
     sizes = natural_sizes(q.si(crank), q.si("omega.1"))
 
@@ -228,7 +228,7 @@ def natural_lines(q: Sheet, crank: str) -> Callable[..., Ref]:
     return define
 
 
-def driver_acceleration(q: Sheet, turn: int) -> Expression:
+def driver_acceleration(q: Calculation, turn: int) -> Expression:
     """Return ε₁ as a term of formulas, positive in the sense of ω₁ (`turn`); `NOTHING` for a crank that turns
     evenly.
     """
@@ -241,7 +241,7 @@ def accelerating(accelerates: float) -> Expression:
     return signed(accelerates, Symbol("ε", str(DRIVER))) if accelerates else NOTHING
 
 
-def accelerated(q: Sheet, turn: int, at_constant_speed: Expression, rate: Expression) -> Expression:
+def accelerated(q: Calculation, turn: int, at_constant_speed: Expression, rate: Expression) -> Expression:
     """Return a second derivative of a function of the crank's angle φ: q̈ = q″ω₁² + q′ε₁, with q′ = q̇/ω₁."""
     ε1 = driver_acceleration(q, turn)
     return at_constant_speed if ε1 is NOTHING else at_constant_speed + ε1 * rate / q["omega.1"]

@@ -19,11 +19,11 @@ from reportgen.catalogue import assembly_checks
 from reportgen.catalogue.declared_loads import against
 from reportgen.catalogue.driven_machine import KindSections, driven
 from reportgen.catalogue.four_bar import STRAIGHT, extremes
-from reportgen.catalogue.given_data import CRANK_DRAWN, GivenSheet
+from reportgen.catalogue.given_data import CRANK_DRAWN, GivenData
 from reportgen.catalogue.parameters import Driven, FixedPoint
 from reportgen.catalogue.vector_loops import ClosedLoops
 from reportgen.formula import Number, Symbol, acos, cos, ids, sin, sqrt, turned
-from reportgen.formula.calculation import Sheet
+from reportgen.formula.calculation import Calculation
 from reportgen.formula.vocabulary import drawn_length
 from reportgen.machine import Crank, Dyad, Guide, Linkage, LinkPoint
 from reportgen.machine.analysis import Machine
@@ -77,9 +77,9 @@ class Parameters(Driven, masses=(1, 2, 3, 4, 5), moments=(1, 2, 3, 4), shares=(1
     force: SliderForce | None = None
 
 
-def _sheet(given: Parameters, crank: Given | None = None) -> GivenSheet:
+def _sheet(given: Parameters, crank: Given | None = None) -> GivenData:
     """Return the sheet of given data, the place of E, mass centres, masses and moments of inertia."""
-    q = GivenSheet(given)
+    q = GivenData(given)
     if given.AB and given.AC:
         q.datum("l.BA", given.AB, Symbol("l", "AB"))
         q.datum("l.AC", given.AC)
@@ -109,7 +109,7 @@ def _sheet(given: Parameters, crank: Given | None = None) -> GivenSheet:
     return q
 
 
-def _synthesis(q: GivenSheet, asked: Swing) -> None:
+def _synthesis(q: GivenData, asked: Swing) -> None:
     """Enter crank and coupler from the swing ψ and K: B sees both ends C₁, C₂ of the pin's way under θ = 180°(K −
     1)/(K + 1).
 
@@ -134,7 +134,7 @@ def _synthesis(q: GivenSheet, asked: Swing) -> None:
     q.set_out("links", q.define("l.AC", (ends[0] + ends[1]) / 2))
 
 
-def _linkage(given: Parameters, q: GivenSheet) -> Linkage:
+def _linkage(given: Parameters, q: GivenData) -> Linkage:
     """Return the mechanism with B in the origin."""
     left, right = (1 if side else -1 for side in (given.C == "left", given.F == "right"))
     return Linkage(
@@ -153,7 +153,7 @@ def _linkage(given: Parameters, q: GivenSheet) -> Linkage:
     )
 
 
-def _has_swing(q: GivenSheet) -> bool:
+def _has_swing(q: GivenData) -> bool:
     """Return True if the links found swing the rocker as requested: both ends on one side of BD, seen from B
     under θ.
     """
@@ -233,7 +233,7 @@ def machine(assignment: Assignment) -> Machine:
     fixed = {name: q.coordinates(name) for name in linkage.ground}
     loops = ClosedLoops(linkage, positions.sign, fixed, guides={5: q.coordinates("F")}, accelerates=given.acceleration)
 
-    def formulas(q: Sheet) -> None:
+    def formulas(q: Calculation) -> None:
         if given.swing is None and whole:
             square = q["D.x"] ** 2 + q["D.y"] ** 2
             extremes(q, q["l.BA"], q["l.AC"], q["l.DC"], ("BC1", "BC2"), frame=sqrt(square), square=square)
@@ -257,7 +257,7 @@ def machine(assignment: Assignment) -> Machine:
     )
 
 
-def _stroke(q: Sheet, slider: Stroke, start: float, turn: int) -> None:
+def _stroke(q: Calculation, slider: Stroke, start: float, turn: int) -> None:
     """Enter the slider's ends F₁, F₂ and the crank's angles there, read off its way; its stroke, the turns between."""
     ends, angles = [], []
     for name, place, own in (("F1", slider.top, slider.top_angle), ("F2", slider.bottom, slider.bottom_angle)):

@@ -20,7 +20,7 @@ from reportgen.base.units import nice_up
 from reportgen.catalogue import assembly_checks, declared_loads, linkage_checks
 from reportgen.catalogue import linkage_file as file
 from reportgen.catalogue.driven_machine import KindSections, outline
-from reportgen.catalogue.given_data import GivenSheet
+from reportgen.catalogue.given_data import GivenData
 from reportgen.catalogue.linkage_file import Parameters
 from reportgen.catalogue.linkage_words import arms, facts
 from reportgen.catalogue.parameters import weightless
@@ -28,7 +28,7 @@ from reportgen.catalogue.topic_sections import Opening, entered
 from reportgen.catalogue.typed_quantities import size_of
 from reportgen.catalogue.vector_loops import ClosedLoops
 from reportgen.formula import Symbol, ids, turned
-from reportgen.formula.calculation import Sheet
+from reportgen.formula.calculation import Calculation
 from reportgen.formula.vocabulary import drawn_length
 from reportgen.machine import Linkage
 from reportgen.machine.analysis import ClosedFormulas, Machine, lettered
@@ -99,7 +99,7 @@ def machine(assignment: Assignment) -> Machine:
         count=len(places) or positions.count,
         turns=given.turns if crank else 1,
         span=span,
-        sheet=Sheet(),
+        sheet=Calculation(),
         outline=(),
         paths=given.paths,
         places=places,
@@ -141,9 +141,9 @@ def _motion_at(machine: Machine) -> MotionAt:
     return motion_at
 
 
-def _sheet(given: Parameters, linkage: Linkage, built: Machine, drawn: float | None) -> GivenSheet:
+def _sheet(given: Parameters, linkage: Linkage, built: Machine, drawn: float | None) -> GivenData:
     """Return the sheet of fixed points, lengths, speed, drawn length, masses and moments of inertia."""
-    q, driver = GivenSheet(), given.driver
+    q, driver = GivenData(), given.driver
     for name, place in linkage.ground.items():
         x, y = (
             q.give(ids.frame_coordinate(axis, name), value, Symbol(axis, name), "length")

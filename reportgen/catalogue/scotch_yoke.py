@@ -14,10 +14,10 @@ from reportgen.assignment.fields import Angle, Length
 from reportgen.base.units import Given
 from reportgen.catalogue import given_loads
 from reportgen.catalogue.driven_machine import driven
-from reportgen.catalogue.given_data import GivenSheet, accelerated, accelerating, cycle_angles, natural_lines
+from reportgen.catalogue.given_data import GivenData, accelerated, accelerating, cycle_angles, natural_lines
 from reportgen.catalogue.parameters import Driven
 from reportgen.formula import Chain, Symbol, cos, minus, plus, sin, times
-from reportgen.formula.calculation import BELOW_A_TURN, Sheet
+from reportgen.formula.calculation import BELOW_A_TURN, Calculation
 from reportgen.machine import Crank, Dyad, Guide, Linkage
 from reportgen.machine.analysis import Machine
 from reportgen.machine.load_laws import FULL_TURN, Stroke, TableLaw
@@ -39,7 +39,7 @@ def machine(assignment: Assignment) -> Machine:
     """Return the Scotch yoke of an assignment: linkage, force on the yoke, closed formulas."""
     given: Parameters = assignment.parameters
     positions, turn = assignment.positions, assignment.positions.sign
-    q = GivenSheet(given)
+    q = GivenData(given)
     r = q.datum("l.OA", given.r)
     if given.guide.si:
         q.datum("guide.angle", given.guide, "α", "angle")
@@ -76,7 +76,7 @@ def machine(assignment: Assignment) -> Machine:
     )
     force = given.force
 
-    def formulas(q: Sheet) -> None:
+    def formulas(q: Calculation) -> None:
         line, ω1 = natural_lines(q, "l.OA"), q["omega.1"]
         φ = q.angle("phi.3", start + cycle_angles(positions), "φ")
         s_B = line("f.x.B", r * cos(φ), Symbol("s", "B"))

@@ -17,11 +17,11 @@ from reportgen.base.units import Given, nice_up
 from reportgen.catalogue import assembly_checks, slotted
 from reportgen.catalogue.assembly_checks import Member
 from reportgen.catalogue.driven_machine import KindSections, driven
-from reportgen.catalogue.given_data import GivenSheet, cycle_angles
+from reportgen.catalogue.given_data import GivenData, cycle_angles
 from reportgen.catalogue.parameters import Driven
 from reportgen.catalogue.slotted import HIGHEST, Ram, SlottedCrank
 from reportgen.formula import Symbol, ids
-from reportgen.formula.calculation import Sheet
+from reportgen.formula.calculation import Calculation
 from reportgen.formula.vocabulary import drawn_length
 from reportgen.machine.analysis import Machine
 from reportgen.machine.load_laws import CuttingLaw
@@ -56,11 +56,11 @@ class Parameters(Driven, masses=(2, 3, 4, 5), moments=(3, 4), loads=("cutting",)
     s4: Share = Given(0.5, 0.5, "", "0.5")
 
 
-def _sheet(given: Parameters, crank: Given | None = None) -> GivenSheet:
+def _sheet(given: Parameters, crank: Given | None = None) -> GivenData:
     """Return the sheet: given data and the synthesis l₁ = aH/(2 l₃); mass centres, masses, moments of inertia; the
     drawn crank.
     """
-    q = GivenSheet(given)
+    q = GivenData(given)
     a, b = q.datum("a", given.a, "a", "length"), q.datum("b", given.b, "b", "length")
     l3 = q.datum("l.CD", given.l3, Symbol("l", "3"))
     l4 = q.datum("l.DE", given.l4, Symbol("l", "4"))
@@ -91,7 +91,7 @@ def _sheet(given: Parameters, crank: Given | None = None) -> GivenSheet:
     return q
 
 
-def _geometry(given: Parameters, q: GivenSheet, turn: int) -> Ram:
+def _geometry(given: Parameters, q: GivenData, turn: int) -> Ram:
     """Return the mechanism in the axes that turn with the rotation."""
     crank = SlottedCrank(q.si("l.AB"), q.si("a"), math.pi / 2, turn)
     return Ram(crank, q.si("l.CD"), q.si("l.DE"), q.si("b"))
@@ -121,7 +121,7 @@ def _check_assembly(given: Parameters) -> Iterator[Finding]:
 CHECKS = (_check_assembly,)
 
 
-def _cutting_interval(q: Sheet, breaks: Iterable[float], start: float) -> None:
+def _cutting_interval(q: Calculation, breaks: Iterable[float], start: float) -> None:
     """Enter φ₁ at the begin and end of cutting: 360° − θ and 180° + θ, or by the tool's way if it has free ends."""
     if "free" not in q:
         q.set_out("interval", q.define(ids.angle("in"), slotted.TURN - q["theta"], Symbol("φ", "a")))
@@ -149,7 +149,7 @@ def machine(assignment: Assignment) -> Machine:
         law = CuttingLaw(course, cutting.F.si, cutting.free.si)
         applied = (Applied("P5", 5, "E", fixed(-course.inward), law),)
 
-    def formulas(q: Sheet) -> None:
+    def formulas(q: Calculation) -> None:
         q.define("drawn.AC", q["a"] / q["mu.l"], drawn_length("A", "C"))
         slotted.swing(q, q["H"] / (2 * q["l.CD"]))
         slotted.strokes(q, q["H"])

@@ -23,7 +23,7 @@ from reportgen.catalogue.crank_sliders import (
     offset_slider,
 )
 from reportgen.catalogue.driven_machine import driven
-from reportgen.catalogue.given_data import MIDDLE, GivenSheet, cycle_angles
+from reportgen.catalogue.given_data import MIDDLE, GivenData, cycle_angles
 from reportgen.catalogue.parameters import Driven
 from reportgen.machine.analysis import Machine
 from reportgen.machine.load_laws import TableLaw
@@ -58,7 +58,7 @@ def machine(assignment: Assignment) -> Machine:
     """Return the slider-crank of an assignment: linkage, working force, closed formulas."""
     given: Parameters = assignment.parameters
     positions, turn = assignment.positions, assignment.positions.sign
-    q = GivenSheet(given)
+    q = GivenData(given)
     has_centre = given.s is not None or any(q.of_link(letter, 2) for letter in "GmJ")
     r, l = q.datum("l.AB", given.r), q.datum("l.BC", given.l)  # noqa: E741
     e = q.datum("e", given.e) if given.e.si else None

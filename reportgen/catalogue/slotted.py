@@ -39,7 +39,7 @@ from reportgen.formula import (
     tan,
     times,
 )
-from reportgen.formula.calculation import BELOW_A_TURN, Sheet
+from reportgen.formula.calculation import BELOW_A_TURN, Calculation
 from reportgen.machine import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
 from reportgen.machine.load_laws import FULL_TURN, Stroke
 
@@ -165,7 +165,7 @@ class Ram:
 # --- closed formulas --------------------------------------------------------------------------------
 
 
-def lever_formulas(q: Sheet, turn: int, angle: Floats, crank: str, centres: str) -> None:
+def lever_formulas(q: Calculation, turn: int, angle: Floats, crank: str, centres: str) -> None:
     """Enter `phi.A`, `f.S`, `f.omega.3`, `f.v.r`, `f.eps.3` at φ₁ = `angle` [N] by the lengths r, d of these ids:
 
     S² = d² + r² + 2dr sin φ;  ω₃ = ω₁r(r + d sin φ)/S²;  v_r = ω₁dr cos φ/S;  ε₃ = ω₁²dr(d² − r²) cos φ/S⁴;
@@ -182,7 +182,7 @@ def lever_formulas(q: Sheet, turn: int, angle: Floats, crank: str, centres: str)
     line("f.eps.3", accelerated(q, turn, evenly, ω3))
 
 
-def lever_end(q: Sheet, turn: int, angle: Floats) -> None:
+def lever_end(q: Calculation, turn: int, angle: Floats) -> None:
     """Enter the closed formulas of the lever CD at φ = `angle` [N]: a_r = ω₃²S − ω₁²r(r + d sin φ)/S;  aᵏ = 2ω₃v_r.
 
     Uses `l.AB`, `l.AC`, `l.CD`, `omega.1`.  Ids: those of `lever_formulas`, `f.v.D`, `f.a.k`, `f.a.r`,
@@ -203,7 +203,7 @@ def lever_end(q: Sheet, turn: int, angle: Floats) -> None:
     q.set_out("acceleration", q["f.eps.3"], a_k, a_r, normal, tangential, a_D)
 
 
-def ram_formulas(q: Sheet, turn: int, angle: Floats) -> None:
+def ram_formulas(q: Calculation, turn: int, angle: Floats) -> None:
     """Enter the closed formulas of the ram at φ₁ = `angle` [N]; x, v and a of the ram and of D count to the right.
 
     Uses `l.AB`, `l.CD`, `l.DE`, `a`, `b`, `theta`, `omega.1`.  Ids: those of `lever_formulas`, `phi.3`, `phi.4`,
@@ -231,7 +231,7 @@ def ram_formulas(q: Sheet, turn: int, angle: Floats) -> None:
     q.set_out("functions", q["f.S"], φ3, φ4, x, s, ω3, ω4, v, ε3, ε4, a_D, a)
 
 
-def cutting(q: Sheet, force: Ref, free: Ref | None) -> Ref:
+def cutting(q: Calculation, force: Ref, free: Ref | None) -> Ref:
     """Enter `P.cut`, the force on the ram while φ₁ is in the working stroke, −θ ≤ φ₁ < 180° + θ. If the ends are
     `free` for the shares k of the stroke H, it acts only while kH ≤ s ≤ (1 − k)H; s is the ram's way from the
     beginning.
@@ -244,7 +244,7 @@ def cutting(q: Sheet, force: Ref, free: Ref | None) -> Ref:
     return q.define("P.cut", P, Symbol("P"), "force", hidden=True)
 
 
-def ram_torque(q: Sheet, turn: int) -> None:
+def ram_torque(q: Calculation, turn: int) -> None:
     """Enter the balancing torque `f.M` as a function of φ₁: its power and that of all forces and inertia forces is
     zero.
 
@@ -297,14 +297,14 @@ def ram_torque(q: Sheet, turn: int) -> None:
         q.define("f.M", over(minus(signed(turn, plus(*powers))), ω1), "M", "torque", scale=1.0)
 
 
-def swing(q: Sheet, sine: Expression) -> None:
+def swing(q: Calculation, sine: Expression) -> None:
     """Enter the lever's greatest angle θ from CA by its sine, and the ratio K = (180° + 2θ)/(180° − 2θ) of the
     crank's turns for the lever's two ways."""
     θ = q.define("theta", asin(sine))
     q.set_out("swing", θ, q.define("K", (STRAIGHT + 2 * θ) / (STRAIGHT - 2 * θ)))
 
 
-def strokes(q: Sheet, H: Ref) -> None:
+def strokes(q: Calculation, H: Ref) -> None:
     """Enter the times of a turn and of the ram's two strokes, and its mean speeds over the stroke H."""
     K = q["K"]
     ω1 = q["omega.1"]

@@ -15,12 +15,12 @@ from reportgen.base.errors import Finding
 from reportgen.base.units import Given
 from reportgen.catalogue import slotted
 from reportgen.catalogue.driven_machine import driven
-from reportgen.catalogue.given_data import GivenSheet, cycle_angles
+from reportgen.catalogue.given_data import GivenData, cycle_angles
 from reportgen.catalogue.given_loads import LinkTorque, torque_on
 from reportgen.catalogue.parameters import Driven
 from reportgen.catalogue.slotted import SlottedCrank
 from reportgen.formula import Symbol
-from reportgen.formula.calculation import Sheet
+from reportgen.formula.calculation import Calculation
 from reportgen.formula.vocabulary import drawn_length
 from reportgen.machine import Linkage, LinkPoint
 from reportgen.machine.analysis import Machine
@@ -67,7 +67,7 @@ def machine(assignment: Assignment) -> Machine:
     """Return the slotted lever of an assignment: linkage, torque, closed formulas."""
     given: Parameters = assignment.parameters
     positions, crank = assignment.positions, assignment.drawing.crank
-    q = GivenSheet(given)
+    q = GivenData(given)
     r, d, l = q.datum("l.AB", given.AB), q.datum("l.AC", given.AC), q.datum("l.CD", given.CD)  # noqa: E741
     if given.axis.value != 90.0:
         q.datum("axis.CA", given.axis, "α", "angle")
@@ -95,7 +95,7 @@ def machine(assignment: Assignment) -> Machine:
         gravity=-1j * given.gravity,
     )
 
-    def formulas(q: Sheet) -> None:
+    def formulas(q: Calculation) -> None:
         q.define("drawn.AC", d / q["mu.l"], drawn_length("A", "C"))
         if geometry.swings:
             slotted.swing(q, r / d)

@@ -18,10 +18,10 @@ from reportgen.base.errors import Finding
 from reportgen.base.units import Given
 from reportgen.catalogue import assembly_checks, given_loads
 from reportgen.catalogue.driven_machine import driven
-from reportgen.catalogue.given_data import GivenSheet, accelerated, cycle_angles, natural_lines
+from reportgen.catalogue.given_data import GivenData, accelerated, cycle_angles, natural_lines
 from reportgen.catalogue.parameters import Driven, FixedPoint
 from reportgen.formula import Symbol, acos, atan2, cos, ids, signed, sin, sqrt
-from reportgen.formula.calculation import Sheet
+from reportgen.formula.calculation import Calculation
 from reportgen.machine import Crank, Dyad, Guide, Linkage
 from reportgen.machine.analysis import Machine
 from reportgen.machine.load_laws import Stroke, TableLaw
@@ -42,9 +42,9 @@ class Parameters(Driven, masses=(2, 3, 4, 5), moments=(2, 3, 4), shares=(2, 3, 4
     press: given_loads.PressingForce | None = None
 
 
-def _sheet(given: Parameters, crank: Given | None = None) -> GivenSheet:
+def _sheet(given: Parameters, crank: Given | None = None) -> GivenData:
     """Return the sheet of given data, mass centres, masses and moments of inertia."""
-    q = GivenSheet(given)
+    q = GivenData(given)
     for id, length in {"OA": given.OA, "AB": given.AB, "DB": given.BD, "BC": given.BD}.items():
         q.datum(ids.length(id), length, Symbol("l", "BD" if id == "DB" else id))
     q.point("D", given.D)
@@ -55,7 +55,7 @@ def _sheet(given: Parameters, crank: Given | None = None) -> GivenSheet:
     return q
 
 
-def _linkage(given: Parameters, q: GivenSheet) -> Linkage:
+def _linkage(given: Parameters, q: GivenData) -> Linkage:
     pivot, link = complex(q.si("D.x"), q.si("D.y")), q.si("l.BC")
     return Linkage(
         ground={"O": 0j, "D": pivot},
@@ -106,7 +106,7 @@ def machine(assignment: Assignment) -> Machine:
         stroke = course(linkage, 5, crank_motion(linkage, positions, start))
         sliders, pressing = (stroke,), (Applied("P5", 5, "C", fixed(1j), TableLaw(stroke, press.table, turns=1)),)
 
-    def formulas(q: Sheet) -> None:
+    def formulas(q: Calculation) -> None:
         line, ω1 = natural_lines(q, "l.OA"), q["omega.1"]
         r, b, l, x_D, y_D = (q[id] for id in ("l.OA", "l.AB", "l.DB", "D.x", "D.y"))  # noqa: E741 - the length's own letter
         φ1 = q.angle("f.phi.1", turn * start + cycle_angles(positions))

@@ -66,7 +66,7 @@ from reportgen.formula import (
     times,
     vocabulary,
 )
-from reportgen.formula.calculation import Sheet
+from reportgen.formula.calculation import Calculation
 from reportgen.machine import DRIVER, GROUND, Crank, Dyad, DyadKind, Guide, Linkage, LinkPoint, owners, under
 
 TWO = Number(2.0)
@@ -170,7 +170,7 @@ class ClosedLoops:
             self.group = ids.joint(*dyad.links)
             KINDS[dyad.kind](self, dyad)
 
-    def write(self, q: Sheet) -> None:
+    def write(self, q: Calculation) -> None:
         """Enter all on a sheet with given data and plans."""
         driver = self.linkage.driver
         if isinstance(driver, Crank):

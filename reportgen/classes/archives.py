@@ -18,7 +18,7 @@ from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
-from reportgen.base.errors import Fault, Mark
+from reportgen.base.errors import Fault, Location
 from reportgen.base.files import cause
 from reportgen.workbook.table_writing import MOMENT
 from reportgen.workbook.zip_package import MOST_RATIO, SMALL, UNREADABLE_ZIP, RefusedError
@@ -69,7 +69,7 @@ def opened(path: Path, data: bytes | None, judge: CountStudents) -> Iterator[Arc
     Raises `RefusedError` for one that is damaged, encrypted, unpacks to too much or has names that lead outside; also
     while its members are read.
     """
-    mark = Mark(str(path))
+    mark = Location(str(path))
     try:
         with zipfile.ZipFile(path if data is None else io.BytesIO(data)) as file:
             infos = [info for info in file.infolist() if not info.is_dir()]
@@ -121,7 +121,7 @@ def _stated(info: zipfile.ZipInfo) -> str | None:
 def _fault(members: Sequence[ArchiveMember], path: Path) -> Fault | None:
     """Return the reason to reject an archive, or None: outside names, links, encryption, or too much content."""
     for member in members:
-        info, mark = member.info, Mark(str(path / PurePosixPath(member.name).name))
+        info, mark = member.info, Location(str(path / PurePosixPath(member.name).name))
         if not _is_harmless(member.name) or stat.S_ISLNK(info.external_attr >> 16):
             return Fault("archive-path", mark, {"text": member.name})
         if info.flag_bits & 1:
@@ -130,16 +130,16 @@ def _fault(members: Sequence[ArchiveMember], path: Path) -> Fault | None:
             return Fault("archive-bomb", mark)
     twice = [name for name, count in Counter(member.name for member in members).items() if count > 1]
     if twice:
-        return Fault("archive-path", Mark(str(path)), {"text": twice[0]})
+        return Fault("archive-path", Location(str(path)), {"text": twice[0]})
     # Members that share their bytes unpack to more than any one of them shows.
     ordered = sorted((member.info for member in members), key=lambda info: info.header_offset)
     starts = [info.header_offset for info in ordered]
     for info in ordered:
         following = bisect_right(starts, info.header_offset)
         if following < len(starts) and info.header_offset + info.compress_size > starts[following]:
-            return Fault("archive-bomb", Mark(str(path)))
+            return Fault("archive-bomb", Location(str(path)))
     if len(members) > MOST_MEMBERS or sum(member.info.file_size for member in members) > MOST_BYTES:
-        return Fault("archive-bomb", Mark(str(path)))
+        return Fault("archive-bomb", Location(str(path)))
     return None
 
 

@@ -15,7 +15,7 @@ from reportgen import api
 from reportgen.api import ASKING, MAKERS, TYPESET, USUAL, Maker
 from reportgen.api.report_fonts import Engine
 from reportgen.assignment.reading import inputs
-from reportgen.base.errors import Fault, Mark, OutputError, Problem
+from reportgen.base.errors import Fault, Location, OutputError, Problem
 from reportgen.base.files import cause, held, put_set, remove_unfinished, reported, scratch
 from reportgen.base.pdf_standards import STANDARDS, Standards, other_than_usual
 from reportgen.base.units import Language, write
@@ -302,7 +302,7 @@ def _read(file: Path | Problem, language: Language | None) -> tuple[str, bytes, 
     try:
         return file.name, *inputs(file)
     except OSError as error:
-        return as_problem(Fault("unreadable", Mark(str(file)), {"reason": cause(error)}), language)
+        return as_problem(Fault("unreadable", Location(str(file)), {"reason": cause(error)}), language)
 
 
 def _pool(order: Order, students: int) -> Pool:

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from reportgen import api
 from reportgen.api.report_fonts import Engine
-from reportgen.base.errors import Fault, Mark, Problem
+from reportgen.base.errors import Fault, Location, Problem
 from reportgen.base.files import overwritten, put_files, reported, scratch
 from reportgen.base.kinds import title
 from reportgen.base.output_formats import file_names
@@ -236,7 +236,7 @@ def put_gradebook(
     (written,) = put_files(out, {filled_gradebook(gradebook.path, out).name: content})
     problems = [as_problem(fault, language) for fault in faults]
     if not gradebook.has_comments:
-        fault = Fault("gradebook-no-comments", Mark(str(gradebook.path)))
+        fault = Fault("gradebook-no-comments", Location(str(gradebook.path)))
         problems.append(as_problem(fault, language, "note"))
     return written, problems
 

@@ -18,7 +18,7 @@ from functools import cache
 from pathlib import Path
 
 from reportgen.base.chinese import narrow
-from reportgen.base.errors import Fault, Mark, Problem
+from reportgen.base.errors import Fault, Location, Problem
 from reportgen.base.template_folders import languages
 from reportgen.base.timestamps import moment
 from reportgen.base.typed_characters import plain_signs
@@ -27,7 +27,7 @@ from reportgen.base.words import as_error, as_problem, close_or_known, common_wo
 from reportgen.case.answer_key import Key, headed_chapters
 from reportgen.classes.roster import Record, columns, comparable, folded, folder_name, heading_row, records
 from reportgen.document import InlineMath, Inlines, Text
-from reportgen.formula.vocabulary import Chapter
+from reportgen.formula.vocabulary import KeyChapter
 from reportgen.marking.marking_data import Amendment, Marked, Marking, Verdict, points_of
 from reportgen.marking.toleranced_key import symbol_text, words_of
 from reportgen.workbook import read
@@ -51,7 +51,7 @@ class Correction:
     judgement: Verdict | float
     reason: str
     value: str
-    marks: Mapping[str, Mark]
+    marks: Mapping[str, Location]
     signed: tuple[str, ...] = ()
     """The person and the date of the correction, as typed."""
 
@@ -79,7 +79,7 @@ def read_corrections(path: Path, language: Language | None = None) -> tuple[Corr
         if faults:
             raise as_error(faults, language)
         return tuple(one for one in made if one is not None)
-    raise as_error([Fault("correction-column", Mark(str(path)), {"key": "reason"})], language)
+    raise as_error([Fault("correction-column", Location(str(path)), {"key": "reason"})], language)
 
 
 def _correction(row: Record, who: str, faults: list[Fault]) -> Correction | None:
@@ -215,7 +215,7 @@ def _named(key: Key, text: str) -> tuple[Inlines, Callable[[str], bool]] | None:
 
 
 @cache
-def _titles(chapter: Chapter) -> frozenset[str]:
+def _titles(chapter: KeyChapter) -> frozenset[str]:
     """Return the names of a section: its own name, and its title in every language."""
     tables = [common_words(language)["parts"] for language in languages()]
     return frozenset({str(chapter), *(folded(table[chapter]) for table in tables)})

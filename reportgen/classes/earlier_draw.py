@@ -9,7 +9,7 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from reportgen.base.errors import Mark, UnknownNameError
+from reportgen.base.errors import Location, UnknownNameError
 from reportgen.base.units import Language
 from reportgen.base.words import unknown
 from reportgen.classes.roster import Roster, RosterEntry, comparable
@@ -64,7 +64,7 @@ def read_earlier(table: Path, language: Language | None) -> EarlierDraw:
             continue
         key = comparable(id)
         card = {name: said[name] for name in ("id", "name") if said.get(name)}
-        students[key] = RosterEntry(card, {}, Mark(str(table)))
+        students[key] = RosterEntry(card, {}, Location(str(table)))
         if said.get(REDRAWN, "").isdecimal():
             redrawn[key] = int(said[REDRAWN])
         if said.get(DROPPED):

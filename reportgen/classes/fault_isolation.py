@@ -10,7 +10,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TypeVar
 
-from reportgen.base.errors import AssignmentError, Fault, Mark, OutputError, Problem, ReportgenError
+from reportgen.base.errors import AssignmentError, Fault, Location, OutputError, Problem, ReportgenError
 from reportgen.base.units import Language
 from reportgen.base.words import as_problem
 from reportgen.workbook.zip_package import RefusedError
@@ -41,4 +41,4 @@ def isolated(work: Callable[[], Result], path: Path, language: Language | None) 
 
 def _failed(path: Path, text: str, language: Language | None) -> Problem:
     """Return the one-line problem of a file for which something unexpected failed."""
-    return as_problem(Fault("own-failed", Mark(str(path)), {"text": " ".join(text.split())}), language)
+    return as_problem(Fault("own-failed", Location(str(path)), {"text": " ".join(text.split())}), language)

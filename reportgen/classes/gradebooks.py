@@ -15,7 +15,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from reportgen.base.errors import Fault, Mark
+from reportgen.base.errors import Fault, Location
 from reportgen.base.timestamps import moment
 from reportgen.base.units import Language
 from reportgen.base.words import as_error
@@ -114,7 +114,7 @@ class Gradebook:
         for result in results:
             row = self._row_of(result.student)
             if row is None:
-                faults.append(Fault("gradebook-no-row", Mark(str(self.path)), {"text": result.student.who}))
+                faults.append(Fault("gradebook-no-row", Location(str(self.path)), {"text": result.student.who}))
                 continue
             changes[row.grade] = _grade(result.mark, self.table.highest)
             if row.comment and result.comment:
@@ -148,7 +148,7 @@ def read_gradebook(path: Path, column: str = "", language: Language | None = Non
     Raises `AssignmentError` if the file cannot be read or is neither of the two tables.
     """
     if path.suffix.lower() in BOOKS:
-        raise as_error([Fault("gradebook-no-csv", Mark(str(path)))], language)
+        raise as_error([Fault("gradebook-no-csv", Location(str(path)))], language)
     # A file that cannot be read as CSV is rejected here, with the location.
     read(path, language)
     data = path.read_bytes()
@@ -189,12 +189,12 @@ def _moodle(rows: Sequence[Sequence[_Cell]], path: Path) -> _Table | Fault:
     full = [row for row in body if len(row) == len(head)]
     numbers = [match[1] if row and (match := _PARTICIPANT.fullmatch(row[0].text.strip())) else "" for row in full]
     if not full or len(full) < len(body) or not all(numbers) or len(set(numbers)) < len(numbers):
-        return Fault("gradebook-unknown", Mark(str(path)))
+        return Fault("gradebook-unknown", Location(str(path)))
     columns = [[row[k].text.strip() for row in full] for k in range(len(head))]
     # A scale of words has no maximum grade, and Moodle accepts no numbers for it.
     graded = [k for k in range(2, len(head)) if _is_greatest(columns[k], columns[k - 1])]
     if len(graded) != 1:
-        return Fault("gradebook-no-column", Mark(str(path)))
+        return Fault("gradebook-no-column", Location(str(path)))
     (greatest,) = graded
     heads = [" ".join(cell.text.casefold().split()) for cell in head]
     dated = [k for k in range(greatest + 1, len(head)) if _is_dated(columns[k])]
@@ -246,7 +246,7 @@ def _is_canvas(rows: Sequence[Sequence[_Cell]]) -> bool:
 def _canvas(rows: Sequence[Sequence[_Cell]], wanted: str, path: Path) -> _Table | Fault:
     """Return Canvas's gradebook for one of its assignments, which `wanted` must name if there are several."""
     head = [cell.text for cell in rows[0]]
-    mark = Mark(str(path))
+    mark = Location(str(path))
     points = next((row for row in rows[1:] if "Points Possible" in row[0].text), None)
     if points is None or "ID" not in head:
         return Fault("gradebook-unknown", mark)

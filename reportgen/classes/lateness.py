@@ -9,7 +9,7 @@ import datetime
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from reportgen.base.errors import Fault, Mark, Problem
+from reportgen.base.errors import Fault, Location, Problem
 from reportgen.base.timestamps import moment
 from reportgen.base.units import Language
 from reportgen.base.words import as_problem
@@ -43,7 +43,7 @@ def days_late(
         if isinstance(handed_in, Fault):
             faults.append(handed_in)
         elif handed_in is None and handing.late:
-            faults.append(Fault("late-undated", Mark(handing.file), {"text": handing.student.who}))
+            faults.append(Fault("late-undated", Location(handing.file), {"text": handing.student.who}))
         elif handed_in is None:
             undated.append(handing)
         else:
@@ -51,7 +51,7 @@ def days_late(
     problems = [as_problem(fault, language) for fault in faults]
     if undated:
         about = {"count": str(len(undated)), "known": ", ".join(handing.student.who for handing in undated)}
-        problems.append(as_problem(Fault("late-unknown", Mark(undated[0].file), about), language, "warning"))
+        problems.append(as_problem(Fault("late-unknown", Location(undated[0].file), about), language, "warning"))
     return days, problems
 
 
@@ -61,5 +61,5 @@ def _handed_in(handing: Handing, gradebook: Gradebook | None) -> datetime.dateti
     said, mark = (handing.said.text, handing.said.mark) if handing.said else (text, None)
     if said.strip() in NONE:
         return None
-    place = mark or Mark(str(gradebook.path) if gradebook else handing.file)
+    place = mark or Location(str(gradebook.path) if gradebook else handing.file)
     return moment(said) or Fault("moment", place, {"text": said})

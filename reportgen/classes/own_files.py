@@ -11,7 +11,7 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
 
-from reportgen.base.errors import Fault, Mark, Problem
+from reportgen.base.errors import Fault, Location, Problem
 from reportgen.base.units import Language
 from reportgen.base.words import as_problem
 from reportgen.case.answer_key import Key
@@ -143,7 +143,7 @@ def _by_text(
         if len(named) == 1:
             yield file, next(iter(named.values()))
         else:
-            gathered.refuse(file, [as_problem(Fault("own-whose", Mark(str(file.path))), language)])
+            gathered.refuse(file, [as_problem(Fault("own-whose", Location(str(file.path))), language)])
 
 
 def _chosen(
@@ -196,7 +196,7 @@ def with_own(collected: Collected, own: OwnWorks, known: Container[str], languag
                 sheets[assignment] = submission, first
         elif not sheets[assignment][0].fingerprint:
             about = {"text": assignment, "sheet": sheets[assignment][1].path.name}
-            told.append(as_problem(Fault("own-beside-sheet", Mark(str(first.path)), about), language, "note"))
+            told.append(as_problem(Fault("own-beside-sheet", Location(str(first.path)), about), language, "note"))
     sheets |= {assignment: sheet for assignment, sheet in collected.readings.items() if assignment not in sheets}
     refused = (*collected.refused, *own.refused)
     return replace(collected, sheets=sheets, refused=refused, problems=(*collected.problems, *own.problems, *told))

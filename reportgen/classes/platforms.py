@@ -16,7 +16,7 @@ from dataclasses import dataclass, field, replace
 from functools import cache
 from pathlib import Path, PurePosixPath
 
-from reportgen.base.errors import Fault, Mark
+from reportgen.base.errors import Fault, Location
 from reportgen.base.files import leads_out
 from reportgen.base.template_folders import languages
 from reportgen.base.words import messages
@@ -100,7 +100,7 @@ def handed_in(paths: Sequence[Path], faults: list[Fault], names: Collection[str]
             files = sorted(file for file in path.rglob("*") if file.is_file())
             inside = [file for file in files if not leads_out(file, path)]
             strays = sorted(set(files) - set(inside))
-            faults += [Fault("path-outside", Mark(str(file)), {"text": file.name}) for file in strays]
+            faults += [Fault("path-outside", Location(str(file)), {"text": file.name}) for file in strays]
             named = [(file.relative_to(path.parent).as_posix(), file) for file in inside]
             owners = _owners([name for name, _ in named])
             with_work: set[str] = set()
@@ -132,9 +132,9 @@ def _from_archive(archive: Handed, people: Collection[HeaderWords], depth: int) 
     """Yield the sheets in a student's archive, or the fault for which it is not read."""
     try:
         if depth > DEEPEST:
-            raise RefusedError("archive-nested", Mark(str(archive.path)))
+            raise RefusedError("archive-nested", Location(str(archive.path)))
         if archive.data is not None and len(archive.data) > LARGEST_INSIDE:
-            raise RefusedError("archive-bomb", Mark(str(archive.path)))
+            raise RefusedError("archive-bomb", Location(str(archive.path)))
         yield from _members(archive, people, depth)
     except RefusedError as refused:
         yield replace(archive, data=None, fault=refused.fault)
@@ -227,9 +227,9 @@ def _without_sheet(place: Path, owners: dict[str, Owner | None], with_work: Coll
             own = (one for one, owned in owners.items() if owned and owned.number == owner.number)
             works = sorted(one for one in own if PurePosixPath(one).suffix.lower() in own_files.NOT_READ)
             about = {"text": owner.name or owner.number}
-            fault = Fault("download-no-sheet", Mark(str(place / name)), about)
+            fault = Fault("download-no-sheet", Location(str(place / name)), about)
             if works:
-                fault = Fault("own-not-read", Mark(str(place / works[0])))
+                fault = Fault("own-not-read", Location(str(place / works[0])))
             yield Handed(place / name, owner, fault=fault)
 
 

@@ -11,7 +11,7 @@ from functools import partial
 from pathlib import Path
 from typing import TypeVar
 
-from reportgen.base.errors import AssignmentError, Fault, Mark, Problem
+from reportgen.base.errors import AssignmentError, Fault, Location, Problem
 from reportgen.base.process_limits import Limits
 from reportgen.base.units import Language
 from reportgen.base.words import as_problem
@@ -100,4 +100,4 @@ def _marked_copy(
 
 def _beyond(path: Path, language: Language | None) -> Problem:
     limits = {"seconds": f"{LIMITS.seconds:g}", "largest": str(LIMITS.megabytes)}
-    return as_problem(Fault("sheet-beyond-limits", Mark(str(path)), limits), language)
+    return as_problem(Fault("sheet-beyond-limits", Location(str(path)), limits), language)

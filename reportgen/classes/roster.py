@@ -25,7 +25,7 @@ from reportgen import catalogue
 from reportgen.assignment import parts
 from reportgen.assignment.fields import RESERVED, TypedText
 from reportgen.base import chinese
-from reportgen.base.errors import Fault, Mark, Problem
+from reportgen.base.errors import Fault, Location, Problem
 from reportgen.base.files import contents
 from reportgen.base.kinds import kinds
 from reportgen.base.template_folders import languages
@@ -48,7 +48,7 @@ class RosterColumn:
     index: int
     name: str
     unit: str
-    mark: Mark
+    mark: Location
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,8 +59,8 @@ class Record:
     """
 
     values: Mapping[str, Scalar]
-    mark: Mark
-    cells: Mapping[str, Mark]
+    mark: Location
+    cells: Mapping[str, Location]
     refused: frozenset[str] = frozenset()
 
 
@@ -157,7 +157,7 @@ class RosterEntry:
 
     card: Mapping[str, str]
     overrides: Mapping[str, Scalar]
-    mark: Mark
+    mark: Location
     handed_in: Scalar | None = None
 
     @property
@@ -194,7 +194,7 @@ def read_roster(path: Path, language: Language | None = None) -> Roster:
     page, start = _page(read(path, language))
     faults: list[Fault] = []
     if start is None:
-        first = next((cell.mark for row in page.rows for cell in row if not cell.blank), Mark(str(path)))
+        first = next((cell.mark for row in page.rows for cell in row if not cell.blank), Location(str(path)))
         raise as_error([Fault("no-id-column", first)], language)
     headed = columns(page.rows[start])
     of_canvas = any(cell.text.strip() == CANVAS_ID for cell in page.rows[start])
@@ -325,7 +325,7 @@ def _unfit(row: Record) -> Iterable[Fault]:
 
 def _id_faults(rows: Iterable[Record]) -> Iterable[Fault]:
     """Yield faults of ids that are missing, or that differ from an earlier one only in case and composition."""
-    seen: dict[str, Mark] = {}
+    seen: dict[str, Location] = {}
     for row in rows:
         id = row.values.get("id")
         if id is None:
@@ -374,7 +374,7 @@ def assignment_files(folder: Path, language: Language | None) -> dict[str, Path]
     Raises `AssignmentError` for two files with one stem and for a folder that does not exist.
     """
     if not folder.is_dir():
-        raise as_error([Fault("no-folder", Mark(str(folder)))], language)
+        raise as_error([Fault("no-folder", Location(str(folder)))], language)
     files: dict[str, Path] = {}
     faults: list[Fault] = []
     assignments = [path for path in sorted(folder.rglob("*")) if _is_assignment(path, folder) and not _is_frozen(path)]
@@ -384,7 +384,7 @@ def assignment_files(folder: Path, language: Language | None) -> dict[str, Path]
             continue
         first = files.setdefault(comparable(path.stem), path)
         if first is not path:
-            faults.append(Fault("same-stem", Mark(str(path)), {"text": path.stem, "first": str(first)}))
+            faults.append(Fault("same-stem", Location(str(path)), {"text": path.stem, "first": str(first)}))
     if faults:
         raise as_error(faults, language)
     return files

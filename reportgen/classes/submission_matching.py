@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 
-from reportgen.base.errors import AssignmentError, Fault, Mark, Problem
+from reportgen.base.errors import AssignmentError, Fault, Location, Problem
 from reportgen.base.units import Language
 from reportgen.base.words import as_problem
 from reportgen.case.answer_key import Key
@@ -76,7 +76,7 @@ def collect(
         named = named_after(file.path, files)
         if named not in (None, comparable(submission.assignment)):
             about = {"named": files[named].stem, "text": submission.assignment}
-            problems.append(as_problem(Fault("sheet-named-otherwise", Mark(str(file.path)), about), language))
+            problems.append(as_problem(Fault("sheet-named-otherwise", Location(str(file.path)), about), language))
         of_assignment.setdefault(submission.assignment, []).append((submission, file))
     sheets: dict[str, tuple[Submission, Handed]] = {}
     for assignment, several in of_assignment.items():
@@ -96,7 +96,7 @@ def _submission(
     submission = read_submission(file.path, key_of, language, pages)
     name = key_of(submission.assignment).student.get("name", "")
     if file.owner and not file.owner.may_be(name):
-        fault = Fault("sheet-other-hands", Mark(str(file.path)), {"text": name, "owner": file.owner.name})
+        fault = Fault("sheet-other-hands", Location(str(file.path)), {"text": name, "owner": file.owner.name})
         raise AssignmentError([as_problem(fault, language)])
     return submission
 
@@ -107,7 +107,9 @@ def chosen_of(
     """Return the file that counts among several of one assignment, and a fault for each of the others."""
     chosen, *others = _in_order(several, assignment, name, known, twice)
     about = ({"text": assignment, "first": _told_apart(chosen.path, left.path)} for left in others)
-    return chosen, [Fault("sheet-twice", Mark(str(left.path)), text) for left, text in zip(others, about, strict=True)]
+    return chosen, [
+        Fault("sheet-twice", Location(str(left.path)), text) for left, text in zip(others, about, strict=True)
+    ]
 
 
 def named_after(path: Path, known: Container[str]) -> str | None:

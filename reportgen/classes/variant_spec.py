@@ -34,7 +34,7 @@ from reportgen.assignment import parts
 from reportgen.assignment.common import PARTS, Kind
 from reportgen.assignment.reading import misread
 from reportgen.assignment.schema import allowed_forms, known_keys
-from reportgen.base.errors import Fault, Mark, Where
+from reportgen.base.errors import Fault, Location, Where
 from reportgen.base.files import contents, leads_out
 from reportgen.base.kinds import kinds
 from reportgen.base.units import NUMBER, Language, QuantityFault, read_number, read_quantity, read_unit
@@ -111,7 +111,7 @@ class Spec:
         return {index: names[index] for index in self.parts}
 
     @property
-    def mark(self) -> Mark:
+    def mark(self) -> Location:
         """The location of faults of whole combinations: the parameters."""
         section = self.top.find("parameters")
         return section[0].mark if section else self.top.mark
@@ -414,7 +414,7 @@ def _unreadable(spec: Spec) -> list[Fault]:
     if any(not axis.choices for axis in spec.axes):
         return []
     first = assembled(spec.top, spec.settings([0] * len(spec.axes)))
-    faults: dict[tuple[str, Mark], Fault] = {}
+    faults: dict[tuple[str, Location], Fault] = {}
     for axis in spec.axes:
         for choice in axis.choices:
             for fault in misread(assembled(first, choice.settings), spec.kind):

@@ -25,7 +25,7 @@ from reportgen import catalogue
 from reportgen.assignment import Assignment, parts
 from reportgen.assignment.common import PARTS
 from reportgen.assignment.reading import doubtful, words_beside
-from reportgen.base.errors import Fault, Mark, Where
+from reportgen.base.errors import Fault, Location, Where
 from reportgen.base.files import contents, overwritten, put_file, put_set, version
 from reportgen.base.process_limits import Limits
 from reportgen.base.units import Language
@@ -43,7 +43,7 @@ from reportgen.workbook import write_csv
 TABLE = "variants.csv"
 HEAD_LINES = 3
 _HASH = re.compile(r"#.*\b([0-9a-f]{64})")
-_HERE = Mark("")
+_HERE = Location("")
 
 MOST_TIMES = 2.0
 """Factor from the median beyond which a count is an outlier."""

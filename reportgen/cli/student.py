@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
-from reportgen.base.errors import Fault, Mark
+from reportgen.base.errors import Fault, Location
 from reportgen.base.files import is_stream, put_set, reported, standing
 from reportgen.base.output_formats import names
 from reportgen.cli.common import (
@@ -200,7 +200,7 @@ def _begin(kind: str, file: Path, lang: Language | None) -> None:
     from reportgen.base.words import spoken
 
     if os.path.lexists(file):
-        refuse([Fault("already-there", Mark(str(file)))], file, lang)
+        refuse([Fault("already-there", Location(str(file)))], file, lang)
     write(file, api.sample(kind, lang or spoken()))
 
 
@@ -316,7 +316,7 @@ def new(
         raise typer.BadParameter(unknown("no_example", example, list(examples), lang), param_hint="--from")
     with ending(lang):
         if output is not None and os.path.lexists(output) and not (force or is_stream(output)):
-            refuse([Fault("already-there", Mark(str(output)))], output, lang)
+            refuse([Fault("already-there", Location(str(output)))], output, lang)
         text = api.sample(kind, lang or spoken()) if example is None else api.example(examples[example], lang)
         write(output or Path("-"), text)
 
@@ -338,7 +338,7 @@ def samples(
     with ending(lang):
         files = {folder / path.relative_to(packed()): path for path in sorted(packed().rglob("*")) if path.is_file()}
         if (there := next(filter(os.path.lexists, files), None)) and not force:
-            refuse([Fault("already-there", Mark(str(there)))], there, lang)
+            refuse([Fault("already-there", Location(str(there)))], there, lang)
         with reported(folder):
             for path in files:
                 path.parent.mkdir(parents=True, exist_ok=True)

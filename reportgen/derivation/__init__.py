@@ -15,10 +15,10 @@ from reportgen.derivation.plan_scales import no_scales, own_scales
 from reportgen.derivation.topic_ledger import LEDGER
 from reportgen.formula import PI, Expression, Ref, Symbol, call, circle_line, ids, vocabulary
 from reportgen.formula import size as size_of
-from reportgen.formula.calculation import ZERO, Sheet, is_short
+from reportgen.formula.calculation import ZERO, Calculation, is_short
 from reportgen.formula.evaluation import evaluate
 from reportgen.formula.ledger import Ledger
-from reportgen.formula.vocabulary import KINDS, Chapter
+from reportgen.formula.vocabulary import KINDS, KeyChapter
 from reportgen.machine import Crank, Linkage
 from reportgen.machine.analysis import Analysis, no_formulas, possible
 from reportgen.machine.gas_pressure import Bracket
@@ -53,7 +53,7 @@ def write_ledger(
         topics = tuple(LEDGER.among(machine.topics))
         for hooks in topics:
             hooks.enter_forces(q, analysis, worked)
-        with q.within(Chapter.cycle):
+        with q.within(KeyChapter.cycle):
             _cycle(q, analysis)
             for hooks in topics:
                 hooks.enter_cycle(q, analysis)
@@ -64,8 +64,11 @@ def write_ledger(
 
 
 def enter_plans(
-    analysis: Analysis, worked: Sequence[int] = (), formulas: Callable[[Sheet], None] = no_formulas, scaled: bool = True
-) -> tuple[Sheet, tuple[Polygon, ...]]:
+    analysis: Analysis,
+    worked: Sequence[int] = (),
+    formulas: Callable[[Calculation], None] = no_formulas,
+    scaled: bool = True,
+) -> tuple[Calculation, tuple[Polygon, ...]]:
     """Return the sheet of an analysis at all its positions, with given data, plans, `formulas` and forces; and its
     force plans.
 
@@ -73,7 +76,7 @@ def enter_plans(
     elsewhere at another scale, so theirs is arbitrary.
     """
     machine = analysis.machine
-    q = Sheet(len(analysis.cycle_angle))
+    q = Calculation(len(analysis.cycle_angle))
     if machine.span:
         q.give("s.1", machine.angles(analysis.cycle_angle), exact=False)
     else:
@@ -81,7 +84,7 @@ def enter_plans(
     q.extend(machine.sheet)
     sense = -1 if machine.acceleration < 0 else 1
     enter_kinematics(q, machine.linkage, machine.turn, worked, sense, scaled)
-    with q.within(Chapter.formulas):
+    with q.within(KeyChapter.formulas):
         formulas(q)
     if not analysis.loads:
         return q, ()
@@ -94,7 +97,7 @@ def enter_plans(
     return q, enter_forces(q, machine.linkage, machine.turn, applied, torques, scales=scales, guides=guides)
 
 
-def _masses(q: Sheet, analysis: Analysis) -> None:
+def _masses(q: Calculation, analysis: Analysis) -> None:
     """Enter the mass m = G/g if the weight is given, the weight G = m g if the mass is."""
     for body in analysis.machine.linkage.inertias:
         weight, mass = ids.weight(body.link), ids.mass(body.link)
@@ -105,7 +108,7 @@ def _masses(q: Sheet, analysis: Analysis) -> None:
 
 
 def _between_nodes(
-    q: Sheet, among: Bracket, of: str | int, course: Stroke | None, shown: Symbol, kind: str
+    q: Calculation, among: Bracket, of: str | int, course: Stroke | None, shown: Symbol, kind: str
 ) -> Expression:
     """Return a value interpolated between the adjacent points x′, p′ and x″, p″ of a table at each position.
 
@@ -136,7 +139,7 @@ def _between_nodes(
     return p1 + (p2 - p1) / (x2 - x1) * (x - x1)
 
 
-def _stroke(q: Sheet, course: Stroke) -> Ref:
+def _stroke(q: Calculation, course: Stroke) -> Ref:
     """Return the stroke of a slider: H as given, or with five figures as its dead centres are found."""
     if "H" in q and abs(q.si("H") - course.stroke) <= ZERO * course.stroke:
         return q["H"]
@@ -146,7 +149,7 @@ def _stroke(q: Sheet, course: Stroke) -> Ref:
     return q.give(ids.stroke(course.link), stroke, Symbol("H", str(course.link)), "length", hidden=True)
 
 
-def _way(q: Sheet, linkage: Linkage, link: int, values: np.ndarray, stroke: float) -> None:
+def _way(q: Calculation, linkage: Linkage, link: int, values: np.ndarray, stroke: float) -> None:
     """Enter a slider's way from its dead centre, measured on the drawing; there crank and rod lie in one line."""
     driver, id = linkage.driver, ids.displacement(link)
     dyad = next((one for one in linkage.dyads if one.kind == "RRP" and one.links[1] == link), None)
@@ -167,7 +170,7 @@ def _way(q: Sheet, linkage: Linkage, link: int, values: np.ndarray, stroke: floa
     q.define(id, abs(q["mu.l"] * drawn), scale=stroke)
 
 
-def _applied(q: Sheet, analysis: Analysis) -> None:
+def _applied(q: Calculation, analysis: Analysis) -> None:
     """Enter forces, positive along their own direction, with the values they are read by; torques, anticlockwise
     positive.
     """
@@ -193,11 +196,11 @@ def _applied(q: Sheet, analysis: Analysis) -> None:
         _size(q, torque, analysis)
 
 
-def _size(q: Sheet, load: Applied | Torque, analysis: Analysis, symbol: Symbol | str = "") -> None:
+def _size(q: Calculation, load: Applied | Torque, analysis: Analysis, symbol: Symbol | str = "") -> None:
     """Enter the size of a load by the formula of its law, or as it is given."""
     formula = load.law.formula(q, load.link)
     if formula is not None:
-        with q.within(Chapter.loads):
+        with q.within(KeyChapter.loads):
             q.define(load.name, formula, symbol)
     else:
         size = load.law.value(analysis.cycle_angle, analysis.motion)
@@ -209,7 +212,7 @@ def _size(q: Sheet, load: Applied | Torque, analysis: Analysis, symbol: Symbol |
         q.give(load.name, size, symbol, exact=written is None and is_short(size), written=written)
 
 
-def _cycle(q: Sheet, analysis: Analysis) -> None:
+def _cycle(q: Calculation, analysis: Analysis) -> None:
     """Enter the mean, extremes, power and energy of the cycle."""
     machine = analysis.machine
     size, most = float(np.nanmax(np.abs(analysis.torque))), possible(analysis.motion, analysis.loads)

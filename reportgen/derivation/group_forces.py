@@ -36,13 +36,13 @@ from reportgen.derivation.load_entries import (
 )
 from reportgen.derivation.plan_scales import Scaling, own_scales
 from reportgen.formula import Expression, Ref, Sum, Symbol, call, dot, ids, meet, quotient, sign, total, turned, unit
-from reportgen.formula.calculation import ZERO, Sheet
+from reportgen.formula.calculation import ZERO, Calculation
 from reportgen.formula.vocabulary import drawn_length
 from reportgen.machine import DRIVER, Crank, Dyad, DyadKind, Guide, Linkage
 
 
 def enter_forces(
-    q: Sheet,
+    q: Calculation,
     linkage: Linkage,
     turn: int,
     applied: Applied,
@@ -99,7 +99,7 @@ class Group:
     on_j: tuple[LoadOn, ...]
 
     @property
-    def q(self) -> Sheet:
+    def q(self) -> Calculation:
         return self.statics.q
 
     @property

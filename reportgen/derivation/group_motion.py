@@ -44,13 +44,13 @@ from reportgen.formula import (
     unit,
     vocabulary,
 )
-from reportgen.formula.calculation import Sheet
+from reportgen.formula.calculation import Calculation
 from reportgen.formula.vocabulary import drawn_length, on_plan, segment
 from reportgen.machine import DRIVER, Crank, Dyad, DyadKind, Guide, Linkage, LinkPoint, under
 
 
 def enter_kinematics(
-    q: Sheet, linkage: Linkage, turn: int, worked: Sequence[int] = (), sense: int = 1, scaled: bool = True
+    q: Calculation, linkage: Linkage, turn: int, worked: Sequence[int] = (), sense: int = 1, scaled: bool = True
 ) -> None:
     """Enter every kinematic quantity of a linkage, link by link in order of assembly.
 
@@ -67,7 +67,7 @@ def enter_kinematics(
 
 
 def _enter(
-    q: Sheet, linkage: Linkage, turn: int, sense: int, scales: Mapping[str, float | None] | None = None
+    q: Calculation, linkage: Linkage, turn: int, sense: int, scales: Mapping[str, float | None] | None = None
 ) -> Kinematics:
     for name, at in linkage.ground.items():
         # The machine has already placed the points that follow from given lengths.

@@ -34,7 +34,7 @@ from reportgen.formula import (
     turned,
     unit,
 )
-from reportgen.formula.calculation import TYPED, Sheet, is_short
+from reportgen.formula.calculation import TYPED, Calculation, is_short
 from reportgen.formula.vocabulary import drawn_length, on_plan, point, segment
 from reportgen.machine import DRIVER, GROUND, Crank, Guide, Linkage, SlidingDriver
 
@@ -75,9 +75,9 @@ class PlacedLink:
 
 @dataclass
 class Kinematics:
-    """Sheet `q`, linkage and placed links while a linkage is entered link by link."""
+    """Calculation `q`, linkage and placed links while a linkage is entered link by link."""
 
-    q: Sheet
+    q: Calculation
     scheme: Scheme
     turn: int
     sizes: Sizes
@@ -254,7 +254,7 @@ def longest(linkage: Linkage) -> float:
     return max((*rods, *spans, *(abs(place.local) for place in linkage.points)), default=0.0) or 1.0
 
 
-def natural_sizes(q: Sheet, linkage: Linkage) -> Sizes:
+def natural_sizes(q: Calculation, linkage: Linkage) -> Sizes:
     """Return the reference sizes of velocity, acceleration and rotation of a linkage: those of its driver's pin."""
     driver = linkage.driver
     if isinstance(driver, Crank):
@@ -273,7 +273,7 @@ LONGEST_DRAWN = 0.08
 
 
 def crank(
-    q: Sheet, scheme: Scheme, driver: Crank, turn: int, sense: int, scales: Mapping[str, float | None]
+    q: Calculation, scheme: Scheme, driver: Crank, turn: int, sense: int, scales: Mapping[str, float | None]
 ) -> Kinematics:
     """Place the driving crank: v_A = ω₁ l, aⁿ_A = ω₁² l, aᵗ_A = ε₁ l; `scales` (SI per mm) default to μ_v = ω₁ μ_l,
     μ_a = ω₁² μ_l.
@@ -352,7 +352,7 @@ def _accelerated_pin(k: Kinematics, driver: Crank, ε1: Ref) -> None:
 
 
 def slide(
-    q: Sheet, scheme: Scheme, driver: SlidingDriver, turn: int, sense: int, scales: Mapping[str, float | None]
+    q: Calculation, scheme: Scheme, driver: SlidingDriver, turn: int, sense: int, scales: Mapping[str, float | None]
 ) -> Kinematics:
     """Place the driving slide: the pin moves along its guide with v_A, and a_A if given; `scales` (SI per mm) are
     μ_v, μ_a.

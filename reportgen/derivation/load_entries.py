@@ -17,7 +17,7 @@ from reportgen.derivation.equation_sides import Scheme, image
 from reportgen.derivation.kinematic_entries import NOWHERE, Sizes, longest
 from reportgen.derivation.plan_scales import LEAST_FORCES, Scaling, extents, own_scales
 from reportgen.formula import Expression, Number, Ref, Sum, Symbol, call, cross, heading, ids, quotient, sign
-from reportgen.formula.calculation import Sheet
+from reportgen.formula.calculation import Calculation
 from reportgen.formula.evaluation import evaluate
 from reportgen.formula.vocabulary import segment
 from reportgen.machine import DRIVER, GROUND, Crank, Guide, Inertia
@@ -59,9 +59,9 @@ EnterGuide = Callable[["Statics", str, int], None]
 
 @dataclass(frozen=True, slots=True)
 class Statics:
-    """Sheet `q`, linkage and loads while reactions are entered group by group."""
+    """Calculation `q`, linkage and loads while reactions are entered group by group."""
 
-    q: Sheet
+    q: Calculation
     scheme: Scheme
     turn: int
     sizes: Sizes
@@ -201,7 +201,7 @@ def carried_reactions(statics: Statics, links: tuple[int, ...]) -> tuple[LoadOn,
     return tuple(loads)
 
 
-def opposite(q: Sheet, here: str, there: str, link: int, point: str, plan: str) -> LoadOn:
+def opposite(q: Calculation, here: str, there: str, link: int, point: str, plan: str) -> LoadOn:
     """Enter a reaction, which a group's plan gave, as that of the other link turned round: R42 = −R24."""
     size = q.define(ids.reaction(here), q[ids.reaction(there)], scale=q.families[ids.reaction(there)].scale)
     q.construct(ids.force_vector(ids.reaction_force(here)), -q[ids.force_vector(ids.reaction_force(there))], of=size.id)
@@ -316,7 +316,7 @@ class Polygon:
 class ForceChain:
     """The known forces of a plan laid head to tail from vertex e."""
 
-    def __init__(self, q: Sheet) -> None:
+    def __init__(self, q: Calculation) -> None:
         self._q = q
         self._letters = iter(LETTERS)
         self.first = self.last = next(self._letters)

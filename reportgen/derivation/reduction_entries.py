@@ -9,7 +9,7 @@ import numpy as np
 from reportgen.derivation.topic_ledger import LEDGER
 from reportgen.derivation.unprinted_values import with_rest
 from reportgen.formula import NOTHING, Expression, Number, Ref, Symbol, ids, total
-from reportgen.formula.calculation import Sheet
+from reportgen.formula.calculation import Calculation
 from reportgen.machine import Inertia, Linkage
 from reportgen.machine.analysis import Analysis
 from reportgen.machine.load_laws import FULL_TURN
@@ -18,7 +18,9 @@ TERMS = 4
 """More terms than these do not fit in one line of a page."""
 
 
-def enter_reduced(q: Sheet, analysis: Analysis, torque: np.ndarray, largest: float) -> tuple[Expression, Ref, Ref]:
+def enter_reduced(
+    q: Calculation, analysis: Analysis, torque: np.ndarray, largest: float
+) -> tuple[Expression, Ref, Ref]:
     """Enter J_r, which is 0 if no link with mass moves, M_r [N] as computed, and the ways between positions."""
     machine = analysis.machine
     inertia = _reduced(q, machine.linkage)
@@ -39,7 +41,7 @@ def enter_reduced(q: Sheet, analysis: Analysis, torque: np.ndarray, largest: flo
     return J_r, M_r, steps
 
 
-def moving_bodies(q: Sheet, linkage: Linkage) -> Iterator[tuple[Inertia, str, str]]:
+def moving_bodies(q: Calculation, linkage: Linkage) -> Iterator[tuple[Inertia, str, str]]:
     """Yield the bodies with the ids of the speeds of their mass centre and rotation; "" for a speed without inertia."""
     for body in linkage.inertias:
         centre, rotation = ids.velocity(body.centre), ids.angular_velocity(body.link)
@@ -49,7 +51,7 @@ def moving_bodies(q: Sheet, linkage: Linkage) -> Iterator[tuple[Inertia, str, st
             yield body, moving, turning
 
 
-def _reduced(q: Sheet, linkage: Linkage) -> Expression | None:
+def _reduced(q: Calculation, linkage: Linkage) -> Expression | None:
     """Return J_r = Σ m v_S²/ω₁² + J ω²/ω₁² over the moving links; None if no link with mass moves.
 
     If that is too long for a line, each link's part of it is entered as `J.r.` and its number.

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from reportgen.base.topics import HookModule
 from reportgen.derivation.load_entries import EnterGuide, Statics
 from reportgen.formula import Expression, Ref
-from reportgen.formula.calculation import Sheet
+from reportgen.formula.calculation import Calculation
 from reportgen.formula.ledger import Ledger
 from reportgen.machine.analysis import Analysis, Machine
 
@@ -16,11 +16,11 @@ Changed = Mapping[str, Sequence[tuple[str, Expression]]]
 """Other definitions of quantities, by id, with the names of the mistakes that they are."""
 
 
-def _enter_nothing(q: Sheet, analysis: Analysis) -> None:
+def _enter_nothing(q: Calculation, analysis: Analysis) -> None:
     """Enter nothing: the default for a topic without such entries."""
 
 
-def _not_worked_out(q: Sheet, analysis: Analysis, worked: Sequence[int]) -> None:
+def _not_worked_out(q: Calculation, analysis: Analysis, worked: Sequence[int]) -> None:
     """Enter nothing: the default for a topic without values at the worked positions."""
 
 
@@ -28,7 +28,7 @@ def _no_guide(statics: Statics, digits: str, link: int) -> None:
     """Enter nothing: the default for a topic without entries of sliders."""
 
 
-def _not_reduced(q: Sheet, largest: float) -> Ref | None:
+def _not_reduced(q: Calculation, largest: float) -> Ref | None:
     return None
 
 
@@ -42,13 +42,13 @@ class LedgerHooks:
 
     enter_guide: EnterGuide = _no_guide
     """Enters more of a slider in its guide, by the digits of its reaction and its link."""
-    enter_forces: Callable[[Sheet, Analysis, Sequence[int]], None] = _not_worked_out
+    enter_forces: Callable[[Calculation, Analysis, Sequence[int]], None] = _not_worked_out
     """Enters quantities that depend on the forces at the positions, some of which are worked out."""
-    enter_cycle: Callable[[Sheet, Analysis], None] = _enter_nothing
+    enter_cycle: Callable[[Calculation, Analysis], None] = _enter_nothing
     """Enters quantities of the cycle as a whole."""
-    enter_last: Callable[[Sheet, Analysis], None] = _enter_nothing
+    enter_last: Callable[[Calculation, Analysis], None] = _enter_nothing
     """Enters quantities that depend on all other results."""
-    reduced: Callable[[Sheet, float], Ref | None] = _not_reduced
+    reduced: Callable[[Calculation, float], Ref | None] = _not_reduced
     """Enters the part of the reduced torque (N·m) that the topic adds, compared with the largest torque."""
     mistakes: Callable[[Ledger, Machine], Changed] = _no_mistakes
     """Gives other definitions of those who make a common mistake."""

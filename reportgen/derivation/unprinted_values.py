@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from reportgen.formula import Expression, Ref, Symbol, call, ids
-from reportgen.formula.calculation import Sheet
+from reportgen.formula.calculation import Calculation
 
 
 def with_rest(
-    q: Sheet,
+    q: Calculation,
     id: str,
     values: np.ndarray | float,
     by_rule: Expression,

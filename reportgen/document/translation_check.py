@@ -16,7 +16,7 @@ from typing import Any
 
 from jinja2 import Environment, nodes
 
-from reportgen.base.errors import Fault, Mark, TemplateError
+from reportgen.base.errors import Fault, Location, TemplateError
 from reportgen.base.field_words import CHOICES
 from reportgen.base.field_words import SECTION as FIELDS
 from reportgen.base.kinds import SAMPLE
@@ -63,7 +63,7 @@ def faults(folder: Path, lacking: MissingLetters | None = None) -> Iterator[Faul
     reference = templates() / REFERENCE
     own, wanted = _files(folder), _files(reference)
     needed = {name for name in wanted if not name.startswith((f"{MACHINES}/", f"{TOPICS}/"))} - MESSAGES
-    yield from _differences("file", own, needed | own & wanted, Mark(str(folder)))
+    yield from _differences("file", own, needed | own & wanted, Location(str(folder)))
     terms = _terms(folder.name)
     for name in sorted(own & wanted - {LANGUAGE_FILE}):
         file = folder / name
@@ -88,7 +88,7 @@ def _files(folder: Path) -> set[str]:
     return {path.relative_to(folder).as_posix() for path in paths}
 
 
-def _differences(what: str, own: Set[str], wanted: Set[str], mark: Mark) -> Iterator[Fault]:
+def _differences(what: str, own: Set[str], wanted: Set[str], mark: Location) -> Iterator[Fault]:
     """Yield faults for names that are missing here, and for names that the language of reference does not have."""
     for code, names in (("words-missing", wanted - own), ("words-beyond", own - wanted)):
         if names:
@@ -101,7 +101,7 @@ def _differences(what: str, own: Set[str], wanted: Set[str], mark: Mark) -> Iter
 def _sections(file: Path, model: Path, terms: Terms, free: Set[str]) -> Iterator[Fault]:
     """Yield the differences between two files of sections; `free` letters are those of the formula of mobility."""
     own, wanted = sections(file), sections(model)
-    yield from _differences("section", own.keys(), wanted.keys(), Mark(str(file)))
+    yield from _differences("section", own.keys(), wanted.keys(), Location(str(file)))
     for name in (name for name in wanted if name in own):
         here, there = own[name], wanted[name]
         if name in TABLES:
@@ -114,7 +114,7 @@ def _sections(file: Path, model: Path, terms: Terms, free: Set[str]) -> Iterator
 
 def _compared(here: Passage, there: Passage, free: Set[str]) -> Iterator[Fault]:
     """Yield the differences between a section and that of reference."""
-    mark, own, wanted = Mark(str(here.file), here.line), SectionContents.of(here), SectionContents.of(there)
+    mark, own, wanted = Location(str(here.file), here.line), SectionContents.of(here), SectionContents.of(there)
     if MOBILITY not in wanted.calls:
         free = frozenset()
     # Where the letter of a quantity is the language's own, a template asks for it.
@@ -126,7 +126,7 @@ def _compared(here: Passage, there: Passage, free: Set[str]) -> Iterator[Fault]:
     if own.headings != wanted.headings:
         yield Fault("words-headings", mark, {"place": _marks(own.headings), "known": _marks(wanted.headings)})
     for line, text in own.in_braces:
-        yield Fault("words-in-braces", Mark(str(here.file), here.line + line), {"text": text})
+        yield Fault("words-in-braces", Location(str(here.file), here.line + line), {"text": text})
 
 
 def _marks(levels: Iterable[int]) -> str:
@@ -266,7 +266,7 @@ def _node(
     """Yield the differences at a place of two tables; `around` are the gaps of the surrounding texts in each of
     them.
     """
-    mark = Mark(own.mark.file, own.mark.line + above, own.mark.column)
+    mark = Location(own.mark.file, own.mark.line + above, own.mark.column)
     match own, wanted:
         case MappingNode(), MappingNode():
             if where in ONE_SIDED:
@@ -306,7 +306,7 @@ def _all_gaps(node: Node) -> Iterator[str]:
             yield from _gaps(node, node.mark)
 
 
-def _gaps(said: Scalar, mark: Mark) -> frozenset[str]:
+def _gaps(said: Scalar, mark: Location) -> frozenset[str]:
     """The gaps of a word, whatever form of them a language takes: {Shaft} as {shaft}, {month_name} as {month}."""
     try:
         return frozenset(gap.casefold().removesuffix("_name") or gap for gap in gaps(said.text))
@@ -328,7 +328,7 @@ def _lines_of(file: Path, lacking: MissingLetters) -> Iterator[Fault]:
     missing = frozenset(lacking(letters))
     for number, line in enumerate(text.splitlines() if missing else (), start=1):
         if strange := [letter for letter in dict.fromkeys(line) if letter in missing]:
-            yield Fault("words-letters", Mark(str(file), number), {"text": " ".join(strange)})
+            yield Fault("words-letters", Location(str(file), number), {"text": " ".join(strange)})
             if len(missing) > MOST_LETTERS:
                 return
 
@@ -349,7 +349,7 @@ class Terms:
         wanted, text = (_IN_BRACES.sub(" ", section.text) for section in (there, here))
         for term, (in_reference, own) in self.names.items():
             if in_reference.search(wanted) and not any(pattern.search(text) for pattern in own.values()):
-                mark = Mark(str(here.file), here.line)
+                mark = Location(str(here.file), here.line)
                 yield Fault("words-term", mark, {"text": term, "known": ", ".join(own)})
 
 

@@ -68,7 +68,7 @@ ReadingGroup = Sequence[Reading]
 
 
 @dataclass(frozen=True, slots=True)
-class Frame:
+class ChartFrame:
     """Place of the diagram, in mm: its stroke axis runs from `top` to `bottom`, pressure along `side`.
 
     `scale` is μ_p, pressure per mm; `axis` and `note` are the label of the pressure axis and the
@@ -104,7 +104,7 @@ def beside(
 
 
 def indicator(
-    frame: Frame,
+    frame: ChartFrame,
     branches: Sequence[Branch],
     readings: Sequence[Reading] = (),
     groups: Sequence[ReadingGroup] | None = None,
@@ -139,7 +139,9 @@ MOST_TOGETHER = 6
 """Numbers that one label has at most: more would say no longer which reading is which."""
 
 
-def all_numbered(draw: Callable[[Sequence[ReadingGroup]], Scene], frame: Frame, readings: Sequence[Reading]) -> Scene:
+def all_numbered(
+    draw: Callable[[Sequence[ReadingGroup]], Scene], frame: ChartFrame, readings: Sequence[Reading]
+) -> Scene:
     """Return a scene that shows the number of every reading: one without room joins its neighbours' label.
 
     `draw` makes it of groups of readings that share a label.  A group without room joins the nearest placed group that
@@ -165,7 +167,7 @@ def all_numbered(draw: Callable[[Sequence[ReadingGroup]], Scene], frame: Frame, 
         groups = [*placed, *left]
 
 
-def _branch_facts(frame: Frame, branches: Sequence[Branch]) -> Iterator[Fact]:
+def _branch_facts(frame: ChartFrame, branches: Sequence[Branch]) -> Iterator[Fact]:
     """Yield the facts of the diagram: its axis and scale, and each branch's pressure at its beginning and end."""
     if frame.axis:
         yield fact("pressure", frame.axis)
@@ -176,7 +178,7 @@ def _branch_facts(frame: Frame, branches: Sequence[Branch]) -> Iterator[Fact]:
         yield fact("scale", frame.note)
 
 
-def _diagram_axes(frame: Frame, lowest: float, highest: float) -> list[Item]:
+def _diagram_axes(frame: ChartFrame, lowest: float, highest: float) -> list[Item]:
     """The stroke axis at p = 0, the pressure axis at the top dead centre with ticks, limits dashed."""
     u = unit(frame.side)
     across = unit(frame.top - frame.bottom)
@@ -198,7 +200,7 @@ def _diagram_axes(frame: Frame, lowest: float, highest: float) -> list[Item]:
     return items
 
 
-def _projections(frame: Frame, readings: Sequence[Reading]) -> list[Item]:
+def _projections(frame: ChartFrame, readings: Sequence[Reading]) -> list[Item]:
     """Thin lines from the slider's places to the farthest reading at each."""
     farthest: dict[complex, complex] = {}
     for reading in readings:

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from reportgen.exercise.derivation import Derivation
-from reportgen.exercise.position_chains import Closure, CoordinateRate, Linked, LoopVector, Turn, WayAlong
+from reportgen.exercise.position_chains import Closure, CoordinateRate, Linked, LoopVector, SlideTravel, Turn
 from reportgen.exercise.rate_conditions import GROUND
 from reportgen.formula import (
     MINUS_ONE,
@@ -82,7 +82,7 @@ class RateFormulas:
                 return float(cross(reach, of(tip) - of(start)) / abs(reach) ** 2)
             case Turn(body):
                 return motion.omega(body) if rate.order == VELOCITY else motion.epsilon(body)
-            case WayAlong(number):
+            case SlideTravel(number):
                 line = self.linked.lines[number]
                 base = of(line.point, line.on) if line.on != GROUND else 0j
                 return float(dot(line.along, of(line.point) - base))
@@ -94,7 +94,7 @@ class RateFormulas:
         match rate.of:
             case Turn(body):
                 return ids.angular_velocity(body) if first else ids.angular_acceleration(body)
-            case WayAlong(number):
+            case SlideTravel(number):
                 line = self.linked.lines[number]
                 if self.linked.turning[line.on] == GROUND and line.on == GROUND:
                     return ids.POINT_RATE[RATES[rate.order]](line.point)
@@ -106,7 +106,7 @@ class RateFormulas:
         match rate.of:
             case Turn(body):
                 return Symbol("ω" if rate.order == VELOCITY else "ε", self.linked.letter(body))
-            case WayAlong(number):
+            case SlideTravel(number):
                 line = self.linked.lines[number]
                 return Symbol(RATES[rate.order], line.point, "r" if line.on != GROUND else "")
         return Symbol(RATES[rate.order], rate.of)

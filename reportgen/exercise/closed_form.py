@@ -22,8 +22,8 @@ from reportgen.exercise.position_chains import (
     Direction,
     GeneralizedCoordinate,
     LoopVector,
+    SlideTravel,
     Turn,
-    WayAlong,
     legs_of,
 )
 from reportgen.exercise.rate_conditions import GROUND
@@ -73,10 +73,10 @@ def closed_form(
             continue
         if isinstance(second, Turn) and len(own) == len(rest) == 1 and all(leg.way is None for leg in legs):
             return _two_angles(k, loop.point, vectors, own[0], rest[0])
-        if isinstance(second, WayAlong) and len(own) == len(rest) == 1 and own[0].way is None:
+        if isinstance(second, SlideTravel) and len(own) == len(rest) == 1 and own[0].way is None:
             return _angle_and_way(k, vectors, own[0], rest[0], second)
         ways = [leg for leg in own if leg.way == second]
-        if isinstance(second, WayAlong) and not rest and len(ways) == 1 and len(own) <= 2:
+        if isinstance(second, SlideTravel) and not rest and len(ways) == 1 and len(own) <= 2:
             return _line_that_turns(k, loop.point, vectors, ways[0], [leg for leg in own if leg not in ways], second)
     return ()
 
@@ -120,7 +120,7 @@ def _lead(
 
 
 def _angle_and_way(
-    k: RateFormulas, vectors: list[LoopVector], rod: LoopVector, slide: LoopVector, of: WayAlong
+    k: RateFormulas, vectors: list[LoopVector], rod: LoopVector, slide: LoopVector, of: SlideTravel
 ) -> tuple[str, ...]:
     """sin(φ − α) = the distance of the known legs from the line over l."""
     along, across = ([LoopVector(ONE, 1.0, slide.direction, quarters)] for quarters in range(2))
@@ -143,7 +143,7 @@ def _angle_and_way(
 
 
 def _line_that_turns(
-    k: RateFormulas, point: str, vectors: list[LoopVector], slide: LoopVector, off: list[LoopVector], of: WayAlong
+    k: RateFormulas, point: str, vectors: list[LoopVector], slide: LoopVector, off: list[LoopVector], of: SlideTravel
 ) -> tuple[str, ...]:
     """|d|² = s² + h², and the line lies at the angle of d less that of s and h."""
     if abs(slide.value) < FLAT * math.hypot(slide.value, *(leg.value for leg in off)):

@@ -11,7 +11,7 @@ from reportgen.exercise.instant_centres import Layout
 from reportgen.exercise.point_positions import SAME_DIRECTION, direction_of, parallel
 from reportgen.exercise.rate_solution import InstantMotion
 from reportgen.formula import Chain, Expression, Negative, Number, Product, Ref, Symbol, cos, ids, sqrt, total
-from reportgen.formula.calculation import Family, Sheet, is_short
+from reportgen.formula.calculation import Calculation, Family, is_short
 
 # --- steps, as data for whoever writes them out ---------------------------------------------------
 
@@ -92,7 +92,7 @@ class Step:
 # --- the derivation ------------------------------------------------------------------------------------
 
 
-class Quantities(Sheet):
+class Quantities(Calculation):
     """A sheet on which a rate is nothing that is so beside the rates of the whole system: what floats leave of 0."""
 
     def __init__(self, positions: int, motion: InstantMotion) -> None:
@@ -118,7 +118,7 @@ class Quantities(Sheet):
 class Derivation:
     """Derivation so far: the sheet with its numbers, and the steps that led to them."""
 
-    q: Sheet
+    q: Calculation
     layout: Layout
     steps: list[Step] = field(default_factory=list)
     closed: bool = False
@@ -179,7 +179,7 @@ class Derivation:
 # --- vectors along an axis ------------------------------------------------------------------------
 
 
-def along(q: Sheet, vector: Vector, axis: complex) -> Expression | None:
+def along(q: Calculation, vector: Vector, axis: complex) -> Expression | None:
     """The component of a vector along an axis, as it is written: v cos 30° with its sign; None where it is nothing."""
     cosine = (axis.conjugate() * vector.direction).real
     if abs(cosine) < SAME_DIRECTION or q.si(vector.id) == 0:
@@ -190,14 +190,14 @@ def along(q: Sheet, vector: Vector, axis: complex) -> Expression | None:
     return size if cosine > 0 else Negative(size)
 
 
-def components(q: Sheet, vectors: Iterable[Vector], axis: complex) -> list[Expression]:
+def components(q: Calculation, vectors: Iterable[Vector], axis: complex) -> list[Expression]:
     """The components (SI) along an axis of length 1 of those vectors that have one."""
     projected = (along(q, vector, axis) for vector in vectors)
     return [one for one in projected if one is not None]
 
 
 def solved_for(
-    q: Sheet, unknown: complex, axis: complex, known: Sequence[Vector], opposite: Sequence[Vector]
+    q: Calculation, unknown: complex, axis: complex, known: Sequence[Vector], opposite: Sequence[Vector]
 ) -> Expression:
     """The size (SI) of a vector of direction `unknown` from Σ opposite + unknown = Σ known, projected on an axis.
 
@@ -213,7 +213,7 @@ def solved_for(
     return sum_of / cos(angle(q, math.acos(min(cosine, 1.0))))
 
 
-def size_of(q: Sheet, sides: Sequence[Ref]) -> Expression:
+def size_of(q: Calculation, sides: Sequence[Ref]) -> Expression:
     """The size of a vector from its components along axes at right angles; one alone is the size but for its sign."""
     if len(sides) == 1:
         return sides[0] if q.si(sides[0]) >= 0 else Negative(sides[0])
@@ -230,7 +230,7 @@ def _positive_first(terms: list[Expression]) -> list[Expression]:
     return sorted(terms, key=lambda term: isinstance(term, Negative))
 
 
-def angle(q: Sheet, value: float) -> Expression:
+def angle(q: Calculation, value: float) -> Expression:
     """An angle (radians) as it stands in a formula: a round one as its degrees, any other by a symbol α of its own."""
     degrees = math.degrees(value)
     if abs(degrees - round(degrees, 2)) < 1e-9:

@@ -26,8 +26,8 @@ from reportgen.exercise.position_chains import (
     CoordinateRate,
     Linked,
     LoopVector,
+    SlideTravel,
     Turn,
-    WayAlong,
     given_direction,
     legs_of,
 )
@@ -302,7 +302,7 @@ def _of_point(equations: EquationsOfMotion, rate: file.GivenRate) -> VectorSum |
     for number, line in enumerate(equations.linked.lines):
         along = line.on == GROUND and line.point == rate.point and parallel(line.along, unit(rate.direction.si))
         if along and size is not None:
-            equations.known.add(CoordinateRate(WayAlong(number), order))
+            equations.known.add(CoordinateRate(SlideTravel(number), order))
             return None
     place = equations.linked.places.get(rate.point)
     if place is None:

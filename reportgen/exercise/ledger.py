@@ -32,7 +32,7 @@ from reportgen.exercise.velocity_steps import (
     from_base_point,
 )
 from reportgen.formula import Symbol, ids, refs
-from reportgen.formula.calculation import DUST, Sheet
+from reportgen.formula.calculation import DUST, Calculation
 from reportgen.formula.ledger import Ledger
 from reportgen.formula.printed_decimals import carried
 
@@ -109,7 +109,7 @@ def work_out(
     # A step that is taken is written out whole.
     needed |= _with_ancestors(derivation, [id for step in steps for id in (*step.ids, *step.read)])
     steps = _told_once(step for step in derivation.steps if _leads_on(step, needed))
-    q = Sheet(POSITIONS)
+    q = Calculation(POSITIONS)
     for id, family in derivation.q.families.items():
         if id in needed:
             q.enter(family)

@@ -37,7 +37,7 @@ from reportgen.formula import (
     total,
     vocabulary,
 )
-from reportgen.formula.calculation import Sheet
+from reportgen.formula.calculation import Calculation
 
 FIGURES = 4
 """Significant figures of the numbers in a system."""
@@ -246,7 +246,7 @@ def enter_proportion(derivation: Derivation) -> bool:
     for body, centre in derivation.layout.centres.items():
         if centre.rule != "pivot" or derivation.knows_omega(body) or not derivation.motion.omega(body):
             continue
-        trial = Derivation(Sheet(derivation.q.positions), derivation.layout)
+        trial = Derivation(Calculation(derivation.q.positions), derivation.layout)
         trial.given(ids.angular_velocity(body), derivation.motion.omega(body))
         while derive(trial):
             pass

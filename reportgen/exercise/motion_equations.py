@@ -23,8 +23,8 @@ from reportgen.exercise.position_chains import (
     GeneralizedCoordinate,
     LoopVector,
     Place,
+    SlideTravel,
     Turn,
-    WayAlong,
     legs_of,
 )
 from reportgen.exercise.rate_solution import NEGLIGIBLE
@@ -111,7 +111,7 @@ class EquationsOfMotion(RateFormulas):
             if len(unknown) < 2:
                 continue
             free = [one for one in unknown if one not in eliminated]
-            chosen = next((one for one in free if isinstance(one.of, WayAlong)), free[-1] if free else None)
+            chosen = next((one for one in free if isinstance(one.of, SlideTravel)), free[-1] if free else None)
             if chosen is None:
                 continue
             factor, value = rates.pop(chosen)

@@ -47,13 +47,13 @@ class Turn:
 
 
 @dataclass(frozen=True, slots=True)
-class WayAlong:
+class SlideTravel:
     """The way of a point along a straight line, by its number among all of them."""
 
     number: int
 
 
-GeneralizedCoordinate = Turn | WayAlong
+GeneralizedCoordinate = Turn | SlideTravel
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,7 +83,7 @@ class LoopVector:
     value: float
     direction: Direction
     quarters: int = 0
-    way: WayAlong | None = None
+    way: SlideTravel | None = None
     rates: tuple[CoordinateRate, ...] = ()
 
     def reversed(self) -> LoopVector:
@@ -111,7 +111,7 @@ class Closure:
 
 
 @dataclass(frozen=True, slots=True)
-class StraightWay:
+class StraightPath:
     """Point that slides along a straight line: the point, its body, the body of the line and its direction."""
 
     point: str
@@ -132,7 +132,7 @@ class Linked:
     places: dict[str, Place] = field(default_factory=dict)
     closures: list[Closure] = field(default_factory=list)
     relations: list[Relation] = field(default_factory=list)
-    lines: list[StraightWay] = field(default_factory=list)
+    lines: list[StraightPath] = field(default_factory=list)
     rods: dict[int, tuple[str, str]] = field(default_factory=dict)
     """The ends of rods that are no bodies of the file, by their numbers."""
     reference: dict[int, float] = field(default_factory=dict)
@@ -207,7 +207,7 @@ class Linked:
         q, id = self.derivation.q, ids.formula_angle(body)
         return q.find(id) or q.give(id, self.reference[body], Symbol("φ", self.letter(body)), exact=False)
 
-    def way_id(self, slide: WayAlong) -> str:
+    def way_id(self, slide: SlideTravel) -> str:
         return ids.slide_way(f"{self.lines[slide.number].body},{slide.number}")
 
     def way(self, of: Expression) -> Expression:
@@ -309,16 +309,16 @@ class Linked:
                 return True
         return False
 
-    def _line(self, joint: file.SlotJoint | file.Slider | file.RollingOnLine) -> StraightWay:
+    def _line(self, joint: file.SlotJoint | file.Slider | file.RollingOnLine) -> StraightPath:
         along = self.derivation.layout.geometry.direction(joint)
         match joint:
             case file.SlotJoint(point=point, body=body):
-                return StraightWay(point, body, joint.on, along)
+                return StraightPath(point, body, joint.on, along)
             case file.Slider(body=body):
-                return StraightWay(self.derivation.layout.given.bodies[body].carried[0], body, joint.on, along)
-        return StraightWay(self.derivation.layout.geometry.disc(joint.disc).centre, joint.disc, joint.on, along)
+                return StraightPath(self.derivation.layout.given.bodies[body].carried[0], body, joint.on, along)
+        return StraightPath(self.derivation.layout.geometry.disc(joint.disc).centre, joint.disc, joint.on, along)
 
-    def _slide(self, joint: file.Joint, line: StraightWay) -> None:
+    def _slide(self, joint: file.Joint, line: StraightPath) -> None:
         """P = T + s e + h n: along the line and across it from a point of its body, on the ground from the origin."""
         q, points, number = self.derivation.q, self.derivation.layout.points, len(self.lines)
         self.lines.append(line)
@@ -326,7 +326,7 @@ class Linked:
         base = "" if on_ground else self._base(line)
         there = points[line.point] - (points[base] if base else 0j)
         direction, sense = self.direction(line.on, line.along)
-        slide, relative = WayAlong(number), "" if on_ground else "r"
+        slide, relative = SlideTravel(number), "" if on_ground else "r"
         gone = sense * dot(line.along, there)
         id = self.way_id(slide)
         self.read_off[id] = (gone, Symbol("s", line.point, relative))
@@ -344,7 +344,7 @@ class Linked:
         if isinstance(joint, file.RollingOnLine):
             self._roll(joint, slide, self.lines[number])
 
-    def _base(self, line: StraightWay) -> str:
+    def _base(self, line: StraightPath) -> str:
         """The point of a line's body that ways along it count from: one that is reached, and on the line at best."""
         points, names = self.derivation.layout.points, self.members[line.on]
         known = [name for name in names if name in self.places] or names
@@ -355,7 +355,7 @@ class Linked:
 
         return min(known, key=rank)
 
-    def _roll(self, joint: file.RollingOnLine, slide: WayAlong, line: StraightWay) -> None:
+    def _roll(self, joint: file.RollingOnLine, slide: SlideTravel, line: StraightPath) -> None:
         """ṡ = R (ω of the line − ω of the disc), of a disc to the left of the line."""
         layout = self.derivation.layout
         touch = layout.geometry.contact_on_line(joint)

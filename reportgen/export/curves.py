@@ -13,7 +13,7 @@ from typing import Literal
 import numpy as np
 
 from reportgen.assignment import Assignment
-from reportgen.base.errors import Fault, Mark, NotOfferedError
+from reportgen.base.errors import Fault, Location, NotOfferedError
 from reportgen.base.units import MM, Language, QuantityFault, read_number, read_unit
 from reportgen.base.words import as_error, word
 from reportgen.case import Case, DriverMotion
@@ -160,7 +160,7 @@ def read_measured(path: Path, case: Case, of: Sequence[str]) -> list[Measured]:
     found: list[Measured] = []
     over = AXES.get(_name_and_unit(head[0])[0]) if head else None
     if over is None:
-        where = head[0].mark if head else Mark(str(path))
+        where = head[0].mark if head else Location(str(path))
         raise as_error([Fault("measured-no-axis", where)], case.assignment.language)
     x = _column(head[0], rows, 0, "rad" if over == "phi" else "s", faults)
     for place, cell in enumerate(head[1:], start=1):

@@ -9,7 +9,7 @@ from reportgen.base.template_access import view
 from reportgen.document.template_rendering import NamedPoint
 from reportgen.formula import ids
 from reportgen.machine.loads import carriers
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 from reportgen.report.quantity_tables import RowTable, bare
 from reportgen.report.slider_faces import tilts, wide_sliders_of
 from reportgen.report.topic_views import ViewHooks, always
@@ -42,7 +42,7 @@ class WideSlider:
         return [ids.face_reaction(self.digits, number) for number in (1, 2)]
 
 
-def wide_sliders(report: Report) -> tuple[WideSlider, ...]:
+def wide_sliders(report: ReportContext) -> tuple[WideSlider, ...]:
     """Return the sliders whose faces are given, in the order of the file."""
     linkage, sliders = report.machine.linkage, []
     pins = {link: dyad.middle for dyad in linkage.dyads for link in dyad.links}
@@ -54,12 +54,12 @@ def wide_sliders(report: Report) -> tuple[WideSlider, ...]:
     return tuple(sliders)
 
 
-def face_state(report: Report, slider: WideSlider, k: int) -> str:
+def face_state(report: ReportContext, slider: WideSlider, k: int) -> str:
     """Return the key of the words for the state of a slider in its guide."""
     return "tilts" if tilts(report, slider.digits, k) else "within"
 
 
-def rows(report: Report, digits: str) -> Iterator[Sequence[object]]:
+def rows(report: ReportContext, digits: str) -> Iterator[Sequence[object]]:
     """Yield for each position the reaction, its place, whether the slider tilts, and both ends if it does."""
     words = report.words["tables"]["faces"]
     ends = [ids.face_reaction(digits, number) for number in (1, 2)]

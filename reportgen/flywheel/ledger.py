@@ -10,7 +10,7 @@ from reportgen.derivation.topic_ledger import LedgerHooks
 from reportgen.derivation.unprinted_values import with_rest
 from reportgen.flywheel.regulation import regulated_in
 from reportgen.formula import NOTHING, Expression, Ref, Symbol, atan, call, ids, sqrt, total
-from reportgen.formula.calculation import Sheet
+from reportgen.formula.calculation import Calculation
 from reportgen.machine import DRIVER, Linkage
 from reportgen.machine.analysis import Analysis
 from reportgen.machine.regulated_cycle import RegulatedCycle
@@ -19,7 +19,7 @@ CONSTANT = 1e-9
 """A speed that varies by less than this share of its size is constant."""
 
 
-def enter(q: Sheet, analysis: Analysis) -> None:
+def enter(q: Calculation, analysis: Analysis) -> None:
     """Enter the flywheel of a machine; δ is `unevenness`.
 
     A value integrated over the cycle is the trapezoid rule over the positions plus the rest of the integral. Ids:
@@ -61,7 +61,7 @@ def enter(q: Sheet, analysis: Analysis) -> None:
         with_rest(q, "omega.of", regulated.speed[at], sqrt(2 * energy / (J_d + J_r)), "ω")
 
 
-def _energy_mass(q: Sheet, regulated: RegulatedCycle) -> None:
+def _energy_mass(q: Calculation, regulated: RegulatedCycle) -> None:
     """Enter the scales of the energy–mass diagram and the inclinations of its tangents, tan ψ = μ_J ω²/(2 μ_A)."""
     heights = np.append(regulated.work, (regulated.upper, regulated.lower, 0.0))
     μ_J = q.give("mu.J", fitting_axis(float(regulated.inertia.max()), DIAGRAM[0]))
@@ -70,7 +70,7 @@ def _energy_mass(q: Sheet, regulated: RegulatedCycle) -> None:
         q.define(ids.tangent(name), atan(μ_J * q[ids.bound_of_speed(name)] ** 2 / (2 * μ_A)))
 
 
-def _constant_group(q: Sheet, linkage: Linkage, regulated: RegulatedCycle, speed: float) -> None:
+def _constant_group(q: Calculation, linkage: Linkage, regulated: RegulatedCycle, speed: float) -> None:
     """Enter Mertsalov's method: the energy of the group with constant inertia, with that of the others at the mean
     speed.
 
@@ -89,7 +89,7 @@ def _constant_group(q: Sheet, linkage: Linkage, regulated: RegulatedCycle, speed
     q.define("J.share", abs(J_I - q["J.d"]) / q["J.d"], Symbol("δ", "J"), "share", scale=1.0, residue=True)
 
 
-def _constant(q: Sheet, linkage: Linkage) -> tuple[Ref | None, float]:
+def _constant(q: Calculation, linkage: Linkage) -> tuple[Ref | None, float]:
     """Return the reduced inertia J_0 (kg·m²) of the links whose speeds are constant beside the crank's; None without
     any.
     """

@@ -17,7 +17,7 @@ from reportgen.flywheel.regulation import regulated_in
 from reportgen.formula import Symbol, ids
 from reportgen.machine.regulated_cycle import RegulatedCycle
 from reportgen.machine.shared_results import REGULATED_CYCLE
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 from reportgen.report.cycle_curves import axis_of, driver_axis
 from reportgen.report.quantity_tables import tables
 from reportgen.report.table_remarks import labels, shown
@@ -31,17 +31,17 @@ ARCS = 16.0, 26.0
 """Radii of the arcs of ψ_max and ψ_min, mm."""
 
 
-def needs_flywheel(report: Report) -> bool:
+def needs_flywheel(report: ReportContext) -> bool:
     """Return True if the links alone are too light to keep the speed even enough."""
     return "omega.of" in report.ledger
 
 
-def _wheel(report: Report) -> RegulatedCycle:
+def _wheel(report: ReportContext) -> RegulatedCycle:
     return regulated_in(report.analysis)
 
 
 def _over_cycle(
-    report: Report,
+    report: ReportContext,
     values: np.ndarray,
     title: Content,
     levels: tuple[tuple[float, Symbol], ...] = (),
@@ -53,14 +53,14 @@ def _over_cycle(
     return charts.chart(Diagram((curve,), driver_axis(report), title, levels=levels), half=half, area=report.area)
 
 
-def flywheel_torque(report: Report) -> FigureScenes:
+def flywheel_torque(report: ReportContext) -> FigureScenes:
     """Draw M_r and the torque that balances its mean."""
     wheel = _wheel(report)
     level = (-wheel.constant, Symbol("−M", "c"))
     return FigureScenes((_over_cycle(report, wheel.torque, axis_of(report, "M.r"), (level,)),))
 
 
-def flywheel_work(report: Report) -> FigureScenes:
+def flywheel_work(report: ReportContext) -> FigureScenes:
     """Draw J_r, if moving links have mass, and A over the cycle."""
     wheel = _wheel(report)
     drawings = [(wheel.inertia, "J.r")] if report.has_reduced_inertia else []
@@ -69,7 +69,7 @@ def flywheel_work(report: Report) -> FigureScenes:
     return FigureScenes(tuple(_over_cycle(report, values, axis_of(report, id), half=half) for values, id in drawings))
 
 
-def wittenbauer(report: Report) -> FigureScenes:
+def wittenbauer(report: ReportContext) -> FigureScenes:
     """Return a over J_r from the axis J = 0 on, which the tangents of the two bounds of speed meet at a and b."""
     wheel, ledger = _wheel(report), report.ledger
     ends = np.array([0.0, wheel.inertia.max()])
@@ -87,7 +87,7 @@ def wittenbauer(report: Report) -> FigureScenes:
     return FigureScenes((charts.chart(diagram, area=area),))
 
 
-def flywheel_speed(report: Report) -> FigureScenes:
+def flywheel_speed(report: ReportContext) -> FigureScenes:
     """Return the deviation of the speed from its mean, in percent, with the flywheel."""
     wheel = _wheel(report)
     mean = (wheel.fastest + wheel.slowest) / 2
@@ -96,37 +96,37 @@ def flywheel_speed(report: Report) -> FigureScenes:
     )
 
 
-def energy_bounds(report: Report) -> list[str]:
+def energy_bounds(report: ReportContext) -> list[str]:
     """Return the ids of the points where the tangents of Wittenbauer's diagram meet its axis."""
     return ["A.upper", "A.lower"]
 
 
-def tangent_lines(report: Report) -> list[str]:
+def tangent_lines(report: ReportContext) -> list[str]:
     """Return the scales of the energy–mass diagram and the inclinations of its tangents."""
     return report.known(["mu.J", "mu.A", ids.tangent("max"), ids.tangent("min")])
 
 
-def constant_links(report: Report) -> list[str]:
+def constant_links(report: ReportContext) -> list[str]:
     """Return the moment of inertia of the links that belong to the flywheel's group in Mertsalov's method."""
     return report.known(["J.0"])
 
 
-def constant_group(report: Report) -> list[str]:
+def constant_group(report: ReportContext) -> list[str]:
     """Return the ids of the results of Mertsalov's method; an empty list if it is not used."""
     return report.known(["T.range", "J.I", "J.rest"])
 
 
-def stores(report: Report) -> str:
+def stores(report: ReportContext) -> str:
     """Return the bodies that store the excess work: the "links" with the flywheel, or the flywheel "alone"."""
     return "links" if report.has_reduced_inertia else "alone"
 
 
-def speed_limits(report: Report) -> list[str]:
+def speed_limits(report: ReportContext) -> list[str]:
     uneven = ["unevenness"] if "unevenness" in report.computed else []
     return [*uneven, "omega.max", "omega.min"]
 
 
-def cycle_table(report: Report, key: str, caption: str, head: Sequence[str]) -> tuple[Table | Paragraph, ...]:
+def cycle_table(report: ReportContext, key: str, caption: str, head: Sequence[str]) -> tuple[Table | Paragraph, ...]:
     """Return a table of reduced torque and excess work; also reduced inertia if links have mass, and speed if
     there is a flywheel.
     """
@@ -148,7 +148,7 @@ class Range:
     high: str
 
 
-def work_range(report: Report) -> Range:
+def work_range(report: ReportContext) -> Range:
     """Return the range of the excess work of the flywheel's calculation."""
     positions, values = report.all_positions, shown(report, "A.excess", report.all_positions)
 
@@ -159,18 +159,18 @@ def work_range(report: Report) -> Range:
     return Range(*end(values.min()), *end(values.max()))
 
 
-def _verdict_here(report: Report) -> bool:
+def _verdict_here(report: ReportContext) -> bool:
     """Return True unless another topic, which takes the regulated cycle further, gives the verdict on it."""
     return not any(REGULATED_CYCLE in section.uses for section in sections_of(report.machine.topics))
 
 
-def _overview(report: Report) -> Sequence[str]:
+def _overview(report: ReportContext) -> Sequence[str]:
     if not _verdict_here(report):
         return ()
     return () if needs_flywheel(report) else ("flywheel-overview",)
 
 
-def _conclusion(report: Report) -> Sequence[str]:
+def _conclusion(report: ReportContext) -> Sequence[str]:
     return ("flywheel-conclusion",) if needs_flywheel(report) else ("flywheel-conclusion-none",)
 
 

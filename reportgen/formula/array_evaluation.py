@@ -6,12 +6,12 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from reportgen.formula.calculation import Sheet
+from reportgen.formula.calculation import Calculation
 from reportgen.formula.constructions import Value
 from reportgen.formula.evaluation import evaluate
 
 
-def model(sheet: Sheet, wanted: Iterable[str], **known: Value) -> dict[str, Value]:
+def model(sheet: Calculation, wanted: Iterable[str], **known: Value) -> dict[str, Value]:
     """Return the values (SI) of some ids of a sheet with others in place of its own, over arrays of any shape.
 
     Only the inputs of the wanted ids are evaluated; undefined values are nan or infinite, as on the sheet. Raises

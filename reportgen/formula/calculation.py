@@ -21,7 +21,7 @@ import numpy as np
 
 from reportgen.formula import Call, Expression, Number, Operand, Ref, Symbol, as_expression, refs, vocabulary, walk
 from reportgen.formula.evaluation import evaluate
-from reportgen.formula.vocabulary import KINDS, MAX_DIGITS, Chapter, QuantityKind
+from reportgen.formula.vocabulary import KINDS, MAX_DIGITS, KeyChapter, QuantityKind
 
 ZERO = 1e-9
 """A value below this share of its own scale is negligible and prints as 0."""
@@ -83,7 +83,7 @@ class Family:
     optional: bool = False
     scale: float = 0.0
     hidden: bool = False
-    chapter: Chapter = Chapter.geometry
+    chapter: KeyChapter = KeyChapter.geometry
     of: str = ""
     about: str = ""
     written: Expression | None = None
@@ -133,7 +133,7 @@ class Family:
         return value * 0 if abs(value) < ZERO * self.scale else value
 
 
-class Sheet:
+class Calculation:
     """Quantities in the order of their definition, over `positions` positions; each is evaluated when it is entered."""
 
     def __init__(self, positions: int = 1) -> None:
@@ -143,19 +143,19 @@ class Sheet:
         """Given data in the units that they were typed with."""
         self.lines: dict[str, tuple[str, ...]] = {}
         """Ids of the lines that the report sets out together, by the names that templates use."""
-        self.chapter = Chapter.geometry
+        self.chapter = KeyChapter.geometry
         """Chapter of quantities for which the vocabulary gives none."""
         self._values: dict[str, np.ndarray] = {}
         self._inputs: dict[str, tuple[str, ...]] = {}
 
-    def copy(self, positions: int = 0) -> Sheet:
+    def copy(self, positions: int = 0) -> Calculation:
         """Return a copy with the entries so far, for more entries; `positions` changes the number of positions."""
-        copy = Sheet(positions or self.positions)
+        copy = Calculation(positions or self.positions)
         copy.families, copy._values, copy.lines = dict(self.families), dict(self._values), dict(self.lines)
         copy.chapter, copy.typed = self.chapter, dict(self.typed)
         return copy
 
-    def extend(self, sheet: Sheet) -> None:
+    def extend(self, sheet: Calculation) -> None:
         """Enter all quantities of another sheet; raises `ValueError` for a quantity that is on both."""
         for family in sheet.families.values():
             self.enter(family)
@@ -175,7 +175,7 @@ class Sheet:
         return tuple(quantity for quantity in quantities if self.families[quantity.id].definition is not None)
 
     @contextmanager
-    def within(self, chapter: Chapter) -> Iterator[None]:
+    def within(self, chapter: KeyChapter) -> Iterator[None]:
         """Assign entries made in this context to a chapter: always if it is `formulas`, else if the vocabulary
         gives none.
         """
@@ -240,7 +240,7 @@ class Sheet:
         row = vocabulary.row(id)
         if isinstance(symbol, str):
             symbol = Symbol(symbol) if symbol else vocabulary.symbol(id)
-        chapter = Chapter.formulas if self.chapter is Chapter.formulas else row.chapter or self.chapter
+        chapter = KeyChapter.formulas if self.chapter is KeyChapter.formulas else row.chapter or self.chapter
         return self.enter(Family(id, symbol, kind or row.kind, values, definition, chapter=chapter, **traits))
 
     def enter(self, family: Family) -> Ref:

@@ -189,7 +189,7 @@ def drawn_length(first: str, second: str) -> Symbol:
     return segment(point(first), point(second))
 
 
-class Chapter(StrEnum):
+class KeyChapter(StrEnum):
     """The chapters of a key, in their order, those of topics last; the words have the headings under `parts`."""
 
     data = "data"
@@ -217,7 +217,7 @@ class VocabularyRow:
     ids: Name
     letter: str = ""
     kind: str = ""
-    chapter: Chapter | None = None
+    chapter: KeyChapter | None = None
     plan: str = ""
     below: str = ""
     above: str = ""
@@ -233,8 +233,8 @@ class VocabularyRow:
 _NOT_BELOW = frozenset({"to", "axis", "part", "about", "letter"})
 """Places whose words are not printed below a letter."""
 
-_G, _V, _A = Chapter.geometry, Chapter.velocity, Chapter.acceleration
-_LOADS, _FORCES, _TORQUE, _CYCLE = Chapter.loads, Chapter.forces, Chapter.torque, Chapter.cycle
+_G, _V, _A = KeyChapter.geometry, KeyChapter.velocity, KeyChapter.acceleration
+_LOADS, _FORCES, _TORQUE, _CYCLE = KeyChapter.loads, KeyChapter.forces, KeyChapter.torque, KeyChapter.cycle
 
 ROWS: tuple[VocabularyRow, ...] = (
     # geometry

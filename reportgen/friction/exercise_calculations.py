@@ -10,8 +10,8 @@ import math
 
 from reportgen.base.units import MM, nice_up
 from reportgen.formula import PI, Expression, Number, Ref, atan, cos, exp, sin, sqrt, tan
-from reportgen.formula.calculation import Sheet
-from reportgen.formula.vocabulary import Chapter
+from reportgen.formula.calculation import Calculation
+from reportgen.formula.vocabulary import KeyChapter
 from reportgen.friction.friction_file import Band, BeltOnDrum, Incline, Screw, Shoe, Wedge
 
 TALL = 75.0
@@ -24,23 +24,23 @@ def force_scale(*forces: float) -> float:
     return nice_up(max(map(abs, forces)) / TALL) * MM
 
 
-def incline_sheet(given: Incline) -> Sheet:
+def incline_sheet(given: Incline) -> Calculation:
     """Return the sheet of a body on a plane: P = Q sin(α + φ)/cos(β − φ) raises it, P′ = Q sin(α − φ)/cos(β + φ)
     lowers it.
     """
-    q = Sheet()
-    with q.within(Chapter.data):
+    q = Calculation()
+    with q.within(KeyChapter.data):
         Q, α = q.give("friction.incline.Q", given.Q.si), q.give("friction.incline.alpha", given.alpha.si)
         f = q.give("friction.incline.f", given.f)
         β: Ref | None = None
         if given.beta is not None and given.beta.si:
             β = q.give("friction.incline.beta", given.beta.si)
-    with q.within(Chapter.geometry):
+    with q.within(KeyChapter.geometry):
         if given.beta is None:
             β = q.define("friction.incline.beta", -α)
             q.set_out("angles", β)
         φ = q.define("friction.incline.phi", atan(f))
-    with q.within(Chapter.forces):
+    with q.within(KeyChapter.forces):
         raising, lowering = (cos(φ), cos(φ)) if β is None else (cos(β - φ), cos(β + φ))
         P = q.define("friction.incline.P", Q * sin(α + φ) / raising)
         P1 = q.define("friction.incline.lowering.P", Q * sin(α - φ) / lowering, scale=given.Q.si)
@@ -51,7 +51,7 @@ def incline_sheet(given: Incline) -> Sheet:
             q.set_out("lowering" if end else "raising", force, N, F)
         sizes = map(q.si, (Q, P, P1, q["friction.incline.N"], q["friction.incline.lowering.N"]))
         q.give("friction.incline.mu", force_scale(*sizes), optional=True)
-    with q.within(Chapter.torque):
+    with q.within(KeyChapter.torque):
         P0 = q.define("friction.incline.P0", Q * sin(α) if β is None else Q * sin(α) / cos(β))
         η = q.define("friction.incline.eta", P0 / P)
     q.set_out("angles", φ)
@@ -59,16 +59,16 @@ def incline_sheet(given: Incline) -> Sheet:
     return q
 
 
-def wedge_sheet(given: Wedge) -> Sheet:
+def wedge_sheet(given: Wedge) -> Calculation:
     """Return the sheet of a wedge under a load: P = Q cos φ₃ sin(α + φ₁ + φ₂)/(cos φ₂ cos(α + φ₁ + φ₃)), and back
     with −φ.
     """
-    q = Sheet()
+    q = Calculation()
     coefficients = {"1": given.f1, "2": given.f2, **({"3": given.f3} if given.f3 else {})}
-    with q.within(Chapter.data):
+    with q.within(KeyChapter.data):
         Q, α = q.give("friction.wedge.Q", given.Q.si), q.give("friction.wedge.alpha", given.alpha.si)
         f = {place: q.give(f"friction.wedge.f{place}", value) for place, value in coefficients.items()}
-    with q.within(Chapter.geometry):
+    with q.within(KeyChapter.geometry):
         φ = {place: q.define(f"friction.wedge.phi{place}", atan(of)) for place, of in f.items()}
         q.set_out("angles", *φ.values())
     in_guide = φ.get("3")
@@ -84,7 +84,7 @@ def wedge_sheet(given: Wedge) -> Sheet:
     leans_back = q.si(α) < q.si(φ["1"])
     """The block leans on the other side of its guide, where friction turns the reaction the other way."""
     returning = φ["1"] - α if leans_back else α - φ["1"]
-    with q.within(Chapter.forces):
+    with q.within(KeyChapter.forces):
         raised = cos(driving if in_guide is None else driving + in_guide)
         P = q.define("friction.wedge.P", borne * sin(driving + φ["2"]) / (cos(φ["2"]) * raised))
         R1 = q.define("friction.wedge.R1", borne / raised)
@@ -98,31 +98,31 @@ def wedge_sheet(given: Wedge) -> Sheet:
         q.define("friction.wedge.lowering.R3", across(returning), scale=given.Q.si)
         q.set_out("lowering", back, P1, "friction.wedge.lowering.R2", "friction.wedge.lowering.R3")
         q.give("friction.wedge.mu", force_scale(*map(q.si, (Q, P, R1, R2, R3, back))), optional=True)
-    with q.within(Chapter.torque):
+    with q.within(KeyChapter.torque):
         P0 = q.define("friction.wedge.P0", Q * tan(α))
         q.set_out("efficiency", P0, q.define("friction.wedge.eta", P0 / P))
     return q
 
 
-def screw_sheet(given: Screw) -> Sheet:
+def screw_sheet(given: Screw) -> Calculation:
     """Return the sheet of a screw: M = Q d₂/2 tan(γ + φ′) + M_c, the profile in φ′ = arctan(f/cos β), η = Q
     l/(2π M).
     """
-    q = Sheet()
-    with q.within(Chapter.data):
+    q = Calculation()
+    with q.within(KeyChapter.data):
         Q, d = q.give("friction.screw.Q", given.Q.si), q.give("friction.screw.d", given.d.si)
         p, n = q.give("friction.screw.p", given.p.si), q.give("friction.screw.n", given.n)
         β = q.give("friction.screw.beta", given.beta.si) if given.beta.si else None
         f = q.give("friction.screw.f", given.f)
         if given.collar is not None:
             fc, dc = q.give("friction.screw.fc", given.collar.f), q.give("friction.screw.dc", given.collar.d.si)
-    with q.within(Chapter.geometry):
+    with q.within(KeyChapter.geometry):
         lead = q.define("friction.screw.lead", n * p)
         γ = q.define("friction.screw.gamma", atan(lead / (PI * d)))
         reduced = f if β is None else q.define("friction.screw.f.reduced", f / cos(β))
         φ = q.define("friction.screw.phi", atan(reduced))
         q.set_out("angles", lead, γ, *q.worked(reduced), φ)
-    with q.within(Chapter.forces):
+    with q.within(KeyChapter.forces):
         raising, lowering = Q * d / 2 * tan(γ + φ), Q * d / 2 * tan(φ - γ)
         if given.collar is None:
             M = q.define("friction.screw.M", raising)
@@ -138,14 +138,14 @@ def screw_sheet(given: Screw) -> Sheet:
             q.set_out("lowering", Mt1)
         q.set_out("raising", M)
         q.set_out("lowering", back)
-    with q.within(Chapter.torque):
+    with q.within(KeyChapter.torque):
         q.set_out("efficiency", q.define("friction.screw.eta", Q * lead / (2 * PI * M)))
     return q
 
 
-def wrap(q: Sheet, task: str, d: Ref, θ: Ref, f: Ref) -> tuple[Ref, Ref]:
+def wrap(q: Calculation, task: str, d: Ref, θ: Ref, f: Ref) -> tuple[Ref, Ref]:
     """Return the radius of a drum, and by how much the friction on it multiplies a tension: e^{fθ}, θ in radians."""
-    with q.within(Chapter.geometry):
+    with q.within(KeyChapter.geometry):
         r = q.define(f"friction.{task}.r", d / 2)
         radians = q.define(f"friction.{task}.radians", θ * PI / STRAIGHT)
         k = q.define(f"friction.{task}.k", exp(f * radians))
@@ -153,12 +153,12 @@ def wrap(q: Sheet, task: str, d: Ref, θ: Ref, f: Ref) -> tuple[Ref, Ref]:
     return r, k
 
 
-def belt_sheet(given: BeltOnDrum) -> Sheet:
+def belt_sheet(given: BeltOnDrum) -> Calculation:
     """Return the sheet of a belt about to slip: S₁ = S₂ e^{fθ}, M = (S₁ − S₂) r, the force on the axle, the
     greatest pressure.
     """
-    q = Sheet()
-    with q.within(Chapter.data):
+    q = Calculation()
+    with q.within(KeyChapter.data):
         d, θ = q.give("friction.belt.d", given.d.si), q.give("friction.belt.theta", given.theta.si)
         f = q.give("friction.belt.f", given.f)
         if given.b is not None:
@@ -167,7 +167,7 @@ def belt_sheet(given: BeltOnDrum) -> Sheet:
             if (datum := getattr(given, name)) is not None:
                 q.give(f"friction.belt.{name}", datum.si)
     r, k = wrap(q, "belt", d, θ, f)
-    with q.within(Chapter.forces):
+    with q.within(KeyChapter.forces):
         if given.M is not None:
             S1, S2 = tensions(q, "belt", q["friction.belt.M"], r, k)
         else:
@@ -182,7 +182,7 @@ def belt_sheet(given: BeltOnDrum) -> Sheet:
     return q
 
 
-def tensions(q: Sheet, task: str, M: Ref, r: Ref, k: Ref) -> tuple[Ref, Ref]:
+def tensions(q: Calculation, task: str, M: Ref, r: Ref, k: Ref) -> tuple[Ref, Ref]:
     """Return both tensions of a band that transmits a torque."""
     F = q.define(f"friction.{task}.F", M / r)
     S2 = q.define(f"friction.{task}.S2", F / (k - 1))
@@ -191,16 +191,16 @@ def tensions(q: Sheet, task: str, M: Ref, r: Ref, k: Ref) -> tuple[Ref, Ref]:
     return S1, S2
 
 
-def band_sheet(given: Band) -> Sheet:
+def band_sheet(given: Band) -> Calculation:
     """Return the sheet of a band brake: P l = S₁ a + S₂ b in one sense of rotation, S₂ a + S₁ b in the other."""
-    q = Sheet()
-    with q.within(Chapter.data):
+    q = Calculation()
+    with q.within(KeyChapter.data):
         M, d = q.give("friction.band.M", given.M.si), q.give("friction.band.d", given.d.si)
         θ, f = q.give("friction.band.theta", given.theta.si), q.give("friction.band.f", given.f)
         lever = q.give("friction.band.l", given.l.si)
         a, b = (q.give(f"friction.band.{name}", getattr(given, name).si, optional=True) for name in "ab")
     r, k = wrap(q, "band", d, θ, f)
-    with q.within(Chapter.forces):
+    with q.within(KeyChapter.forces):
         S1, S2 = tensions(q, "band", M, r, k)
         size = q.si(S1) * math.hypot(given.a.si, given.b.si) / given.l.si
         for end, at_a, at_b in (("P", S1, S2), ("backward.P", S2, S1)):
@@ -210,19 +210,19 @@ def band_sheet(given: Band) -> Sheet:
     return q
 
 
-def shoe_sheet(given: Shoe) -> Sheet:
+def shoe_sheet(given: Shoe) -> Calculation:
     """Return the sheet of a shoe on a lever: P l = N a ∓ F c, less if friction presses the shoe on the drum; locks
     at a ≤ f c.
     """
-    q = Sheet()
-    with q.within(Chapter.data):
+    q = Calculation()
+    with q.within(KeyChapter.data):
         M, d = q.give("friction.shoe.M", given.M.si), q.give("friction.shoe.d", given.d.si)
         f, lever = q.give("friction.shoe.f", given.f), q.give("friction.shoe.l", given.l.si)
         a = q.give("friction.shoe.a", given.a.si)
         c = q.give("friction.shoe.c", given.c.si) if given.c.si else None
-    with q.within(Chapter.geometry):
+    with q.within(KeyChapter.geometry):
         r = q.define("friction.shoe.r", d / 2)
-    with q.within(Chapter.forces):
+    with q.within(KeyChapter.forces):
         F = q.define("friction.shoe.F", M / r)
         N = q.define("friction.shoe.N", F / f)
         q.set_out("shoe", r, F, N)

@@ -17,7 +17,7 @@ from reportgen.drawing import Scene
 from reportgen.drawing.drawing_sheet import ENLARGED, lettered
 from reportgen.drawing.figure_scale import IN_REPORT, FigureSize
 from reportgen.drawing.plates import DrawingPlate, enlargeable
-from reportgen.formula.calculation import Sheet
+from reportgen.formula.calculation import Calculation
 from reportgen.friction import brake_drawings, exercise_calculations, exercise_drawings, exercise_mistakes
 
 
@@ -26,7 +26,7 @@ class FrictionTask:
     """Functions that make the sheet and the drawings of a task; the last are its force plans, if it has any."""
 
     name: str
-    sheet: Callable[[Any], Sheet]
+    sheet: Callable[[Any], Calculation]
     scheme: Callable[[FrictionCase], Scene]
     plans: Callable[[FrictionCase, FigureSize], tuple[Scene, ...]] | None = None
 
@@ -73,7 +73,7 @@ class FrictionCase(DesignCase):
         return getattr(self.assignment.parameters, self.TASK.name)
 
     @cached_property
-    def sheet(self) -> Sheet:
+    def sheet(self) -> Calculation:
         return self.TASK.sheet(self.given)
 
     @property

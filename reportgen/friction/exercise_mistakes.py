@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 
 from reportgen.formula import PI, Expression, Ref, atan, cos, exp, sin, substitute
-from reportgen.formula.calculation import Sheet
+from reportgen.formula.calculation import Calculation
 from reportgen.formula.ledger import MistakenValues
 
 
-def changed(task: str, q: Sheet) -> dict[str, list[tuple[str, Expression]]]:
+def changed(task: str, q: Calculation) -> dict[str, list[tuple[str, Expression]]]:
     """Return the mistakes of a task by the ids of its quantities, of those that the sheet has."""
     mistakes: dict[str, list[tuple[str, Expression]]] = {}
     for id, name, formula in TASKS[task](q):
@@ -18,14 +18,14 @@ def changed(task: str, q: Sheet) -> dict[str, list[tuple[str, Expression]]]:
     return mistakes
 
 
-def against(q: Sheet, id: str, *angles: str) -> Expression:
+def against(q: Calculation, id: str, *angles: str) -> Expression:
     """Return the formula of a quantity with angles of friction turned the other way."""
     definition = q.families[id].definition
     assert definition is not None
     return substitute(definition, lambda ref: -ref if ref.id in angles else ref)
 
 
-def of_incline(q: Sheet) -> MistakenValues:
+def of_incline(q: Calculation) -> MistakenValues:
     def named(name: str) -> str:
         return f"friction.incline.{name}"
 
@@ -41,7 +41,7 @@ def of_incline(q: Sheet) -> MistakenValues:
             yield P, "friction-force-along", Q * (sin(α + φ) if not end else sin(α - φ)) / cos(φ)
 
 
-def of_wedge(q: Sheet) -> MistakenValues:
+def of_wedge(q: Calculation) -> MistakenValues:
     places = [place for place in "123" if f"friction.wedge.phi{place}" in q]
     for place in places:
         yield f"friction.wedge.phi{place}", "coefficient-for-angle", Ref(f"friction.wedge.f{place}")
@@ -50,7 +50,7 @@ def of_wedge(q: Sheet) -> MistakenValues:
         yield id, "friction-sense", against(q, id, *angles)
 
 
-def of_screw(q: Sheet) -> MistakenValues:
+def of_screw(q: Calculation) -> MistakenValues:
     def of(name: str) -> Ref:
         return Ref(f"friction.screw.{name}")
 
@@ -71,7 +71,7 @@ def of_screw(q: Sheet) -> MistakenValues:
         yield of("Mc").id, "diameter-for-radius", of("fc") * of("Q") * of("dc")
 
 
-def of_drum(task: str, q: Sheet) -> MistakenValues:
+def of_drum(task: str, q: Calculation) -> MistakenValues:
     """Yield common mistakes for a band on a drum."""
 
     def of(name: str) -> Ref:
@@ -90,25 +90,25 @@ def of_drum(task: str, q: Sheet) -> MistakenValues:
         yield of(name).id, "friction-tensions-exchanged", exchanged
 
 
-def of_belt(q: Sheet) -> MistakenValues:
+def of_belt(q: Calculation) -> MistakenValues:
     yield from of_drum("belt", q)
     if "friction.belt.F" not in q:
         S1, S2, d = (Ref(f"friction.belt.{name}") for name in ("S1", "S2", "d"))
         yield "friction.belt.M", "diameter-for-radius", (S1 - S2) * d
 
 
-def of_band(q: Sheet) -> MistakenValues:
+def of_band(q: Calculation) -> MistakenValues:
     yield from of_drum("band", q)
     yield from exchanged_senses("band", q)
 
 
-def of_shoe(q: Sheet) -> MistakenValues:
+def of_shoe(q: Calculation) -> MistakenValues:
     yield "friction.shoe.F", "diameter-for-radius", Ref("friction.shoe.M") / Ref("friction.shoe.d")
     yield "friction.shoe.N", "friction-multiplied", Ref("friction.shoe.F") * Ref("friction.shoe.f")
     yield from exchanged_senses("shoe", q)
 
 
-def exchanged_senses(task: str, q: Sheet) -> MistakenValues:
+def exchanged_senses(task: str, q: Calculation) -> MistakenValues:
     """Yield the mistake of using the force on the lever for the other sense of rotation."""
     for id, opposite in ((f"friction.{task}.P", "backward.P"), (f"friction.{task}.backward.P", "P")):
         definition = q.families[f"friction.{task}.{opposite}"].definition
@@ -117,7 +117,7 @@ def exchanged_senses(task: str, q: Sheet) -> MistakenValues:
             yield id, "friction-senses-exchanged", definition
 
 
-TASKS: Mapping[str, Callable[[Sheet], MistakenValues]] = {
+TASKS: Mapping[str, Callable[[Calculation], MistakenValues]] = {
     "incline": of_incline,
     "wedge": of_wedge,
     "screw": of_screw,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from reportgen.formula.ids import Name
-from reportgen.formula.vocabulary import Chapter, QuantityKind, VocabularyRow
+from reportgen.formula.vocabulary import KeyChapter, QuantityKind, VocabularyRow
 
 KINDS: Mapping[str, QuantityKind] = {
     "friction length": QuantityKind("mm", 1e-3, decimals=2),
@@ -15,7 +15,7 @@ KINDS: Mapping[str, QuantityKind] = {
 }
 
 
-def _rows(task: str, *rows: tuple[str, str, str, str, Chapter | None]) -> tuple[VocabularyRow, ...]:
+def _rows(task: str, *rows: tuple[str, str, str, str, KeyChapter | None]) -> tuple[VocabularyRow, ...]:
     """Return the vocabulary rows of a task from the end of each id, letter with index, superscript, kind and
     chapter.
     """
@@ -26,7 +26,7 @@ def _rows(task: str, *rows: tuple[str, str, str, str, Chapter | None]) -> tuple[
     return tuple(made)
 
 
-_G, _F, _T = Chapter.geometry, Chapter.forces, Chapter.torque
+_G, _F, _T = KeyChapter.geometry, KeyChapter.forces, KeyChapter.torque
 _LENGTH = "friction length"
 
 ROWS: tuple[VocabularyRow, ...] = (

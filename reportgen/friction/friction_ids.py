@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from reportgen.formula.ids import Name
-from reportgen.formula.vocabulary import Chapter, QuantityKind, VocabularyRow
+from reportgen.formula.vocabulary import KeyChapter, QuantityKind, VocabularyRow
 from reportgen.friction import exercise_rows
 
 coefficient = Name("friction.f.{point}")  # coefficient of a pin
@@ -37,22 +37,26 @@ ROWS = (
     VocabularyRow(coefficient, "f", "ratio", name="friction coefficient"),
     VocabularyRow(coefficient_of_slider, "f", "ratio", name="slider friction"),
     VocabularyRow(pin_radius, "r", "length", name="pin radius"),
-    VocabularyRow(circle, "ρ", "length", Chapter.forces, name="friction circle"),
-    VocabularyRow(angle, "φ", "angle", Chapter.forces, name="friction angle"),
-    VocabularyRow(turning, "ω", "angular velocity", Chapter.torque, name="turning in a joint"),
-    VocabularyRow(reaction, "R", "force", Chapter.torque, below="{joint}", above="fr", name="reaction with friction"),
-    VocabularyRow(couple, "M", "torque", Chapter.torque, below="fr{joint}", name="friction couple"),
-    VocabularyRow(force, "F", "force", Chapter.torque, below="fr{joint}", name="friction force"),
-    VocabularyRow(part, "ΔM", "torque", Chapter.torque, name="torque against friction"),
-    VocabularyRow(Name(torque), "M", "torque", Chapter.torque, below="cb", above="fr", name="torque with friction"),
+    VocabularyRow(circle, "ρ", "length", KeyChapter.forces, name="friction circle"),
+    VocabularyRow(angle, "φ", "angle", KeyChapter.forces, name="friction angle"),
+    VocabularyRow(turning, "ω", "angular velocity", KeyChapter.torque, name="turning in a joint"),
     VocabularyRow(
-        torque_of_round, "M", "torque", Chapter.torque, below="cb", above="({round})", name="torque with friction"
+        reaction, "R", "force", KeyChapter.torque, below="{joint}", above="fr", name="reaction with friction"
     ),
-    VocabularyRow(Name(reduced), "M", "torque", Chapter.cycle, below="tt", above="fr", name="reduced friction torque"),
-    VocabularyRow(Name(efficiency), "η", "ratio", Chapter.torque, name="efficiency"),
-    VocabularyRow(Name(mean), "M", "torque", Chapter.cycle, below="m", above="fr", name="mean torque with friction"),
-    VocabularyRow(Name(cycle_efficiency), "η", "ratio", Chapter.cycle, below="m", name="efficiency over the cycle"),
-    VocabularyRow(dead_before, "Δφ", "angle", Chapter.cycle, below="{link}", name="dead zone before"),
-    VocabularyRow(dead_behind, "Δφ", "angle", Chapter.cycle, below="{link}", name="dead zone behind"),
+    VocabularyRow(couple, "M", "torque", KeyChapter.torque, below="fr{joint}", name="friction couple"),
+    VocabularyRow(force, "F", "force", KeyChapter.torque, below="fr{joint}", name="friction force"),
+    VocabularyRow(part, "ΔM", "torque", KeyChapter.torque, name="torque against friction"),
+    VocabularyRow(Name(torque), "M", "torque", KeyChapter.torque, below="cb", above="fr", name="torque with friction"),
+    VocabularyRow(
+        torque_of_round, "M", "torque", KeyChapter.torque, below="cb", above="({round})", name="torque with friction"
+    ),
+    VocabularyRow(
+        Name(reduced), "M", "torque", KeyChapter.cycle, below="tt", above="fr", name="reduced friction torque"
+    ),
+    VocabularyRow(Name(efficiency), "η", "ratio", KeyChapter.torque, name="efficiency"),
+    VocabularyRow(Name(mean), "M", "torque", KeyChapter.cycle, below="m", above="fr", name="mean torque with friction"),
+    VocabularyRow(Name(cycle_efficiency), "η", "ratio", KeyChapter.cycle, below="m", name="efficiency over the cycle"),
+    VocabularyRow(dead_before, "Δφ", "angle", KeyChapter.cycle, below="{link}", name="dead zone before"),
+    VocabularyRow(dead_behind, "Δφ", "angle", KeyChapter.cycle, below="{link}", name="dead zone behind"),
     *exercise_rows.ROWS,
 )

@@ -14,13 +14,15 @@ from reportgen.friction.views import rubbing
 from reportgen.machine.analysis import Analysis
 from reportgen.machine.force_analysis import reaction_name
 from reportgen.page.topic_layers import LayerHooks
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 
 LAYER = "friction"
 CIRCLE = Pen(0.2, style.RED)
 
 
-def friction_items(report: Report, analysis: Analysis, scale: float, per: float, turn: int) -> Iterator[MovingItem]:
+def friction_items(
+    report: ReportContext, analysis: Analysis, scale: float, per: float, turn: int
+) -> Iterator[MovingItem]:
     """Yield the circles and reactions at the samples of an analysis, `scale` mm a metre, `per` newtons a millimetre.
 
     The first `turn` samples are one turn of the driver, in which the circles go round.

@@ -22,7 +22,7 @@ from reportgen.derivation.topic_ledger import Changed, LedgerHooks
 from reportgen.derivation.unprinted_values import with_rest
 from reportgen.formula import Call, Expression, Ref, Sum, Symbol, atan, call, ids, signed, total
 from reportgen.formula import size as size_of
-from reportgen.formula.calculation import ZERO, Sheet
+from reportgen.formula.calculation import ZERO, Calculation
 from reportgen.formula.ledger import Ledger
 from reportgen.formula.vocabulary import KINDS
 from reportgen.friction import friction_ids
@@ -60,7 +60,9 @@ class RubbingJoint:
         return (friction_ids.couple if self.is_pin else friction_ids.force)(self.digits)
 
 
-def rubbing_joints(q: Sheet | Mapping[str, object], linkage: Linkage, friction: Friction) -> tuple[RubbingJoint, ...]:
+def rubbing_joints(
+    q: Calculation | Mapping[str, object], linkage: Linkage, friction: Friction
+) -> tuple[RubbingJoint, ...]:
     """Return the joints that rub, in the order of assembly, each once by the digits that the ledger has for its
     reaction.
     """
@@ -75,7 +77,7 @@ def rubbing_joints(q: Sheet | Mapping[str, object], linkage: Linkage, friction: 
     return tuple(solved)
 
 
-def enter_forces(q: Sheet, analysis: Analysis, worked: Sequence[int]) -> None:
+def enter_forces(q: Calculation, analysis: Analysis, worked: Sequence[int]) -> None:
     """Enter the friction at each position; rounds until the printed figures of the `worked` ones do not change."""
     machine, friction, solved = analysis.machine, friction_of(analysis.machine), with_friction(analysis)
     assert friction is not None
@@ -133,7 +135,7 @@ def enter_forces(q: Sheet, analysis: Analysis, worked: Sequence[int]) -> None:
     q.define(friction_ids.efficiency, call("where_positive", q["M.eq"] / M, drives))
 
 
-def _balanced(q: Sheet, linkage: Linkage) -> tuple[str, str, Ref]:
+def _balanced(q: Calculation, linkage: Linkage) -> tuple[str, str, Ref]:
     """Return the letter and the kind of the driver's balancing torque or force, and the driver's rate."""
     if isinstance(linkage.driver, Crank):
         return "M", "torque", q["omega.1"]
@@ -154,7 +156,7 @@ def _rounds(solved: FrictionForces, worked: Sequence[int]) -> int:
 # --- relative motion of the links of a joint --------------------------------------------------------
 
 
-def _rate(q: Sheet, machine: Machine, each: RubbingJoint) -> Ref | None:
+def _rate(q: Calculation, machine: Machine, each: RubbingJoint) -> Ref | None:
     """Return the size of the relative motion in a joint: ω of a pin's links against each other, v of a slide.
 
     None where the links never move against each other.
@@ -176,14 +178,14 @@ def _rate(q: Sheet, machine: Machine, each: RubbingJoint) -> Ref | None:
     return None
 
 
-def _omega(q: Sheet, machine: Machine, link: int) -> Expression | None:
+def _omega(q: Calculation, machine: Machine, link: int) -> Expression | None:
     """Return the signed angular velocity of a link, anticlockwise positive; None of one that does not turn."""
     if link == DRIVER and isinstance(machine.linkage.driver, Crank):
         return signed(machine.turn, q["omega.1"])
     return q.find(ids.signed("omega", link)) if link != GROUND else None
 
 
-def _sliding(q: Sheet, linkage: Linkage, joint: Joint) -> str:
+def _sliding(q: Calculation, linkage: Linkage, joint: Joint) -> str:
     """Return the id of the velocity with which a slider slides over its guide."""
     plan = scheme(linkage)
     guide, slider = joint.links
@@ -198,7 +200,7 @@ def _sliding(q: Sheet, linkage: Linkage, joint: Joint) -> str:
 # --- the cycle ------------------------------------------------------------------------------------
 
 
-def enter_cycle(q: Sheet, analysis: Analysis) -> None:
+def enter_cycle(q: Calculation, analysis: Analysis) -> None:
     """Enter the mean torque with friction, the efficiency by the works over the cycle, the dead zones of sliders."""
     machine, friction = analysis.machine, friction_of(analysis.machine)
     if friction is None or not machine.cyclic:
@@ -222,7 +224,7 @@ def enter_cycle(q: Sheet, analysis: Analysis) -> None:
                     )
 
 
-def reduced(q: Sheet, largest: float) -> Ref | None:
+def reduced(q: Calculation, largest: float) -> Ref | None:
     """Enter the torque that friction takes from the driver, None if no joint takes any."""
     lost = [q[id] for id in q.families if id in friction_ids.part]
     if not lost:

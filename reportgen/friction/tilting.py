@@ -20,7 +20,7 @@ from reportgen.drawing.labels import label
 from reportgen.formula import Symbol, ids
 from reportgen.friction.joints import friction_of, reactions_that_press, with_friction
 from reportgen.machine import Joint
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 from reportgen.report.slider_faces import ends_of
 
 DETAIL = 26.0
@@ -37,7 +37,7 @@ class FaceForce:
     at: complex
 
 
-def face_forces(report: Report, joint: Joint, k: int) -> tuple[FaceForce, ...]:
+def face_forces(report: ReportContext, joint: Joint, k: int) -> tuple[FaceForce, ...]:
     """Return the face forces on the joint's second link at a position where it tilts with friction, else ()."""
     friction, solved, link = friction_of(report.machine), with_friction(report.analysis), joint.links[1]
     if friction is None or solved is None or joint.kind != "P" or link not in friction.faces:
@@ -57,14 +57,14 @@ def face_forces(report: Report, joint: Joint, k: int) -> tuple[FaceForce, ...]:
     )
 
 
-def tilting(report: Report, k: int) -> list[str]:
+def tilting(report: ReportContext, k: int) -> list[str]:
     """Return the wide sliders that rub and tilt at a position, with friction: both of their ends bear and rub."""
     friction = friction_of(report.machine)
     assert friction is not None, "the chapter is there where joints rub"
     return [str(joint.links[1]) for joint in friction.joints(report.machine.linkage) if face_forces(report, joint, k)]
 
 
-def any_tilts(report: Report) -> bool:
+def any_tilts(report: ReportContext) -> bool:
     """Return True if a wide slider that rubs tilts at any position."""
     friction = friction_of(report.machine)
     return friction is not None and report.has_forces and any(tilting(report, k) for k in report.all_positions)

@@ -33,7 +33,7 @@ from reportgen.friction.tilting import FaceForce, Leaning, any_tilts, at_both_en
 from reportgen.machine import GROUND
 from reportgen.machine.force_analysis import reaction_name
 from reportgen.report import template_equations
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 from reportgen.report.link_views import GroupView
 from reportgen.report.mechanism_figures import as_large_as_asked, drawing_scale, looks
 from reportgen.report.plan_figures import force_plan
@@ -62,7 +62,7 @@ class Rubbing:
     link: int
 
 
-def rubbing(report: Report) -> tuple[Rubbing, ...]:
+def rubbing(report: ReportContext) -> tuple[Rubbing, ...]:
     """Return the joints that rub, in the order of assembly."""
     friction = friction_of(report.machine)
     if friction is None or not report.has_forces:
@@ -76,7 +76,7 @@ def rubbing(report: Report) -> tuple[Rubbing, ...]:
     )
 
 
-def resting(report: Report) -> str:
+def resting(report: ReportContext) -> str:
     """Return the links of joints without friction, since they never move against each other: "2–3, 1–4"."""
     friction = friction_of(report.machine)
     if friction is None or not report.has_forces:
@@ -85,12 +85,12 @@ def resting(report: Report) -> str:
     return ", ".join("–".join(map(str, sorted(each.joint.links))) for each in joints if each.lost not in report.ledger)
 
 
-def solved_exactly(report: Report, k: int) -> bool:
+def solved_exactly(report: ReportContext, k: int) -> bool:
     """Return True if the rounds do not converge at a position, so that the equations are solved instead."""
     return bool(_found(report).exact[k - 1])
 
 
-def data(report: Report) -> Inlines:
+def data(report: ReportContext) -> Inlines:
     """Return the given data of the joints with friction."""
     joints = rubbing(report)
     at = dict.fromkeys(str(each.point) if each.kind == "pin" else str(each.link) for each in joints)
@@ -100,49 +100,49 @@ def data(report: Report) -> Inlines:
     return tuple(inline for n, carried in enumerate(shown) for inline in (*((Text("; "),) if n else ()), *carried))
 
 
-def loss_lines(report: Report) -> list[str]:
+def loss_lines(report: ReportContext) -> list[str]:
     """Return the couples and forces of friction."""
     return [each.of.lost for each in rubbing(report)]
 
 
-def part_lines(report: Report) -> list[str]:
+def part_lines(report: ReportContext) -> list[str]:
     """Return the ids of the parts that overcome the friction of each joint, and of the torque with all of it."""
     return [*(friction_ids.part(each.digits) for each in rubbing(report)), friction_ids.torque]
 
 
-def mean_lines(report: Report) -> list[str]:
+def mean_lines(report: ReportContext) -> list[str]:
     """Return the mean torque with friction and the efficiency over the cycle."""
     return report.known((friction_ids.mean, friction_ids.cycle_efficiency))
 
 
-def circle_lines(report: Report) -> list[str]:
+def circle_lines(report: ReportContext) -> list[str]:
     """Return the ids of the friction circles that are worked out, not given."""
     points = dict.fromkeys(each.point for each in rubbing(report) if each.kind == "pin")
     return [id for id in map(friction_ids.circle, points) if report.ledger[id].definition is not None]
 
 
-def angle_lines(report: Report) -> list[str]:
+def angle_lines(report: ReportContext) -> list[str]:
     """Return the angles of friction of the sliders."""
     links = dict.fromkeys(each.link for each in rubbing(report) if each.kind == "slider")
     return [friction_ids.angle(link) for link in links]
 
 
-def turning_lines(report: Report) -> list[str]:
+def turning_lines(report: ReportContext) -> list[str]:
     """Return the ids of the relative rotations in pins, where both links turn."""
     return report.known(friction_ids.turning(each.digits) for each in rubbing(report))
 
 
-def drives(report: Report, k: int) -> str:
+def drives(report: ReportContext, k: int) -> str:
     """Return "drives" if the driver drives at a position, so that it has an efficiency there, else "driven"."""
     return "driven" if math.isnan(report.ledger.number(friction_ids.efficiency, k).value) else "drives"
 
 
-def has_efficiency(report: Report, k: int) -> bool:
+def has_efficiency(report: ReportContext, k: int) -> bool:
     """Return True if the driver drives at a position."""
     return drives(report, k) == "drives"
 
 
-def cycle(report: Report) -> str:
+def cycle(report: ReportContext) -> str:
     """Return the state of the cycle for its efficiency: the driver "drives", is "driven", is neither ("even"), or
     "locks".
 
@@ -159,17 +159,17 @@ def cycle(report: Report) -> str:
 # --- tables ---------------------------------------------------------------------------------------
 
 
-def results(report: Report) -> list[str]:
+def results(report: ReportContext) -> list[str]:
     """Return the torque with friction and the efficiency."""
     return report.known((friction_ids.torque, friction_ids.efficiency))
 
 
-def reactions(report: Report) -> tuple[str, ...]:
+def reactions(report: ReportContext) -> tuple[str, ...]:
     """Return the reactions with friction, by their ids."""
     return tuple(friction_ids.reaction(each.digits) for each in rubbing(report))
 
 
-def rounds(report: Report, key: str, caption: str, head: Sequence[str], k: int) -> tuple[Table, ...]:
+def rounds(report: ReportContext, key: str, caption: str, head: Sequence[str], k: int) -> tuple[Table, ...]:
     """Return the reactions of each round and the torque that those before it give; the first are without friction."""
     ledger, joints = report.ledger, rubbing(report)
     numbers = [n for n in range(1, len(ledger.families)) if friction_ids.torque_of_round(n) in ledger]
@@ -189,7 +189,7 @@ def rounds(report: Report, key: str, caption: str, head: Sequence[str], k: int) 
     )
 
 
-def dead_rows(report: Report) -> Iterator[Sequence[object]]:
+def dead_rows(report: ReportContext) -> Iterator[Sequence[object]]:
     """Yield each slider's dead centres, by the angle of the crank from position 1, and how far on either side
     it locks.
     """
@@ -218,13 +218,13 @@ class JointForce:
     """From the centre of the pin to the line of the force (m), 0 in a guide."""
 
 
-def _found(report: Report) -> FrictionForces:
+def _found(report: ReportContext) -> FrictionForces:
     solved = with_friction(report.analysis)
     assert solved is not None
     return solved
 
 
-def joint_forces(report: Report, k: int) -> Iterator[JointForce]:
+def joint_forces(report: ReportContext, k: int) -> Iterator[JointForce]:
     """Yield the force in each joint, friction included."""
     solved, motion, index = _found(report), report.analysis.motion, k - 1
     loads = {(load.name, load.link): load for load in solved.loads}
@@ -244,12 +244,12 @@ def joint_forces(report: Report, k: int) -> Iterator[JointForce]:
             yield JointForce(each, whole, place if cmath.isfinite(place) else pin, k, 0j)
 
 
-def scheme(report: Report, k: int) -> FigureScenes:
+def scheme(report: ReportContext, k: int) -> FigureScenes:
     """Return the mechanism with its friction circles and the lines of the reactions, which are tangent to them."""
     return as_large_as_asked(report, partial(scheme_scene, report, k))
 
 
-def scheme_scene(report: Report, k: int, factor: float = 1.0) -> Scene:
+def scheme_scene(report: ReportContext, k: int, factor: float = 1.0) -> Scene:
     """Return the same by a factor of enlargement."""
     machine, motion, scale = report.machine.linkage, report.analysis.motion, drawing_scale(report) * factor
     shown = [carried for carried in joint_forces(report, k) if carried.force]
@@ -288,16 +288,16 @@ def _line(carried: JointForce, shown: Sequence[JointForce], scale: float) -> Ite
     yield Line(here - REACH / 2 * along, here + REACH * along, style.CONSTRUCTION)
 
 
-def _circle(report: Report, each: Rubbing) -> float:
+def _circle(report: ReportContext, each: Rubbing) -> float:
     """Return the radius of a friction circle (m) as it is printed."""
     return float(report.ledger[friction_ids.circle(each.point)].values[0])
 
 
-def _named(report: Report, each: Rubbing) -> Symbol:
+def _named(report: ReportContext, each: Rubbing) -> Symbol:
     return report.named(Symbol("R", each.digits, "fr", "vector"))
 
 
-def joints(report: Report, k: int) -> FigureScenes:
+def joints(report: ReportContext, k: int) -> FigureScenes:
     """Return each friction circle enlarged with the line of its reaction; each guide with its angle of friction."""
     scale = drawing_scale(report)
     return beside_one_another(
@@ -305,7 +305,7 @@ def joints(report: Report, k: int) -> FigureScenes:
     )
 
 
-def _detail(report: Report, k: int, carried: JointForce, scale: float) -> Scene:
+def _detail(report: ReportContext, k: int, carried: JointForce, scale: float) -> Scene:
     """Return a friction circle enlarged, or the angle of friction of a guide with the parts of its reaction."""
     if carried.each.kind == "slider":
         return _guide_detail(report, carried)
@@ -335,7 +335,7 @@ def _detail(report: Report, k: int, carried: JointForce, scale: float) -> Scene:
     return finish(Canvas(tuple(items), tuple(names), facts) + forces, title=title)
 
 
-def _guide_detail(report: Report, carried: JointForce) -> Scene:
+def _guide_detail(report: ReportContext, carried: JointForce) -> Scene:
     """Draw N across the guide and F along it against the sliding, in their ratio; the reaction leans by φ = arctan F/N.
 
     For a slider that tilts, draw the two forces on the ends of its face.
@@ -352,7 +352,7 @@ def _guide_detail(report: Report, carried: JointForce) -> Scene:
     return leaning_forces(guide, [Leaning(carried.force - along, along, 0j, names)], φ, title)
 
 
-def _at_ends(report: Report, carried: JointForce) -> list[tuple[FaceForce, Symbol]]:
+def _at_ends(report: ReportContext, carried: JointForce) -> list[tuple[FaceForce, Symbol]]:
     """Return the forces on the ends of a slider that tilts, with their names; an empty list for any other joint."""
     joint, digits = carried.each.of.joint, carried.each.digits
     return [
@@ -364,19 +364,19 @@ def _at_ends(report: Report, carried: JointForce) -> list[tuple[FaceForce, Symbo
 # --- force plans ----------------------------------------------------------------------------------
 
 
-def force_plan_of_group(report: Report, k: int, group: GroupView) -> FigureScenes:
+def force_plan_of_group(report: ReportContext, k: int, group: GroupView) -> FigureScenes:
     """Return the force plan of a group with friction over the one without."""
     assert group.polygon is not None
     return on_paper(plan(force_plan_with_friction(report, group.polygon, k)))
 
 
-def force_plan_of_driver(report: Report, k: int) -> FigureScenes:
+def force_plan_of_driver(report: ReportContext, k: int) -> FigureScenes:
     """Return the force plan of the driver with friction over the one without."""
     assert report.driver_polygon is not None
     return on_paper(plan(force_plan_with_friction(report, report.driver_polygon, k)))
 
 
-def force_plan_with_friction(report: Report, polygon: Polygon, k: int) -> Plan:
+def force_plan_with_friction(report: ReportContext, polygon: Polygon, k: int) -> Plan:
     """Return the plan without friction, of whole reactions alone, and where the plan with friction leaves it.
 
     Loads are laid off alike; reactions carried over from further groups and those that close the plan are those with
@@ -432,14 +432,14 @@ def _closing(polygon: Polygon) -> list[Edge]:
     return path
 
 
-def _with_friction(report: Report, name: str, k: int) -> complex:
+def _with_friction(report: ReportContext, name: str, k: int) -> complex:
     """Return a reaction by its name (N), with the force of friction in its guide."""
     solved = _found(report)
     rubbing = sum(complex(load.force[k - 1]) for load in solved.loads if load.name == name)
     return complex(solved.forces.reactions[name].force[k - 1]) + rubbing
 
 
-VALUES: Mapping[str, Callable[[Report], object]] = {
+VALUES: Mapping[str, Callable[[ReportContext], object]] = {
     "dead_zones": lambda report: any(dead_rows(report)),
     "friction_angles": angle_lines,
     "friction_circles": circle_lines,

@@ -13,7 +13,7 @@ from functools import lru_cache
 import numpy as np
 
 from reportgen.formula import PI, Operand, Ref, acos, arcinv, cos, sin, tan
-from reportgen.formula.calculation import Sheet
+from reportgen.formula.calculation import Calculation
 from reportgen.formula.vocabulary import row
 from reportgen.gears import gears_ids
 
@@ -45,7 +45,7 @@ class PairFormulas:
     Where x₂ `follows`, it follows from a given centre distance; else both shifts are given.
     """
 
-    def __init__(self, q: Sheet, m: float, follows: bool) -> None:
+    def __init__(self, q: Calculation, m: float, follows: bool) -> None:
         self.q, self.m, self.follows = q, m, follows
 
     def __getitem__(self, quantity: str) -> Ref:
@@ -156,9 +156,9 @@ class PairFormulas:
 
 
 @lru_cache(maxsize=32)
-def pair_sheet(rack: Rack, m: float, teeth: tuple[int, int]) -> Sheet:
+def pair_sheet(rack: Rack, m: float, teeth: tuple[int, int]) -> Calculation:
     """The formulas of a pair of module m (m) with given shifts, to be evaluated with any: `model(sheet, …)`."""
-    made = PairFormulas(Sheet(), m, follows=False)
+    made = PairFormulas(Calculation(), m, follows=False)
     made.enter_data(rack, teeth)
     made.enter_shifts((0.0, 0.0))
     made.enter_pair()
@@ -169,7 +169,7 @@ def pair_sheet(rack: Rack, m: float, teeth: tuple[int, int]) -> Sheet:
 
 def sum_of_shifts(rack: Rack, m: float, teeth: tuple[int, int], a_w: float) -> float:
     """The sum of the shifts at a centre distance (m); nan where the base circles overlap or touch."""
-    made = PairFormulas(Sheet(), m, follows=True)
+    made = PairFormulas(Calculation(), m, follows=True)
     made.enter_data(rack, teeth)
     made.enter_shifts((0.0, 0.0), a_w)
     made.enter_mesh()

@@ -14,8 +14,8 @@ import numpy as np
 from reportgen.case import Misconceptions, with_another
 from reportgen.case.design_case import DesignCase
 from reportgen.formula import PI, Expression, Operand, Ref, refs, tan
-from reportgen.formula.calculation import Sheet
-from reportgen.formula.vocabulary import Chapter
+from reportgen.formula.calculation import Calculation
+from reportgen.formula.vocabulary import KeyChapter
 from reportgen.gears import gears_ids
 from reportgen.gears.pair_formulas import WHEELS, PairFormulas, named
 from reportgen.gears.pair_shifts import Chosen, GearPair, PairLimits
@@ -48,8 +48,8 @@ class SolvedPair(DesignCase):
         return self.chosen.pair
 
     @cached_property
-    def sheet(self) -> Sheet:
-        return PairSheet(self.chosen).q
+    def sheet(self) -> Calculation:
+        return PairCalculation(self.chosen).q
 
     @property
     def worked(self) -> tuple[int, ...]:
@@ -61,21 +61,21 @@ class SolvedPair(DesignCase):
         return Misconceptions(changed=_changed(self.sheet), ways=_ways(self.chosen.follows))
 
 
-class PairSheet(PairFormulas):
+class PairCalculation(PairFormulas):
     """The sheet of a pair while it is written."""
 
     def __init__(self, chosen: Chosen) -> None:
         pair, limits = chosen.pair, chosen.limits
-        super().__init__(Sheet(POINTS), pair.m, chosen.follows)
-        with self.q.within(Chapter.data):
+        super().__init__(Calculation(POINTS), pair.m, chosen.follows)
+        with self.q.within(KeyChapter.data):
             self.enter_data(pair.rack, pair.teeth)
             self.enter_limits(limits)
             self.enter_shifts((float(pair.x[0]), float(pair.x[1])), chosen.a_w)
-        with self.q.within(Chapter.geometry):
+        with self.q.within(KeyChapter.geometry):
             self.enter_pair()
-        with self.q.within(Chapter.velocity):
+        with self.q.within(KeyChapter.velocity):
             self.enter_contact()
-        with self.q.within(Chapter.acceleration):
+        with self.q.within(KeyChapter.acceleration):
             self.enter_sliding(np.arange(POINTS) / (POINTS - 1))
         self.set_out()
 
@@ -97,7 +97,7 @@ class PairSheet(PairFormulas):
 # --- what is often done in place of it --------------------------------------------------------------
 
 
-def _changed(sheet: Sheet) -> Mapping[str, list[tuple[str, Expression]]]:
+def _changed(sheet: Calculation) -> Mapping[str, list[tuple[str, Expression]]]:
     """Definitions that are often used in place of the right ones."""
     found: dict[str, list[tuple[str, Expression]]] = {}
     angles = {named("inv", 0): named("alpha", 0), **{named("inv_a", one): named("alpha_a", one) for one in WHEELS}}

@@ -14,7 +14,7 @@ import numpy as np
 
 from reportgen.base.arrays import Floats
 from reportgen.formula.array_evaluation import model
-from reportgen.formula.calculation import Sheet
+from reportgen.formula.calculation import Calculation
 from reportgen.formula.constructions import Value
 from reportgen.gears import gears_ids
 from reportgen.gears.involute import Wheel, crossing
@@ -92,7 +92,7 @@ class GearPair:
         return shifts | model(self.sheet, COMMON, **shifts)
 
     @property
-    def sheet(self) -> Sheet:
+    def sheet(self) -> Calculation:
         """The formulas of its report, with shifts that are given."""
         return pair_sheet(self.rack, self.m, self.teeth)
 

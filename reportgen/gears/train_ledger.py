@@ -14,8 +14,8 @@ from reportgen.base.units import MM, SERIES, nice_up
 from reportgen.case import Misconceptions
 from reportgen.case.design_case import DesignCase
 from reportgen.formula import PI, Expression, Operand, Product, Ref, Symbol, as_expression, signed, sin
-from reportgen.formula.calculation import Sheet
-from reportgen.formula.vocabulary import Chapter
+from reportgen.formula.calculation import Calculation
+from reportgen.formula.vocabulary import KeyChapter
 from reportgen.gears import train_formulas as formulas
 from reportgen.gears import train_ids
 from reportgen.gears.tooth_numbers import CONDITIONS, SCHEMES, Train, TrainChoice, power_way
@@ -66,8 +66,8 @@ class SolvedTrain(DesignCase):
         return self.choice.chosen
 
     @cached_property
-    def sheet(self) -> Sheet:
-        return TrainSheet(self.given).written()
+    def sheet(self) -> Calculation:
+        return TrainCalculation(self.given).written()
 
     @property
     def speed(self) -> float:
@@ -107,23 +107,23 @@ def larger_satellite(train: Train) -> tuple[str, str]:
     return ("train.m2" if m != 1 else "train.m", OTHER) if z.other + 2 > m * (z.two + 2) else ("train.m", "2")
 
 
-class TrainSheet:
+class TrainCalculation:
     """The sheet of a planetary train while it is written."""
 
     def __init__(self, given: Parameters) -> None:
         self.given, self.scheme, self.train = given, SCHEMES[given.scheme], given.choice.chosen
-        self.q = Sheet()
+        self.q = Calculation()
         self.z: dict[str, Ref] = {}
 
-    def written(self) -> Sheet:
-        with self.q.within(Chapter.data):
+    def written(self) -> Calculation:
+        with self.q.within(KeyChapter.data):
             self._enter_given()
-        with self.q.within(Chapter.geometry):
+        with self.q.within(KeyChapter.geometry):
             self._enter_teeth()
             self._enter_ratio()
             self._enter_conditions()
             self._enter_efficiency()
-        with self.q.within(Chapter.velocity):
+        with self.q.within(KeyChapter.velocity):
             self._enter_rates()
             self._enter_triangles()
         for name, lines in LINES.items():
@@ -308,7 +308,7 @@ class TrainSheet:
         second = Symbol("η", "23" if self.scheme.single else f"{OTHER}3")
 
         def give(of: str, value: float, symbol: Symbol) -> Ref:
-            with q.within(Chapter.data):
+            with q.within(KeyChapter.data):
                 return q.give(train_ids.efficiency(of), value, symbol)
 
         η0 = q.define(

@@ -11,7 +11,7 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
-from reportgen.base.errors import Fault, Mark
+from reportgen.base.errors import Fault, Location
 from reportgen.base.units import Language
 from reportgen.base.words import as_problem
 from reportgen.marking.marking_data import Answer, Place, ReadOff, Submission
@@ -45,7 +45,7 @@ class FileReading:
     """The places that a drawing must show."""
     unseen: frozenset[Place] = frozenset()
     """The places that the file mentions only in hidden text, which is not read."""
-    beside: Mapping[Place, Mark] = field(default_factory=dict)
+    beside: Mapping[Place, Location] = field(default_factory=dict)
     """Locations of wrong vectors in a drawing that nothing asks for, by the place of their length."""
 
     @property

@@ -11,7 +11,7 @@ from reportgen.base.words import common_words
 from reportgen.case import Case, MachineAnalysis
 from reportgen.case.answer_key import Key
 from reportgen.handin import FileReading
-from reportgen.handin.drawing_reader import DrawnMark, WantedPlans, read_drawing
+from reportgen.handin.drawing_reader import DrawnLocation, WantedPlans, read_drawing
 from reportgen.handin.dxf_corrections import RedVector, with_corrections
 from reportgen.handin.dxf_lines import read_lines
 from reportgen.handin.plan_labels import spoken
@@ -66,10 +66,10 @@ def names(path: Path, data: bytes, known: Collection[str]) -> Collection[str]:
 def marked(path: Path, data: bytes, reading: FileReading, marking: Marking, policy: Policy) -> tuple[str, bytes]:
     """Return the drawing with the right vector and a comment wherever one is wrong."""
     words = words_of(marking.key)
-    said: dict[DrawnMark, list[str]] = {}
+    said: dict[DrawnLocation, list[str]] = {}
     for cell in marking.cells:
         answer = reading.values.get((cell.id, cell.position))
-        if answer is None or not isinstance(answer.mark, DrawnMark):
+        if answer is None or not isinstance(answer.mark, DrawnLocation):
             continue
         # If a sheet or a report has the value too, that one counts.
         judged = (cell.id, cell.position) in marking.submission.measured
@@ -80,7 +80,7 @@ def marked(path: Path, data: bytes, reading: FileReading, marking: Marking, poli
             said.setdefault(answer.mark, [])
     for (id, position), mark in reading.beside.items():
         row = marking.key.find(id)
-        if isinstance(mark, DrawnMark) and row is not None:
+        if isinstance(mark, DrawnLocation) and row is not None:
             named = f"{symbol_text(row, marking.key)} ({marking.key.label(position, id)})"
             said.setdefault(mark, []).append(f"{named}: {words['drawing']['wrong']}")
     if not policy.show_answers:
@@ -88,7 +88,7 @@ def marked(path: Path, data: bytes, reading: FileReading, marking: Marking, poli
     else:
         turned = (words["drawing"]["turned"],)
         vectors = [RedVector(mark.at, mark.right, tuple(lines) or turned, mark.space) for mark, lines in said.items()]
-    units = {answer.mark.unit for answer in reading.values.values() if isinstance(answer.mark, DrawnMark)}
+    units = {answer.mark.unit for answer in reading.values.values() if isinstance(answer.mark, DrawnLocation)}
     return MARKED, with_corrections(data, vectors, 1 / next(iter(units), 1.0))
 
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from reportgen.base.errors import Fault, Mark
+from reportgen.base.errors import Fault, Location
 from reportgen.base.units import MM
 from reportgen.case.answer_key import Key
 from reportgen.handin import FileReading
@@ -38,7 +38,7 @@ USUAL = (1.0, 10.0, 1000.0, 25.4)
 
 
 @dataclass(frozen=True)
-class DrawnMark(Mark):
+class DrawnLocation(Location):
     """The start of a vector in a drawing, in drawing units of `unit` mm, and its right end.
 
     `wrong` is True if the vector does not end there.
@@ -86,14 +86,14 @@ def read_drawing(drawn: DrawnLines, file: str, wanted: WantedPlans) -> FileReadi
     """
     spaces = (drawn, *drawn.sheets)
     if sum(len(space.ends) for space in spaces) > MOST_LINES:
-        raise RefusedError("drawing-lines", Mark(file), most=str(MOST_LINES))
+        raise RefusedError("drawing-lines", Location(file), most=str(MOST_LINES))
     readings = [_read_space(space, file, wanted) for space in spaces if len(space.ends)]
     whole = FileReading(wanted.key.id, file, {}, notes=drawn.notes)
     for reading in readings:
         whole = _with_space(whole, reading)
     if whole.drawn:
         return whole
-    return replace(whole, notes=(*drawn.notes, Fault("drawing-no-plans", Mark(file))))
+    return replace(whole, notes=(*drawn.notes, Fault("drawing-no-plans", Location(file))))
 
 
 def _with_space(first: FileReading, second: FileReading) -> FileReading:
@@ -190,7 +190,7 @@ class _Reading:
         values: dict[Place, Answer] = {}
         measured: dict[Place, ReadOff] = {}
         unread: dict[Place, Fault] = {}
-        beside: dict[Place, Mark] = {}
+        beside: dict[Place, Location] = {}
         wrong = {(id(one.plan), one.vector): (one.start, one.end) for one in self.search.wrong}
         for fit, sure in zip(plans.plans, plans.sure, strict=True):
             lengths = np.abs(fit.shape.ends - fit.shape.starts)
@@ -246,11 +246,11 @@ class _Reading:
         fault = Fault("unread-beside" if here else "unread-vector", self.mark(fit, number))
         return {place: fault for name in (vector.length, vector.direction) if (place := self.place(name, fit))}
 
-    def mark(self, fit: Fit, number: int, start: complex | None = None, wrong: bool = False) -> DrawnMark:
+    def mark(self, fit: Fit, number: int, start: complex | None = None, wrong: bool = False) -> DrawnLocation:
         """Return the start of a vector, as drawn or as it should be, with its right end."""
         unit, a = self.search.unit, complex(fit.at(fit.shape.starts[number])) if start is None else start
         along = fit.scale * complex(fit.shape.ends[number] - fit.shape.starts[number])
-        return DrawnMark(self.file, at=a / unit, right=(a + along) / unit, unit=unit, wrong=wrong, space=self.space)
+        return DrawnLocation(self.file, at=a / unit, right=(a + along) / unit, unit=unit, wrong=wrong, space=self.space)
 
 
 def _length(fit: Fit, number: int, start: complex, end: complex) -> tuple[float, float, float]:

@@ -11,7 +11,7 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
-from reportgen.base.errors import Mark
+from reportgen.base.errors import Location
 from reportgen.handin.dxf_lines import encoding_of
 from reportgen.handin.dxf_tags import PAPER, Tags, pairs
 from reportgen.workbook.zip_package import RefusedError
@@ -97,10 +97,10 @@ class _Layout:
     @classmethod
     def of(cls, data: bytes) -> _Layout:
         reader = _Layouting(cls())
-        for code, value, _, offset in pairs(data, lambda code, line: RefusedError(code, Mark("", line))):
+        for code, value, _, offset in pairs(data, lambda code, line: RefusedError(code, Location("", line))):
             reader.pair(code, value, offset, data)
         if reader.layout.entities_end < 0:
-            raise RefusedError("drawing-none", Mark(""))
+            raise RefusedError("drawing-none", Location(""))
         reader.layout.encoding = encoding_of(reader.header)
         reader.layout.tables = {name: one for name, one in reader.layout.tables.items() if one.end >= 0 and one.record}
         return reader.layout

@@ -15,7 +15,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from reportgen.base.errors import Fault, Mark
+from reportgen.base.errors import Fault, Location
 from reportgen.handin.dxf_tags import MOST, Entities, Entity, read_entities
 from reportgen.workbook.zip_package import RefusedError
 
@@ -70,7 +70,7 @@ def read_lines(data: bytes, file: str) -> DrawnLines:
     spaces = {name: unfolding.unfolded(own) for name, own in pieces.items()}
     model = spaces.pop(b"")
     unit = UNITS.get(contents.number(b"$INSUNITS"))
-    mark = Mark(file)
+    mark = Location(file)
     notes = [Fault("drawing-pictures", mark, {"count": f"{contents.pictures}"})] if contents.pictures else []
     names = [name.decode(encoding, "replace") for name, block in contents.blocks.items() if block.external]
     notes += [Fault("drawing-external", mark, {"text": name}) for name in names]
@@ -153,12 +153,12 @@ class _Unfolding:
     def check(self, several: Iterable[Pieces]) -> None:
         """Check the size before expanding: a file of a few kB may have millions of lines in nested blocks."""
         if sum(self.count(pieces, ()) for pieces in several) > MOST:
-            raise RefusedError("drawing-elements", Mark(self.file), most=f"{MOST}")
+            raise RefusedError("drawing-elements", Location(self.file), most=f"{MOST}")
 
     def count(self, pieces: Pieces, within: tuple[bytes, ...]) -> int:
         """Return the number of lines and texts, including those of all inserted blocks."""
         if len(within) > DEEPEST:
-            raise RefusedError("drawing-deep", Mark(self.file), most=f"{DEEPEST}")
+            raise RefusedError("drawing-deep", Location(self.file), most=f"{DEEPEST}")
         total = len(pieces.lines) + len(pieces.texts)
         for insertion in pieces.insertions:
             name = insertion.name

@@ -9,7 +9,7 @@ import io
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 
-from reportgen.base.errors import Mark
+from reportgen.base.errors import Location
 from reportgen.workbook.zip_package import RefusedError
 
 LARGEST = 50_000_000
@@ -110,7 +110,7 @@ def read_entities(data: bytes, file: str) -> Entities:
     """Return the entities of a drawing; raise `RefusedError` if it is not a DXF, is damaged or too large."""
 
     def refuse(code: str, line: int = 1, **about: str) -> RefusedError:
-        return RefusedError(code, Mark(file, line), **about)
+        return RefusedError(code, Location(file, line), **about)
 
     if len(data) > LARGEST:
         raise refuse("drawing-large", largest=f"{LARGEST / 1e6:g}")

@@ -8,14 +8,14 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from reportgen.base.errors import Fault, Mark
+from reportgen.base.errors import Fault, Location
 from reportgen.base.units import QuantityFault
 from reportgen.case.answer_key import Key, KeyRow
 from reportgen.handin import FileReading, agree, figures
 from reportgen.handin.symbol_matching import Symbols, bare
 from reportgen.handin.text_numbers import NUMBER, Marks, read_value
 from reportgen.handin.text_statements import ANTICLOCKWISE, CLOCKWISE
-from reportgen.handin.word_text import TextLine, WordMark
+from reportgen.handin.word_text import TextLine, WordLocation
 from reportgen.marking.marking_data import Answer, Place
 
 SHOWN = 60
@@ -59,14 +59,14 @@ class Gathering:
         keys = [part.key for part in self.key.parts] or [self.key]
         return any(bare(text).casefold() == bare(label).casefold() for key in keys for label in key.labels)
 
-    def doubt(self, row: KeyRow, position: int | None, code: str, mark: WordMark, text: str, **more: str) -> None:
+    def doubt(self, row: KeyRow, position: int | None, code: str, mark: WordLocation, text: str, **more: str) -> None:
         """Record an unread entry for a row, at a position or at any (None)."""
         for one in row.positions:
             if position is None or one == position:
                 shown = _tidy(text)
                 self.doubts.setdefault((row.id, one), Fault(code, mark, {"text": shown, **more}))
 
-    def give(self, row: KeyRow, position: int, value: float, mark: WordMark, text: str) -> None:
+    def give(self, row: KeyRow, position: int, value: float, mark: WordLocation, text: str) -> None:
         """Record a value of a place; if the place already has a different one, it becomes unread."""
         place, answer = (row.id, position), Answer(value, _tidy(text), mark)
         if position not in row.positions or place in self.clashes or place in self.fixed:
@@ -88,7 +88,7 @@ class Gathering:
             self.clashes[place] = Fault("unread-two-values", mark, {"text": answer.text, "first": first.text})
 
     def number(
-        self, row: KeyRow, position: int, number: str, unit: str, mark: WordMark, words: str, barred: bool = False
+        self, row: KeyRow, position: int, number: str, unit: str, mark: WordLocation, words: str, barred: bool = False
     ) -> None:
         """Read a number for a place, with the sense given by the words beside it."""
         text = f"{number.strip()} {unit}".strip()
@@ -120,7 +120,7 @@ class Gathering:
             return -value if known < 0 else value
         return None if barred and is_signed(row) else value
 
-    def note(self, code: str, mark: Mark, **arguments: str) -> None:
+    def note(self, code: str, mark: Location, **arguments: str) -> None:
         self.notes.append(Fault(code, mark, arguments))
 
     def reading(self) -> FileReading:
@@ -128,10 +128,10 @@ class Gathering:
         unread = {place: fault for place, fault in self.doubts.items() if place not in self.values}
         return FileReading(self.key.id, self.file, self.values, {**unread, **self.clashes}, tuple(self.notes))
 
-    def mark(self, line: TextLine, index: int) -> WordMark:
+    def mark(self, line: TextLine, index: int) -> WordLocation:
         """Return the location of a letter of a line."""
         node = line.nodes[min(max(index, 0), len(line.nodes) - 1)]
-        return WordMark(self.file, line.number, index + 1, element=node.number)
+        return WordLocation(self.file, line.number, index + 1, element=node.number)
 
 
 def _in_first_turn(row: KeyRow, position: int) -> int:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from reportgen.base.errors import Fault, Mark
+from reportgen.base.errors import Fault, Location
 from reportgen.base.files import cause, contents
 from reportgen.base.units import Language
 from reportgen.base.words import as_error
@@ -79,7 +79,7 @@ def not_read(path: Path) -> Fault | None:
     ending = path.suffix.lower()
     if ending not in NOT_READ:
         return None
-    return Fault("drawing-dwg" if ending == ".dwg" else "own-not-read", Mark(str(path)))
+    return Fault("drawing-dwg" if ending == ".dwg" else "own-not-read", Location(str(path)))
 
 
 def content(path: Path, data: bytes | None, language: Language | None) -> bytes:
@@ -89,7 +89,7 @@ def content(path: Path, data: bytes | None, language: Language | None) -> bytes:
     try:
         return contents(path, LARGEST + 1)
     except OSError as error:
-        raise as_error([Fault("unreadable", Mark(str(path)), {"reason": cause(error)})], language) from error
+        raise as_error([Fault("unreadable", Location(str(path)), {"reason": cause(error)})], language) from error
 
 
 def read_file(

@@ -15,7 +15,7 @@ from reportgen.case import Case, MachineAnalysis
 from reportgen.derivation.kinematic_entries import What
 from reportgen.formula import Symbol, ids
 from reportgen.marking.marking_scheme import Values
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 from reportgen.report.plan_figures import POLE, force_construction, motion_construction
 
 NOTHING = 0.01
@@ -116,12 +116,12 @@ def sketches(case: Case) -> tuple[PlanSketch, ...]:
     """Return the plans of a machine: velocities, accelerations, and the forces of each dyad and of the driver."""
     if not isinstance(case, MachineAnalysis):
         return ()
-    report = Report(case)
+    report = ReportContext(case)
     plans = [_of_motion(report, what, case.span.count) for what in ("v", "a")]
     return (*plans, *(_of_forces(report, number, len(case.span.labels)) for number in range(len(case.polygons))))
 
 
-def _of_motion(report: Report, what: What, count: int) -> PlanSketch:
+def _of_motion(report: ReportContext, what: What, count: int) -> PlanSketch:
     """Return the velocity or acceleration plan of one turn, including lengths that are not among its vectors."""
     ledger, construction = report.ledger, motion_construction(report, what)
     corners = {corner: corner.rpartition(".")[2] for corner in construction.corners if corner != POLE}
@@ -146,7 +146,7 @@ def _of_motion(report: Report, what: What, count: int) -> PlanSketch:
     return PlanSketch(ids.scale(what), count, tuple(vectors), letters)
 
 
-def _of_forces(report: Report, number: int, count: int) -> PlanSketch:
+def _of_forces(report: ReportContext, number: int, count: int) -> PlanSketch:
     """Return the force plan of a dyad or of the driver, by its number, over the cycle."""
     polygon = report.case.polygons[number]
     ledger, construction = report.ledger, force_construction(report, polygon)

@@ -25,7 +25,7 @@ from reportgen.marking.answer_sheet import (
 )
 from reportgen.marking.marking_data import Submission
 from reportgen.marking.toleranced_key import symbol_text, words_of
-from reportgen.workbook import Book, BookSheet, Entry, write_xlsx
+from reportgen.workbook import Book, Entry, WorksheetData, write_xlsx
 
 NAME = "reading.xlsx"
 _SHORT = 16
@@ -57,7 +57,7 @@ def reading_book(key: Key, submission: Submission) -> bytes:
     return write_xlsx(Book((*pages, *unread, replace(info, rows=(*info.rows, marked))), empty.title))
 
 
-def _page(key: Key, name: str, submission: Submission) -> BookSheet:
+def _page(key: Key, name: str, submission: Submission) -> WorksheetData:
     words, cells = words_of(key)["answer_sheet"], open_cells(key)
 
     def filling(row: KeyRow, position: int) -> Entry | None:
@@ -74,12 +74,12 @@ def _page(key: Key, name: str, submission: Submission) -> BookSheet:
     return page(name, rows)
 
 
-def _unread_page(key: Key, submission: Submission) -> BookSheet:
+def _unread_page(key: Key, submission: Submission) -> WorksheetData:
     """Return the page of unread entries: quantity, position, location and reason."""
     words = words_of(key)["answer_sheet"]
     heads = (words["id"], words["symbol"], words["position"].format(label="").strip(), words["where"], words["text"])
     rows = [tuple(Entry(head, "head") for head in heads), *_unread_rows(key, submission)]
-    return BookSheet(words["not_read"], rows, _WIDTHS, (1, 0), protected=True)
+    return WorksheetData(words["not_read"], rows, _WIDTHS, (1, 0), protected=True)
 
 
 def _unread_rows(key: Key, submission: Submission) -> Iterator[tuple[Entry, ...]]:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from reportgen.base.errors import Fault, Mark
+from reportgen.base.errors import Fault, Location
 from reportgen.base.files import cause, contents
 from reportgen.base.units import Language
 from reportgen.base.words import as_error, word
@@ -54,7 +54,7 @@ def refuse(files: Sequence[Path], language: Language) -> None:
     """Raise `AssignmentError` for files of kinds that are not read."""
     strangers = [path for path in files if path.suffix.lower() not in OWN]
     if strangers:
-        faults = (not_read(path) or Fault("own-not-read", Mark(str(path))) for path in strangers)
+        faults = (not_read(path) or Fault("own-not-read", Location(str(path))) for path in strangers)
         raise as_error(list(faults), language)
 
 
@@ -82,9 +82,9 @@ def reading(key: Key, own: Submission, target: Path) -> bytes:
             standing = read_submission(target, key, spoken)
             data = contents(target)
         except OSError as error:
-            raise as_error([Fault("unreadable", Mark(str(target)), {"reason": cause(error)})], spoken) from error
+            raise as_error([Fault("unreadable", Location(str(target)), {"reason": cause(error)})], spoken) from error
         if data and not is_unchanged(standing):
-            raise as_error([Fault("reading-completed", Mark(str(target)))], spoken)
+            raise as_error([Fault("reading-completed", Location(str(target)))], spoken)
     return reading_book(key, own)
 
 

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
-from reportgen.base.errors import Fault, Mark
+from reportgen.base.errors import Fault, Location
 from reportgen.handin.covered_text import covered_runs
 from reportgen.handin.invisible_text import Styles, mark_unseen
 from reportgen.handin.word_nodes import XmlNode, parse
@@ -109,7 +109,7 @@ class WordFile:
     @property
     def notes(self) -> tuple[Fault, ...]:
         """Faults about the file as a whole."""
-        return (Fault("word-template", Mark(str(self.path))),) if self.template else ()
+        return (Fault("word-template", Location(str(self.path))),) if self.template else ()
 
 
 def resolved(part: str, target: str) -> str:
@@ -132,7 +132,7 @@ def word_faults() -> Iterator[None]:
 def open_word(path: Path, data: bytes) -> WordFile:
     """Return a Word file that may be read; raise `RefusedError` with a fault of Word files."""
     if len(data) > LARGEST:
-        raise RefusedError("word-large", Mark(str(path)), largest=str(LARGEST // 1_000_000))
+        raise RefusedError("word-large", Location(str(path)), largest=str(LARGEST // 1_000_000))
     package = Package(data, str(path), BOUNDS)
     tops = [one.target for one in package.relations("_rels/.rels").values() if one.kind == "officeDocument"]
     document = resolved("", tops[0]) if tops else ""

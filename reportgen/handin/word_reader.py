@@ -15,7 +15,7 @@ from reportgen.handin.text_statements import Statement
 from reportgen.handin.word_blanks import read_blanks
 from reportgen.handin.word_nodes import XmlNode
 from reportgen.handin.word_tables import read_table
-from reportgen.handin.word_text import OBJECT, TextGrid, TextLine, WordBlock, WordMark
+from reportgen.handin.word_text import OBJECT, TextGrid, TextLine, WordBlock, WordLocation
 
 FREE = 10
 """Level of a position that no heading gives; any heading ends it."""
@@ -66,7 +66,7 @@ class _Reader:
         """The row whose statement may continue in the next line, and the label of its position."""
         self.hidden: dict[str | None, int] = {}
         """Number of equations at each position that cannot be opened."""
-        self.first_object: WordMark | None = None
+        self.first_object: WordLocation | None = None
 
     def block(self, block: WordBlock) -> None:
         if isinstance(block, TextGrid):

@@ -7,13 +7,13 @@ from collections.abc import Collection
 from dataclasses import replace
 from pathlib import Path
 
-from reportgen.base.errors import Fault, Mark
+from reportgen.base.errors import Fault, Location
 from reportgen.case.answer_key import Key
 from reportgen.handin import FileReading, agree
 from reportgen.handin.word_comments import MarginNote, with_comments
 from reportgen.handin.word_file import open_word, word_faults
 from reportgen.handin.word_reader import lines_of, read_report
-from reportgen.handin.word_text import WordMark
+from reportgen.handin.word_text import WordLocation
 from reportgen.marking.feedback import cell_comment
 from reportgen.marking.marking_data import Answer, Marking, Place
 from reportgen.marking.marking_policy import Policy
@@ -34,9 +34,9 @@ def read(path: Path, data: bytes, key: Key, plans: object = None) -> FileReading
         whole = read_report(file.all_blocks, key, str(path))
         unseen = frozenset(place for place, answer in whole.values.items() if not _has(reading, place, answer))
         unseen |= (whole.unread.keys() & reading.values.keys()) | (whole.unread.keys() - reading.unread.keys())
-        notes = (*notes, Fault("word-unseen", Mark(str(path)), {"count": str(len(unseen))}))
+        notes = (*notes, Fault("word-unseen", Location(str(path)), {"count": str(len(unseen))}))
     if not reading.values and not reading.unread:
-        notes = (*notes, Fault("word-nothing", Mark(str(path)), {"count": str(file.pictures)}))
+        notes = (*notes, Fault("word-nothing", Location(str(path)), {"count": str(file.pictures)}))
     return replace(reading, notes=notes, unseen=unseen)
 
 
@@ -64,6 +64,6 @@ def marked(path: Path, data: bytes, reading: FileReading, marking: Marking, poli
         # If a sheet counts, a different value in the report is not the one that was judged.
         judged = own is None or (counted is not None and agree(own, counted))
         text = cell_comment(cell, marking, words, policy.show_answers)
-        if text and judged and isinstance(mark, WordMark):
+        if text and judged and isinstance(mark, WordLocation):
             remarks.append(MarginNote(text, mark.element))
     return MARKED, with_comments(open_word(path, data), remarks)

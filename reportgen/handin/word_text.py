@@ -10,7 +10,7 @@ import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 
-from reportgen.base.errors import Mark
+from reportgen.base.errors import Location
 from reportgen.base.typed_characters import DOTS, MINUSES, UNSEEN
 from reportgen.handin.word_nodes import XmlNode
 
@@ -23,7 +23,7 @@ LONGEST = 20_000
 
 
 @dataclass(frozen=True, slots=True)
-class WordMark(Mark):
+class WordLocation(Location):
     """A paragraph of a Word file, counted from 1, and the number of the element with the value."""
 
     element: int = 0

@@ -11,7 +11,7 @@ from typing import Any, TypeVar, cast
 import numpy as np
 
 from reportgen.formula import Chain, ids
-from reportgen.formula.calculation import Sheet
+from reportgen.formula.calculation import Calculation
 from reportgen.machine import Crank, Linkage
 from reportgen.machine.force_analysis import Forces, Load, inertia_loads, solve_forces, virtual_work_torque, weights
 from reportgen.machine.gas_pressure import indicated_work, stroke_at
@@ -250,7 +250,7 @@ class Position(int):
         return self.label
 
 
-def no_formulas(q: Sheet) -> None:
+def no_formulas(q: Calculation) -> None:
     """Enter nothing: the default for a machine without closed formulas."""
 
 
@@ -262,7 +262,7 @@ class ClosedFormulas:
     that templates of the analytic method show, by name.
     """
 
-    write: Callable[[Sheet], None] = no_formulas
+    write: Callable[[Calculation], None] = no_formulas
     compared: tuple[tuple[str, str], ...] = ()
     equations: Mapping[str, tuple[Chain, ...]] = field(default_factory=dict)
 
@@ -283,7 +283,7 @@ class Machine:
     speed: float
     count: int
     turns: int
-    sheet: Sheet
+    sheet: Calculation
     outline: tuple[str, ...]
     closed_formulas: ClosedFormulas = ClosedFormulas()
     applied: tuple[Applied, ...] = ()

@@ -18,7 +18,7 @@ import numpy as np
 
 from reportgen.base.arrays import Flags, Floats
 from reportgen.formula import Expression, Symbol, ids
-from reportgen.formula.calculation import Sheet
+from reportgen.formula.calculation import Calculation
 from reportgen.machine.gas_pressure import AngleIndicator, Bracket, IndicatorTable, StrokeIndicator, Tabled, crossings
 from reportgen.machine.kinematics import Motion
 from reportgen.machine.spring_geometry import Coil
@@ -156,7 +156,7 @@ class Law(ABC):
         """The spring that exerts it, if one does."""
         return None
 
-    def formula(self, q: Sheet, link: int) -> Expression | None:
+    def formula(self, q: Calculation, link: int) -> Expression | None:
         """Return the formula of the size in quantities of the sheet, for the load on `link`; None if it is read or
         given.
         """
@@ -224,7 +224,7 @@ class GasLaw(TableLaw):
     def symbol(self) -> Symbol:
         return Symbol("p")
 
-    def formula(self, q: Sheet, link: int) -> Expression | None:
+    def formula(self, q: Calculation, link: int) -> Expression | None:
         p = q.find(ids.pressure(link))
         return None if p is None else p * q["F"]
 
@@ -269,7 +269,7 @@ class AngleLaw(ListedLaw):
 
 
 @dataclass(frozen=True)
-class WayLaw(ListedLaw):
+class TravelLaw(ListedLaw):
     """Values over the way (m) of a sliding driver from its start; `span` is the whole way, which is not a cycle."""
 
     span: float

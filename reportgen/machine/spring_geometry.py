@@ -8,7 +8,7 @@ import numpy as np
 
 from reportgen.base.arrays import Complexes
 from reportgen.formula import Ref, ids
-from reportgen.formula.calculation import Sheet
+from reportgen.formula.calculation import Calculation
 from reportgen.machine.kinematics import Motion
 
 
@@ -22,7 +22,7 @@ class Anchor:
     def at(self, motion: Motion) -> Complexes | complex:
         return motion.points[self.name].p if self.name else self.place
 
-    def on(self, q: Sheet, number: int) -> Ref:
+    def on(self, q: Calculation, number: int) -> Ref:
         """Return the end as it is drawn (m)."""
         if self.name:
             return q[ids.place(self.name)]

@@ -18,18 +18,18 @@ from typing import get_args
 import numpy as np
 
 from reportgen.base import units
-from reportgen.base.errors import Fault, Mark, Problem
+from reportgen.base.errors import Fault, Location, Problem
 from reportgen.base.template_folders import languages
 from reportgen.base.typed_characters import plain_signs
 from reportgen.base.units import Language, QuantityFault
 from reportgen.base.words import as_error, as_problem, common_words
 from reportgen.case.answer_key import Key, KeyRow, Role
 from reportgen.document import plain
-from reportgen.formula.vocabulary import Chapter
+from reportgen.formula.vocabulary import KeyChapter
 from reportgen.marking.marking_data import Answer, Place, Submission
 from reportgen.marking.student_numbers import DecimalMark, decimal_mark, is_blank, read_number
 from reportgen.marking.toleranced_key import shown_number, symbol_text, typed_unit, words_of
-from reportgen.workbook import Book, BookSheet, Entry, Page, SheetCell, read
+from reportgen.workbook import Book, Entry, Page, SheetCell, WorksheetData, read
 
 NAMES = 5
 """Number of columns before those of the positions: id, symbol, description, unit, single value."""
@@ -50,8 +50,8 @@ def asked_positions(key: Key) -> tuple[int, ...]:
 
 def rows_shown(key: Key) -> tuple[KeyRow, ...]:
     """Return the rows of the sheet: given, asked and scales; given data of formulas only if formulas are asked for."""
-    formulas = any(row.part is Chapter.formulas for row in key.asked)
-    given = (row.id for row in key.rows if row.role is Role.given and (formulas or row.part is not Chapter.formulas))
+    formulas = any(row.part is KeyChapter.formulas for row in key.asked)
+    given = (row.id for row in key.rows if row.role is Role.given and (formulas or row.part is not KeyChapter.formulas))
     shown = frozenset(given)
     return tuple(row for row in key.rows if row.positions or row.id in shown)
 
@@ -68,7 +68,7 @@ def open_cells(key: Key) -> Mapping[str, frozenset[int]]:
     A cell is also open if its quantity does not exist (the direction of a zero velocity) while others of its part are
     asked for, so that the sheet does not reveal it.
     """
-    of_part: dict[Chapter, set[int]] = {}
+    of_part: dict[KeyChapter, set[int]] = {}
     for row in key.asked:
         of_part.setdefault(row.part, set()).update(row.positions)
     return {
@@ -119,14 +119,14 @@ def grid(
     return tuple(lines)
 
 
-def page(name: str, rows: Sequence[Sequence[Entry]], by_section: bool = False) -> BookSheet:
+def page(name: str, rows: Sequence[Sequence[Entry]], by_section: bool = False) -> WorksheetData:
     """Return a protected page in the sheet's layout; `by_section` prints each section on separate pages."""
     columns = len(rows[HEAD - 1])
     longest = max((len(str(row[0].value or "")) for row in rows[HEAD:]), default=0)
     widths = (max(longest + 1.0, 11.0), 11.0, WHAT, 13.0, *(12.0,) * (columns - NAMES + 1))
     # A section begins with its name in bold, after an empty id.
     begins = [number for number, row in enumerate(rows[HEAD:], start=HEAD) if len(row) == 2 and row[1].style == "bold"]
-    return BookSheet(name, rows, widths, (HEAD, NAMES - 1), protected=True, breaks=begins[1:] if by_section else ())
+    return WorksheetData(name, rows, widths, (HEAD, NAMES - 1), protected=True, breaks=begins[1:] if by_section else ())
 
 
 def info_rows(key: Key) -> tuple[tuple[str, str], ...]:
@@ -143,10 +143,10 @@ def info_rows(key: Key) -> tuple[tuple[str, str], ...]:
     )
 
 
-def info_page(key: Key) -> BookSheet:
+def info_page(key: Key) -> WorksheetData:
     """Return the page that names assignment and student."""
     rows = tuple((Entry(label, "bold"), Entry(text)) for label, text in info_rows(key))
-    return BookSheet(words_of(key)["answer_sheet"]["info"], rows, (24.0, 44.0), protected=True)
+    return WorksheetData(words_of(key)["answer_sheet"]["info"], rows, (24.0, 44.0), protected=True)
 
 
 def named_pages(key: Key, name: str) -> Iterator[tuple[str, Key]]:
@@ -166,7 +166,7 @@ def answer_book(key: Key, by_section: bool = False, self_check: bool = True) -> 
     return Book((*pages, info_page(key)), f"{sheet['title']} {key.id}")
 
 
-def _answer_page(key: Key, name: str, note: str, by_section: bool) -> BookSheet:
+def _answer_page(key: Key, name: str, note: str, by_section: bool) -> WorksheetData:
     sheet, cells = words_of(key)["answer_sheet"], open_cells(key)
 
     def filling(row: KeyRow, position: int) -> Entry | None:
@@ -210,9 +210,9 @@ def read_submission(
     sheets = _sheets(pages)
     first_sheet = sheets[0] if sheets else None
     if first_sheet is None:
-        raise as_error([Fault("sheet-no-head", Mark(str(path)))], language)
+        raise as_error([Fault("sheet-no-head", Location(str(path)))], language)
     named = _beside(pages, "assignment") or _titled(first_sheet[0].rows[: first_sheet[1]])
-    name, mark = named or (path.stem, Mark(str(path)))
+    name, mark = named or (path.stem, Location(str(path)))
     if isinstance(key_of, Key):
         key = key_of
         if named and name != key.id:
@@ -277,7 +277,7 @@ def _sheets(pages: Sequence[Page]) -> list[tuple[Page, int]]:
     return list(answers.values())
 
 
-def _beside(pages: Sequence[Page], label: str) -> tuple[str, Mark] | None:
+def _beside(pages: Sequence[Page], label: str) -> tuple[str, Location] | None:
     """Return the text beside a label such as that of the assignment, or None."""
     for page in pages:
         for row in page.rows:
@@ -287,7 +287,7 @@ def _beside(pages: Sequence[Page], label: str) -> tuple[str, Mark] | None:
     return None
 
 
-def _titled(rows: Sequence[Sequence[SheetCell]]) -> tuple[str, Mark] | None:
+def _titled(rows: Sequence[Sequence[SheetCell]]) -> tuple[str, Location] | None:
     """Return the assignment at the end of the sheet's title; a page saved as CSV names it nowhere else."""
     for cell in (cell for row in rows for cell in row):
         title, dash, name = cell.text.partition("–")

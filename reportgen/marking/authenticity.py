@@ -23,7 +23,7 @@ import numpy as np
 from reportgen.case.answer_key import Key, KeyRow, Role
 from reportgen.formula import vocabulary
 from reportgen.formula.evaluation import evaluate
-from reportgen.formula.vocabulary import Chapter
+from reportgen.formula.vocabulary import KeyChapter
 from reportgen.marking.marking_data import Cells, Marked, Notice, Place, Submission, Verdict
 from reportgen.marking.marking_scheme import MarkingScheme
 from reportgen.marking.mistakes import WRONG_DATUM
@@ -215,7 +215,7 @@ def _copied(scheme: MarkingScheme, cells: Cells, classmates: Sequence[Classmate]
     }
     right = [cell for cell in cells.values() if cell.verdict is Verdict.right]
     others = [one for one in classmates if one.key.id != scheme.key.id and not _is_source(scheme, right, one)]
-    runs: dict[Chapter | int, list[Place]] = {}
+    runs: dict[KeyChapter | int, list[Place]] = {}
     for place in own:
         runs.setdefault(scheme.rows[place[0]].part, []).append(place)
         if place[1]:

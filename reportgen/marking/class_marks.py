@@ -12,7 +12,7 @@ from reportgen.base.units import Language
 from reportgen.base.words import load_words
 from reportgen.case.answer_key import Key, KeyRow
 from reportgen.document import plain
-from reportgen.formula.vocabulary import Chapter
+from reportgen.formula.vocabulary import KeyChapter
 from reportgen.marking.feedback import amended
 from reportgen.marking.marking_data import Marked, Marking, Submission, Unmarked, points_of
 from reportgen.marking.marking_policy import Policy
@@ -41,7 +41,7 @@ def grade_rows(
     words = load_words(search_path(language))
     names = words["grades"]
     judged = {marking.key.row(cell.id).part for marking in markings for cell in marking.cells}
-    parts = [part for part in Chapter if part in judged]
+    parts = [part for part in KeyChapter if part in judged]
     owners = {part.name: part.title for marking in markings for part in marking.key.parts}
     head = (
         *(names[name] for name in ("id", "name", "class", "points", "out_of", "percent", "mark")),
@@ -177,7 +177,7 @@ def who(key: Key) -> tuple[str, str, str]:
     return (student.get("id", key.id), student.get("name", ""), student.get("class", ""))
 
 
-def _points_of(marking: Marking, part: Chapter) -> float:
+def _points_of(marking: Marking, part: KeyChapter) -> float:
     return round(points_of(cell for cell in marking.cells if marking.key.row(cell.id).part is part)[0], 2)
 
 

@@ -22,7 +22,7 @@ from reportgen.marking.marking_scheme import MarkingScheme
 
 
 @dataclass(frozen=True, slots=True)
-class PartSheet:
+class PartSubmission:
     """The share of a sheet that belongs to one part: its scheme, values and classmates, by the part's own ids."""
 
     part: PartOfKey
@@ -31,7 +31,9 @@ class PartSheet:
     classmates: tuple[Classmate, ...]
 
 
-def sheets_of(scheme: MarkingScheme, submission: Submission, classmates: Sequence[Classmate]) -> Iterator[PartSheet]:
+def sheets_of(
+    scheme: MarkingScheme, submission: Submission, classmates: Sequence[Classmate]
+) -> Iterator[PartSubmission]:
     """Yield the parts of a coursework's sheet in order, weighted with their shares of the mark."""
     pages = {part.name: page for part, (_, page) in zip(scheme.key.parts, scheme.key.pages, strict=True)}
     earned = {
@@ -46,7 +48,7 @@ def sheets_of(scheme: MarkingScheme, submission: Submission, classmates: Sequenc
         policy = replace(scheme.policy, weights=worths)
         mates = (_own_classmate(classmate, part.name) for classmate in classmates)
         own = replace(alone, key=key, policy=policy)
-        yield PartSheet(part, own, _own_submission(submission, scheme.key, part), tuple(filter(None, mates)))
+        yield PartSubmission(part, own, _own_submission(submission, scheme.key, part), tuple(filter(None, mates)))
 
 
 def share(shares: Mapping[str, float], earned: Mapping[str, float], name: str) -> float:

@@ -33,7 +33,7 @@ from reportgen.marking.marking_data import Amendment, Marked, Marking, Verdict, 
 from reportgen.marking.marking_policy import Policy
 from reportgen.marking.task_paper import DASH, cells, fields, heading, paper, paragraph, student_rows
 from reportgen.marking.toleranced_key import shown_number, words_of
-from reportgen.workbook import Book, BookSheet, Entry
+from reportgen.workbook import Book, Entry, WorksheetData
 from reportgen.workbook.table_writing import CellStyle
 
 STYLES: Mapping[Verdict, CellStyle] = {
@@ -80,7 +80,7 @@ def feedback_book(marking: Marking, show_answers: bool = True) -> Book:
 
     heads = (feedback["points"], feedback["out_of"])
 
-    def marked_page(name: str, part: Key) -> BookSheet:
+    def marked_page(name: str, part: Key) -> WorksheetData:
         positions = asked_positions(part)
         rows = grid(
             part,
@@ -114,7 +114,7 @@ def _points(judged: Sequence[Marked], style: CellStyle = "") -> tuple[Entry, Ent
     return (Entry(round(earned, 2), style), Entry(round(worth, 2), style))
 
 
-def _legend(words: Mapping[str, Any], unread: bool) -> BookSheet:
+def _legend(words: Mapping[str, Any], unread: bool) -> WorksheetData:
     """Return the page that explains the colours; it omits the colour of unread cells unless there are `unread` ones."""
     notes, verdicts = words["verdict_notes"], words["verdicts"]
     styles = [(verdict.value, style) for verdict, style in STYLES.items() if unread or verdict is not Verdict.unread]
@@ -122,7 +122,7 @@ def _legend(words: Mapping[str, Any], unread: bool) -> BookSheet:
     rows = tuple(
         (Entry(str(verdicts[name]), style), Entry(str(notes[name]).partition(":")[0])) for name, style in styles
     )
-    return BookSheet(words["feedback"]["legend"], rows, (18.0, 80.0), protected=True)
+    return WorksheetData(words["feedback"]["legend"], rows, (18.0, 80.0), protected=True)
 
 
 # --- the page -------------------------------------------------------------------------------------

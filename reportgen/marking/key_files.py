@@ -31,7 +31,7 @@ from reportgen.marking.task_paper import (
     unnamed_rows,
 )
 from reportgen.marking.toleranced_key import shown_number, symbol_text, words_of
-from reportgen.workbook import Book, BookSheet, Entry
+from reportgen.workbook import Book, Entry, WorksheetData
 
 FORMAT = "reportgen-key/1"
 """Format name in the JSON."""
@@ -78,7 +78,7 @@ def key_book(key: Key) -> Book:
     return Book((*sheets, info_page(key)), f"{words_of(key)['key']['title']} {key.id}")
 
 
-def _book_pages(key: Key, number: int, title: str) -> Iterator[BookSheet]:
+def _book_pages(key: Key, number: int, title: str) -> Iterator[WorksheetData]:
     """Yield the pages of a key or of one of its parts; pages of later parts include the part's title."""
     words = words_of(key)["key"]
     positions = range(1, len(key.labels) + 1)

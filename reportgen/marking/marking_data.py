@@ -6,7 +6,7 @@ from collections.abc import Container, Iterable, Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
 
-from reportgen.base.errors import Mark, Problem
+from reportgen.base.errors import Location, Problem
 from reportgen.case.answer_key import Key
 from reportgen.document import Inlines
 
@@ -20,7 +20,7 @@ class Answer:
 
     value: float
     text: str
-    mark: Mark
+    mark: Location
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,7 +102,7 @@ OPEN = frozenset({Verdict.unreadable, Verdict.unread})
 
 
 @dataclass(frozen=True, slots=True)
-class OnSheet:
+class SheetValues:
     """The values of one cell in the units of the sheet; lengths are as drawn at the student's own scale."""
 
     given: float | None
@@ -151,9 +151,9 @@ class Marked:
     """The number in the cell, in that unit."""
 
     @property
-    def on_sheet(self) -> OnSheet:
+    def on_sheet(self) -> SheetValues:
         """The values in the units of the sheet, for readers and for searches that work on the sheet alone."""
-        return OnSheet(self.written, self.expected / self.unit, self.own / self.unit, self.band / self.unit)
+        return SheetValues(self.written, self.expected / self.unit, self.own / self.unit, self.band / self.unit)
 
     def exchanged_labels(self, key: Key) -> dict[str, str]:
         """Return the labels of the two exchanged positions, in order."""

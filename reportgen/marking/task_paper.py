@@ -17,7 +17,7 @@ from reportgen.document import Block, Cell, Column, Document, InlineMath, Inline
 from reportgen.document.numbering import number
 from reportgen.drawing.label_size import box
 from reportgen.formula import Number
-from reportgen.formula.vocabulary import Chapter
+from reportgen.formula.vocabulary import KeyChapter
 from reportgen.marking.answer_sheet import asked_positions, info_rows, open_cells
 from reportgen.marking.toleranced_key import words_of
 from reportgen.report.context import PLATES_UP_TO
@@ -207,7 +207,7 @@ def empty_sheet(key: Key, by_section: bool) -> tuple[Block, ...]:
 def _sections(key: Key) -> Iterator[Block]:
     """Yield the empty sheet with a page break before each section but the first, and the student's name in each."""
     whose = " – ".join(filter(None, (key.id, key.student.get("name", ""), key.student.get("id", ""))))
-    parts = [part for part in Chapter if any(row.part is part for row in key.asked)]
+    parts = [part for part in KeyChapter if any(row.part is part for row in key.asked)]
     for part in parts:
         if part is not parts[0]:
             yield tree.PageBreak()
@@ -216,7 +216,7 @@ def _sections(key: Key) -> Iterator[Block]:
         yield from answer_tables(key, part)
 
 
-def answer_tables(key: Key, only: Chapter | None = None) -> Iterator[Table]:
+def answer_tables(key: Key, only: KeyChapter | None = None) -> Iterator[Table]:
     """Yield the empty sheet, or `only` one part of it, as tables to fill in by hand.
 
     Each table has as many positions as fit. The first one has the single values, in a cell across all positions.
@@ -234,7 +234,9 @@ def _known_tables(key: Key, positions: Sequence[int]) -> Iterator[Table]:
     """Yield tables of the values given at each position (the crank's angle, a load that follows the motion)."""
     words = words_of(key)
     caption = (Text(str(words["answer_sheet"]["known"])),)
-    rows = [row for row in key.rows if row.role is Role.given and not row.single and row.part is not Chapter.formulas]
+    rows = [
+        row for row in key.rows if row.role is Role.given and not row.single and row.part is not KeyChapter.formulas
+    ]
     for some in _split(positions, MOST_POSITIONS) if rows else ():
         head = (words["table"]["symbol"], words["table"]["unit"], *map(key.label, some))
         body = (cells((symbol_inlines(row, False), row.unit, *(_known_number(row, k) for k in some))) for row in rows)

@@ -26,7 +26,7 @@ from reportgen.formula import Expression, Number, ids, refs, substitute
 from reportgen.formula.calculation import Family
 from reportgen.formula.ledger import Ledger
 from reportgen.formula.plain_text import formula
-from reportgen.formula.vocabulary import KINDS, Chapter
+from reportgen.formula.vocabulary import KINDS, KeyChapter
 from reportgen.marking.tolerance_bands import (
     computed_bands,
     drawn_bands,
@@ -74,10 +74,10 @@ def key_of(case: Case) -> Key:
         values, written = _values(ledger, id), _values(printed, id)
         sense = case.sense(id)
         role = _role(ledger, family)
-        part = Chapter.data if role is Role.given and len(values) == 1 else family.chapter
+        part = KeyChapter.data if role is Role.given and len(values) == 1 else family.chapter
         # A value read from a diagram can be computed on paper; an integral over the cycle cannot.
         integral = family.definition is None or ids.rest(id) in ledger
-        reached = part is not Chapter.cycle or complete
+        reached = part is not KeyChapter.cycle or complete
         workable = not family.residue and (len(values) > 1 or not integral) and is_workable(ledger, id, by_rule)
         chosen = role is Role.scale and not is_round_scale(family)
         asked = reached and (chosen or (role is Role.asked and workable))
@@ -100,11 +100,11 @@ def key_of(case: Case) -> Key:
             positive=words["signs"].get(sense, sense),
             open_sense=is_open(values, sense),
             plans=tuple(sorted(read[id])) if role is Role.asked else (),
-            by_rule=part is Chapter.cycle and bool(np.any(by_rule.get(id, 0.0))),
+            by_rule=part is KeyChapter.cycle and bool(np.any(by_rule.get(id, 0.0))),
             formula=formula_in_symbols(ledger, id) if sense in BY_FORMULA else None,
         )
 
-    parts, families = list(Chapter), ledger.families.values()
+    parts, families = list(KeyChapter), ledger.families.values()
     # No rows for points, optional quantities and the sizes of signed rotations.
     shown = (one.id for one in families if not (one.hidden or one.is_plane or one.optional or one.id in ledger.signed))
     rows = sorted([row(id) for id in shown], key=lambda row: parts.index(row.part))

@@ -14,7 +14,7 @@ from reportgen.formula import Chain, Symbol
 from reportgen.motion import run_ids
 from reportgen.motion.steady_running import MotionRun
 from reportgen.motion.true_motion import TrueMotion, motion_in
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 from reportgen.report.cycle_curves import axis
 
 THINNED = 3
@@ -30,7 +30,7 @@ SEEN = 0.15
 Curve = tuple[Symbol | str, np.ndarray, np.ndarray]
 
 
-def motion_of(report: Report) -> TrueMotion:
+def motion_of(report: ReportContext) -> TrueMotion:
     return motion_in(report.analysis)
 
 
@@ -40,20 +40,20 @@ def _thinned(run: MotionRun) -> np.ndarray:
     return np.asarray(kept)
 
 
-def _over_angle(report: Report) -> Content:
+def _over_angle(report: ReportContext) -> Content:
     return Chain((Symbol("φ"),), report.words["figure"]["cycle_angle"])
 
 
-def _axis_of(report: Report, id: str) -> Chain:
+def _axis_of(report: ReportContext, id: str) -> Chain:
     return axis(report, report.ledger.symbol(id), report.ledger[id].kind)
 
 
-def _chart(report: Report, curves: Sequence[Curve], across: Content, up: Content, **how: Any) -> Scene:
+def _chart(report: ReportContext, curves: Sequence[Curve], across: Content, up: Content, **how: Any) -> Scene:
     return _plotted(report, curves, across, up, **how).scene
 
 
 def _plotted(
-    report: Report,
+    report: ReportContext,
     curves: Sequence[Curve],
     across: Content,
     up: Content,
@@ -68,7 +68,7 @@ def _plotted(
     return charts.plotted(diagram, half=half, area=report.area)
 
 
-def _steady_curves(report: Report, id: str, values: str) -> list[Curve]:
+def _steady_curves(report: ReportContext, id: str, values: str) -> list[Curve]:
     motion = motion_of(report)
     curves: list[Curve] = []
     for state, steady in motion.states.items():
@@ -78,7 +78,7 @@ def _steady_curves(report: Report, id: str, values: str) -> list[Curve]:
     return curves
 
 
-def inertia(report: Report) -> FigureScenes:
+def inertia(report: ReportContext) -> FigureScenes:
     """Return curves of J_r and its slope over the cycle, if they exist."""
     run = motion_of(report).alone.run
     kept = _thinned(run)
@@ -92,7 +92,7 @@ def inertia(report: Report) -> FigureScenes:
     return FigureScenes(tuple(scenes))
 
 
-def speed(report: Report) -> FigureScenes:
+def speed(report: ReportContext) -> FigureScenes:
     """Draw ω over the cycle, without and with the flywheel, with the mean of its bounds."""
     mean = report.ledger.number("run.mean").value
     level = ((mean, report.ledger.symbol("run.mean")),)
@@ -100,13 +100,13 @@ def speed(report: Report) -> FigureScenes:
     return FigureScenes((_chart(report, curves, _over_angle(report), up, zero=False, levels=level),))
 
 
-def acceleration(report: Report) -> FigureScenes:
+def acceleration(report: ReportContext) -> FigureScenes:
     """Draw ε over the cycle, without and with the flywheel."""
     curves = _steady_curves(report, "eps", "acceleration")
     return FigureScenes((_chart(report, curves, _over_angle(report), _axis_of(report, "run.eps")),))
 
 
-def torques(report: Report) -> FigureScenes:
+def torques(report: ReportContext) -> FigureScenes:
     """Draw M_r and the torque of the drive over the cycle."""
     run = motion_of(report).alone.run
     kept = _thinned(run)
@@ -118,14 +118,14 @@ def torques(report: Report) -> FigureScenes:
     return FigureScenes((_chart(report, curves, _over_angle(report), _axis_of(report, "M.r")),))
 
 
-def characteristic(report: Report) -> FigureScenes:
+def characteristic(report: ReportContext) -> FigureScenes:
     """Return the torque of the drive over the speed, and the closed loop that the reduced torque of the loads makes
     there.
     """
     return FigureScenes((characteristic_chart(report).scene,))
 
 
-def characteristic_chart(report: Report, half: bool = False) -> charts.Plotted:
+def characteristic_chart(report: ReportContext, half: bool = False) -> charts.Plotted:
     motion = motion_of(report)
     run = motion.alone.run
     kept = _thinned(run)
@@ -139,7 +139,7 @@ def characteristic_chart(report: Report, half: bool = False) -> charts.Plotted:
     return _plotted(report, curves, across, up, turn=False, half=half)
 
 
-def energy(report: Report) -> FigureScenes:
+def energy(report: ReportContext) -> FigureScenes:
     """Draw T over J: the closed loop between the lines T = ½ω²J of the greatest and the least speed."""
     motion = motion_of(report)
     steady = motion.alone
@@ -156,7 +156,7 @@ def energy(report: Report) -> FigureScenes:
     return FigureScenes((_chart(report, curves, across, up, turn=False, zero=begin == 0.0),))
 
 
-def _of_run(report: Report, run: MotionRun) -> FigureScenes:
+def _of_run(report: ReportContext, run: MotionRun) -> FigureScenes:
     kept = _thinned(run)
     kept = kept[:: -(-len(kept) // MOST)] if len(kept) > MOST else kept
     kept = np.append(kept[kept < len(run.angle) - 1], len(run.angle) - 1)
@@ -168,21 +168,21 @@ def _of_run(report: Report, run: MotionRun) -> FigureScenes:
     return FigureScenes((over_angle, over_time))
 
 
-def starting(report: Report) -> FigureScenes:
+def starting(report: ReportContext) -> FigureScenes:
     """Draw ω over φ and t from rest."""
     started = motion_of(report).started
     assert started is not None, "a start is drawn where it is asked for"
     return _of_run(report, started.run)
 
 
-def stopping(report: Report) -> FigureScenes:
+def stopping(report: ReportContext) -> FigureScenes:
     """Draw ω over φ and t to the stop."""
     stopped = motion_of(report).stopped
     assert stopped is not None, "a stop is drawn where it is asked for"
     return _of_run(report, stopped)
 
 
-def sheet(report: Report) -> Iterator[Scene]:
+def sheet(report: ReportContext) -> Iterator[Scene]:
     """Yield torques, work, reduced inertia, speed, acceleration one below another on one axis φ; the energy beside
     them.
     """

@@ -72,7 +72,7 @@ def tail(values: Floats) -> float:
 
 
 @dataclass(frozen=True)
-class ReducedWay:
+class ReducedTravel:
     """Parts of a way between rising cycle angles `edges` [n + 1], and the values at the places in them [n, s].
 
     `angle` of the places, `measure` dφ/dx times the length of the part, so that dT = M·measure over 0…1; J, J′ and
@@ -91,11 +91,11 @@ class ReducedWay:
     def size(self) -> int:
         return len(self.edges) - 1
 
-    def parts(self, first: int, last: int) -> ReducedWay:
+    def parts(self, first: int, last: int) -> ReducedTravel:
         """Return the parts from number `first` up to `last`, which is left out."""
         within = {name: getattr(self, name)[first:last] for name in ("angle", "measure", "inertia", "slope", "torque")}
         inertia, slope, torque = (values[first : last + 1] for values in self.at_edges)
-        return ReducedWay(self.edges[first : last + 1], **within, at_edges=(inertia, slope, torque))
+        return ReducedTravel(self.edges[first : last + 1], **within, at_edges=(inertia, slope, torque))
 
 
 @dataclass(frozen=True)
@@ -129,13 +129,13 @@ class ReducedMachine:
         """True if its loads can push the crank back where they exceed the drive; False if they only resist."""
         return not any(load.law.kind in ("opposing", "cutting") for load in self.machine.loads)
 
-    def along(self, edges: Floats) -> ReducedWay:
+    def along(self, edges: Floats) -> ReducedTravel:
         """Return the way with these edges (rad), which rise."""
         return self._way(
             edges, edges[:-1, None] + np.diff(edges)[:, None] * C, np.diff(edges)[:, None] * np.ones(STAGES)
         )
 
-    def _way(self, edges: Floats, angle: Floats, measure: Floats) -> ReducedWay:
+    def _way(self, edges: Floats, angle: Floats, measure: Floats) -> ReducedTravel:
         every = np.concatenate((angle.ravel(), edges))
         order = np.argsort(every, kind="stable")
         values = np.empty((3, every.size))
@@ -143,7 +143,7 @@ class ReducedMachine:
         inside = values[:, : angle.size].reshape(3, *angle.shape)
         J, slope, torque = inside
         at_edges = values[0, angle.size :], values[1, angle.size :], values[2, angle.size :]
-        return ReducedWay(edges, angle, measure, inertia=J, slope=slope, torque=torque, at_edges=at_edges)
+        return ReducedTravel(edges, angle, measure, inertia=J, slope=slope, torque=torque, at_edges=at_edges)
 
     @cached_property
     def corners(self) -> Floats:
@@ -176,7 +176,7 @@ class EnergyAlong:
         return EnergyAlong(self.edges[: count + 1], self.inside[:count])
 
 
-def linear(path: ReducedWay, drive: Drive, energy: Floats) -> tuple[Floats, Floats, Floats, Floats]:
+def linear(path: ReducedTravel, drive: Drive, energy: Floats) -> tuple[Floats, Floats, Floats, Floats]:
     """Return the equation made linear about T [n, s]: T = p T₀ + r inside each part, α T₀ + β at its end."""
     speed = np.sqrt(2 * energy / path.inertia)
     gain = path.measure * drive.slope(speed) / (path.inertia * speed)
@@ -201,7 +201,7 @@ def _first_empty(edges: Floats, inside: Floats) -> int:
     return int(empty.argmax()) if empty.any() else len(empty)
 
 
-def follow(path: ReducedWay, drive: Drive, first: float) -> tuple[EnergyAlong, int]:
+def follow(path: ReducedTravel, drive: Drive, first: float) -> tuple[EnergyAlong, int]:
     """Return T along a way from T = `first`, and the number of its parts over which it is accurate.
 
     It ends before the first part in which T changes too much for a polynomial, is used up, or Newton's method
@@ -228,7 +228,7 @@ def follow(path: ReducedWay, drive: Drive, first: float) -> tuple[EnergyAlong, i
     return EnergyAlong(np.concatenate(edges), np.concatenate((*inside, np.empty((0, STAGES))))), done
 
 
-def smooth(path: ReducedWay, drive: Drive, energy: EnergyAlong) -> NDArray[np.bool_]:
+def smooth(path: ReducedTravel, drive: Drive, energy: EnergyAlong) -> NDArray[np.bool_]:
     """Return flags [n] of parts in which polynomials are accurate: T changes little, their highest terms are
     negligible.
     """
@@ -244,7 +244,7 @@ def smooth(path: ReducedWay, drive: Drive, energy: EnergyAlong) -> NDArray[np.bo
     return np.asarray((least > 0) & (most <= MOST_CHANGE * least) & accurate)
 
 
-def _newton(path: ReducedWay, drive: Drive, first: float, energy: Floats) -> tuple[EnergyAlong, int]:
+def _newton(path: ReducedTravel, drive: Drive, first: float, energy: Floats) -> tuple[EnergyAlong, int]:
     """Return T along a way by Newton's method from a guess [n, s], and the number of its parts that are certain."""
     scale = first + float(np.abs(path.measure * path.torque).sum())
     for _ in range(MOST_STEPS):
@@ -261,7 +261,7 @@ def _newton(path: ReducedWay, drive: Drive, first: float, energy: Floats) -> tup
     return EnergyAlong(edges, inside), sure
 
 
-def closed(path: ReducedWay, drive: Drive, guess: Floats) -> tuple[EnergyAlong, float] | None:
+def closed(path: ReducedTravel, drive: Drive, guess: Floats) -> tuple[EnergyAlong, float] | None:
     """Return T along a cycle that ends as it began, from a guess [n, s], and the factor α of a deviation in a cycle.
 
     Return None if Newton's method finds none, or only one without energy.

@@ -11,13 +11,13 @@ from reportgen.motion.curves import characteristic_chart
 from reportgen.motion.steady_running import MotionRun
 from reportgen.motion.true_motion import motion_in
 from reportgen.page.topic_layers import LayerHooks
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 
 MOST = 1500
 """So many samples of a run go to the page; between them its angle is drawn along straight lines of time."""
 
 
-def timed_runs(report: Report) -> tuple[TimedRun, ...]:
+def timed_runs(report: ReportContext) -> tuple[TimedRun, ...]:
     """Return the motions that a page plays in time: that with the flywheel where start and stop have it."""
     motion = motion_in(report.analysis)
     runs = {"steady": motion.states[motion.shown].run}
@@ -35,7 +35,7 @@ def _timed(key: str, run: MotionRun) -> TimedRun:
     return TimedRun(key, run.time[kept], np.degrees(run.angle[kept]), run.speed[kept], run.drive[kept])
 
 
-def working_point(report: Report) -> Iterator[Chart]:
+def working_point(report: ReportContext) -> Iterator[Chart]:
     """Yield the characteristic, on which the working point of the drive moves; nothing for a constant torque."""
     motion = motion_in(report.analysis)
     if motion.drive.governs:

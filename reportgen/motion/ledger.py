@@ -15,7 +15,7 @@ from reportgen.derivation.reduction_entries import TERMS, enter_reduced
 from reportgen.derivation.topic_ledger import LedgerHooks
 from reportgen.derivation.unprinted_values import with_rest
 from reportgen.formula import NOTHING, PI, Expression, Ref, Symbol, call, ids, plus, sqrt, total
-from reportgen.formula.calculation import Sheet
+from reportgen.formula.calculation import Calculation
 from reportgen.machine import DRIVER
 from reportgen.machine.analysis import Analysis
 from reportgen.motion import run_ids
@@ -27,7 +27,7 @@ GIVEN = ("M0", "k", "Mk", "sk", "n0", "i", "J0", "brake")
 """Data of the drive given in a file, as quantities of `run`."""
 
 
-def enter(q: Sheet, analysis: Analysis) -> None:
+def enter(q: Calculation, analysis: Analysis) -> None:
     """Enter the true motion; torque and inertia reduced to the crank are used again if they have been entered.
 
     Ids: `run.a.S2`, `run.dJ` the slope of the reduced inertia; of the machine alone, and with `.wheel` behind them with
@@ -61,7 +61,7 @@ def enter(q: Sheet, analysis: Analysis) -> None:
             q.give(run_ids.quantity(name), value, Symbol("M", index), "torque", exact=False)
 
 
-def _slope(q: Sheet, analysis: Analysis) -> Expression:
+def _slope(q: Calculation, analysis: Analysis) -> Expression:
     """Enter J′ = 2 Σ(m v_S a_S^v + J ω ε)/ω₁³; if that is too long for a line, each link's part is a separate entry."""
     ω1 = q["omega.1"]
     parts: dict[int, list[Expression]] = {}
@@ -101,7 +101,7 @@ def _slope(q: Sheet, analysis: Analysis) -> Expression:
 class _Steady:
     """The entries of one steady motion."""
 
-    def __init__(self, q: Sheet, analysis: Analysis, motion: TrueMotion, state: WheelState) -> None:
+    def __init__(self, q: Calculation, analysis: Analysis, motion: TrueMotion, state: WheelState) -> None:
         self.q, self.machine, self.motion, self.state = q, analysis.machine, motion, state
         self.steady = motion.states[state]
         self.at = at_positions(self.machine, self.steady)
@@ -218,7 +218,7 @@ class _Steady:
         )
 
 
-def _start_and_stop(q: Sheet, motion: TrueMotion) -> None:
+def _start_and_stop(q: Calculation, motion: TrueMotion) -> None:
     """Enter the time and the angle that the machine takes from rest to the steady motion and down to rest."""
     if motion.started is not None:
         run = motion.started.run

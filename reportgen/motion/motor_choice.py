@@ -12,23 +12,23 @@ from reportgen.document.tables import list_table
 from reportgen.formula import Number
 from reportgen.motion.motors import MotorChecks
 from reportgen.motion.true_motion import motion_in
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 
 WIDTHS = (24.0, 22.0, 34.0, 34.0, 34.0, 14.0)
 FIGURES = 4
 
 
-def _checks(report: Report) -> Sequence[MotorChecks]:
+def _checks(report: ReportContext) -> Sequence[MotorChecks]:
     motion = motion_in(report.analysis)
     return motion.motors(report.machine)
 
 
-def has_motors(report: Report) -> bool:
+def has_motors(report: ReportContext) -> bool:
     """Return True if motors are given to choose from."""
     return bool(_checks(report))
 
 
-def chosen_motor(report: Report) -> Inlines:
+def chosen_motor(report: ReportContext) -> Inlines:
     """Return the smallest motor that passes all checks, by name and power; () if there is none."""
     fitting = next((checked_motor for checked_motor in _checks(report) if checked_motor.fits), None)
     if fitting is None:
@@ -36,7 +36,7 @@ def chosen_motor(report: Report) -> Inlines:
     return Text(f"{fitting.motor.name}, "), Value(_typed(fitting.motor.power, "kW"))
 
 
-def motor_list(report: Report) -> Inlines:
+def motor_list(report: ReportContext) -> Inlines:
     """Return the motors to choose from, with all that is given of them."""
     motion, words = motion_in(report.analysis), report.words["motors"]
     parts: list[Inline] = []
@@ -53,17 +53,17 @@ def motor_list(report: Report) -> Inlines:
     return tuple(parts)
 
 
-def demand_lines(report: Report) -> list[str]:
+def demand_lines(report: ReportContext) -> list[str]:
     """Return the ids of the requirements for the motor, at the crank."""
     return report.known(["run.Mmean", "run.Meff", "run.Mmost", "run.Mres"])
 
 
-def motors_table(report: Report, key: str, caption: str, head: Sequence[str]) -> Table:
+def motors_table(report: ReportContext, key: str, caption: str, head: Sequence[str]) -> Table:
     """Return each motor with its torques at the crank, and whether they suffice."""
     return list_table(report.prose, key, caption, head, _rows(report), WIDTHS)
 
 
-def _rows(report: Report) -> Iterator[Sequence[object]]:
+def _rows(report: ReportContext) -> Iterator[Sequence[object]]:
     words = report.words["motors"]
 
     def checked(torque: float, wanted: float) -> Inlines:
@@ -89,7 +89,7 @@ def _number(value: float) -> Number:
     return Number(float(f"{value:.{FIGURES}g}"), max(significant_decimals(value, FIGURES), 0))
 
 
-VALUES: Mapping[str, Callable[[Report], Any]] = {
+VALUES: Mapping[str, Callable[[ReportContext], Any]] = {
     "has_motors": has_motors,
     "chosen_motor": chosen_motor,
     "motor_list": motor_list,

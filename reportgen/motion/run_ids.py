@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from reportgen.formula.ids import Name
-from reportgen.formula.vocabulary import Chapter, QuantityKind, VocabularyRow
+from reportgen.formula.vocabulary import KeyChapter, QuantityKind, VocabularyRow
 
 along_velocity = Name("run.a.{point}")  # component of an acceleration along the velocity
 slope = Name("run.dJ[.{link}]")  # J′ of the machine, or the part of a link
@@ -22,8 +22,8 @@ def in_state(name: str, state: str) -> str:
 KINDS: Mapping[str, QuantityKind] = {"damping": QuantityKind("N·m·s")}
 
 ROWS = (
-    VocabularyRow(along_velocity, "a", "acceleration", Chapter.cycle, name="along velocity"),
-    VocabularyRow(slope, "J", "moment of inertia", Chapter.cycle, name="inertia slope"),
-    VocabularyRow(with_wheel, chapter=Chapter.cycle, name="run {quantity} wheel"),
-    VocabularyRow(quantity, chapter=Chapter.cycle, name="run {quantity}"),
+    VocabularyRow(along_velocity, "a", "acceleration", KeyChapter.cycle, name="along velocity"),
+    VocabularyRow(slope, "J", "moment of inertia", KeyChapter.cycle, name="inertia slope"),
+    VocabularyRow(with_wheel, chapter=KeyChapter.cycle, name="run {quantity} wheel"),
+    VocabularyRow(quantity, chapter=KeyChapter.cycle, name="run {quantity}"),
 )

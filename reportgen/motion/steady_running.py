@@ -27,7 +27,7 @@ from reportgen.motion.energy_equation import (
     B,
     EnergyAlong,
     ReducedMachine,
-    ReducedWay,
+    ReducedTravel,
     closed,
     energy_at_edges,
     follow,
@@ -122,7 +122,7 @@ class MotionRun:
         return replace(self, angle=self.angle + angle)
 
 
-def run_along(path: ReducedWay, drive: Drive, energy: EnergyAlong) -> MotionRun:
+def run_along(path: ReducedTravel, drive: Drive, energy: EnergyAlong) -> MotionRun:
     """Return the run along a way with the energy found."""
     n = path.size
 
@@ -182,7 +182,7 @@ def run_in_time(stepper: TimeStepper, angle: float, speed: float, edge: float) -
 
 
 def passage(
-    body: ReducedMachine, edges: Floats, drive: Drive, speed: float, known: ReducedWay | None = None
+    body: ReducedMachine, edges: Floats, drive: Drive, speed: float, known: ReducedTravel | None = None
 ) -> tuple[MotionRun, bool]:
     """Return the run forward between edges (rad), along their way if it is `known`, and True if it reaches the last
     one.
@@ -273,14 +273,14 @@ def _extreme(run: MotionRun, sense: int) -> ExtremeSpeed:
     return max(candidates, key=lambda extreme: sense * extreme.speed)
 
 
-def _described(path: ReducedWay, drive: Drive, energy: EnergyAlong, settles: float) -> SteadyMotion:
+def _described(path: ReducedTravel, drive: Drive, energy: EnergyAlong, settles: float) -> SteadyMotion:
     run = run_along(path, drive, energy)
     speed = np.sqrt(2 * energy.inside / path.inertia)
     work = float((path.measure * drive.torque(speed) * B).sum())
     return SteadyMotion(run, _extreme(run, 1), _extreme(run, -1), work, settles)
 
 
-def mean_torque(body: ReducedMachine, path: ReducedWay) -> tuple[float, float]:
+def mean_torque(body: ReducedMachine, path: ReducedTravel) -> tuple[float, float]:
     """Return the mean of M_r over a cycle and that of its size (N·m)."""
     return (
         float((path.measure * path.torque * B).sum()) / body.whole,
@@ -335,7 +335,7 @@ def steady(body: ReducedMachine, drive: Drive, speed: float, own: Sequence[float
     raise _light(path) or NoMotionError("no-steady-motion", speed=guesses[0])
 
 
-def _light(path: ReducedWay) -> NoMotionError | None:
+def _light(path: ReducedTravel) -> NoMotionError | None:
     """Return an error if a machine has hardly any inertia at some angle, where T does not determine a speed;
     else None.
     """
@@ -345,7 +345,7 @@ def _light(path: ReducedWay) -> NoMotionError | None:
     return NoMotionError("no-inertia", angle=float(path.angle.ravel()[inside.argmin()]))
 
 
-def _cycle(path: ReducedWay, drive: Drive, speed: float) -> tuple[EnergyAlong, float] | None:
+def _cycle(path: ReducedTravel, drive: Drive, speed: float) -> tuple[EnergyAlong, float] | None:
     """Return T along a steady cycle about a speed (rad/s), and the rest of a deviation; None if no cycle is found.
 
     If Newton's method does not find it directly, that of a machine with more inertia leads to it.
@@ -375,7 +375,9 @@ def _cycle(path: ReducedWay, drive: Drive, speed: float) -> tuple[EnergyAlong, f
     return result
 
 
-def _refined(body: ReducedMachine, path: ReducedWay, drive: Drive, energy: EnergyAlong, settles: float) -> SteadyMotion:
+def _refined(
+    body: ReducedMachine, path: ReducedTravel, drive: Drive, energy: EnergyAlong, settles: float
+) -> SteadyMotion:
     """Return the steady motion, with parts halved as often as T changes too much in them."""
     for _ in range(MOST_REFINED):
         rough = np.flatnonzero(~smooth(path, drive, energy))
@@ -393,7 +395,7 @@ def _refined(body: ReducedMachine, path: ReducedWay, drive: Drive, energy: Energ
     return _described(path, drive, energy, settles)
 
 
-def _simulated(body: ReducedMachine, path: ReducedWay, drive: Drive, speed: float) -> None:
+def _simulated(body: ReducedMachine, path: ReducedTravel, drive: Drive, speed: float) -> None:
     """Raise `NoMotionError` if the machine stalls in the cycles after it had this speed (rad/s)."""
     for _ in range(MOST_CYCLES // 4):
         before = speed
@@ -412,7 +414,7 @@ def stalled(body: ReducedMachine, run: MotionRun, code: str = "stalls") -> NoMot
 
 
 def _level(
-    body: ReducedMachine, path: ReducedWay, drive: Drive, speed: float, mean: float, size: float
+    body: ReducedMachine, path: ReducedTravel, drive: Drive, speed: float, mean: float, size: float
 ) -> SteadyMotion:
     """Return the steady motion without a torque that depends on the speed, its mean set to `speed`."""
     torque = float(drive.torque(np.zeros(1))[0])
@@ -450,7 +452,7 @@ def _level(
     return made
 
 
-def _emptiest(path: ReducedWay, edges: Floats, inside: Floats) -> float:
+def _emptiest(path: ReducedTravel, edges: Floats, inside: Floats) -> float:
     """Return the angle (rad) at which the energy is least."""
     return float(
         path.edges[int(edges.argmin())] if edges.min() < inside.min() else path.angle.ravel()[int(inside.argmin())]

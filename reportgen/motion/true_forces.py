@@ -14,25 +14,25 @@ from reportgen.formula.calculation import ZERO
 from reportgen.machine.analysis import Analysis, Position
 from reportgen.motion.curves import motion_of
 from reportgen.motion.true_motion import at_true_speeds, motion_in
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 
 WIDTHS = (36.0, 40.0, 40.0, 30.0)
 
 
-def asks_forces(report: Report) -> bool:
+def asks_forces(report: ReportContext) -> bool:
     """Return True if the forces of the true motion are requested."""
     motion = motion_in(report.analysis)
     return motion is not None and motion.asked.forces
 
 
-def forces_table(report: Report, key: str, caption: str, head: Sequence[str], k: Position) -> Table:
+def forces_table(report: ReportContext, key: str, caption: str, head: Sequence[str], k: Position) -> Table:
     """Return a table of values at a position, at constant speed and in the true motion, with their units."""
     motion = motion_of(report)
     true = at_true_speeds(report.analysis, motion.states[motion.shown])
     return list_table(report.prose, key, caption, head, list(_rows(report, true, k)), WIDTHS)
 
 
-def _rows(report: Report, true: Analysis, k: Position) -> Iterator[Sequence[object]]:
+def _rows(report: ReportContext, true: Analysis, k: Position) -> Iterator[Sequence[object]]:
     """Yield rows for the quantities of points, links, inertia and joints that the report has at constant speed, as
     printed there.
     """
@@ -46,7 +46,7 @@ def _rows(report: Report, true: Analysis, k: Position) -> Iterator[Sequence[obje
         yield _row(report, id, np.where(np.abs(course) > noise, course, 0.0), k)
 
 
-def _courses(report: Report, true: Analysis) -> Iterator[tuple[str, np.ndarray]]:
+def _courses(report: ReportContext, true: Analysis) -> Iterator[tuple[str, np.ndarray]]:
     """Yield the ids of all that depends on the acceleration, with the true values (SI) [N]."""
     for name, point in true.motion.points.items():
         yield ids.acceleration(name), np.abs(point.a)
@@ -63,7 +63,7 @@ def _courses(report: Report, true: Analysis) -> Iterator[tuple[str, np.ndarray]]
             yield ids.of_force(name), np.abs(reaction.force)
 
 
-def _row(report: Report, id: str, true: np.ndarray, k: Position) -> tuple[object, ...]:
+def _row(report: ReportContext, id: str, true: np.ndarray, k: Position) -> tuple[object, ...]:
     """Return a quantity with its value at constant speed and the true one of [N], in the decimals of the report.
 
     A value that is negligible at constant speed has the figures of its kind.

@@ -14,7 +14,7 @@ from reportgen.machine.load_laws import FULL_TURN
 from reportgen.machine.regulated_cycle import RegulatedCycle
 from reportgen.machine.shared_results import LOST_TORQUE, REGULATED_CYCLE
 from reportgen.motion.drives import ConstantDrive, Drive, MotionAsked
-from reportgen.motion.energy_equation import ReducedMachine, ReducedWay
+from reportgen.motion.energy_equation import ReducedMachine, ReducedTravel
 from reportgen.motion.motors import DriveDemand, MotorChecks, judged
 from reportgen.motion.starting import StartFromRest, start, stop
 from reportgen.motion.steady_running import MotionRun, NoMotionError, SteadyMotion, mean_torque, steady
@@ -124,7 +124,7 @@ def _motion(analysis: Analysis) -> TrueMotion:
     return motion
 
 
-def least_inertia(body: ReducedMachine, path: ReducedWay) -> tuple[float, float]:
+def least_inertia(body: ReducedMachine, path: ReducedTravel) -> tuple[float, float]:
     """Return the cycle angle (rad) where the reduced moment of inertia is least, and that value (kg·m²).
 
     It is also searched for between the samples of the way: if all masses are at rest, it touches 0 at a single

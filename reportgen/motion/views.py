@@ -20,7 +20,7 @@ from reportgen.motion.motor_choice import chosen_motor
 from reportgen.motion.steady_running import MotionRun
 from reportgen.motion.true_forces import asks_forces, forces_table
 from reportgen.motion.true_motion import OFF_SPEED, motion_in
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 from reportgen.report.quantity_tables import tables
 from reportgen.report.topic_views import ViewHooks, always
 
@@ -33,7 +33,7 @@ MOST_CYCLES = 12
 # --- values for templates -----------------------------------------------------------------------------
 
 
-def drive_form(report: Report) -> str:
+def drive_form(report: ReportContext) -> str:
     """Return the form of the drive: "linear", a "load", "kloss", "table", a "constant" torque, or one that is
     "found".
     """
@@ -45,52 +45,52 @@ def drive_form(report: Report) -> str:
     return "found" if motion.asked.drive is None else "constant"
 
 
-def governed(report: Report) -> bool:
+def governed(report: ReportContext) -> bool:
     """Return True if the torque of the drive depends on the speed."""
     return motion_in(report.analysis).drive.governs
 
 
-def inertia_slopes(report: Report) -> list[str]:
+def inertia_slopes(report: ReportContext) -> list[str]:
     """Return the components of accelerations along the velocities, the shares of links in J′, and J′."""
     points = (run_ids.along_velocity(body.centre) for body in report.machine.linkage.inertias)
     shares = (run_ids.slope(link) for link in report.machine.linkage.links)
     return report.known([*points, *shares, run_ids.slope()])
 
 
-def characteristic_lines(report: Report) -> list[str]:
+def characteristic_lines(report: ReportContext) -> list[str]:
     """Return the ids of the values that the formula of the characteristic gives at a speed."""
     return report.known(["run.slip", "run.Mc"])
 
 
-def steady_lines(report: Report, k: int | None = None) -> list[str]:
+def steady_lines(report: ReportContext, k: int | None = None) -> list[str]:
     """Return the ids of energy, speed and acceleration at a position."""
     return report.known(["run.T", "run.omega", "run.eps"])
 
 
-def bound_lines(report: Report, state: str = "") -> list[str]:
+def bound_lines(report: ReportContext, state: str = "") -> list[str]:
     """Return the ids of the results of the cycle: the mean of the bounds of the speed, their distance, the power."""
     names = ("mean", "delta", "period", "work", "power")
     return report.known(run_ids.quantity(name, *([state] if state else [])) for name in names)
 
 
-def has_wheeled(report: Report) -> bool:
+def has_wheeled(report: ReportContext) -> bool:
     return motion_in(report.analysis).wheeled is not None
 
 
-def _permitted(report: Report) -> float | None:
+def _permitted(report: ReportContext) -> float | None:
     """Return the permitted unevenness, None if the file does not name any."""
     regulated = REGULATED_CYCLE.of(report.machine)
     return None if regulated is None else regulated.unevenness
 
 
-def verdict(report: Report) -> str:
+def verdict(report: ReportContext) -> str:
     """Return "kept" or "exceeded" for the true unevenness against the permitted one; "" if there is no limit."""
     if _permitted(report) is None:
         return ""
     return "exceeded" if _excess(report) > 0 else "kept"
 
 
-def _excess(report: Report) -> float:
+def _excess(report: ReportContext) -> float:
     """Return the share by which the true unevenness exceeds the permitted one, both as printed; negative if it
     is less.
     """
@@ -101,12 +101,12 @@ def _excess(report: Report) -> float:
     return float((printed.shown - allowed) / permitted)
 
 
-def exceeded_by(report: Report) -> Inlines:
+def exceeded_by(report: ReportContext) -> Inlines:
     """Return the percentage by which the true unevenness exceeds the permitted one; () if it does not."""
     return (_percent(_excess(report)),) if verdict(report) == "exceeded" else ()
 
 
-def off_speed(report: Report) -> Inlines:
+def off_speed(report: ReportContext) -> Inlines:
     """Return the deviation of the mean speed from the planned one, in percent; () if it is small."""
     share = motion_in(report.analysis).off_speed(report.machine)
     return (_percent(share),) if share > OFF_SPEED else ()
@@ -116,33 +116,33 @@ def _percent(share: float) -> Value:
     return Value(Number(float(f"{100 * share:.2g}"), max(significant_decimals(100 * share, 2), 0), "%"))
 
 
-def with_wheel_or_alone(report: Report) -> str:
+def with_wheel_or_alone(report: ReportContext) -> str:
     """Return the steady motion that the verdict refers to, "wheel" or "alone"."""
     return "wheel" if has_wheeled(report) else "alone"
 
 
-def starts(report: Report) -> bool:
+def starts(report: ReportContext) -> bool:
     return motion_in(report.analysis).started is not None
 
 
-def stops(report: Report) -> bool:
+def stops(report: ReportContext) -> bool:
     return motion_in(report.analysis).stopped is not None
 
 
-def drive_takes(report: Report) -> bool:
+def drive_takes(report: ReportContext) -> bool:
     """Return True if the machine drives the machine coupled to its shaft, as an engine does, rather than being
     driven.
     """
     return motion_in(report.analysis).alone.work < 0
 
 
-def starts_with(report: Report) -> str:
+def starts_with(report: ReportContext) -> str:
     """Return "wheel" if start and stop include the flywheel, else "alone"."""
     motion = motion_in(report.analysis)
     return "wheel" if motion.shown else "alone"
 
 
-def swings(report: Report) -> Inlines:
+def swings(report: ReportContext) -> Inlines:
     """Return the angles at which the loads push the crank back as it starts; () if there are none."""
     motion = motion_in(report.analysis)
     if motion.started is None:
@@ -150,17 +150,17 @@ def swings(report: Report) -> Inlines:
     return listed(Value(_degrees(angle)) for angle in motion.started.turns_back)
 
 
-def cycles(report: Report) -> str:
+def cycles(report: ReportContext) -> str:
     """Return the number of cycles that the start takes; "" without a start."""
     motion = motion_in(report.analysis)
     return "" if motion.started is None else str(len(motion.started.ends))
 
 
-def start_angle(report: Report) -> Inlines:
+def start_angle(report: ReportContext) -> Inlines:
     return _angle_of(motion_in(report.analysis).asked.start_from)
 
 
-def stop_angle(report: Report) -> Inlines:
+def stop_angle(report: ReportContext) -> Inlines:
     return _angle_of(motion_in(report.analysis).asked.stop_from)
 
 
@@ -172,14 +172,14 @@ def _degrees(angle: float) -> Number:
     return Number(math.degrees(angle), 1, "°")
 
 
-def extreme_places(report: Report, state: str = "") -> Mapping[str, Inlines]:
+def extreme_places(report: ReportContext, state: str = "") -> Mapping[str, Inlines]:
     """Return the angles at which the crank is fastest and slowest: its turn from the first position."""
     motion = motion_of(report)
     steady = motion.states["wheel" if state else ""]
     return {"fastest": _angle_of(steady.fastest.angle), "slowest": _angle_of(steady.slowest.angle)}
 
 
-def motion_equations(report: Report) -> Equation:
+def motion_equations(report: ReportContext) -> Equation:
     """Return the equation of motion, the equation of energy and its solution, in symbols."""
     ledger = report.ledger
     parts = [ledger.symbol(id) for id in ("J.r", "run.J") if id in ledger]
@@ -196,7 +196,7 @@ def motion_equations(report: Report) -> Equation:
     return Equation((Chain((left, M)), Chain((T, half)), Chain((rate, M)), Chain((time, 1 / ω))))
 
 
-def drive_equations(report: Report) -> Equation:
+def drive_equations(report: ReportContext) -> Equation:
     """Return the characteristic of the drive in symbols, as it acts on the crank."""
     ledger = report.ledger
     M, ω = ledger.symbol("run.Md"), Symbol("ω")
@@ -210,7 +210,7 @@ def drive_equations(report: Report) -> Equation:
     return Equation((Chain((M, kloss)), Chain((s, 1 - ω / (ω0 if i is None else i * ω0)))))
 
 
-def drive_formula(report: Report) -> Inlines:
+def drive_formula(report: ReportContext) -> Inlines:
     """Return the same within a sentence; () for a drive without a formula."""
     if drive_form(report) not in ("linear", "load", "kloss"):
         return ()
@@ -218,7 +218,7 @@ def drive_formula(report: Report) -> Inlines:
     return listed(chains)
 
 
-def drive_points(report: Report) -> Inlines:
+def drive_points(report: ReportContext) -> Inlines:
     """Return the torques of a characteristic that is a table, at its speeds; () for another one."""
     motion = motion_in(report.analysis)
     drive = motion.drive
@@ -242,24 +242,24 @@ def _short(value: float, unit: str) -> Number:
     return Number(float(f"{value:.9g}"), None, unit)
 
 
-def step_equation(report: Report) -> Equation:
+def step_equation(report: ReportContext) -> Equation:
     """Return the equation for the speed at the next position, in symbols."""
     ω, J, M = Symbol("ω", "b"), Symbol("J"), Symbol("M")
     after = M * Symbol("Δφ") / (J * ω) + (3 * J - Symbol("J", "", "+")) * ω / (2 * J)
     return Equation((Chain((Symbol("ω", "b", "+"), after)),))
 
 
-def inertia_apart(report: Report) -> bool:
+def inertia_apart(report: ReportContext) -> bool:
     """Return True if the reduced moment of inertia has not been worked out in a chapter before."""
     return report.has_reduced_inertia and reduced_here(report)
 
 
-def reduced_here(report: Report) -> bool:
+def reduced_here(report: ReportContext) -> bool:
     """Return True unless a chapter before has reduced torque and inertia to the crank."""
     return REGULATED_CYCLE.of(report.machine) is None
 
 
-def inertia_form(report: Report) -> str:
+def inertia_form(report: ReportContext) -> str:
     """Return the form of the reduced moment of inertia: it "varies", is "even", or there is only the motor's,
     "none".
     """
@@ -268,7 +268,7 @@ def inertia_form(report: Report) -> str:
     return "varies" if inertia_slopes(report) else "even"
 
 
-def residuals(report: Report) -> dict[str, float]:
+def residuals(report: ReportContext) -> dict[str, float]:
     """Return the deviations of the drive from its characteristic, and of a steady cycle from its beginning, as
     shares.
     """
@@ -283,17 +283,17 @@ def residuals(report: Report) -> dict[str, float]:
     return {"drive": float(max(readings)), **result} if readings else result
 
 
-def _of_shown(name: str) -> Callable[[Report], str]:
+def _of_shown(name: str) -> Callable[[ReportContext], str]:
     """Return the id of a quantity of the motion that starts, stops and has its forces shown."""
 
-    def of(report: Report) -> str:
+    def of(report: ReportContext) -> str:
         motion = motion_in(report.analysis)
         return run_ids.in_state(name, motion.shown)
 
     return of
 
 
-VALUES: Mapping[str, Callable[[Report], Any]] = {
+VALUES: Mapping[str, Callable[[ReportContext], Any]] = {
     "forces_omega": _of_shown("omega"),
     "forces_eps": _of_shown("eps"),
     "inertia_apart": inertia_apart,
@@ -335,7 +335,7 @@ FUNCTIONS: Mapping[str, Callable[..., Any]] = {
 Head = Sequence[str]
 
 
-def steady_table(report: Report, key: str, caption: str, head: Head) -> tuple[Table | Paragraph, ...]:
+def steady_table(report: ReportContext, key: str, caption: str, head: Head) -> tuple[Table | Paragraph, ...]:
     """Return the steady motion at the positions."""
     shared = ["J.r", "run.dJ", "M.r"]
     own = [run_ids.in_state(name, "") for name in ("Md", "T", "omega", "eps", "t")]
@@ -343,18 +343,18 @@ def steady_table(report: Report, key: str, caption: str, head: Head) -> tuple[Ta
     return tables(report, key, caption, shown, report.all_positions)
 
 
-def wheel_table(report: Report, key: str, caption: str, head: Head) -> tuple[Table | Paragraph, ...]:
+def wheel_table(report: ReportContext, key: str, caption: str, head: Head) -> tuple[Table | Paragraph, ...]:
     """Return the same with the flywheel."""
     own = report.known(run_ids.in_state(name, "wheel") for name in ("Md", "T", "omega", "eps", "t"))
     return tables(report, key, caption, own, report.all_positions)
 
 
-def steps_table(report: Report, key: str, caption: str, head: Head) -> tuple[Table | Paragraph, ...]:
+def steps_table(report: ReportContext, key: str, caption: str, head: Head) -> tuple[Table | Paragraph, ...]:
     """Return the speed by steps beside the true one."""
     return tables(report, key, caption, ["run.omega", "run.step"], report.all_positions)
 
 
-def start_table(report: Report, key: str, caption: str, head: Head) -> Table:
+def start_table(report: ReportContext, key: str, caption: str, head: Head) -> Table:
     """Return the start at the positions of its first cycle and at the ends of the others."""
     started = motion_of(report).started
     assert started is not None, "a start has a table where it is asked for"
@@ -374,7 +374,7 @@ def _last_at(run: MotionRun, angle: float, end: int) -> int:
     return int(near[-1]) if near.size else int(np.abs(run.angle[: end + 1] - angle).argmin())
 
 
-def stop_table(report: Report, key: str, caption: str, head: Head) -> Table:
+def stop_table(report: ReportContext, key: str, caption: str, head: Head) -> Table:
     """Return the run-down at the positions that it passes, and its end."""
     run = motion_of(report).stopped
     assert run is not None, "a stop has a table where it is asked for"
@@ -387,7 +387,7 @@ def stop_table(report: Report, key: str, caption: str, head: Head) -> Table:
     return list_table(report.prose, key, caption, head, _rows(report, run, shown), (40.0, 40.0, 40.0, 40.0))
 
 
-def _rows(report: Report, run: MotionRun, places: Sequence[int]) -> Iterator[Sequence[object]]:
+def _rows(report: ReportContext, run: MotionRun, places: Sequence[int]) -> Iterator[Sequence[object]]:
     decimals = report.ledger.decimals
     speeds, times, rates = (decimals[id] for id in ("run.omega", "run.t", "run.eps"))
     for place in dict.fromkeys(places):
@@ -410,7 +410,7 @@ TABLES: Mapping[str, Callable[..., Any]] = {
 }
 
 
-def _overview(report: Report) -> Sequence[str]:
+def _overview(report: ReportContext) -> Sequence[str]:
     motor = ("motion-overview-motor",) if chosen_motor(report) else ()
     return (*motor, "motion-overview-verdict") if verdict(report) else motor
 

@@ -21,7 +21,7 @@ from reportgen import catalogue
 from reportgen.assignment import parts
 from reportgen.assignment.fields import UNIT_KEY
 from reportgen.assignment.schema import file_schema, places
-from reportgen.base.errors import Fault, Mark, Problem, ReportgenError, Where
+from reportgen.base.errors import Fault, Location, Problem, ReportgenError, Where
 from reportgen.base.files import contents, renew_file
 from reportgen.base.kinds import kinds, titles
 from reportgen.base.template_folders import REFERENCE
@@ -58,7 +58,7 @@ REST = 0.3
 """Time (s) without change after which a dragged value is at rest."""
 PATIENCE = 10.0
 """Longest delay (s) of work that can wait."""
-HERE = Mark("")
+HERE = Location("")
 SCRIPTS = "live.js", "drafts.js", "redraw.js", "tables.js", "edit.js", "owned.js"
 STYLES = "live.css", "edit.css"
 Asked = Mapping[str, Any]

@@ -54,7 +54,7 @@ from reportgen.machine.load_laws import FULL_TURN
 from reportgen.page import panes
 from reportgen.page.topic_layers import LAYERS as TOPIC_LAYERS
 from reportgen.page.topic_layers import Box, LayerHooks
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 from reportgen.report.cycle_curves import axis, curves_of_motion, over_a_turn, over_the_cycle, torque_chart
 from reportgen.report.mechanism_figures import drawing_scale, looks
 from reportgen.report.plan_figures import POLE, force_construction, motion_construction
@@ -153,9 +153,9 @@ class Samples:
         return analyse(self.machine, self.angles)
 
     @cached_property
-    def report(self) -> Report:
+    def report(self) -> ReportContext:
         """The report, whose curves have these samples."""
-        return Report(self.case, samples=self.analysis)
+        return ReportContext(self.case, samples=self.analysis)
 
     @cached_property
     def corners(self) -> dict[str, np.ndarray]:

@@ -12,7 +12,7 @@ from reportgen.drawing.animation import BarScale, Chart, MovingItem, TimedRun
 from reportgen.formula import Symbol
 from reportgen.machine.analysis import Analysis
 from reportgen.machine.kinematics import Motion
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 
 Box = tuple[complex, complex]
 """The lower left and the upper right corner of a drawing (mm)."""
@@ -20,29 +20,29 @@ Chosen = Callable[[str, Callable[[], float]], float]
 """Gives a number that is chosen once for a page, by its name."""
 
 
-def _no_items(report: Report, analysis: Analysis, scale: float, per: float, turn: int) -> Iterator[MovingItem]:
+def _no_items(report: ReportContext, analysis: Analysis, scale: float, per: float, turn: int) -> Iterator[MovingItem]:
     yield from ()
 
 
 def _nothing_shown(
-    report: Report, motion: Motion, scale: float, longest: float, chosen: Chosen
+    report: ReportContext, motion: Motion, scale: float, longest: float, chosen: Chosen
 ) -> tuple[Sequence[MovingItem], Sequence[BarScale]]:
     return (), ()
 
 
-def _no_more_room(report: Report, motion: Motion, scale: float, box: Box) -> Box:
+def _no_more_room(report: ReportContext, motion: Motion, scale: float, box: Box) -> Box:
     return box
 
 
-def _no_runs(report: Report) -> Sequence[TimedRun]:
+def _no_runs(report: ReportContext) -> Sequence[TimedRun]:
     return ()
 
 
-def _no_charts(report: Report) -> Iterator[Chart]:
+def _no_charts(report: ReportContext) -> Iterator[Chart]:
     yield from ()
 
 
-def _no_values(report: Report, motion: Motion) -> Iterator[tuple[Symbol, str, np.ndarray]]:
+def _no_values(report: ReportContext, motion: Motion) -> Iterator[tuple[Symbol, str, np.ndarray]]:
     yield from ()
 
 
@@ -58,15 +58,15 @@ class LayerHooks:
     """The layers of the topic."""
     force_layers: tuple[str, ...] = ()
     """Layers whose arrows have the scale of the forces."""
-    with_forces: Callable[[Report, Analysis, float, float, int], Iterator[MovingItem]] = _no_items
-    shown: Callable[[Report, Motion, float, float, Chosen], tuple[Sequence[MovingItem], Sequence[BarScale]]] = (
+    with_forces: Callable[[ReportContext, Analysis, float, float, int], Iterator[MovingItem]] = _no_items
+    shown: Callable[[ReportContext, Motion, float, float, Chosen], tuple[Sequence[MovingItem], Sequence[BarScale]]] = (
         _nothing_shown
     )
-    room: Callable[[Report, Motion, float, Box], Box] = _no_more_room
+    room: Callable[[ReportContext, Motion, float, Box], Box] = _no_more_room
     """Gives the corners of a drawing that holds the items, too."""
-    runs: Callable[[Report], Sequence[TimedRun]] = _no_runs
-    charts: Callable[[Report], Iterator[Chart]] = _no_charts
-    values: Callable[[Report, Motion], Iterator[tuple[Symbol, str, np.ndarray]]] = _no_values
+    runs: Callable[[ReportContext], Sequence[TimedRun]] = _no_runs
+    charts: Callable[[ReportContext], Iterator[Chart]] = _no_charts
+    values: Callable[[ReportContext, Motion], Iterator[tuple[Symbol, str, np.ndarray]]] = _no_values
 
 
 LAYERS = HookModule("layer", LayerHooks)

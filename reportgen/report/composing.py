@@ -14,7 +14,7 @@ from reportgen.document.figure_placement import PAPERS
 from reportgen.document.layout import contents, plates_last
 from reportgen.document.used_symbols import used_symbols
 from reportgen.report import phrases
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 from reportgen.report.named_tables import table
 from reportgen.report.template_names import names
 
@@ -26,7 +26,7 @@ OWN_LETTERS = "structure"
 
 def compose(case: MachineAnalysis) -> Document:
     """The finished, numbered report of a machine; raises `TemplateError` for a fault in its words."""
-    report = Report(case)
+    report = ReportContext(case)
     words, named = report.words, names(report)
     written: dict[str, Sequence[Block]] = {}
     # The list of symbols comes last: it lists those of all other sections.
@@ -46,7 +46,7 @@ def compose(case: MachineAnalysis) -> Document:
     return finished(case, plates_last(blocks, partial(_plate_is_last, report)), close=not report.parts("usual-type"))
 
 
-def _plate_is_last(report: Report, plate: Plate) -> Paragraph:
+def _plate_is_last(report: ReportContext, plate: Plate) -> Paragraph:
     """Return the sentence that refers the reader to a plate."""
     paper = PAPERS.get(min(plate.paper), "")
     return Paragraph(phrases.say(report, report.words["plate"], figure=(Reference(plate.key),), paper=paper))

@@ -38,7 +38,7 @@ DENSE = 361
 
 
 @dataclass(frozen=True)
-class Report:
+class ReportContext:
     """A case with its prose.
 
     Its figures are drawn so much smaller than their scales say as they are `enlarged` afterwards, with their letters,

@@ -20,24 +20,24 @@ from reportgen.formula.vocabulary import KINDS
 from reportgen.machine import DRIVER, GROUND, Crank
 from reportgen.machine.cycle_torque import SAME_ANGLE
 from reportgen.machine.load_laws import FULL_TURN
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 from reportgen.report.table_remarks import sliders
 from reportgen.report.template_equations import heading_words
 
 # --- axes
 
 
-def axis(report: Report, shown: Symbol, kind: str) -> Chain:
+def axis(report: ReportContext, shown: Symbol, kind: str) -> Chain:
     """Return the label of an axis: the symbol that the text uses, and its unit in parentheses."""
     return Chain((shown,), report.ledger.printed_unit(KINDS[kind].unit))
 
 
-def axis_of(report: Report, id: str) -> Chain:
+def axis_of(report: ReportContext, id: str) -> Chain:
     """The axis of a quantity."""
     return axis(report, report.ledger.symbol(id), report.ledger[id].kind)
 
 
-def driver_axis(report: Report, angle: str = "cycle_angle") -> Chain:
+def driver_axis(report: ReportContext, angle: str = "cycle_angle") -> Chain:
     """The axis along which the driver moves: its angle, of a sliding driver its way."""
     words, slides = report.words["figure"], bool(report.machine.span)
     return Chain((Symbol("s"),), words["way"]) if slides else Chain((Symbol("φ"),), words[angle])
@@ -50,13 +50,13 @@ ShownCurve = tuple[Symbol, np.ndarray]
 """A curve: its symbol and its values in the unit of its axis."""
 
 
-def motion(report: Report) -> FigureScenes:
+def motion(report: ReportContext) -> FigureScenes:
     """Displacement, velocity and acceleration of what slides on the ground, ω and ε of what turns, over one turn."""
     shown = curves_of_motion(report)
     return FigureScenes(tuple(over_a_turn(report, curves, title, half=len(shown) > 1).scene for curves, title in shown))
 
 
-def curves_of_motion(report: Report) -> list[tuple[list[ShownCurve], Chain]]:
+def curves_of_motion(report: ReportContext) -> list[tuple[list[ShownCurve], Chain]]:
     """The curves of each chart of the motion, with the name of its axis."""
     moved = report.dense_cycle.motion
     along = report.slider_senses
@@ -83,18 +83,18 @@ def curves_of_motion(report: Report) -> list[tuple[list[ShownCurve], Chain]]:
     return [(curves, title) for curves, title in drawings if curves]
 
 
-def headings(report: Report, ways: Iterable[complex]) -> list[str]:
+def headings(report: ReportContext, ways: Iterable[complex]) -> list[str]:
     """Directions [N] of any length in words, each once."""
     return list(dict.fromkeys(heading_words(report, math.degrees(cmath.phase(way))) for way in ways))
 
 
-def _positive(report: Report, title: Chain, sense: str) -> Chain:
+def _positive(report: ReportContext, title: Chain, sense: str) -> Chain:
     """The title of an axis with the sense in which its quantity is positive; plain where curves differ in it."""
     told = str(report.words["figure"]["positive"]).format(title=title.note, sense=sense)
     return replace(title, note=told) if sense else title
 
 
-def _displacements(report: Report) -> list[ShownCurve]:
+def _displacements(report: ReportContext) -> list[ShownCurve]:
     """Return the distance (mm) of each slider from its first dead centre, or else from the far end of its guide."""
     courses = {course.link: course for course in report.machine.sliders}
     moved, found = report.dense_cycle.motion, []
@@ -106,20 +106,22 @@ def _displacements(report: Report) -> list[ShownCurve]:
     return found
 
 
-def _marks(report: Report) -> tuple[int, ...]:
+def _marks(report: ReportContext) -> tuple[int, ...]:
     """Return the indices of the samples of the dense cycle that are the positions shown."""
     shown = report.machine.cycle_angles[[k - 1 for k in report.all_positions]]
     places = np.searchsorted(report.dense_cycle.cycle_angle, shown)
     return tuple(map(int, places))
 
 
-def _across(report: Report) -> np.ndarray:
+def _across(report: ReportContext) -> np.ndarray:
     """Return the abscissae of the samples: the angle turned (degrees), or the way of a sliding driver (mm)."""
     angle, span = report.dense_cycle.cycle_angle, report.machine.span
     return angle * (span * MM / FULL_TURN) if span else np.degrees(angle)
 
 
-def over_a_turn(report: Report, curves: Sequence[ShownCurve], title: Chain, half: bool = False) -> charts.Plotted:
+def over_a_turn(
+    report: ReportContext, curves: Sequence[ShownCurve], title: Chain, half: bool = False
+) -> charts.Plotted:
     """Curves over one turn of the driver, the numbered positions marked."""
     count = int(np.searchsorted(report.dense_cycle.cycle_angle, FULL_TURN + SAME_ANGLE))
     slides = bool(report.machine.span)
@@ -129,7 +131,9 @@ def over_a_turn(report: Report, curves: Sequence[ShownCurve], title: Chain, half
     return charts.plotted(diagram, half=half, area=report.area)
 
 
-def over_the_cycle(report: Report, curves: Sequence[ShownCurve], title: Chain, half: bool = False) -> charts.Plotted:
+def over_the_cycle(
+    report: ReportContext, curves: Sequence[ShownCurve], title: Chain, half: bool = False
+) -> charts.Plotted:
     """Curves over the whole cycle, the numbered positions marked."""
     series = tuple(PlottedCurve(shown, _across(report), values, _marks(report)) for shown, values in curves)
     diagram = Diagram(series, driver_axis(report), title, turn=not report.machine.span)
@@ -139,12 +143,12 @@ def over_the_cycle(report: Report, curves: Sequence[ShownCurve], title: Chain, h
 # --- torque and forces over the cycle
 
 
-def torque(report: Report) -> FigureScenes:
+def torque(report: ReportContext) -> FigureScenes:
     """Draw the balancing load: a torque over the angle of a crank, or a force over the way of a slider."""
     return FigureScenes((torque_chart(report).scene,))
 
 
-def torque_chart(report: Report, half: bool = False) -> charts.Plotted:
+def torque_chart(report: ReportContext, half: bool = False) -> charts.Plotted:
     """The curve of what balances the driver, with its mean."""
     ledger, slides = report.ledger, bool(report.machine.span)
     curve = PlottedCurve(report.balance_symbol(), _across(report), report.dense_cycle.torque, _marks(report))
@@ -158,7 +162,7 @@ def torque_chart(report: Report, half: bool = False) -> charts.Plotted:
     return charts.plotted(diagram, half=half, height=height, area=report.area)
 
 
-def polar(report: Report) -> FigureScenes:
+def polar(report: ReportContext) -> FigureScenes:
     """The load of each crank pin in axes that turn with the crank, its radius upwards.
 
     Where several links hang on one pin, each of their reactions has its diagram, and their resultant.

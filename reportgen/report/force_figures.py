@@ -23,7 +23,7 @@ from reportgen.formula import Chain, Expression, Symbol, constructions, ids, siz
 from reportgen.machine import DRIVER
 from reportgen.machine.force_analysis import Load, as_single_force
 from reportgen.report import guide_couples, percussion
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 from reportgen.report.link_views import GroupView
 from reportgen.report.mechanism_figures import drawing_scale, looks
 from reportgen.report.plan_figures import force_plan, motion_plan
@@ -34,7 +34,7 @@ from reportgen.report.slider_faces import at_ends, face, wide_sliders_of
 class _Bodies:
     """Links of a machine at a position, to a share of μ_l, with what acts on them."""
 
-    report: Report
+    report: ReportContext
     k: int
     links: tuple[int, ...]
     share: float = 1.0
@@ -153,13 +153,13 @@ class _Bodies:
         return Force(Symbol("R", digits, over="vector"), at, sense, "reaction", ids.reaction_force(digits))
 
 
-def arm_of(report: Report, id: str, k: int, about: complex) -> ArmOf:
+def arm_of(report: ReportContext, id: str, k: int, about: complex) -> ArmOf:
     """An arm as it is printed, its foot `about` a point of the paper (mm)."""
     length = report.ledger.number(id, k, size=True).value / report.enlarged
     return ArmOf(report.ledger.symbol(id), about, report.ledger[id].of, length)
 
 
-def true_sense(report: Report, name: str, k: int) -> complex:
+def true_sense(report: ReportContext, name: str, k: int) -> complex:
     """Return the direction (length 1) in which a reaction is drawn on a separated link; 0 if the reaction is zero."""
     vector = report.ledger[ids.force_vector(name)]
     return 0j if report.is_zero(vector.of, k) else complex(vector.at(k))
@@ -168,7 +168,7 @@ def true_sense(report: Report, name: str, k: int) -> complex:
 # --- groups and the driver
 
 
-def bodies(report: Report, k: int, group: GroupView) -> FigureScenes:
+def bodies(report: ReportContext, k: int, group: GroupView) -> FigureScenes:
     """Draw the group with all its forces at half size, then each link whose moments are taken, with the arms.
 
     A group whose links are both drawn separately is drawn as a whole only if the report shows everything twice.
@@ -176,7 +176,7 @@ def bodies(report: Report, k: int, group: GroupView) -> FigureScenes:
     return beside_one_another(*separated(report, k, group))
 
 
-def separated(report: Report, k: int, group: GroupView) -> list[Scene]:
+def separated(report: ReportContext, k: int, group: GroupView) -> list[Scene]:
     """The scenes of a group's separated links."""
     assert group.polygon is not None
     both = _Bodies(report, k, (group.i, group.j), share=0.5)
@@ -209,7 +209,7 @@ def separated(report: Report, k: int, group: GroupView) -> list[Scene]:
     return scenes
 
 
-def _moments(report: Report, group: GroupView, k: int) -> tuple[tuple[int, str], ...]:
+def _moments(report: ReportContext, group: GroupView, k: int) -> tuple[tuple[int, str], ...]:
     """The links of a group that the force analysis takes moments of, with the pin it takes them about."""
     solved: dict[str, tuple[tuple[int, str], ...]] = {
         "RRR": ((group.i, group.Q), (group.j, group.Q)),
@@ -225,14 +225,14 @@ def _moments(report: Report, group: GroupView, k: int) -> tuple[tuple[int, str],
     return tuple(dict.fromkeys((*solved.get(group.kind, ()), *placed)))
 
 
-def driver(report: Report, k: int) -> FigureScenes:
+def driver(report: ReportContext, k: int) -> FigureScenes:
     """The driver with the reactions on it and what balances it, of a crank with arms about its centre; their plan."""
     polygon = report.driver_polygon
     assert polygon is not None
     return beside_one_another(separated_driver(report, k), plan(force_plan(report, polygon, k)))
 
 
-def separated_driver(report: Report, k: int) -> Scene:
+def separated_driver(report: ReportContext, k: int) -> Scene:
     """The driver with all that acts on it."""
     polygon, centre, body = report.driver_polygon, report.driver.centre, _Bodies(report, k, (DRIVER,))
     assert polygon is not None
@@ -256,16 +256,16 @@ def _of_arc(torque: Symbol, value: float) -> Expression:
     return size(torque) if value < 0 else torque
 
 
-def _has_force(report: Report, load: Load, k: int) -> bool:
+def _has_force(report: ReportContext, load: Load, k: int) -> bool:
     return load.name in report.ledger and not _is_torque(report, load) and not report.is_zero(load.name, k)
 
 
-def _is_torque(report: Report, load: Load) -> bool:
+def _is_torque(report: ReportContext, load: Load) -> bool:
     """Return True if a load is a torque, without a force."""
     return any(torque.name == load.name for torque in report.machine.torques)
 
 
-def _acts_at(report: Report, load: Load, k: int) -> complex:
+def _acts_at(report: ReportContext, load: Load, k: int) -> complex:
     """Return the place where a load is drawn: the constructed point Q for an inertia force, else its own line of
     action.
     """
@@ -276,7 +276,7 @@ def _acts_at(report: Report, load: Load, k: int) -> complex:
     return single if np.isfinite(single) else complex(load.point[k - 1])
 
 
-def _foot(report: Report, group: GroupView, link: int, k: int) -> Canvas:
+def _foot(report: ReportContext, group: GroupView, link: int, k: int) -> Canvas:
     """On a slotted link beside its pin T the foot H of T on the slot's line, from which the block is measured."""
     if not (group.offset and link == group.j):
         return Canvas()
@@ -291,7 +291,7 @@ def _foot(report: Report, group: GroupView, link: int, k: int) -> Canvas:
 # --- Zhukovsky's lever
 
 
-def lever(report: Report, k: int) -> FigureScenes:
+def lever(report: ReportContext, k: int) -> FigureScenes:
     """The velocity plan turned by 90° against ω1, every load at its image, arms about the pole."""
     ledger, machine, motion, index = report.ledger, report.machine, report.analysis.motion, k - 1
     per = -1j * machine.turn * MM / float(ledger["mu.v"].values[0]) / report.enlarged

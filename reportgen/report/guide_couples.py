@@ -8,28 +8,28 @@ from __future__ import annotations
 from reportgen.derivation.load_entries import Polygon
 from reportgen.drawing.force_drawings import Couple
 from reportgen.formula import Symbol, ids, size
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 from reportgen.report.link_views import Contact
 
 
-def is_couple(report: Report, contact: Contact, k: int) -> bool:
+def is_couple(report: ReportContext, contact: Contact, k: int) -> bool:
     """Return True if the guide has no force at position `k`, but a moment about its pin to balance."""
     moment = contact.moment
     return moment in report.ledger and report.is_zero(contact.reaction, k) and not report.is_zero(moment, k)
 
 
-def guide_couples(report: Report) -> list[Contact]:
+def guide_couples(report: ReportContext) -> list[Contact]:
     """Return the slides whose guide acts with a couple at any position, the outermost group first."""
     slides = [contact for group in reversed(report.groups) for contact in group.contacts]
     return [slide for slide in slides if any(is_couple(report, slide, k) for k in report.all_positions)]
 
 
-def couple_sense(report: Report, contact: Contact, k: int) -> str:
+def couple_sense(report: ReportContext, contact: Contact, k: int) -> str:
     """Return the words for the sense in which the guide turns the link of the slide."""
     return report.sense(-report.ledger.number(contact.moment, k).value)
 
 
-def drawn(report: Report, contact: Contact, link: int, k: int, at: complex) -> list[Couple]:
+def drawn(report: ReportContext, contact: Contact, link: int, k: int, at: complex) -> list[Couple]:
     """Return the couple of a guide on one of its two links as an arc `at` a place (mm); nothing where it is a force."""
     if not is_couple(report, contact, k):
         return []
@@ -38,7 +38,7 @@ def drawn(report: Report, contact: Contact, link: int, k: int, at: complex) -> l
     return [Couple(size(shown), at, -moment if link == contact.link else moment)]
 
 
-def handed_on(report: Report, polygon: Polygon) -> list[tuple[Contact, int]]:
+def handed_on(report: ReportContext, polygon: Polygon) -> list[tuple[Contact, int]]:
     """Return the slides of groups solved before that act on the links of a force plan, each with this link."""
     carried = {edge.name: edge.link for edge in polygon.carried}
     slides = [contact for group in report.groups for contact in group.contacts]

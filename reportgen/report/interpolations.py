@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from reportgen.base.template_access import shown
 from reportgen.formula import ids
 from reportgen.machine.loads import Applied, Torque
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 
 
 @shown("id", "stroke", "line", "ways")
@@ -25,7 +25,7 @@ class ReadLoad:
     """The id of the displacement over which the load is tabled, if it is."""
 
 
-def loads_read(report: Report, k: int) -> list[ReadLoad]:
+def loads_read(report: ReportContext, k: int) -> list[ReadLoad]:
     """Return the loads that are read from tables with further values, at position `k`."""
     machine, ledger = report.machine, report.ledger
     loads: tuple[Applied | Torque, ...] = (*machine.applied, *machine.torques)
@@ -36,24 +36,24 @@ def loads_read(report: Report, k: int) -> list[ReadLoad]:
     ]
 
 
-def _stroke(report: Report, load: Applied | Torque) -> str:
+def _stroke(report: ReportContext, load: Applied | Torque) -> str:
     """The id of the stroke by whose shares a load is tabled, of what is not given; "" for any other load."""
     course = load.law.read_along
     id = "" if course is None else ids.stroke(course.link)
     return id if id in report.ledger else ""
 
 
-def _ways(report: Report, load: Applied | Torque) -> tuple[str, ...]:
+def _ways(report: ReportContext, load: Applied | Torque) -> tuple[str, ...]:
     course = load.law.read_along
     return () if course is None else tuple(report.ledger.known([ids.displacement(course.link)]))
 
 
-def _interpolated(report: Report, load: Applied | Torque, k: int) -> bool:
+def _interpolated(report: ReportContext, load: Applied | Torque, k: int) -> bool:
     among = load.law.bracket(report.analysis.cycle_angle, report.analysis.motion)
     return among is not None and bool(among.between[k - 1])
 
 
-def coordinate_lengths(report: Report) -> list[str]:
+def coordinate_lengths(report: ReportContext) -> list[str]:
     """The lengths that follow from coordinates of points of a link."""
     lengths = (id for id, family in report.case.ledger.families.items() if id in ids.length and family.written)
     return [id for id in lengths if report.ledger[id].definition is None]

@@ -42,7 +42,7 @@ from reportgen.machine.cycle_torque import SAME_ANGLE
 from reportgen.machine.kinematics import Motion, solve_motion
 from reportgen.machine.load_laws import FULL_TURN
 from reportgen.machine.loads import Piston
-from reportgen.report.context import DENSE, Report
+from reportgen.report.context import DENSE, ReportContext
 from reportgen.report.link_views import GroupView, PlaneLink
 
 SCHEME_BOX = (120.0, 75.0)
@@ -57,18 +57,18 @@ SHOWN_AT = 1
 """The position (from 0) at which schemes are drawn: the first one away from the start."""
 
 
-def drawing_scale(report: Report) -> float:
+def drawing_scale(report: ReportContext) -> float:
     """mm of paper for a metre, of drawings to μ_l."""
     return MM / float(report.ledger["mu.l"].values[0]) / report.enlarged
 
 
-def scale_note(report: Report, id: str, factor: float = 1.0, k: int | None = None) -> Chain:
+def scale_note(report: ReportContext, id: str, factor: float = 1.0, k: int | None = None) -> Chain:
     """A scale as printed below a figure; a figure drawn smaller by `factor` has a scale that much larger."""
     number = report.ledger.number(id, k)
     return Chain((report.ledger.symbol(id), short(replace(number, value=number.shown / factor))))
 
 
-def looks(report: Report, scale: float, factor: float = 1.0) -> Looks:
+def looks(report: ReportContext, scale: float, factor: float = 1.0) -> Looks:
     """Pistons with their bore, mass centres, the figure's scale by a factor of enlargement, springs."""
     blocks = {
         piston.link: (min(0.6 * piston.bore * scale, 24.0), min(piston.bore * scale, 40.0) * 0.5)
@@ -84,7 +84,7 @@ def short(number: Number) -> Number:
     return replace(number, value=float(f"{number.value:.6g}"), decimals=None)
 
 
-def line_styles(report: Report) -> FigureScenes:
+def line_styles(report: ReportContext) -> FigureScenes:
     """The legend of the lines of the report: of forces, paths and instant centres only where it shows any."""
     shown = {"path": bool(report.machine.paths), "normal": "centres" in report.sections, "reaction": report.has_forces}
     words = {name: text for name, text in report.words["line_styles"].items() if shown.get(name, True)}
@@ -94,18 +94,18 @@ def line_styles(report: Report) -> FigureScenes:
 # --- the machine at one position and over a turn
 
 
-def scheme(report: Report) -> FigureScenes:
+def scheme(report: ReportContext) -> FigureScenes:
     return FigureScenes((scheme_scene(report, reduction(report)),))
 
 
-def scheme_scene(report: Report, factor: float) -> Scene:
+def scheme_scene(report: ReportContext, factor: float) -> Scene:
     """The kinematic scheme, by a factor of enlargement."""
     scale = drawing_scale(report) * factor
     look = looks(report, scale, factor)
     return scheme_figure.scheme(report.machine.linkage, report.analysis.motion, shown_at(report), scale, look)
 
 
-def groups(report: Report) -> FigureScenes:
+def groups(report: ReportContext) -> FigureScenes:
     """Draw the driver and each group separately, as large as the scheme, or smaller if they then fit in one row."""
     own = reduction(report)
     drawn = (_groups(report, factor) for factor in REDUCTIONS if own >= factor >= own * LEGIBLE)
@@ -113,19 +113,19 @@ def groups(report: Report) -> FigureScenes:
     return FigureScenes(next((row for row in (first, *drawn) if len(in_rows(row)) == 1), first))
 
 
-def _groups(report: Report, factor: float) -> tuple[Scene, ...]:
+def _groups(report: ReportContext, factor: float) -> tuple[Scene, ...]:
     scale, words = drawing_scale(report) * factor, report.words["figure"]
     titles = (words["driver"], *(words["group"].format(i=group.i, j=group.j) for group in report.groups))
     look = replace(looks(report, scale, factor), scale=None)
     return scheme_figure.groups(report.machine.linkage, report.analysis.motion, shown_at(report), scale, look, titles)
 
 
-def shown_at(report: Report) -> int:
+def shown_at(report: ReportContext) -> int:
     """The index of the position that schemes show: the only one where there is but one."""
     return min(SHOWN_AT, report.count - 1)
 
 
-def reduction(report: Report) -> float:
+def reduction(report: ReportContext) -> float:
     """The ratio 1, 1/2, 1/2.5, … at which the mechanism at μ_l fits the box of a scheme."""
     index, motion = shown_at(report), report.analysis.motion
     hung = [place[index] for coil in report.machine.coils for place in coil.at(motion)]
@@ -135,11 +135,11 @@ def reduction(report: Report) -> float:
     return next(factor for factor in REDUCTIONS if 1 / factor >= needed)
 
 
-def positions(report: Report) -> FigureScenes:
+def positions(report: ReportContext) -> FigureScenes:
     return as_large_as_asked(report, partial(positions_scene, report))
 
 
-def as_large_as_asked(report: Report, draw: Callable[[float], Scene]) -> FigureScenes:
+def as_large_as_asked(report: ReportContext, draw: Callable[[float], Scene]) -> FigureScenes:
     """Return a drawing true to μ_l, by which it is measured, or at the first reduction that fits half a page.
 
     If no reduction fits into the text, the drawing is turned and as large as the page allows.  If labels need more
@@ -159,12 +159,12 @@ def as_large_as_asked(report: Report, draw: Callable[[float], Scene]) -> FigureS
     return next((shown for shown in reversed(drawn) if not shown.scenes[0].crowded), drawn[-1])
 
 
-def plan_in_text(report: Report) -> bool:
+def plan_in_text(report: ReportContext) -> bool:
     """Return True if the position plan is in the text, not on a separate page."""
     return positions(report).paper is None
 
 
-def positions_scene(report: Report, factor: float = 1.0, beside: Canvas | None = None) -> Scene:
+def positions_scene(report: ReportContext, factor: float = 1.0, beside: Canvas | None = None) -> Scene:
     """The numbered positions of one turn by a factor of enlargement, alone with paths or beside another drawing."""
     machine = report.machine
     shows = PositionPlan(
@@ -178,7 +178,7 @@ def positions_scene(report: Report, factor: float = 1.0, beside: Canvas | None =
     return _position_plan(report, one_turn, shows, beside, factor)
 
 
-def extremes(report: Report) -> FigureScenes:
+def extremes(report: ReportContext) -> FigureScenes:
     """The mechanism where its first slider turns back (I, II: its stroke begins and ends), as large as the scheme."""
     course = report.machine.sliders[0]
     motion = motion_at(report.machine, course.dead_centres[:2] - course.phase)
@@ -187,7 +187,7 @@ def extremes(report: Report) -> FigureScenes:
     return replace(on_paper(_position_plan(report, motion, shows, factor=factor)), smaller=1 / factor)
 
 
-def swing(report: Report) -> FigureScenes:
+def swing(report: ReportContext) -> FigureScenes:
     """Both extreme positions of the rocker of the first group, with the arcs by which they are found."""
     machine, ledger = report.machine, report.ledger
     linkage, first = machine.linkage, machine.linkage.dyads[0]
@@ -218,7 +218,7 @@ def swing(report: Report) -> FigureScenes:
 
 
 def _position_plan(
-    report: Report, motion: Motion, shows: PositionPlan, beside: Canvas | None = None, factor: float = 1.0
+    report: ReportContext, motion: Motion, shows: PositionPlan, beside: Canvas | None = None, factor: float = 1.0
 ) -> Scene:
     dense = _motion(report.machine, np.linspace(0.0, FULL_TURN, DENSE))
     scale = drawing_scale(report) * factor
@@ -230,7 +230,7 @@ def _motion(machine: Machine, cycle_angle: np.ndarray) -> Motion:
     return solve_motion(machine.linkage, machine.angles(cycle_angle), machine.turn * machine.speed)
 
 
-def _numbered(report: Report) -> tuple[str, ...]:
+def _numbered(report: ReportContext) -> tuple[str, ...]:
     """Points that carry the positions' numbers: pins of the crank, joints, of a slotted lever its end."""
     centres = {body.centre for body in report.machine.linkage.inertias}
     names = [*report.crank_pins]
@@ -243,12 +243,12 @@ def _numbered(report: Report) -> tuple[str, ...]:
 # --- the gas
 
 
-def indicator(report: Report) -> FigureScenes:
+def indicator(report: ReportContext) -> FigureScenes:
     """The diagram in line with the first piston's stroke, every piston's positions read from it."""
     return as_large_as_asked(report, partial(_indicator, report))
 
 
-def _indicator(report: Report, factor: float) -> Scene:
+def _indicator(report: ReportContext, factor: float) -> Scene:
     machine, gases, printed_unit = report.machine, report.analysis.gas, report.ledger.printed_unit
     first = machine.pistons[0]
     unit, scale = 1e4, drawing_scale(report) * factor
@@ -261,7 +261,7 @@ def _indicator(report: Report, factor: float) -> Scene:
     side = _free_side(machine)
     start, end, mu = indicator_figure.beside(top, bottom, side, highest, report.enlarged)
     note = Chain((Symbol("μ", "p"), short(Number(mu, 6, printed_unit("N/(cm²·mm)")))))
-    frame = indicator_figure.Frame(
+    frame = indicator_figure.ChartFrame(
         start, end, side, mu * report.enlarged, Chain((Symbol("p"),), printed_unit("N/cm²")), note
     )
     share_at = first.share_at(partial(motion_at, machine))
@@ -303,7 +303,7 @@ def _in_line(first: Piston, other: Piston) -> bool:
 # --- Coriolis acceleration
 
 
-def coriolis(report: Report, k: int, group: GroupView, side: Side) -> FigureScenes:
+def coriolis(report: ReportContext, k: int, group: GroupView, side: Side) -> FigureScenes:
     """The relative velocity in a turning guide, turned by 90° in the sense of its ω."""
     ledger, points = report.ledger, report.analysis.motion.points
     omega = float(ledger[ids.signed("omega", side.turning)].at(k).real)
@@ -317,17 +317,17 @@ def coriolis(report: Report, k: int, group: GroupView, side: Side) -> FigureScen
     return FigureScenes((coriolis_figure(sliding),))
 
 
-def inclination(report: Report) -> FigureScenes:
+def inclination(report: ReportContext) -> FigureScenes:
     """The angle of an acceleration with the line to the centre."""
     return FigureScenes((inclination_figure(),))
 
 
-def two_equations(report: Report) -> FigureScenes:
+def two_equations(report: ReportContext) -> FigureScenes:
     """A link and the velocities of its points."""
     return FigureScenes(link_and_plan("v"))
 
 
-def similarity(report: Report) -> FigureScenes:
+def similarity(report: ReportContext) -> FigureScenes:
     """A link and the accelerations of its points."""
     return FigureScenes(link_and_plan("a"))
 
@@ -336,7 +336,7 @@ def similarity(report: Report) -> FigureScenes:
 # How they lie at a position, and the mechanism drawn with them.
 
 
-def centre_state(report: Report, link: PlaneLink, k: int) -> str:
+def centre_state(report: ReportContext, link: PlaneLink, k: int) -> str:
     """Return where a link's centre is: "found", "shift" (no turning), "rest" (at its base), "near" its base, or
     "far".
     """
@@ -352,11 +352,11 @@ def centre_state(report: Report, link: PlaneLink, k: int) -> str:
     return "near" if to_base < NEAREST else "far"
 
 
-def _place(report: Report, link: PlaneLink, k: int) -> complex:
+def _place(report: ReportContext, link: PlaneLink, k: int) -> complex:
     return complex(report.ledger[ids.centre(link.link)].at(k)) * drawing_scale(report)
 
 
-def centres(report: Report, k: int) -> FigureScenes:
+def centres(report: ReportContext, k: int) -> FigureScenes:
     """Draw the mechanism at a position, true to μ_l: normals that meet in the centres, velocities and their angles.
 
     Centres share a sheet as far as there is room.
@@ -384,7 +384,7 @@ def _has_a_sheet(scene: Scene) -> bool:
     return any(fits(scene.width, scene.height, paper) for paper in (A3_ACROSS, A3_UPRIGHT))
 
 
-def _plane_motion(report: Report, link: PlaneLink, k: int) -> PlaneMotion:
+def _plane_motion(report: ReportContext, link: PlaneLink, k: int) -> PlaneMotion:
     """The velocities of a link's two points and their angles with the line between them."""
     ledger, points = report.ledger, report.analysis.motion.points
     ends = (link.base, link.point)

@@ -11,7 +11,7 @@ from reportgen.document import Figure, InlineMath, Inlines, Plate, Text
 from reportgen.document.figure_placement import FigureScenes, close
 from reportgen.machine.analysis import Position
 from reportgen.report import cycle_curves, force_figures, mechanism_figures, phrases, plan_figures, topic_views
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 from reportgen.report.link_views import GroupView
 from reportgen.report.topic_views import DrawnFigure
 
@@ -53,7 +53,7 @@ FIGURES: Mapping[str, tuple[str, Callable[..., FigureScenes]]] = {
 """Beginning of a figure's key, and the function that draws it; its caption is in `words.yaml` under `captions`."""
 
 
-def figure(report: Report, name: str, *arguments: Any, words: str = "") -> tuple[Figure | Plate, ...]:
+def figure(report: ReportContext, name: str, *arguments: Any, words: str = "") -> tuple[Figure | Plate, ...]:
     """Return a figure by its name: `figure(name, …)`, or `figure(name, key, caption, …)` with its own words;
     `words` names other ones of `words.yaml`.
 
@@ -86,11 +86,11 @@ def figure(report: Report, name: str, *arguments: Any, words: str = "") -> tuple
     return Plate(first, drawn.paper, inlines, key, at=at), *further
 
 
-def _drawn(report: Report, name: str) -> DrawnFigure:
+def _drawn(report: ReportContext, name: str) -> DrawnFigure:
     """Return the key of a figure, and the function that draws it.  Raises `KeyError` for a name that is not known."""
     return FIGURES[name] if name in FIGURES else topic_views.merged(report, attrgetter("figures"))[name]
 
 
-def smaller(report: Report, name: str) -> Inlines:
+def smaller(report: ReportContext, name: str) -> Inlines:
     """Return the remark of the text on a named figure that is smaller than to the scales of the text."""
     return phrases.shown_smaller(report, _drawn(report, name)[1](report).smaller, name)

@@ -9,7 +9,7 @@ from typing import Any
 from reportgen.document import Paragraph, Table
 from reportgen.machine.analysis import Position
 from reportgen.report import overview, quantity_tables, result_tables, topic_views
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 from reportgen.report.quantity_tables import QuantityTable, RowTable
 
 TABLES: Mapping[str, Callable[..., Any]] = {
@@ -57,7 +57,7 @@ TABLES: Mapping[str, Callable[..., Any]] = {
 """
 
 
-def table(report: Report, name: str, *arguments: Any, words: str = "") -> Any:
+def table(report: ReportContext, name: str, *arguments: Any, words: str = "") -> Any:
     """A table with its words, or with others of `words.yaml`; one of a position k has k in its key and its caption.
 
     A name that is not in `TABLES` is a table of the loads whose ids are given, or of other quantities at positions.
@@ -71,7 +71,7 @@ def table(report: Report, name: str, *arguments: Any, words: str = "") -> Any:
 
 
 def _of_ids(
-    report: Report,
+    report: ReportContext,
     key: str,
     caption: str,
     head: Sequence[str],

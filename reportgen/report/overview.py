@@ -8,7 +8,7 @@ from itertools import islice
 
 from reportgen.document import Cell, Column, Inline, InlineMath, Inlines, Table, Text, Value, listed
 from reportgen.formula import Expression, Number, Symbol, ids, size, vocabulary
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 from reportgen.report.guide_couples import guide_couples
 from reportgen.report.phrases import sign
 from reportgen.report.table_remarks import Peak, each_peak, reaction_ids, slider_rates, turning_rates
@@ -25,7 +25,7 @@ MOST_PLACES = 12
 # --- the page of results
 
 
-def extremes(report: Report, key: str, caption: str, head: Sequence[str]) -> Table:
+def extremes(report: ReportContext, key: str, caption: str, head: Sequence[str]) -> Table:
     """The greatest sizes of velocities, accelerations and reactions with their positions, in sets side by side."""
     peaks = list(_extremes(report))
     height = -(-len(peaks) // BESIDE)
@@ -36,7 +36,7 @@ def extremes(report: Report, key: str, caption: str, head: Sequence[str]) -> Tab
     return Table(tuple(map(Column, SET)) * BESIDE, (titles,), tuple(body), report.prose.inlines(caption), key)
 
 
-def _extremes(report: Report) -> Iterator[Peak]:
+def _extremes(report: ReportContext) -> Iterator[Peak]:
     """Yield the peaks of points in translation, or else of all that a plan determines; then of links, then of
     joints.
     """
@@ -52,14 +52,14 @@ def _row(top: Peak) -> tuple[Inlines, Inlines, Inlines]:
     return top.symbols, (top.value,), (Text(places),)
 
 
-def main_figures(report: Report) -> Iterator[Sequence[object]]:
+def main_figures(report: ReportContext) -> Iterator[Sequence[object]]:
     """The scales, how far the balancing torque goes, its mean and power, the flywheel: words, symbol, value, place."""
     for figure, name in report.words["main_figures"].items():
         if id := of_kind(report, figure):
             yield *_figure(report, id, name), extreme_place(report, id)
 
 
-def _figure(report: Report, id: str, name: str | Mapping[str, str]) -> tuple[str, Expression, Value]:
+def _figure(report: ReportContext, id: str, name: str | Mapping[str, str]) -> tuple[str, Expression, Value]:
     """Words, symbol and value; an extreme of the balance is called by its sense, and its size is shown."""
     symbol, sense = report.ledger.symbol(id), sign(report, id)
     if isinstance(name, str):
@@ -67,12 +67,12 @@ def _figure(report: Report, id: str, name: str | Mapping[str, str]) -> tuple[str
     return name[sense], size(symbol) if sense == "negative" else symbol, Value(report.ledger.number(id, size=True))
 
 
-def of_kind(report: Report, name: str) -> str:
+def of_kind(report: ReportContext, name: str) -> str:
     """The id of a quantity that is named so, or with its kind as in `M.eq:torque`; "" for one that is not there."""
     return next((id for id, one in report.ledger.families.items() if name in (id, f"{id}:{one.kind}")), "")
 
 
-def extreme_place(report: Report, id: str) -> Inlines:
+def extreme_place(report: ReportContext, id: str) -> Inlines:
     """Return where `M.least` or `M.greatest` is: the turn from position 1, or the way of a sliding driver."""
     if id not in ("M.least", "M.greatest"):
         return ()
@@ -86,7 +86,7 @@ def extreme_place(report: Report, id: str) -> Inlines:
 # --- the list of symbols
 
 
-def symbols(report: Report) -> Iterator[Sequence[object]]:
+def symbols(report: ReportContext) -> Iterator[Sequence[object]]:
     """The kinds of quantities that this report has: some of their symbols, the meaning, the unit."""
     for name, alike in symbol_kinds(report).items():
         shown = tuple(dict.fromkeys(report.ledger.symbol(id) for id in alike))
@@ -94,7 +94,7 @@ def symbols(report: Report) -> Iterator[Sequence[object]]:
         yield _some(shown), name, ", ".join(unit or "–" for unit in units)
 
 
-def _unit(report: Report, id: str) -> str:
+def _unit(report: ReportContext, id: str) -> str:
     unit = report.ledger[id].how.unit
     return report.ledger.units.get(unit, unit)
 
@@ -104,7 +104,7 @@ def _some(shown: Sequence[Symbol]) -> Inlines:
     return listed([*first, Text("…")] if len(shown) > EXAMPLES else first)
 
 
-def symbol_kinds(report: Report) -> Mapping[str, list[str]]:
+def symbol_kinds(report: ReportContext) -> Mapping[str, list[str]]:
     """Return the ids of the report's quantities by the meaning that `words.yaml` gives to their kind.
 
     A quantity that fits no kind is explained where it is used.

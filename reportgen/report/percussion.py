@@ -19,7 +19,7 @@ from reportgen.drawing.style import CONSTRUCTION, PAPER, VISIBLE
 from reportgen.formula import Symbol, constructions, ids
 from reportgen.formula.calculation import ZERO
 from reportgen.machine.force_analysis import as_single_force, percussion_points
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 from reportgen.report.link_views import BodyView
 
 PercussionCase = Literal["none", "couple", "still", "pivot", "meet", "parallel", "far"]
@@ -40,7 +40,7 @@ class Percussion:
     at: complex
 
 
-def percussion(report: Report, body: BodyView, k: int) -> Percussion:
+def percussion(report: ReportContext, body: BodyView, k: int) -> Percussion:
     """Return how the one inertia force of a link is found at position `k`."""
     motion, index = report.analysis.motion, k - 1
     start, centre = (motion.points[name] for name in (body.start, body.centre))
@@ -61,12 +61,12 @@ def percussion(report: Report, body: BodyView, k: int) -> Percussion:
     return Percussion("meet", known, meeting) if abs(meeting - s) < near else Percussion("far", known, foot)
 
 
-def percussion_state(report: Report, body: BodyView, k: int) -> PercussionCase:
+def percussion_state(report: ReportContext, body: BodyView, k: int) -> PercussionCase:
     """Return the key of the words for how the line of a link's inertia force is found."""
     return percussion(report, body, k).state
 
 
-def drawn(report: Report, link: int, k: int, scale: float) -> Canvas:
+def drawn(report: ReportContext, link: int, k: int, scale: float) -> Canvas:
     """Return K on a link, and the lines that meet in Q or the distance of S from the line, at `scale` (mm/m)."""
     body = next((body for body in report.couples if body.link == link), None)
     if body is None:

@@ -24,7 +24,7 @@ from reportgen.document import Inline, InlineMath, Inlines, Reference, Text, Val
 from reportgen.document.template_rendering import NamedPoint, subscripted
 from reportgen.document.value_insertion import inlines
 from reportgen.formula import Chain, Number, Symbol, ids
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 from reportgen.report.link_views import CarriedPoint, GroupView
 from reportgen.report.template_equations import a, image, math, quantity, slider_ways, v, value
 
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from reportgen.catalogue.linkage_words import GroupRow
 
 
-def say(report: Report, phrase: str, *about: Any, **gaps: Any) -> Inlines:
+def say(report: ReportContext, phrase: str, *about: Any, **gaps: Any) -> Inlines:
     """A phrase of `words.yaml` whose gaps are filled by name, or with shown members of what it is about.
 
     Raises `TemplateError`, or `ValueError` for a phrase of a template, where nothing fills a gap.
@@ -49,7 +49,7 @@ def say(report: Report, phrase: str, *about: Any, **gaps: Any) -> Inlines:
     return tuple(said)
 
 
-def _gap(report: Report, name: str, how: str, about: Sequence[Any], gaps: Mapping[str, Any]) -> Inlines:
+def _gap(report: ReportContext, name: str, how: str, about: Sequence[Any], gaps: Mapping[str, Any]) -> Inlines:
     """Return the inlines for a gap: the given value, a member, a reference `@tab.dead`, else a quantity.
 
     A quantity is named as between dollar signs in a template: `{e}` is its symbol, `{e:value}` its number and
@@ -67,7 +67,7 @@ def _gap(report: Report, name: str, how: str, about: Sequence[Any], gaps: Mappin
     return (value(report, name),) if how == "value" else (InlineMath(math(report, name)),)
 
 
-def counted(report: Report, name: str, things: Collection[Any], **gaps: Any) -> Inlines:
+def counted(report: ReportContext, name: str, things: Collection[Any], **gaps: Any) -> Inlines:
     """A phrase about so many things, by its words for one and for many, or by one for both; nothing for none.
 
     Of three forms the second is that of 2, 3 and 4, as Slavic languages have it.
@@ -91,7 +91,7 @@ def form_of(count: int, forms: int) -> int:
     return 0 if last == 1 and not teen else 1 if 2 <= last <= 4 and not teen else 2
 
 
-def shown_smaller(report: Report, times: float, name: str) -> Inlines:
+def shown_smaller(report: ReportContext, times: float, name: str) -> Inlines:
     """Return the remark on a figure smaller than to μ_l by a factor; empty if the factor is 1."""
     if times == 1.0:
         return ()
@@ -99,13 +99,13 @@ def shown_smaller(report: Report, times: float, name: str) -> Inlines:
     return say(report, report.words["smaller"][name], times=Number(times), scale=scale)
 
 
-def sign(report: Report, id: str, position: int | None = None) -> str:
+def sign(report: ReportContext, id: str, position: int | None = None) -> str:
     """The key of the words for a quantity's sign as it is printed."""
     number = report.ledger.number(id, position).value
     return "zero" if number == 0 else "negative" if number < 0 else "positive"
 
 
-def stop(report: Report, loop: Mapping[str, Any], *further: Sized) -> str:
+def stop(report: ReportContext, loop: Mapping[str, Any], *further: Sized) -> str:
     """Return the mark at the end of a list item: a full stop after the last one, if nothing `further` follows it."""
     return "." if loop["last"] and not any(map(len, further)) else ";"
 
@@ -113,12 +113,12 @@ def stop(report: Report, loop: Mapping[str, Any], *further: Sized) -> str:
 # --- words by what the report has
 
 
-def _set(report: Report, name: str, key: str, *about: Any, **gaps: Any) -> Mapping[str, Inlines]:
+def _set(report: ReportContext, name: str, key: str, *about: Any, **gaps: Any) -> Mapping[str, Inlines]:
     """The phrases that `words.yaml` has under a name and a key, with their gaps filled."""
     return {one: say(report, phrase, *about, **gaps) for one, phrase in report.words[name][key].items()}
 
 
-def driven(report: Report) -> Mapping[str, Inlines]:
+def driven(report: ReportContext) -> Mapping[str, Inlines]:
     """Words for the driver, a crank or a slide, which may run faster or slower, and for what balances it."""
     words = _set(report, "driven", report.driver.kind, report.driver, report)
     if not report.accelerated:
@@ -127,13 +127,13 @@ def driven(report: Report) -> Mapping[str, Inlines]:
     return {**words, **_set(report, "accelerated", f"{report.driver.kind}-{way}", report.driver, report)}
 
 
-def at_positions(report: Report) -> Inlines:
+def at_positions(report: ReportContext) -> Inlines:
     """At which positions a task asks for the motion: at so many of a turn, or at the instants given."""
     words = report.words["at_positions"]
     return say(report, words["instants"][report.count > 1] if report.instants else words["turn"], report)
 
 
-def no_cycle(report: Report) -> Inlines:
+def no_cycle(report: ReportContext) -> Inlines:
     """Why nothing is said of the cycle as a whole; nothing where it is."""
     if report.cyclic:
         return ()
@@ -141,31 +141,31 @@ def no_cycle(report: Report) -> Inlines:
     return say(report, report.words["no_cycle"][key], report.words["driven"][report.driver.kind])
 
 
-def acting(report: Report) -> str:
+def acting(report: ReportContext) -> str:
     """Return the words for the loads of a machine on which nothing else acts."""
     return str(report.words["acting"]["weights" if report.weighed else "inertia"])
 
 
-def scope(report: Report) -> Mapping[str, Inlines]:
+def scope(report: ReportContext) -> Mapping[str, Inlines]:
     """Words for what the report goes into: forces, or motion alone."""
     return _set(report, "scope", scope_key(report), report.words["driven"][report.driver.kind])
 
 
-def scope_key(report: Report) -> str:
+def scope_key(report: ReportContext) -> str:
     return "forces" if report.has_forces else "motion"
 
 
-def study(report: Report) -> Mapping[str, Inlines]:
+def study(report: ReportContext) -> Mapping[str, Inlines]:
     """Words for what is done: an analysis, perhaps with a synthesis before it."""
     return _set(report, "study", "synthesis" if report.synthesised else "analysis")
 
 
-def turning(report: Report) -> Mapping[str, Inlines]:
+def turning(report: ReportContext) -> Mapping[str, Inlines]:
     """Return the phrases on links that turn; those for "none" if no link turns."""
     return _set(report, "turning", "links" if report.has_turning_links else "none")
 
 
-def lever(report: Report) -> Mapping[str, Inlines]:
+def lever(report: ReportContext) -> Mapping[str, Inlines]:
     """Return words for the lever of a crank: its velocity plan has a separate round scale, or the crank's."""
     if not report.driver.centre:
         return {}
@@ -173,51 +173,51 @@ def lever(report: Report) -> Mapping[str, Inlines]:
     return _set(report, "lever", "round" if report.driver.round_velocity else "crank", **symbols)
 
 
-def form(report: Report) -> Mapping[str, Inlines]:
+def form(report: ReportContext) -> Mapping[str, Inlines]:
     """Words for the form of a machine that comes in several: a slider-crank in line or offset, …."""
     return _set(report, "form", report.own["form"], report) if "form" in report.own else {}
 
 
-def coupler(report: Report) -> Mapping[str, Inlines]:
+def coupler(report: ReportContext) -> Mapping[str, Inlines]:
     """Words for the points that a coupler carries."""
     return _set(report, "coupler", report.own["coupler"], report) if "coupler" in report.own else {}
 
 
-def load_key(report: Report) -> str:
+def load_key(report: ReportContext) -> str:
     """The key of the words for the loads that the machine sets out, of those it may have: M3-P3."""
     return "-".join(report.sheet.get("loads", ()))
 
 
-def driver_loads(report: Report) -> Inlines:
+def driver_loads(report: ReportContext) -> Inlines:
     """The driver's own inertia force and weight with their symbols, each followed by a comma."""
     words, loads = report.words["driver_loads"], [id for id in ("Pqt1", "G1") if id in report.on_crank]
     return tuple(part for id in loads for part in say(report, words[id], force=report.ledger.symbol(id)))
 
 
-def opposite_words(report: Report) -> str:
+def opposite_words(report: ReportContext) -> str:
     """The sense of rotation opposite to the driver's."""
     return report.sense(-report.machine.turn)
 
 
-def medium(report: Report) -> str:
+def medium(report: ReportContext) -> str:
     """The key of the words for what loads the machine: the gas in its cylinders, or anything else."""
     return "gas" if report.has_gas else "other"
 
 
-def slider_convention(report: Report) -> Inlines:
+def slider_convention(report: ReportContext) -> Inlines:
     """A further sentence on the positive directions of sliders, if there are any."""
     ways = slider_ways(report)
     return say(report, f" {report.words['conventions']['sliders']} {{ways}}.", ways=ways) if ways else ()
 
 
-def balance_sign(report: Report, position: int) -> Inlines:
+def balance_sign(report: ReportContext, position: int) -> Inlines:
     """Return the meaning of the sign of the balancing torque or force."""
     words = report.words["balance_signs"][report.driver.kind]
     sense = report.sense(report.ledger.number("M.eq", position).value)
     return say(report, words[sign(report, "M.eq", position)], M=report.ledger.symbol("M.eq"), sense=sense)
 
 
-def slide_reactions(report: Report) -> Inlines:
+def slide_reactions(report: ReportContext) -> Inlines:
     """Return where the reactions of slides act, if there are any."""
     key = "none" if not report.has_slides else "displaced" if report.displaced_reactions else "at_pin"
     names = report.words["names"]
@@ -225,7 +225,7 @@ def slide_reactions(report: Report) -> Inlines:
     return say(report, report.words["slide_reactions"][key], **parts)
 
 
-def energy_key(report: Report) -> str:
+def energy_key(report: ReportContext) -> str:
     """Return the key of the words on the balance of energy: gas, a stroke, a turn (idle or not), or none."""
     if not (report.has_forces and report.cyclic):
         return "none"
@@ -234,7 +234,7 @@ def energy_key(report: Report) -> str:
     return "idle" if report.is_zero("W", 1) else "turn"
 
 
-def no_mean(report: Report) -> Inlines:
+def no_mean(report: ReportContext) -> Inlines:
     """Why the mean of what balances the driver is nothing; nothing where it is something."""
     if not (report.has_forces and report.cyclic) or not report.is_zero("M.mean"):
         return ()
@@ -243,17 +243,17 @@ def no_mean(report: Report) -> Inlines:
     return say(report, report.words["no_mean"][key], report.words["driven"][report.driver.kind])
 
 
-def has_moments_of_inertia(report: Report) -> bool:
+def has_moments_of_inertia(report: ReportContext) -> bool:
     """Return True if the mass of any moving link is spread out."""
     return any(id in ids.inertia for id in report.mass_lines)
 
 
-def has_moment_components(report: Report) -> bool:
+def has_moment_components(report: ReportContext) -> bool:
     """Return True if moments give a reaction, or a component of one, before a force plan."""
     return any(group.by_moments for group in report.groups)
 
 
-def constant_force(report: Report) -> Inlines:
+def constant_force(report: ReportContext) -> Inlines:
     """In which stroke a constant working force acts, and whether with the motion; nothing for any other force."""
     if "P.given" not in report.ledger or "stroke" not in report.own:
         return ()
@@ -261,7 +261,7 @@ def constant_force(report: Report) -> Inlines:
     return say(report, senses.get(sign(report, "P.given"), ""), report.words["ways"])
 
 
-def first_position(report: Report) -> Inlines:
+def first_position(report: ReportContext) -> Inlines:
     """Return where the driver is in the first position: at its natural place, at an angle, or at a way along its
     guide.
     """
@@ -295,7 +295,7 @@ def _plain(value: float) -> float:
     return float(f"{value:.10g}") + 0.0
 
 
-def strokes_at_start(report: Report) -> Inlines:
+def strokes_at_start(report: ReportContext) -> Inlines:
     """Return the stroke on which each piston leaves the first position, which identifies its turn.
 
     With single instants, return the stroke of each piston at each of them.
@@ -315,13 +315,13 @@ def strokes_at_start(report: Report) -> Inlines:
     return (Text(f"{''.join(phrases)}."),) if phrases else ()
 
 
-def lettered(report: Report) -> bool:
+def lettered(report: ReportContext) -> bool:
     """Return True if positions between the equidistant ones are called a, b, …"""
     machine = report.machine
     return not report.instants and any(k.label.isalpha() for k in machine.numbered(range(1, machine.count + 1)))
 
 
-def load_sense(report: Report, name: str) -> Inlines:
+def load_sense(report: ReportContext, name: str) -> Inlines:
     """Return the words for the sense of a load that is constant or always against the motion."""
     words = report.words["load_senses"]
     if any(load.name == name and load.law.kind == "opposing" for load in report.loads):
@@ -329,7 +329,7 @@ def load_sense(report: Report, name: str) -> Inlines:
     return say(report, words[sign(report, name, 1)], sense=report.sense(report.ledger.number(name, 1).value))
 
 
-def drawn_group(report: Report, row: GroupRow) -> Inlines:
+def drawn_group(report: ReportContext, row: GroupRow) -> Inlines:
     """Return the words for drawing a group of a declared linkage: its rods, its outer joints, the inner one."""
     drawn = [value(report, ids.drawn(rod)) for rod, _ in row.lengths]
     rods = dict(zip(("first", "second"), drawn, strict=False))
@@ -344,11 +344,11 @@ def drawn_group(report: Report, row: GroupRow) -> Inlines:
 # `what` is "v" for the velocity plan, "a" for the acceleration plan.
 
 
-def _image(report: Report, what: str, name: str) -> Symbol:
+def _image(report: ReportContext, what: str, name: str) -> Symbol:
     return image(report, name, what == "a")
 
 
-def start(report: Report, what: str, of: Side | CarriedPoint) -> Inlines:
+def start(report: ReportContext, what: str, of: Side | CarriedPoint) -> Inlines:
     """Return where the vector relative to a base begins on a plan: in the pole, or at the end of the base's vector."""
     words = report.words["plan"]
     if of.still:
@@ -356,19 +356,19 @@ def start(report: Report, what: str, of: Side | CarriedPoint) -> Inlines:
     return say(report, words["end"], image=_image(report, what, of.base))
 
 
-def line_start(report: Report, what: str, side: Side) -> Inlines:
+def line_start(report: ReportContext, what: str, side: Side) -> Inlines:
     """Return where the line of the unknown begins: at the end of the known relative acceleration, if there is one."""
     if what == "a" and side.part:
         return say(report, report.words["plan"]["end_of"], vector=a(report, side, side.part))
     return start(report, what, side)
 
 
-def along(report: Report, side: Side) -> Inlines:
+def along(report: ReportContext, side: Side) -> Inlines:
     """The direction of what is sought on a side."""
     return say(report, report.words["plan"]["directions"][side.way], rod=subscripted(side.rod), link=side.slide)
 
 
-def sought(report: Report, what: str, group: GroupView, side: Side) -> Symbol:
+def sought(report: ReportContext, what: str, group: GroupView, side: Side) -> Symbol:
     """The vector that is sought on a side: of the point itself where the side's base is at rest, else the relative."""
     if what == "v":
         return v(report, group.M if side.still else side)
@@ -377,7 +377,7 @@ def sought(report: Report, what: str, group: GroupView, side: Side) -> Symbol:
     return a(report, group.M) if side.still and not side.turning else a(report, side, "r")
 
 
-def base_step(report: Report, what: str, group: GroupView, side: Side, position: int) -> Inlines:
+def base_step(report: ReportContext, what: str, group: GroupView, side: Side, position: int) -> Inlines:
     """Return the step that brings the vector of a side's base onto the plan."""
     return say(
         report,
@@ -389,24 +389,24 @@ def base_step(report: Report, what: str, group: GroupView, side: Side, position:
     )
 
 
-def known_sense(report: Report, side: Side) -> Inlines:
+def known_sense(report: ReportContext, side: Side) -> Inlines:
     """The sense of the relative acceleration that velocities give: towards the base, or as Coriolis turned it."""
     ends = {"point": NamedPoint(side.point), "base": NamedPoint(side.base)}
     return say(report, report.words["plan"]["senses"]["centre" if side.turns else "coriolis"], **ends)
 
 
-def base_motion(report: Report, side: Side) -> Inlines:
+def base_motion(report: ReportContext, side: Side) -> Inlines:
     """Return the words for the known motion of a side's base: that it is fixed, or its velocity."""
     return say(report, report.words["plan"]["bases"][side.state], base=NamedPoint(side.base))
 
 
-def shows_coriolis(report: Report, group: GroupView, side: Side, position: int) -> bool:
+def shows_coriolis(report: ReportContext, group: GroupView, side: Side, position: int) -> bool:
     """Return True if a figure shows the turn that gives the Coriolis acceleration of a slot its sense."""
     moves = not any(report.is_zero(id, position) for id in (side.velocity, side.omega))
     return group.kind == "RPR" and moves and bool(report.parts("coriolis-turn"))
 
 
-def found_senses(report: Report, group: GroupView, position: int) -> Inlines:
+def found_senses(report: ReportContext, group: GroupView, position: int) -> Inlines:
     """Return the meaning of the signs of the reactions that moments gave."""
     words, figure = report.words["plan"]["found"], Reference(f"fig.bodies.{group}.{position}")
     signs = [(id, sign(report, id, position)) for id in group.by_moments]

@@ -35,7 +35,7 @@ from reportgen.drawing.vector_plan import (
     stages,
 )
 from reportgen.formula import Chain, Symbol, ids, vocabulary
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 from reportgen.report.link_views import GroupView
 from reportgen.report.mechanism_figures import scale_note
 from reportgen.report.phrases import counted
@@ -79,10 +79,10 @@ class MotionFigures:
 
     what: What
 
-    def whole(self, report: Report, k: int) -> FigureScenes:
+    def whole(self, report: ReportContext, k: int) -> FigureScenes:
         return on_paper(_worked(report, self._plan(report, k), k))
 
-    def in_stages(self, report: Report, k: int, group: GroupView) -> FigureScenes:
+    def in_stages(self, report: ReportContext, k: int, group: GroupView) -> FigureScenes:
         """The steps of one group's construction, numbered as in the text; what was drawn before is gray."""
         begin = STAGES * next(n for n, one in enumerate(report.groups) if one.name == group.name)
         bounds = np.cumsum([0, *_steps(group, self.what)])
@@ -95,49 +95,49 @@ class MotionFigures:
         until = self._plan(report, k).until(begin + STAGES - 1)
         return _stages(report, until, ids.scale(self.what), titles, begin)
 
-    def on_plates(self, report: Report) -> FigureScenes:
+    def on_plates(self, report: ReportContext) -> FigureScenes:
         return self.series(report).figure
 
-    def series(self, report: Report) -> PlanSeries:
+    def series(self, report: ReportContext) -> PlanSeries:
         """The plans of one turn without those that mirror others."""
         mirrored_at = positions_mirrored(report, self.what).at
         return PlanSeries(
             report, self._plan, [k for k in one_turn(report) if k not in mirrored_at], ids.scale(self.what)
         )
 
-    def _plan(self, report: Report, k: int) -> Plan:
+    def _plan(self, report: ReportContext, k: int) -> Plan:
         return motion_plan(report, self.what, k)
 
 
-def one_turn(report: Report) -> list[int]:
+def one_turn(report: ReportContext) -> list[int]:
     """The positions of one turn whose plans are drawn."""
     return sorted({(k - 1) % report.count + 1 for k in report.plates})
 
 
-def positions_mirrored(report: Report, what: What) -> Mirrored:
+def positions_mirrored(report: ReportContext, what: What) -> Mirrored:
     """The positions whose plans of velocity (v) or acceleration (a) mirror drawn ones."""
     return mirrored({k: motion_plan(report, what, k) for k in one_turn(report)})
 
 
-def mirror_images(report: Report, what: What) -> Inlines:
+def mirror_images(report: ReportContext, what: What) -> Inlines:
     """Return the remark on positions whose plans are not drawn again; empty if all are drawn."""
     mirror = positions_mirrored(report, what)
     drawn = ", ".join(str(report.machine.position(k)) for k in mirror.of)
     return counted(report, "mirrored", [report.machine.position(k) for k in mirror.at], drawn=drawn)
 
 
-def _at(construction: Construction[str], report: Report, k: int) -> Plan:
+def _at(construction: Construction[str], report: ReportContext, k: int) -> Plan:
     """A construction on paper (mm) as it is at a position."""
     scale = MM / report.enlarged
     return construction.placed(lambda id: 0j if id == POLE else settled(complex(report.ledger[id].at(k)) * scale))
 
 
-def motion_plan(report: Report, what: What, k: int) -> Plan:
+def motion_plan(report: ReportContext, what: What, k: int) -> Plan:
     """The plan of velocities (v) or accelerations (a) at a position, in mm."""
     return _at(motion_construction(report, what), report, k)
 
 
-def motion_construction(report: Report, what: What) -> Construction[str]:
+def motion_construction(report: ReportContext, what: What) -> Construction[str]:
     """The plan of velocities (v) or accelerations (a), its stages in their order, with the ids of its corners."""
     sketch = _Sketch(report, what)
     stage = 0
@@ -155,13 +155,13 @@ def motion_construction(report: Report, what: What) -> Construction[str]:
     return Construction(tuple(sketch.vectors), points, tuple(sketch.lines), _scale(report, ids.scale(what)))
 
 
-def _worked(report: Report, drawing: Plan, k: int, alone: bool = False) -> Scene:
+def _worked(report: ReportContext, drawing: Plan, k: int, alone: bool = False) -> Scene:
     """A worked plan with the mechanism beside it, or `alone`."""
     beside = () if alone else (thumbnail(report.machine.linkage, report.analysis.motion, k - 1),)
     return plan(drawing, beside=beside, width=FIGURE_ROOM[0])
 
 
-def _scale(report: Report, id: str, k: int | None = None) -> Chain:
+def _scale(report: ReportContext, id: str, k: int | None = None) -> Chain:
     """A scale as a figure prints it: μ_v = 0.2189 m/(s·mm)."""
     return Chain((report.ledger.symbol(id), report.ledger.number(id, k)))
 
@@ -174,7 +174,7 @@ def _steps(group: GroupView, what: What) -> tuple[int, int, int]:
 
 
 def _stages(
-    report: Report, drawing: Plan, scale: str, titles: Titles = lettered, begin: int = 0, k: int | None = None
+    report: ReportContext, drawing: Plan, scale: str, titles: Titles = lettered, begin: int = 0, k: int | None = None
 ) -> FigureScenes:
     """The stages of a plan at half its size or, for large plans, less, with the scale that makes."""
     number = report.ledger.number(scale, k)
@@ -192,8 +192,8 @@ def _stages(
 class PlanSeries:
     """Plans of one `scale` in rows; insets are for worked plans."""
 
-    report: Report
-    drawing: Callable[[Report, int], Plan]
+    report: ReportContext
+    drawing: Callable[[ReportContext, int], Plan]
     positions: Sequence[int]
     scale: str
 
@@ -239,7 +239,7 @@ class PlanSeries:
 class _Sketch:
     """A velocity or acceleration plan while its vectors are collected."""
 
-    def __init__(self, report: Report, what: What) -> None:
+    def __init__(self, report: ReportContext, what: What) -> None:
         self.what, self.named = what, report.named
         self.vectors: list[PlanVector[str]] = []
         self.points: list[PlanPoint[str]] = []
@@ -300,14 +300,14 @@ class _Sketch:
 # --- forces
 
 
-def forces(report: Report, k: int, group: GroupView) -> FigureScenes:
+def forces(report: ReportContext, k: int, group: GroupView) -> FigureScenes:
     assert group.polygon is not None
     # The separated links, too, show the directions on the mechanism.
     alone = not report.parts("mechanism-beside-forces")
     return on_paper(_worked(report, force_plan(report, group.polygon, k), k, alone))
 
 
-def force_stages(report: Report, k: int, group: GroupView) -> FigureScenes:
+def force_stages(report: ReportContext, k: int, group: GroupView) -> FigureScenes:
     """The force plan step by step: loads, what moments have given, closing edges, what is read."""
     assert group.polygon is not None
     drawing = force_plan(report, group.polygon, k)
@@ -334,7 +334,7 @@ def force_stages(report: Report, k: int, group: GroupView) -> FigureScenes:
     return _stages(report, steps, group.scale, k=k)
 
 
-def force_plates(report: Report, group: GroupView) -> FigureScenes:
+def force_plates(report: ReportContext, group: GroupView) -> FigureScenes:
     assert group.polygon is not None
     return FigureScenes(tuple(ForcePlans(report, group.polygon).scenes()))
 
@@ -346,7 +346,7 @@ class ForcePlans:
     The forces of a cycle differ by orders of magnitude: to one scale some plans would be blots.
     """
 
-    report: Report
+    report: ReportContext
     polygon: Polygon
 
     def scenes(self, times: float = 1.0) -> Iterator[Scene]:
@@ -376,14 +376,14 @@ class ForcePlans:
             μ = coarser
 
 
-def force_plan(report: Report, polygon: Polygon, k: int) -> Plan:
+def force_plan(report: ReportContext, polygon: Polygon, k: int) -> Plan:
     """A force plan at a position, in mm."""
     return replace(
         _at(force_construction(report, polygon), report, k), scale=_scale(report, ids.force_scale(polygon.name), k)
     )
 
 
-def force_construction(report: Report, polygon: Polygon) -> Construction[str]:
+def force_construction(report: ReportContext, polygon: Polygon) -> Construction[str]:
     """A force plan with the ids of its corners: known edges one by one, what closing it gives, what is read from it."""
 
     def corner(letter: str) -> str:

@@ -22,15 +22,15 @@ from reportgen.document.python_lines import (
     python_name,
 )
 from reportgen.formula.plain_text import python
-from reportgen.formula.vocabulary import Chapter
+from reportgen.formula.vocabulary import KeyChapter
 from reportgen.machine.load_laws import FULL_TURN
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 
 CURVES = ("s", "v", "a", "M"), ("x", "y", "v", "a", "M"), ("ω", "ε")
 """Letters of what is drawn: the first of these sets that begins with a letter which the formulas give."""
 
 
-def program(report: Report) -> Listing:
+def program(report: ReportContext) -> Listing:
     """Return the closed formulas as a program: given data, the formulas in order, and a table of their results.
 
     It ends with their curves over the way of the driver.  Its quantities are in SI units and rad, not rounded.
@@ -38,7 +38,7 @@ def program(report: Report) -> Listing:
     formulas.
     """
     ledger, kind = report.case.ledger, report.assignment.kind
-    changing = [id for id, one in ledger.families.items() if one.chapter is Chapter.formulas and len(one.values) > 1]
+    changing = [id for id, one in ledger.families.items() if one.chapter is KeyChapter.formulas and len(one.values) > 1]
     changing_lines = [id for id in changing if ledger[id].definition is not None and not ledger[id].hidden]
     if not changing_lines:
         raise NotOfferedError(word("no_listing", report.assignment.language, kind=kind))
@@ -80,7 +80,7 @@ def program(report: Report) -> Listing:
     )
 
 
-def _curves(report: Report, names: Mapping[str, str]) -> Iterator[str]:
+def _curves(report: ReportContext, names: Mapping[str, str]) -> Iterator[str]:
     """Yield the lines for the curves of a program: their abscissa, and the curves by unit."""
     ledger, machine = report.case.ledger, report.machine
     bases = {id: ledger.symbol(id).base for id in names}

@@ -30,7 +30,7 @@ from reportgen.drawing.label_size import box
 from reportgen.formula import Chain, Expression, Fraction, Number, Symbol, ids, refs, size, vocabulary
 from reportgen.formula.vocabulary import KINDS
 from reportgen.machine.load_laws import Law
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 
 MOST_COLUMNS = 9
 TITLES = 40.0
@@ -45,7 +45,7 @@ LENGTHS = (ids.length, ids.drawn)
 # --- what tables are made with
 
 
-def bare(report: Report, id: str, position: int | None, size: bool = False) -> Inlines:
+def bare(report: ReportContext, id: str, position: int | None, size: bool = False) -> Inlines:
     """A number without its unit, a dash for what does not exist; that of an arm, or `size`, without its sign."""
     family = report.ledger[id]
     number = report.ledger.number(id, position, size=size or family.arm)
@@ -54,14 +54,14 @@ def bare(report: Report, id: str, position: int | None, size: bool = False) -> I
     return (Value(Number(number.value, number.decimals, "")),)
 
 
-def head_symbol(report: Report, id: str) -> Expression:
+def head_symbol(report: ReportContext, id: str) -> Expression:
     """Return the symbol over a column: |v| over magnitudes, read from plans, of vectors."""
     symbol = report.ledger.symbol(id)
     return size(symbol) if any(id in rate for rate in ids.POINT_RATE.values()) else symbol
 
 
 def tables(
-    report: Report, key: str, caption: str, quantities: Sequence[str], positions: Iterable[int]
+    report: ReportContext, key: str, caption: str, quantities: Sequence[str], positions: Iterable[int]
 ) -> tuple[Table | Paragraph, ...]:
     """Quantities at positions: one table, or several below one another where the columns are too many.
 
@@ -94,7 +94,7 @@ def tables(
     return *parts, Paragraph((Text(f"{report.words['table']['zero']} "), *equations, Text(".")))
 
 
-def column_width(report: Report, id: str, at: Iterable[int | None]) -> float:
+def column_width(report: ReportContext, id: str, at: Iterable[int | None]) -> float:
     """Return the width (mm) of a quantity's numbers and symbol, with the white space beside them."""
     numbers = (replace(report.ledger.number(id, k), unit="") for k in at)
     shown = (head_symbol(report, id), *(number for number in numbers if math.isfinite(number.value)))
@@ -105,13 +105,13 @@ def column_width(report: Report, id: str, at: Iterable[int | None]) -> float:
 
 
 def given_data(
-    report: Report, key: str, caption: str, head: Sequence[str], others: Mapping[str, str] | None = None
+    report: ReportContext, key: str, caption: str, head: Sequence[str], others: Mapping[str, str] | None = None
 ) -> Table:
     """The given quantities in the words of the machine, some of them in other words."""
     return given_table(report, key, caption, {**report.given_names, **(others or {})})
 
 
-def given_table(report: Report, key: str, caption: str, names: Mapping[str, str]) -> Table:
+def given_table(report: ReportContext, key: str, caption: str, names: Mapping[str, str]) -> Table:
     """Return a table of the machine's given quantities that `names` describes; derived ones are left out."""
     heads = report.words["table"]
     rows = [
@@ -124,7 +124,7 @@ def given_table(report: Report, key: str, caption: str, names: Mapping[str, str]
     )
 
 
-def _is_given(report: Report, id: str) -> bool:
+def _is_given(report: ReportContext, id: str) -> bool:
     definition = report.ledger[id].definition
     return definition is None or not refs(definition)
 
@@ -137,7 +137,7 @@ OTHER = ("lb", "in", "inch", "ft", "lbf", "kgf", "gf", "oz", "hp", "psi")
 """Units that are printed as they were typed, with what the report makes of them."""
 
 
-def _as_typed(report: Report, id: str) -> Inlines:
+def _as_typed(report: ReportContext, id: str) -> Inlines:
     """A given number with its unit; a ratio written 1/3.6 stays one."""
     definition = report.ledger[id].definition
     if isinstance(definition, Fraction):
@@ -152,7 +152,7 @@ def _as_typed(report: Report, id: str) -> Inlines:
     return (shown,) if typed.unit in PRINTED else (shown, Text(" = "), Value(number))
 
 
-def indicator(report: Report, key: str, caption: str, head: Sequence[str]) -> Table:
+def indicator(report: ReportContext, key: str, caption: str, head: Sequence[str]) -> Table:
     """The indicator diagram as given, in gauge pressure: by stroke, or against the cycle angle."""
     diagram = report.assignment.indicator
     heights = diagram.height if isinstance(diagram, ByOrdinates) else ()
@@ -160,20 +160,20 @@ def indicator(report: Report, key: str, caption: str, head: Sequence[str]) -> Ta
     return _law_table(report, piston.name, piston.law, key, caption, names=report.words["strokes"], heights=heights)
 
 
-def working_force(report: Report, key: str, caption: str, head: Sequence[str]) -> Table:
+def working_force(report: ReportContext, key: str, caption: str, head: Sequence[str]) -> Table:
     """The working force as given (N): a row for each of the strokes of the head, or against the crank angle."""
     force = report.machine.applied[0]
     return _law_table(report, force.name, force.law, key, caption, head, shown=Symbol("P"))
 
 
-def gas_law(report: Report, key: str, caption: str, head: Sequence[str], name: str) -> Table:
+def gas_law(report: ReportContext, key: str, caption: str, head: Sequence[str], name: str) -> Table:
     """The gauge pressure (N/cm²) on a piston as given: by stroke, or against the cycle angle."""
     gas = next(load for load in report.loads if load.name == name)
     caption = caption.format(link=gas.link)
     return _law_table(report, name, gas.law, key, caption, names=report.words["strokes"])
 
 
-def load_law(report: Report, key: str, caption: str, head: Sequence[str], name: str) -> Table:
+def load_law(report: ReportContext, key: str, caption: str, head: Sequence[str], name: str) -> Table:
     """The load `name` as given: a row for each of the strokes of the head, or against the driver's turn or way."""
     load = next(load for load in report.loads if load.name == name)
     caption = caption.format(link=load.link, unit=report.ledger.printed_unit(report.ledger[name].how.unit))
@@ -181,7 +181,7 @@ def load_law(report: Report, key: str, caption: str, head: Sequence[str], name: 
 
 
 def _law_table(
-    report: Report,
+    report: ReportContext,
     name: str,
     law: Law,
     key: str,
@@ -211,14 +211,14 @@ def _law_table(
     return folded(report.prose, key, caption, columns)
 
 
-def joints(report: Report) -> Iterator[Sequence[object]]:
+def joints(report: ReportContext) -> Iterator[Sequence[object]]:
     """Yield all joints: number, place, links, type."""
     for number, joint in enumerate(report.mobility.joints, start=1):
         acting, acted_on = joint.links
         yield str(number), vocabulary.point(joint.point), f"{acting} – {acted_on}", report.words["joints"][joint.kind]
 
 
-def lengths(report: Report, key: str, caption: str, head: Sequence[str]) -> tuple[Table, ...]:
+def lengths(report: ReportContext, key: str, caption: str, head: Sequence[str]) -> tuple[Table, ...]:
     """Real and drawn lengths, one column a length; more than have room in several tables below one another."""
     columns = [
         (subscripted(line), *(bare(report, name(line), None) for name in LENGTHS)) for line in report.drawn_lines
@@ -242,12 +242,12 @@ class QuantityTable:
     The words of a `group` of quantities, by the beginnings of their ids, follow the caption where it has a column.
     """
 
-    ids: Callable[[Report], Sequence[str]]
+    ids: Callable[[ReportContext], Sequence[str]]
     at: str = "positions"
     groups: Mapping[str, Collection[str]] = field(default_factory=dict)
 
     def __call__(
-        self, report: Report, key: str, caption: str, head: Sequence[str], ids: Sequence[str] | None = None
+        self, report: ReportContext, key: str, caption: str, head: Sequence[str], ids: Sequence[str] | None = None
     ) -> tuple[Table | Paragraph, ...]:
         quantities, positions = self.ids(report) if ids is None else ids, getattr(report, self.at)
         shown = [id for id in quantities if not all(report.is_zero(id, k) for k in positions)]
@@ -263,20 +263,20 @@ class RowTable:
     rows: Callable[..., Iterable[Sequence[object]]]
     widths: tuple[float, ...]
 
-    def __call__(self, report: Report, key: str, caption: str, head: Sequence[str], *shown: Any) -> Table:
+    def __call__(self, report: ReportContext, key: str, caption: str, head: Sequence[str], *shown: Any) -> Table:
         return list_table(report.prose, key, caption, head, self.rows(report, *shown), self.widths)
 
 
 # --- a declared linkage
 
 
-def frame(report: Report) -> Iterable[Sequence[object]]:
+def frame(report: ReportContext) -> Iterable[Sequence[object]]:
     """The fixed points."""
     fixed: Iterable[Sequence[object]] = report.own["frame"]
     return fixed
 
 
-def groups(report: Report) -> Iterator[Sequence[object]]:
+def groups(report: ReportContext) -> Iterator[Sequence[object]]:
     """The groups in the order of assembly, with the way in which each is assembled."""
     choice = report.words["linkage"]["choice"]
     for row in report.own["groups"]:
@@ -284,12 +284,12 @@ def groups(report: Report) -> Iterator[Sequence[object]]:
         yield ", ".join(map(str, row.links)), row.kind, joints, choice[row.choice]
 
 
-def guides(report: Report) -> Iterator[Sequence[object]]:
+def guides(report: ReportContext) -> Iterator[Sequence[object]]:
     """The guides: a point of the line and its direction."""
     return ((str(row.slider), str(row.carrier), row.x, row.y, row.angle) for row in report.own["guides"])
 
 
-def further_points(report: Report) -> Iterator[Sequence[object]]:
+def further_points(report: ReportContext) -> Iterator[Sequence[object]]:
     """Further points of the links by their distances, with the joint and the direction that these are measured from."""
     along = report.words["vector"]
     for row in report.own["points"]:

@@ -13,9 +13,9 @@ from reportgen.document import FIRST_COLUMN, TEXT_WIDTH, Column, InlineMath, Inl
 from reportgen.document.tables import list_table, side_by_side
 from reportgen.formula import Chain, Number, Power, Symbol, ids
 from reportgen.formula.calculation import ZERO
-from reportgen.formula.vocabulary import Chapter
+from reportgen.formula.vocabulary import KeyChapter
 from reportgen.machine import Crank
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 from reportgen.report.guide_couples import guide_couples
 from reportgen.report.link_views import GroupView
 from reportgen.report.quantity_tables import bare
@@ -35,7 +35,7 @@ AGREED = -9
 # --- motion
 
 
-def coordinates(report: Report, key: str, caption: str, head: Sequence[str]) -> tuple[Table, ...]:
+def coordinates(report: ReportContext, key: str, caption: str, head: Sequence[str]) -> tuple[Table, ...]:
     """Return x and y of every moving point at the positions of one turn, in mm; several tables if there are many.
 
     A coordinate that a formula also gives is printed as in the formula's line, any other as it is read from the plan.
@@ -61,7 +61,7 @@ def coordinates(report: Report, key: str, caption: str, head: Sequence[str]) -> 
     )
 
 
-def _as_written(report: Report, point: str, course: np.ndarray) -> list[Number]:
+def _as_written(report: ReportContext, point: str, course: np.ndarray) -> list[Number]:
     """The coordinate (m) of a point at all positions as its numbers in mm."""
     values, decimals = course, 5
     for id, family in report.case.ledger.families.items():
@@ -77,7 +77,7 @@ def _two_decimals(value: float) -> Number:
     return Number(float(f"{value:.10g}")) if short else Number(value, 2)
 
 
-def dead_centres(report: Report) -> Iterator[Sequence[object]]:
+def dead_centres(report: ReportContext) -> Iterator[Sequence[object]]:
     """Yield the dead centres of each slider: crank's turn from position 1, the pin's distance from the crank centre."""
     words = report.words["tables"]["dead"]
     for piston in report.machine.sliders:
@@ -90,7 +90,7 @@ def dead_centres(report: Report) -> Iterator[Sequence[object]]:
             yield str(piston.link), name, _two_decimals(turn), _two_decimals(abs(place) * MM)
 
 
-def labels(report: Report) -> Iterator[Sequence[object]]:
+def labels(report: ReportContext) -> Iterator[Sequence[object]]:
     """The positions of one turn by their labels: the crank's turn, and what the first slider does there.
 
     It turns back at its "top" and "bottom", and is "fastest" where a = 0.
@@ -106,31 +106,31 @@ def labels(report: Report) -> Iterator[Sequence[object]]:
         yield str(machine.position(k + 1)), angle, words.get(end, "")
 
 
-def angular_velocities(report: Report, k: int) -> Iterator[Sequence[object]]:
+def angular_velocities(report: ReportContext, k: int) -> Iterator[Sequence[object]]:
     """The angular velocities with their sense in words."""
     if report.driver.centre:
         yield report.ledger.symbol("omega.1"), bare(report, "omega.1", k, size=True), report.turn_words
     yield from _rotations(report, "omega", k)
 
 
-def angular_accelerations(report: Report, k: int) -> Iterator[Sequence[object]]:
+def angular_accelerations(report: ReportContext, k: int) -> Iterator[Sequence[object]]:
     return _rotations(report, "eps", k)
 
 
-def _rotations(report: Report, rate: str, k: int) -> Iterator[Sequence[object]]:
+def _rotations(report: ReportContext, rate: str, k: int) -> Iterator[Sequence[object]]:
     for id in _of_links(report, rate):
         sense = report.sense(report.ledger.number(id, k).value)
         yield report.ledger.symbol(id), bare(report, id, k, size=True), sense
 
 
-def summary(report: Report, k: int) -> Iterator[Sequence[object]]:
+def summary(report: ReportContext, k: int) -> Iterator[Sequence[object]]:
     """Quantities at one position as "symbol = value", in rows of as many as there are heads."""
     ledger = report.ledger
     for row in report.own["summary"]:
         yield [Chain((ledger.symbol(id), ledger.number(id, k))) if id else "" for id in row]
 
 
-def velocity_segments(report: Report) -> list[str]:
+def velocity_segments(report: ReportContext) -> list[str]:
     columns: list[str] = []
     for group in report.groups:
         columns += [
@@ -141,7 +141,7 @@ def velocity_segments(report: Report) -> list[str]:
     return report.known(columns)
 
 
-def velocities(report: Report) -> list[str]:
+def velocities(report: ReportContext) -> list[str]:
     columns: list[str] = []
     for group in report.groups:
         # Relative to a fixed point a velocity is the point's own.
@@ -151,7 +151,7 @@ def velocities(report: Report) -> list[str]:
     return [*report.known(columns), *_of_links(report, "omega")]
 
 
-def acceleration_segments(report: Report) -> list[str]:
+def acceleration_segments(report: ReportContext) -> list[str]:
     columns: list[str] = []
     for group in report.groups:
         columns.append(ids.segment("a", "p", image(group.M)))
@@ -160,7 +160,7 @@ def acceleration_segments(report: Report) -> list[str]:
     return report.known(columns)
 
 
-def accelerations(report: Report) -> list[str]:
+def accelerations(report: ReportContext) -> list[str]:
     columns: list[str] = []
     for group in report.groups:
         columns.append(ids.acceleration(group.M))
@@ -170,7 +170,7 @@ def accelerations(report: Report) -> list[str]:
     return [*report.known(columns), *_of_links(report, "eps")]
 
 
-def _of_links(report: Report, rate: str) -> list[str]:
+def _of_links(report: ReportContext, rate: str) -> list[str]:
     """Signed angular quantities of the links that turn."""
     return report.known(ids.signed(rate, link) for link in report.machine.linkage.links)
 
@@ -187,7 +187,7 @@ def _parts(side: Side) -> list[str]:
 # --- forces
 
 
-def strokes(report: Report, key: str, caption: str, head: Sequence[str]) -> Table:
+def strokes(report: ReportContext, key: str, caption: str, head: Sequence[str]) -> Table:
     """The stroke of every piston between dead centres of any of them; of single instants, at each of them."""
     positions, first = head
     gas, machine = report.analysis.gas, report.machine
@@ -215,7 +215,7 @@ def strokes(report: Report, key: str, caption: str, head: Sequence[str]) -> Tabl
     return list_table(report.prose, key, caption, (positions, *stretches), across, widths)
 
 
-def gas(report: Report) -> list[str]:
+def gas(report: ReportContext) -> list[str]:
     """The way of each piston, the pressure on it and its force."""
     return report.known(
         id
@@ -224,11 +224,11 @@ def gas(report: Report) -> list[str]:
     )
 
 
-def inertia(report: Report) -> list[str]:
+def inertia(report: ReportContext) -> list[str]:
     return report.inertia_lines
 
 
-def reactions(report: Report) -> list[str]:
+def reactions(report: ReportContext) -> list[str]:
     columns: list[str] = []
     for group in reversed(report.groups):
         columns += [ids.reaction(joint, "t") for joint in (group.outer, group.guide)]
@@ -236,26 +236,26 @@ def reactions(report: Report) -> list[str]:
     return report.known([*columns, "R.01", *(slide.moment for slide in guide_couples(report))])
 
 
-def reaction_angles(report: Report) -> list[str]:
+def reaction_angles(report: ReportContext) -> list[str]:
     joints = [name for group in reversed(report.groups) for name in (group.outer, group.inner, group.guide)]
     return report.known(ids.force_direction(ids.reaction_force(name)) for name in (*joints, "01"))
 
 
-def lever(report: Report, k: int) -> Iterator[Sequence[object]]:
+def lever(report: ReportContext, k: int) -> Iterator[Sequence[object]]:
     """Loads on the turned velocity plan: size, arm, moment about the pole by μ_l, anticlockwise positive."""
     for id in report.arms_about("p"):
         load = report.ledger[id].of
         yield report.ledger.symbol(load), *(bare(report, one, k) for one in (load, id, ids.lever_moment(load)))
 
 
-def balance(report: Report) -> list[str]:
+def balance(report: ReportContext) -> list[str]:
     return ["M.eq", "M.vw", "M.difference", "M.share"]
 
 
 # --- checks
 
 
-def checks(report: Report) -> Iterator[Sequence[object]]:
+def checks(report: ReportContext) -> Iterator[Sequence[object]]:
     """Each independent check with the power of ten that its residual does not exceed."""
     largest = residuals(report)
     for id, name in report.words["tables"]["checks"]["rows"].items():
@@ -263,11 +263,11 @@ def checks(report: Report) -> Iterator[Sequence[object]]:
             yield name, _limit(largest[id])
 
 
-def residuals(report: Report) -> dict[str, float]:
+def residuals(report: ReportContext) -> dict[str, float]:
     """The largest residual of each check as a share of the greatest value: closure, formulas, reactions, torques, …"""
     analysis, values = report.analysis, report.case.ledger.families
     largest = {"closure": _closure(report)}
-    for name, chapter in (("formulas", Chapter.velocity), ("formulas_a", Chapter.acceleration)):
+    for name, chapter in (("formulas", KeyChapter.velocity), ("formulas_a", KeyChapter.acceleration)):
         differences = [
             float(np.max(np.abs(np.abs(values[printed_id].values) - np.abs(values[formula_id].values))))
             / float(np.max(np.abs(values[printed_id].values)))
@@ -302,7 +302,7 @@ def _share(differences: Iterable[np.ndarray], values: Iterable[np.ndarray]) -> f
     return off / greatest if greatest else 0.0
 
 
-def _closure(report: Report) -> float:
+def _closure(report: ReportContext) -> float:
     """Return the largest error of a distance between two points of a link, as a share of the longest distance."""
     motion, families = report.analysis.motion, report.case.ledger.families
     pairs = [(group.P, group.Q) for group in report.groups]

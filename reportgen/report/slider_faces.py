@@ -13,21 +13,21 @@ from reportgen.formula import Symbol, constructions, ids, vocabulary
 from reportgen.machine.loads import carriers
 from reportgen.machine.shared_results import FACES
 from reportgen.machine.slider_faces import Faces
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 
 
-def wide_sliders_of(report: Report) -> Mapping[int, Faces]:
+def wide_sliders_of(report: ReportContext) -> Mapping[int, Faces]:
     """Return the faces of wide sliders by their links, none if all sliders are narrow."""
     return FACES.of(report.machine) or {}
 
 
-def tilts(report: Report, digits: str, k: int) -> bool:
+def tilts(report: ReportContext, digits: str, k: int) -> bool:
     """Return True if a slider tilts at a position, according to the printed values."""
     first = ids.face_reaction(digits, 1)
     return first in report.ledger and bool(np.isfinite(report.ledger[first].at(k)))
 
 
-def ends_of(report: Report, link: int, k: int) -> tuple[complex, complex]:
+def ends_of(report: ReportContext, link: int, k: int) -> tuple[complex, complex]:
     """Return the places of the two ends of a slider's face (m)."""
     wide, motion = wide_sliders_of(report)[link], report.analysis.motion
     along = complex(motion.slides[carriers(report.machine.linkage)[link], link].direction[k - 1])
@@ -36,7 +36,7 @@ def ends_of(report: Report, link: int, k: int) -> tuple[complex, complex]:
     return pin + first * along, pin + last * along
 
 
-def face(report: Report, link: int, k: int, scale: float) -> list[Item]:
+def face(report: ReportContext, link: int, k: int, scale: float) -> list[Item]:
     """The face of a slider with what holds it at its pin, in paper millimetres."""
     first, last = (place * scale for place in ends_of(report, link, k))
     pin = complex(report.analysis.motion.origins[link].p[k - 1]) * scale
@@ -45,7 +45,7 @@ def face(report: Report, link: int, k: int, scale: float) -> list[Item]:
     return [Line(first, last, style.VISIBLE), *arm]
 
 
-def at_ends(report: Report, digits: str, link: int, k: int) -> list[tuple[Symbol, complex, complex, str]]:
+def at_ends(report: ReportContext, digits: str, link: int, k: int) -> list[tuple[Symbol, complex, complex, str]]:
     """The reactions at both ends of a slider that tilts: vector, place (m), direction, id."""
     if link not in wide_sliders_of(report) or not tilts(report, digits, k):
         return []

@@ -15,7 +15,7 @@ from reportgen.document import InlineMath, Inlines, Text, Value, listed
 from reportgen.formula import ids
 from reportgen.machine import DRIVER, GROUND
 from reportgen.machine.analysis import Position
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 from reportgen.report.phrases import at_positions, say
 
 RUN = 3
@@ -53,12 +53,12 @@ class Peak:
         return "" if self.level else f" {self.where}"
 
 
-def worked_at(report: Report) -> str:
+def worked_at(report: ReportContext) -> str:
     """Return the positions that the report works out in full, in words."""
     return where(report, report.assignment.worked_positions)
 
 
-def reactions_at(report: Report) -> str | Inlines:
+def reactions_at(report: ReportContext) -> str | Inlines:
     """Return where the report finds the reactions: over the cycle, at its instants, or at the positions worked in
     full.
     """
@@ -68,12 +68,12 @@ def reactions_at(report: Report) -> str | Inlines:
     return everywhere if report.parts("reactions") else worked_at(report)
 
 
-def shown(report: Report, id: str, positions: Iterable[int]) -> np.ndarray:
+def shown(report: ReportContext, id: str, positions: Iterable[int]) -> np.ndarray:
     """The values of a quantity as printed [N], nan where it does not exist."""
     return np.array([report.ledger.number(id, k).shown for k in positions])
 
 
-def labels(report: Report, positions: Sequence[int]) -> str:
+def labels(report: ReportContext, positions: Sequence[int]) -> str:
     """Positions as a reader lists them: 2, 4 and 6–8."""
     runs: list[list[int]] = []
     for k in positions:
@@ -88,13 +88,13 @@ def labels(report: Report, positions: Sequence[int]) -> str:
     return f"{', '.join(others)} {report.words['and']} {last}" if others else last
 
 
-def where(report: Report, positions: Sequence[int]) -> str:
+def where(report: ReportContext, positions: Sequence[int]) -> str:
     """Positions with the words for one of them or for several: at positions 2, 4 and 6–8."""
     single, many = report.words["at"]
     return str(single if len(positions) == 1 else many).format(labels(report, positions))
 
 
-def peak(report: Report, id: str, positions: Sequence[int]) -> Peak | None:
+def peak(report: ReportContext, id: str, positions: Sequence[int]) -> Peak | None:
     """Return the peak and the zeros of a quantity over positions; None if it is zero at all of them."""
     values = shown(report, id, positions)
     sizes = np.abs(values)
@@ -121,7 +121,7 @@ def peak(report: Report, id: str, positions: Sequence[int]) -> Peak | None:
     )
 
 
-def peaks(report: Report, quantities: Iterable[str], cycle: bool = False) -> list[Peak]:
+def peaks(report: ReportContext, quantities: Iterable[str], cycle: bool = False) -> list[Peak]:
     """Return the peaks of quantities over one turn, or over the cycle; equal courses are joined, zero ones are left
     out.
     """
@@ -132,13 +132,13 @@ def peaks(report: Report, quantities: Iterable[str], cycle: bool = False) -> lis
     return [_joined(report, some) for some in alike.values()]
 
 
-def each_peak(report: Report, quantities: Iterable[str], positions: Sequence[int]) -> list[Peak]:
+def each_peak(report: ReportContext, quantities: Iterable[str], positions: Sequence[int]) -> list[Peak]:
     """Return the peak of each quantity over positions; quantities that are zero everywhere are left out."""
     peaks_found = (peak(report, id, positions) for id in report.known(quantities))
     return [one for one in peaks_found if one is not None]
 
 
-def _joined(report: Report, alike: Sequence[Peak]) -> Peak:
+def _joined(report: ReportContext, alike: Sequence[Peak]) -> Peak:
     """Peaks that are alike as one, with the symbols of all."""
     symbols = [one.symbols[0] for one in alike]
     shown: Inlines = listed(symbols[:-1])
@@ -158,19 +158,19 @@ class GuidedLink:
     pin: str
 
 
-def sliders(report: Report) -> tuple[GuidedLink, ...]:
+def sliders(report: ReportContext) -> tuple[GuidedLink, ...]:
     """Return the links that slide along fixed guides, except a sliding driver."""
     slides = report.analysis.motion.slides
     both = ((link, group.Q) for group in report.groups for link in (group.i, group.j))
     return tuple(GuidedLink(link, pin) for link, pin in both if (GROUND, link) in slides)
 
 
-def slider_rates(report: Report, what: str) -> list[str]:
+def slider_rates(report: ReportContext, what: str) -> list[str]:
     """The ids of the velocities ("v") or accelerations ("a") of what slides along fixed guides."""
     return report.known(ids.POINT_RATE[what](slider.pin) for slider in sliders(report))
 
 
-def turning_rates(report: Report, what: str) -> list[str]:
+def turning_rates(report: ReportContext, what: str) -> list[str]:
     """The ids of the angular velocities ("omega") or accelerations ("eps") of links, each motion once.
 
     Of links that turn alike, as a block and the lever it slides on, the last is named.
@@ -183,18 +183,18 @@ def turning_rates(report: Report, what: str) -> list[str]:
     return list(seen.values())
 
 
-def reverses(report: Report, rate: Peak) -> bool:
+def reverses(report: ReportContext, rate: Peak) -> bool:
     """Return True if a slider reverses after each position at which its velocity is zero."""
     return all(_reverses(report, slider.link) for slider in sliders(report) if ids.velocity(slider.pin) in rate.ids)
 
 
-def _reverses(report: Report, link: int) -> bool:
+def _reverses(report: ReportContext, link: int) -> bool:
     along = report.analysis.motion.slides[GROUND, link].v[: report.count]
     still = np.abs(along) < AT_REST * np.abs(along).max()
     return all(along[k - 1] * along[(k + 1) % len(along)] < 0 for k in np.flatnonzero(still))
 
 
-def at_rest(report: Report, rate: Peak) -> bool:
+def at_rest(report: ReportContext, rate: Peak) -> bool:
     """Return True if the point with this acceleration is at rest wherever the acceleration is greatest."""
     velocities = [ids.velocity(found["point"]) for id in rate.ids if (found := ids.acceleration.read(id))]
     return all(bool(np.all(shown(report, id, rate.places) == 0)) for id in velocities)
@@ -203,31 +203,31 @@ def at_rest(report: Report, rate: Peak) -> bool:
 # --- loads and forces
 
 
-def load_ids(report: Report) -> list[str]:
+def load_ids(report: ReportContext) -> list[str]:
     """The forces and torques applied to the machine, the gas on its pistons among them."""
     return report.known(load.name for load in report.loads)
 
 
-def inertia_forces(report: Report) -> list[str]:
+def inertia_forces(report: ReportContext) -> list[str]:
     """The inertia forces of all links."""
     return report.known(ids.inertia_force(link) for link in report.bodies)
 
 
-def reaction_ids(report: Report) -> list[str]:
+def reaction_ids(report: ReportContext) -> list[str]:
     """The reactions in all joints, each pair once."""
     names = [name for group in reversed(report.groups) for name in (group.outer, group.inner, group.guide)]
     ends = (ids.face_reaction(name, number) for name in names for number in (1, 2))
     return report.known((*(ids.reaction(name) for name in (*names, "01")), *ends))
 
 
-def greatest(report: Report, quantities: Iterable[str]) -> list[Peak]:
+def greatest(report: ReportContext, quantities: Iterable[str]) -> list[Peak]:
     """Return the quantities that take the greatest value of all over the cycle, and where."""
     every = peaks(report, quantities, True)
     top = max((one.value.number.shown for one in every), default=0.0)
     return [one for one in every if one.value.number.shown == top]
 
 
-def cause(report: Report, top: Peak) -> Inlines:
+def cause(report: ReportContext, top: Peak) -> Inlines:
     """The largest force on the links where a reaction is greatest, as far as there is one."""
     chief = chief_load(report, top)
     if chief is None:
@@ -236,7 +236,7 @@ def cause(report: Report, top: Peak) -> Inlines:
     return say(report, single if top.many == 1 else many, chief)
 
 
-def chief_load(report: Report, at: Peak) -> Peak | None:
+def chief_load(report: ReportContext, at: Peak) -> Peak | None:
     """The largest of all forces on the links, inertia included, where another quantity is greatest."""
     forces = [id for id in load_ids(report) if report.ledger[id].kind == "force"]
     bodies = [name(body) for body in report.bodies for name in (ids.inertia_force, ids.weight)]
@@ -256,7 +256,7 @@ class TorqueSigns:
     """Direction of the machine's mean energy over the cycle: "taken", "given", or "even"."""
 
 
-def balance_course(report: Report) -> TorqueSigns:
+def balance_course(report: ReportContext) -> TorqueSigns:
     """The senses of the balancing torque, or force, at all positions."""
     with_motion = report.machine.turn if not report.machine.span else np.sign(report.machine.speed)
     values = shown(report, "M.eq", report.all_positions) * with_motion
@@ -266,7 +266,7 @@ def balance_course(report: Report) -> TorqueSigns:
     return TorqueSigns(along, against, none, "taken" if mean > 0 else "given" if mean < 0 else "even")
 
 
-def balance_senses(report: Report) -> list[Inlines]:
+def balance_senses(report: ReportContext) -> list[Inlines]:
     """Return sentences on the effect of the balancing torque on the motion, with the positions of each."""
     course, words = balance_course(report), report.words["remarks"]["balance"]
     positions_by_sense = {"against": course.against, "along": course.along, "none": course.none}
@@ -278,7 +278,7 @@ def balance_senses(report: Report) -> list[Inlines]:
     ]
 
 
-def balance_gaps(report: Report, *positions: Position) -> list[Peak]:
+def balance_gaps(report: ReportContext, *positions: Position) -> list[Peak]:
     """Return the largest difference of the two methods for the balancing torque, and where; [] if they agree.
 
     Without `positions` it is that of the whole table.
@@ -286,7 +286,7 @@ def balance_gaps(report: Report, *positions: Position) -> list[Peak]:
     return each_peak(report, ("M.difference",), positions or report.all_positions)
 
 
-def balance_mean(report: Report) -> Inlines:
+def balance_mean(report: ReportContext) -> Inlines:
     """Return what the mean of the balancing torque implies for the energy that the machine takes in or gives out."""
     if not report.cyclic:
         return ()
@@ -315,10 +315,10 @@ class Subject:
     `why` selects the peaks for which the words give a reason.
     """
 
-    ids: Callable[[Report], Iterable[str]]
+    ids: Callable[[ReportContext], Iterable[str]]
     cycle: bool = False
     zeros: bool = True
-    why: Callable[[Report, Peak], bool] = lambda report, one: False
+    why: Callable[[ReportContext, Peak], bool] = lambda report, one: False
 
 
 SUBJECTS = {
@@ -340,16 +340,16 @@ SUBJECTS = {
 }
 
 
-def remarks(report: Report, *subjects: str) -> list[Remark]:
+def remarks(report: ReportContext, *subjects: str) -> list[Remark]:
     """Return remarks on the quantities of some subjects; equal courses are joined, zero ones are left out."""
     return [_remark(report, name, one) for name in subjects for one in _peaks_of(report, SUBJECTS[name])]
 
 
-def _peaks_of(report: Report, subject: Subject) -> list[Peak]:
+def _peaks_of(report: ReportContext, subject: Subject) -> list[Peak]:
     return peaks(report, subject.ids(report), subject.cycle)
 
 
-def _remark(report: Report, name: str, top: Peak) -> Remark:
+def _remark(report: ReportContext, name: str, top: Peak) -> Remark:
     subject, words = SUBJECTS[name], report.words["remarks"]
     phrases = words["course"] | words.get(name, {})
     course = "level" if top.level else "zeros" if top.zeros and subject.zeros else "greatest"
@@ -357,12 +357,12 @@ def _remark(report: Report, name: str, top: Peak) -> Remark:
     return Remark(top.symbols, say(report, phrases[course], top), why)
 
 
-def main_peaks(report: Report) -> list[Peak]:
+def main_peaks(report: ReportContext) -> list[Peak]:
     """The greatest velocities and accelerations: of sliders, else of links that turn."""
     pairs = ((SUBJECTS["v"], SUBJECTS["omega"]), (SUBJECTS["a"], SUBJECTS["eps"]))
     return [one for first, other in pairs for one in _peaks_of(report, first) or _peaks_of(report, other)]
 
 
-def top_reactions(report: Report) -> list[Peak]:
+def top_reactions(report: ReportContext) -> list[Peak]:
     """Return the joint reactions that take the greatest value of all over the cycle, and where."""
     return greatest(report, reaction_ids(report))

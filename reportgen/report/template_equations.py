@@ -1,4 +1,4 @@
-"""Equations for templates: quantities, worked lines, vector equations.
+"""Symbols, values and worked lines for templates.
 
 Templates call all functions here under their own names; the functions take everything from the ledger.
 """
@@ -15,7 +15,7 @@ from reportgen.base.languages import setting_of
 from reportgen.base.placeholders import NO_LETTER
 from reportgen.derivation.equation_sides import Side
 from reportgen.derivation.kinematic_entries import What
-from reportgen.derivation.load_entries import Edge, Polygon
+from reportgen.derivation.load_entries import Polygon
 from reportgen.document import Equation, Inline, InlineMath, Inlines, Text, Value, listed
 from reportgen.document.template_rendering import subscripted
 from reportgen.formula import (
@@ -36,18 +36,18 @@ from reportgen.formula import (
 )
 from reportgen.formula.vocabulary import on_plan, segment
 from reportgen.machine import mobility
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 from reportgen.report.link_views import Contact, GroupView
 
 # --- numbers and symbols
 
 
-def symbol(report: Report, id: str) -> Symbol:
+def symbol(report: ReportContext, id: str) -> Symbol:
     """The symbol of a quantity."""
     return report.ledger.symbol(id)
 
 
-def math(report: Report, text: str) -> Symbol:
+def math(report: ReportContext, text: str) -> Symbol:
     """Return the symbol that a template writes as `$…$`: a quantity's by its id, else letters with their index.
 
     Raises `LookupError` if the text does not begin with a letter: a formula has no base for an index.
@@ -60,23 +60,23 @@ def math(report: Report, text: str) -> Symbol:
     return report.named(Symbol(base[0], text[base.end() :].removeprefix("_")))
 
 
-def value(report: Report, id: str, position: int | None = None, size: bool = False) -> Value:
+def value(report: ReportContext, id: str, position: int | None = None, size: bool = False) -> Value:
     """A quantity's number with its unit; `size` leaves its sign away."""
     return Value(report.ledger.number(id, position, size=size))
 
 
-def typed(report: Report, id: str) -> Inline:
+def typed(report: ReportContext, id: str) -> Inline:
     """A datum as its file has it: a ratio 1/30 as such."""
     ratio = report.ledger[id].definition
     return value(report, id) if ratio is None else InlineMath(ratio, slashed=True)
 
 
-def quantity(report: Report, id: str, position: int | None = None) -> Inlines:
+def quantity(report: ReportContext, id: str, position: int | None = None) -> Inlines:
     """A quantity as "symbol = number" in running text."""
     return InlineMath(symbol(report, id)), Text(" = "), value(report, id, position)
 
 
-def directions(report: Report, what: What, position: int) -> Inlines:
+def directions(report: ReportContext, what: What, position: int) -> Inlines:
     """Return "symbol = angle" for the directions of all points on a plan ("v", "a"); a point at rest has none."""
     moving = [
         id
@@ -86,66 +86,66 @@ def directions(report: Report, what: What, position: int) -> Inlines:
     return tuple(part for id in moving for part in (Text("; "), *quantity(report, id, position)))[1:]
 
 
-def known(report: Report, id: str) -> bool:
+def known(report: ReportContext, id: str) -> bool:
     """Return True if the report has a quantity."""
     return id in report.ledger
 
 
-def point(report: Report, name: str) -> Symbol:
+def point(report: ReportContext, name: str) -> Symbol:
     """The symbol of a point, e.g. S with a lowered 2."""
     return vocabulary.point(name)
 
 
-def points(report: Report, names: Iterable[object]) -> Inlines:
+def points(report: ReportContext, names: Iterable[object]) -> Inlines:
     """Symbols of points, side by side with commas."""
     return listed(InlineMath(vocabulary.point(str(name))) for name in names)
 
 
-def image(report: Report, name: str, prime: bool = False) -> Symbol:
+def image(report: ReportContext, name: str, prime: bool = False) -> Symbol:
     """The image of a point on a plan."""
     return vocabulary.on_plan(name, prime)
 
 
-def letters(report: Report, base: str, sub: str | int = "", sup: str = "") -> Symbol:
+def letters(report: ReportContext, base: str, sub: str | int = "", sup: str = "") -> Symbol:
     """Any symbol."""
     return Symbol(base, str(sub), sup)
 
 
-def vector(report: Report, base: str, sub: str | int = "", sup: str = "") -> Symbol:
+def vector(report: ReportContext, base: str, sub: str | int = "", sup: str = "") -> Symbol:
     """Any symbol under an arrow."""
     return report.named(Symbol(base, str(sub), sup, "vector"))
 
 
-def v(report: Report, of: str | Side) -> Symbol:
+def v(report: ReportContext, of: str | Side) -> Symbol:
     """The velocity of a point as a vector; of a side, the relative one."""
     return Symbol("v", of if isinstance(of, str) else of.pair, over="vector")
 
 
-def a(report: Report, of: str | Side, part: str = "") -> Symbol:
+def a(report: ReportContext, of: str | Side, part: str = "") -> Symbol:
     """The acceleration of a point, or a part of it, as a vector; of a side, the relative one."""
     return report.named(Symbol("a", of if isinstance(of, str) else of.pair, part, "vector"))
 
 
-def R(report: Report, digits: str, part: str = "") -> Symbol:
+def R(report: ReportContext, digits: str, part: str = "") -> Symbol:
     """The reaction in a joint, or a part of it, as a vector."""
     return Symbol("R", digits, part, "vector")
 
 
-def lowered(report: Report, text: str) -> str:
+def lowered(report: ReportContext, text: str) -> str:
     """Digits of point names as lowered digits: O1A → O₁A."""
     return subscripted(text)
 
 
-def group_kind(report: Report, group: GroupView) -> str:
+def group_kind(report: ReportContext, group: GroupView) -> str:
     return str(report.words["groups"][group.kind])
 
 
-def stroke_name(report: Report, link: int, position: int) -> str:
+def stroke_name(report: ReportContext, link: int, position: int) -> str:
     """The stroke that a piston is on."""
     return str(report.words["strokes"][int(report.analysis.gas[ids.applied_force(link)].stroke[position - 1])])
 
 
-def force_list(report: Report, group: GroupView, position: int) -> Inlines:
+def force_list(report: ReportContext, group: GroupView, position: int) -> Inlines:
     """The known edges of a force plan with their drawn lengths: ef = 40.30 mm for P_qt5, h ≡ i for what is nothing."""
     assert group.polygon is not None
     shown: list[Inline] = []
@@ -164,13 +164,13 @@ def force_list(report: Report, group: GroupView, position: int) -> Inlines:
 # --- the sense of forces
 
 
-def by_moments(report: Report, group: GroupView, position: int) -> Inlines:
+def by_moments(report: ReportContext, group: GroupView, position: int) -> Inlines:
     """The reactions of a group that moments give, with their signs."""
     sought = (id for id in group.by_moments if not report.is_zero(id, position))
     return listed(InlineMath(report.ledger.symbol(id)) for id in sought)
 
 
-def senses(report: Report, joints: Iterable[str], position: int) -> Inlines:
+def senses(report: ReportContext, joints: Iterable[str], position: int) -> Inlines:
     """Return the directions of the reactions of some joints, in words and as angles; zero reactions are left out."""
     shown: list[Inline] = []
     for digits in joints:
@@ -181,7 +181,7 @@ def senses(report: Report, joints: Iterable[str], position: int) -> Inlines:
     return tuple(shown)
 
 
-def slider_ways(report: Report) -> Inlines:
+def slider_ways(report: ReportContext) -> Inlines:
     """In which direction the velocity and the acceleration of each slider are positive, with its angle from +x."""
     shown: list[Inline] = []
     for pin, way in report.slider_senses.items():
@@ -191,14 +191,14 @@ def slider_ways(report: Report) -> Inlines:
     return tuple(shown)
 
 
-def _pointing(report: Report, angle: Number) -> Inlines:
+def _pointing(report: ReportContext, angle: Number) -> Inlines:
     """Return the direction of a vector in words, and its angle from +x."""
     heading = heading_words(report, angle.shown)
     before, _, after = report.words["pointing"].format(heading=heading, angle=NO_LETTER).partition(NO_LETTER)
     return Text(f" {before}"), Value(angle), Text(after)
 
 
-def heading_words(report: Report, degrees: float) -> str:
+def heading_words(report: ReportContext, degrees: float) -> str:
     """The axis or quadrant of an angle (degrees) from +x, in words: to the right, to the right and up, …."""
     return heading_of(report.words, degrees)
 
@@ -209,7 +209,7 @@ def heading_of(words: Mapping[str, Any], degrees: float) -> str:
     return str(words["headings"][int(2 * quadrant) + (within > 0)])
 
 
-def opposites(report: Report, polygon: Polygon, position: int) -> Equation:
+def opposites(report: ReportContext, polygon: Polygon, position: int) -> Equation:
     """The reactions on a plan's links that other groups have left there: R42 = −R24 as vectors, then their size."""
     rows: list[Expression] = []
     for edge in polygon.carried:
@@ -220,7 +220,7 @@ def opposites(report: Report, polygon: Polygon, position: int) -> Equation:
     return Equation(tuple(rows))
 
 
-def through_pin(report: Report, contact: Contact, position: int) -> Equation:
+def through_pin(report: ReportContext, contact: Contact, position: int) -> Equation:
     """ΣM about the pin of a slide that nothing tends to turn: R x = 0, hence x = 0."""
     reaction, place = report.ledger.symbol(contact.reaction), report.ledger.symbol(contact.place)
     moments = Chain((Symbol("ΣM", str(contact.pin)), reaction * place, Number(0.0)))
@@ -230,19 +230,19 @@ def through_pin(report: Report, contact: Contact, position: int) -> Equation:
 # --- lines
 
 
-def line(report: Report, id: str, position: int | None = None, note: str = "", key: str = "") -> Equation:
+def line(report: ReportContext, id: str, position: int | None = None, note: str = "", key: str = "") -> Equation:
     """One worked line: symbol = formula = numbers = result."""
     return lines(report, [id], position, note, key)
 
 
 def lines(
-    report: Report, quantities: Sequence[str], position: int | None = None, note: str = "", key: str = ""
+    report: ReportContext, quantities: Sequence[str], position: int | None = None, note: str = "", key: str = ""
 ) -> Equation:
     """Several worked lines, aligned."""
     return Equation(tuple(_worked(report, id, position, note) for id in quantities), key)
 
 
-def _worked(report: Report, id: str, position: int | None, note: str) -> Chain:
+def _worked(report: ReportContext, id: str, position: int | None, note: str) -> Chain:
     """Return a worked line; if the result is zero, the line gives the reason instead of its numbers."""
     chain = report.ledger.chain(id, position, note)
     result = chain.parts[-1]
@@ -253,7 +253,7 @@ def _worked(report: Report, id: str, position: int | None, note: str) -> Chain:
     return chain
 
 
-def equations(report: Report, name: str, position: int | None = None) -> Equation:
+def equations(report: ReportContext, name: str, position: int | None = None) -> Equation:
     """Equations of the machine's own; quantities that they name by their symbols, or at a position by their numbers."""
 
     def shown(ref: Ref) -> Expression:
@@ -297,12 +297,12 @@ THEORY: Mapping[str, tuple[Expression, ...]] = {
 """Equations of no machine that the words for the plans show."""
 
 
-def theory(report: Report, name: str) -> Equation:
+def theory(report: ReportContext, name: str) -> Equation:
     """Return an equation on which the plans are based."""
     return Equation(tuple(report.named(row) if isinstance(row, Symbol) else row for row in THEORY[name]))
 
 
-def functions(report: Report, quantities: Sequence[str]) -> Equation:
+def functions(report: ReportContext, quantities: Sequence[str]) -> Equation:
     """Quantities as functions of the driver's place: what is constant by its number, what changes by its symbol."""
 
     def shown(ref: Ref) -> Expression:
@@ -318,7 +318,7 @@ def functions(report: Report, quantities: Sequence[str]) -> Equation:
     )
 
 
-def mobility_line(report: Report) -> Equation:
+def mobility_line(report: ReportContext) -> Equation:
     """W = 3n − (2t + c) + r − s, or as the language writes it, with the numbers put in."""
     counted = mobility(report.machine.linkage)
     sizes = counted.n, counted.lower_pairs, counted.higher_pairs, counted.passive, counted.redundant
@@ -336,165 +336,3 @@ def mobility_line(report: Report) -> Equation:
     formula, numbers = freedom(*letters), freedom(*map(Number, sizes))
     # A chain within a chain stays on one line: it is not broken at its equals signs.
     return Equation((Chain((Chain((W, formula, numbers, Number(counted.W))),)),))
-
-
-# --- vector equations of motion
-
-
-def velocity_equation(report: Report, group: GroupView, position: int) -> Equation:
-    """v_M = v_P + v_MP = v_T + v_MT with what is known of each vector; a fixed base leaves v_M's direction."""
-    still = next((side for side in group.sides if side.still), None)
-    sides: list[tuple[Term, ...]] = [(_unknown(report, "v", group.M, "", still),)]
-    for side in group.moving:
-        relative = _unknown(report, "v", side.pair, "", side)
-        sides.append((_base(report, side, "v"), relative))
-    return _equation(report, sides, "rows", f"eq.v.{group}.{position}")
-
-
-def acceleration_equation(report: Report, group: GroupView, position: int) -> Equation:
-    """a_M = a_P + aⁿ_MP + aᵗ_MP = a_G + aᵏ_MG + aʳ_MG with what is known of each vector."""
-    fixed = next((side for side in group.sides if not side.sought), None)
-    sides: list[tuple[Term, ...]] = [(_unknown(report, "a", group.M, "", fixed),)]
-    for side in group.sides:
-        if side is not fixed:
-            base = () if side.still else (_base(report, side, "a"),)
-            sides.append((*base, *_relative(report, side)))
-    return _equation(report, sides, "rows", f"eq.a.{group}.{position}")
-
-
-def _equation(report: Report, sides: Sequence[tuple[Term, ...]], rows: str, key: str = "") -> Equation:
-    return Equation((VectorEquation(tuple(sides), tuple(report.words["vector"][rows])),), key)
-
-
-Known = Expression | str | None
-"""Text below a vector; None marks an unknown."""
-
-
-def _term(
-    report: Report, base: str, sub: str, sup: str, *, direction: Known = None, sense: Known = None, size: Known = None
-) -> Term:
-    return Term(report.named(Symbol(base, sub, sup, "vector")), (direction, sense, size))
-
-
-def _unknown(report: Report, base: str, sub: str, sup: str, side: Side | None) -> Term:
-    """A vector of which only the direction is known, that of what is sought on a side."""
-    return _term(report, base, sub, sup, direction=None if side is None else _direction(report, side))
-
-
-def _direction(report: Report, side: Side) -> str:
-    """The direction of what is sought on a side."""
-    if side.turns:
-        return f"⊥ {subscripted(side.rod)}"
-    return _slide(report, "along", side)
-
-
-def _slide(report: Report, how: str, side: Side) -> str:
-    """Return the words for "along" or "across" the slide of a side; of two guides each has the number of its slider."""
-    way = str(report.words["vector"][f"{how}_{side.way}"])
-    return f"{way} {side.slide}" if side.alike else way
-
-
-def _relative(report: Report, side: Side) -> tuple[Term, ...]:
-    """aⁿ and aᵗ of a turning side, aᵏ and aʳ of a sliding one."""
-    words, ledger = report.words["vector"], report.ledger
-    sought = _unknown(report, "a", side.pair, "τ" if side.turns else "r", side)
-    if side.turns:
-        size = ledger.symbol(side.velocity) ** 2 / ledger.symbol(ids.length(side.rod))
-        way = f"{subscripted(side.point)} → {subscripted(side.base)}"
-        direction = f"∥ {subscripted(side.rod)}"
-        return _term(report, "a", side.pair, "n", direction=direction, sense=way, size=size), sought
-    if not side.turning:
-        return (sought,)
-    twice = 2 * ledger.symbol(side.omega) * ledger.symbol(side.velocity)
-    across = _slide(report, "across", side)
-    turned = words["turned"].format(link=subscripted(str(side.turning)))
-    sense = Chain((ledger.symbol(side.velocity),), turned)
-    return _term(report, "a", side.pair, "k", direction=across, sense=sense, size=twice), sought
-
-
-def _base(report: Report, side: Side, what: str) -> Term:
-    """The vector of a side's base: on the crank with its direction and size, else known from before."""
-    words, ledger = report.words["vector"], report.ledger
-    arm = f"{report.driver.centre}{side.base}"
-    if not report.driver.centre or ids.length(arm) not in ledger or not _on_crank(report, side.base):
-        given = words["given"]
-        return _term(report, what, side.shown, "", direction=given, sense=given, size=given)
-    if what == "a" and report.accelerated:
-        # Both its components are laid off already.
-        given = words["given"]
-        return _term(report, what, side.shown, "", direction=given, sense=given, size=given)
-    length, omega = ledger.symbol(ids.length(arm)), ledger.symbol("omega.1")
-    if what == "v":
-        direction, sense = f"⊥ {subscripted(arm)}", words["with_crank"]
-        return _term(report, "v", side.shown, "", direction=direction, sense=sense, size=omega * length)
-    size = omega**2 * length
-    way = subscripted(f"{side.base} → {report.driver.centre}")
-    return _term(report, "a", side.shown, "", direction=f"∥ {subscripted(arm)}", sense=way, size=size)
-
-
-def _on_crank(report: Report, name: str) -> bool:
-    """Return True if a point's velocity is computed as that of a point of the crank."""
-    definition = report.ledger[ids.velocity(name)].definition
-    return definition is not None and "omega.1" in refs(definition)
-
-
-# --- equations of equilibrium
-
-
-def force_equation(report: Report, group: GroupView, position: int) -> Equation:
-    """The equilibrium of a group's two links; only the two reactions that close the plan are unknown."""
-    assert group.polygon is not None
-    terms = [_force(report, group, edge) for edge in group.polygon.edges]
-    return _balance(report, terms, f"eq.R.{group}.{position}")
-
-
-def link_equation(report: Report, group: GroupView, link: int, position: int | None = None) -> Equation:
-    """The equilibrium of one link of a group with a slide between its links, R_ij or R_ji included.
-
-    Only an equation with a position has a number to refer to.
-    """
-    assert group.polygon is not None
-    words = report.words["vector"]
-    own = [edge for edge in group.polygon.edges if edge.link == link]
-    terms = [_force(report, group, edge) for edge in own if not edge.unknown]
-    # Across the slot; its size is computed before the plan, or read from the plan of link j.
-    first = group.kind == "RPP" and link == group.j
-    inner = R(report, group.across if link == group.j else group.inner)
-    terms.append(Term(inner, (words["across_slot"], None if first else words["computed"])))
-    terms += [_force(report, group, edge) for edge in own if edge.unknown]
-    return _balance(report, terms, "" if position is None else f"eq.R.{group}.{position}")
-
-
-def driver_equation(report: Report) -> Equation:
-    """The equilibrium of forces on the driver; of a sliding one the directions by its guide are known."""
-    assert report.driver_polygon is not None
-    words = report.words["vector"]
-    slides = "Rcb" in report.on_crank
-    unknown = {"R01": words["across_guide"], "Rcb": words["along_guide"]} if slides else {}
-    terms = [
-        Term(
-            report.force_vector(edge.name),
-            (unknown.get(edge.name), None) if edge.unknown else (words["given"], words["given"]),
-        )
-        for edge in report.driver_polygon.edges
-    ]
-    return _balance(report, terms)
-
-
-def _force(report: Report, group: GroupView, edge: Edge) -> Term:
-    """A force of a group's plan with what is known of it."""
-    words = report.words["vector"]
-    way = group.one if edge.link == group.i else group.two
-    shown = report.force_vector(edge.name)
-    if edge.part and way.turns:
-        normal = edge.part == "n"
-        along = f"{'∥' if normal else '⊥'} {subscripted(way.rod)}"
-        return Term(shown, (along, None if normal else words["computed"]))
-    if edge.unknown:
-        return Term(shown, (_slide(report, "across", way) if way.guided else None, None))
-    return Term(shown, (words["given"], words["given"]))
-
-
-def _balance(report: Report, terms: Sequence[Term], key: str = "") -> Equation:
-    zero_vector = Term(Symbol("0", over="vector"), ("", ""))
-    return _equation(report, [tuple(terms), (zero_vector,)], "force_rows", key)

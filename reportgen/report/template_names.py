@@ -23,8 +23,9 @@ from reportgen.report import (
     table_remarks,
     template_equations,
     topic_views,
+    vector_equations,
 )
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 
 PROPERTIES = (
     # the assignment, in words
@@ -75,10 +76,10 @@ PROPERTIES = (
     "speed_in_rpm",
     "weighed",
 )
-"""Properties of the `Report`."""
-shown(*PROPERTIES)(Report)
+"""Properties of the `ReportContext`."""
+shown(*PROPERTIES)(ReportContext)
 
-VALUES: Mapping[str, Callable[[Report], Any]] = {
+VALUES: Mapping[str, Callable[[ReportContext], Any]] = {
     # the assignment, in words
     "attached": chapter_functions.attached,
     "begins_at": chapter_functions.begins_at,
@@ -163,19 +164,19 @@ FUNCTIONS: Mapping[str, Callable[..., Any]] = {
     "vector": template_equations.vector,
     "theory": template_equations.theory,
     "theory_of": chapter_functions.theory_of,
-    "zero": Report.is_zero,
+    "zero": ReportContext.is_zero,
     # equations of the machine and of its groups
-    "acceleration_equation": template_equations.acceleration_equation,
-    "driver_equation": template_equations.driver_equation,
+    "acceleration_equation": vector_equations.acceleration_equation,
+    "driver_equation": vector_equations.driver_equation,
     "equations": template_equations.equations,
     "directions": template_equations.directions,
     "functions": template_equations.functions,
-    "force_equation": template_equations.force_equation,
-    "link_equation": template_equations.link_equation,
+    "force_equation": vector_equations.force_equation,
+    "link_equation": vector_equations.link_equation,
     "mobility_line": template_equations.mobility_line,
     "opposites": template_equations.opposites,
     "through_pin": template_equations.through_pin,
-    "velocity_equation": template_equations.velocity_equation,
+    "velocity_equation": vector_equations.velocity_equation,
     # words
     "balance_sign": phrases.balance_sign,
     "by_moments": template_equations.by_moments,
@@ -183,8 +184,8 @@ FUNCTIONS: Mapping[str, Callable[..., Any]] = {
     "couple_sense": guide_couples.couple_sense,
     "counted": phrases.counted,
     "drawn_group": phrases.drawn_group,
-    "first_turn": Report.first_turn,
-    "parts": Report.parts,
+    "first_turn": ReportContext.first_turn,
+    "parts": ReportContext.parts,
     "passages": topic_views.passages,
     "percussion_state": percussion.percussion_state,
     "force_list": template_equations.force_list,
@@ -222,7 +223,7 @@ FUNCTIONS: Mapping[str, Callable[..., Any]] = {
 """Functions of a report and of what a template puts between the parentheses."""
 
 
-def names(report: Report) -> dict[str, Any]:
+def names(report: ReportContext) -> dict[str, Any]:
     """Return all that the templates of a report may name."""
     values = {**VALUES, **topic_views.merged(report, attrgetter("values"))}
     functions = {**FUNCTIONS, **topic_views.merged(report, attrgetter("functions"))}

@@ -8,9 +8,9 @@ from typing import Any
 
 from reportgen.base.topics import HookModule
 from reportgen.document.figure_placement import FigureScenes
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 
-Passages = Callable[[Report], Sequence[str]]
+Passages = Callable[[ReportContext], Sequence[str]]
 """The sections of words that a topic puts at a place of a shared chapter, none if it has nothing to say there."""
 DrawnFigure = tuple[str, Callable[..., FigureScenes]]
 """The beginning of the keys of a figure, and the function that draws it."""
@@ -21,7 +21,7 @@ def always(*sections: str) -> Passages:
     return lambda report: sections
 
 
-def _no_residuals(report: Report) -> Mapping[str, float]:
+def _no_residuals(report: ReportContext) -> Mapping[str, float]:
     return {}
 
 
@@ -29,13 +29,13 @@ def _no_residuals(report: Report) -> Mapping[str, float]:
 class ViewHooks:
     """Names that a topic adds to templates, by kind."""
 
-    values: Mapping[str, Callable[[Report], object]] = field(default_factory=dict)
+    values: Mapping[str, Callable[[ReportContext], object]] = field(default_factory=dict)
     functions: Mapping[str, Callable[..., object]] = field(default_factory=dict)
     figures: Mapping[str, DrawnFigure] = field(default_factory=dict)
     tables: Mapping[str, Callable[..., object]] = field(default_factory=dict)
     passages: Mapping[str, Passages] = field(default_factory=dict)
     """Passages that the topic adds to shared chapters, by the names of the places there."""
-    residuals: Callable[[Report], Mapping[str, float]] = _no_residuals
+    residuals: Callable[[ReportContext], Mapping[str, float]] = _no_residuals
     """Independent checks with the largest residual of each as a share of the greatest value."""
     letters: str = ""
     """Letters of diagrams that denote nothing of the machine."""
@@ -44,13 +44,13 @@ class ViewHooks:
 VIEWS = HookModule("views", ViewHooks)
 
 
-def passages(report: Report, place: str) -> list[str]:
+def passages(report: ReportContext, place: str) -> list[str]:
     """Return the sections of words that the topics of a machine put at a place of a shared chapter."""
     found = (hooks.passages[place](report) for hooks in VIEWS.among(report.machine.topics) if place in hooks.passages)
     return [section for sections in found for section in sections]
 
 
-def merged(report: Report, part: Callable[[ViewHooks], Mapping[str, Any]]) -> dict[str, Any]:
+def merged(report: ReportContext, part: Callable[[ViewHooks], Mapping[str, Any]]) -> dict[str, Any]:
     """Return a part of the hooks of all topics of a machine as one table."""
     return _united(part(hooks) for hooks in VIEWS.among(report.machine.topics))
 

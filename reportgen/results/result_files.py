@@ -9,7 +9,7 @@ import json
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from reportgen.workbook import Book, BookSheet, write_csv, write_xlsx
+from reportgen.workbook import Book, WorksheetData, write_csv, write_xlsx
 
 Cell = str | float | None
 AXES = ("x", "y")
@@ -34,9 +34,9 @@ def workbook(results: Mapping[str, Any]) -> bytes:
     return write_xlsx(Book(pages, name))
 
 
-def _result_page(name: str, results: Mapping[str, Any]) -> BookSheet:
+def _result_page(name: str, results: Mapping[str, Any]) -> WorksheetData:
     rows = result_rows(results)
-    return BookSheet(name, rows, (WIDTH,) * len(rows[0]), (1, 1))
+    return WorksheetData(name, rows, (WIDTH,) * len(rows[0]), (1, 1))
 
 
 def result_rows(results: Mapping[str, Any]) -> list[list[Cell]]:

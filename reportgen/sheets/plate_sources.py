@@ -13,7 +13,7 @@ from reportgen.document.cjk_punctuation import set_out
 from reportgen.drawing import Content, Scene
 from reportgen.drawing.drawing_sheet import ENLARGED, grid, widths
 from reportgen.formula import Number
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 from reportgen.report.link_views import GroupView
 
 WIDEST, MOST_ROWS = 180.0, 24
@@ -31,13 +31,13 @@ class Sources:
     With `every`, each plan has a plate, those of velocities and accelerations to the scales of the worked ones.
     """
 
-    report: Report
-    small: Report
+    report: ReportContext
+    small: ReportContext
     every: bool = False
 
     @classmethod
     def of(cls, case: MachineAnalysis, every: bool = False) -> Sources:
-        return cls(Report(case), Report(case, enlarged=ENLARGED), every)
+        return cls(ReportContext(case), ReportContext(case, enlarged=ENLARGED), every)
 
     @property
     def words(self) -> Mapping[str, Any]:
@@ -69,14 +69,14 @@ class Drawn:
     """The same at the next larger standard scale, if it may be drawn at one."""
 
 
-Listed = Callable[[Report], Sequence[str]]
+Listed = Callable[[ReportContext], Sequence[str]]
 
 
 def table_of(sources: Sources, name: str, listed: Sequence[Listed], cycle: bool = False) -> Iterator[Drawn]:
     yield Drawn(name, "tables", grids(sources.report, listed, cycle))
 
 
-def grids(report: Report, listed: Sequence[Listed], cycle: bool = False) -> list[Scene]:
+def grids(report: ReportContext, listed: Sequence[Listed], cycle: bool = False) -> list[Scene]:
     """Quantities at the positions of one turn or of the cycle, as many tables as they need."""
     at = report.all_positions if cycle else report.positions
     tabulated = dict.fromkeys(id for columns in listed for id in columns(report))
@@ -97,7 +97,7 @@ def grids(report: Report, listed: Sequence[Listed], cycle: bool = False) -> list
 
 
 def _quantities(
-    report: Report, quantities: Sequence[str], positions: Sequence[int]
+    report: ReportContext, quantities: Sequence[str], positions: Sequence[int]
 ) -> tuple[list[list[Content]], list[list[Content]]]:
     """The head of a table of quantities and its rows."""
     head: list[list[Content]] = [
@@ -107,12 +107,12 @@ def _quantities(
     return head, [[str(report.machine.position(k)), *(bare(report, id, k) for id in quantities)] for k in positions]
 
 
-def unit_of(report: Report, id: str) -> str:
+def unit_of(report: ReportContext, id: str) -> str:
     unit = report.ledger[id].how.unit
     return str(report.ledger.units.get(unit, unit))
 
 
-def bare(report: Report, id: str, k: int | None) -> Content:
+def bare(report: ReportContext, id: str, k: int | None) -> Content:
     """A number without its unit, a dash for what does not exist."""
     family, number = report.ledger[id], report.ledger.number(id, k)
     if family.kind == "segment" and number.value:

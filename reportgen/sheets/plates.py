@@ -24,7 +24,7 @@ from reportgen.drawing.vector_plan import Plan, plan
 from reportgen.formula import Chain, Number, ids
 from reportgen.formula.plain_text import formula, quantity
 from reportgen.report import cycle_curves
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 from reportgen.report.force_figures import lever, separated, separated_driver
 from reportgen.report.mechanism_figures import centre_state, centres, indicator, positions_scene, scheme
 from reportgen.report.plan_figures import (
@@ -111,7 +111,7 @@ def _scheme(sources: Sources) -> Iterator[Drawn]:
     yield Drawn("scheme", "scheme", (*scheme(sources.small).scenes, *_dimensions(sources.report)))
 
 
-def _dimensions(report: Report) -> Iterator[Scene]:
+def _dimensions(report: ReportContext) -> Iterator[Scene]:
     ledger, words = report.ledger, report.words["plates"]
     rows = [
         [ledger.symbol(id), bare(report, id, None), unit_of(report, id), bare(report, ids.drawn(line), None)]
@@ -274,7 +274,7 @@ def _load_table(sources: Sources) -> Iterator[Drawn]:
     yield from table_of(sources, "loads", (gas, applied, inertia), cycle=True)
 
 
-def applied(report: Report) -> list[str]:
+def applied(report: ReportContext) -> list[str]:
     """The loads other than of gas."""
     return report.known(load.name for load in report.loads)
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from reportgen.base.arrays import Complexes, Floats
 from reportgen.formula import PI, Expression, Number, arg, cis, ids, quotient
-from reportgen.formula.calculation import Sheet
+from reportgen.formula.calculation import Calculation
 from reportgen.machine.kinematics import Motion
 from reportgen.machine.load_laws import Law, MotionAt
 from reportgen.machine.loads import Direction
@@ -70,7 +70,7 @@ class SpringLaw(Law):
     def coil(self) -> Coil:
         return Coil(self.number, self.ends)
 
-    def formula(self, q: Sheet, link: int) -> Expression:
+    def formula(self, q: Calculation, link: int) -> Expression:
         """Return F = c(l − l₀) with l measured on the drawing."""
         number, first = self.number, self.ends[0].on(q, self.number)
         if ids.spring_length(number) not in q:
@@ -125,7 +125,7 @@ class TorsionLaw(Law):
     def coil(self) -> Coil:
         return Coil(self.number, (Anchor(self.pin), Anchor(self.point)), wound=True)
 
-    def formula(self, q: Sheet, link: int) -> Expression:
+    def formula(self, q: Calculation, link: int) -> Expression:
         """Return M = −c θ, θ = φ − φ₀ measured on the drawing in degrees."""
         free, slot = q[ids.spring_free(self.number)], q.find(ids.slot(link))
         line = slot if slot is not None else q[ids.place(self.point)] - q[ids.place(self.pin)]

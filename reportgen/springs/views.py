@@ -10,7 +10,7 @@ from reportgen.document.figure_placement import FigureScenes
 from reportgen.formula import Number
 from reportgen.machine.analysis import motion_at
 from reportgen.machine.load_laws import FULL_TURN
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 from reportgen.report.cycle_curves import ShownCurve, axis, over_the_cycle
 from reportgen.report.quantity_tables import QuantityTable
 from reportgen.report.topic_views import ViewHooks, always
@@ -21,17 +21,17 @@ FIGURES = 5
 """Significant figures of the work of a spring."""
 
 
-def rows_of(report: Report) -> tuple[SpringRow, ...]:
+def rows_of(report: ReportContext) -> tuple[SpringRow, ...]:
     """Return the springs of a machine as rows for templates."""
     return report.machine.topic("springs", tuple) or ()
 
 
-def spring_lines(report: Report) -> list[str]:
+def spring_lines(report: ReportContext) -> list[str]:
     """Return the lengths of springs, or the angles that they are turned by, with their loads."""
     return report.known(id for row in rows_of(report) for id in (*row.lines, *row.loads))
 
 
-def spring_works(report: Report) -> Inlines:
+def spring_works(report: ReportContext) -> Inlines:
     """Return the works of the springs (J) over the way of a sliding driver, in the order of their numbers; () for
     a crank.
     """
@@ -48,22 +48,22 @@ def spring_works(report: Report) -> Inlines:
     )
 
 
-def linear_springs(report: Report) -> list[str]:
+def linear_springs(report: ReportContext) -> list[str]:
     """Return the loads of springs between two points."""
     return report.known(id for row in rows_of(report) if not row.twists for id in row.loads)
 
 
-def torsion_springs(report: Report) -> list[str]:
+def torsion_springs(report: ReportContext) -> list[str]:
     """Return the loads of torsion springs."""
     return report.known(id for row in rows_of(report) if row.twists for id in row.loads)
 
 
-def spring_loads(report: Report) -> list[str]:
+def spring_loads(report: ReportContext) -> list[str]:
     """Return the loads of springs."""
     return report.known(id for row in rows_of(report) for id in row.loads)
 
 
-def loads_over_cycle(report: Report) -> FigureScenes:
+def loads_over_cycle(report: ReportContext) -> FigureScenes:
     """Return the forces of springs over the cycle; torsion springs get a separate diagram."""
     by_kind: dict[str, list[ShownCurve]] = {}
     analysed = {load.name: load.law for load in report.loads}

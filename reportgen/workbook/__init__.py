@@ -4,7 +4,7 @@
 """
 
 from reportgen.workbook.table_reading import read
-from reportgen.workbook.table_writing import Book, BookSheet, Entry, write_csv, write_xlsx
+from reportgen.workbook.table_writing import Book, Entry, WorksheetData, write_csv, write_xlsx
 from reportgen.workbook.zip_package import Page, SheetCell
 
-__all__ = ["Book", "BookSheet", "Entry", "Page", "SheetCell", "read", "write_csv", "write_xlsx"]
+__all__ = ["Book", "Entry", "Page", "SheetCell", "WorksheetData", "read", "write_csv", "write_xlsx"]

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from xml.etree import ElementTree
 
-from reportgen.base.errors import Fault, Mark, TemplateError
+from reportgen.base.errors import Fault, Location, TemplateError
 from reportgen.base.files import cause, contents
 from reportgen.base.units import Language
 from reportgen.base.words import as_problem
@@ -109,14 +109,14 @@ def read_letterhead(path: Path, language: Language) -> Letterhead:
         code = fault.code if fault.code.startswith("letterhead") else _CODES.get(fault.code[6:], "letterhead-damaged")
         raise TemplateError(str(as_problem(Fault(code, fault.mark, fault.arguments), language))) from None
     except OSError as error:
-        fault = Fault("unreadable", Mark(str(path)), {"reason": cause(error)})
+        fault = Fault("unreadable", Location(str(path)), {"reason": cause(error)})
         raise TemplateError(str(as_problem(fault, language))) from error
 
 
 def _read(path: Path) -> Letterhead:
     data = contents(path, LARGEST + 1)
     if len(data) > LARGEST:
-        raise RefusedError("letterhead-bomb", Mark(str(path)), largest=str(LARGEST // 1_000_000))
+        raise RefusedError("letterhead-bomb", Location(str(path)), largest=str(LARGEST // 1_000_000))
     package = Package(data, str(path))
     for name in package.names:
         if "/embeddings/" in name.lower():

@@ -20,7 +20,7 @@ from itertools import tee
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from reportgen.base.errors import CellMark, Fault, Mark
+from reportgen.base.errors import CellLocation, Fault, Location
 from reportgen.base.files import contents
 from reportgen.base.units import Language
 from reportgen.base.words import as_error
@@ -53,7 +53,7 @@ _ESCAPE = re.compile(r"_x([0-9A-Fa-f]{4})_")
 
 CellRow = tuple[Any, ...]
 """The cells of a row as openpyxl gives them."""
-Marks = Callable[[int, int], CellMark]
+Marks = Callable[[int, int], CellLocation]
 """Gives the mark of a cell of one sheet by its row and column."""
 
 
@@ -73,7 +73,7 @@ def read_xlsx(data: bytes, file: str) -> tuple[Page, ...]:
             raise
         except Exception:
             # openpyxl has no exception class for a damaged workbook.
-            raise RefusedError("sheet-damaged", Mark(file)) from None
+            raise RefusedError("sheet-damaged", Location(file)) from None
 
 
 def _judged(package: Package) -> tuple[bytes, list[int], bool]:
@@ -134,7 +134,7 @@ def _load(copy: bytes, *, stored: bool) -> Workbook:
 
 def _pages(values: Workbook, formulas: Workbook | None, counts: Sequence[int], file: str) -> tuple[Page, ...]:
     if len(values.worksheets) != len(counts):
-        raise RefusedError("sheet-damaged", Mark(file))
+        raise RefusedError("sheet-damaged", Location(file))
     pages = []
     for number, (sheet, count) in enumerate(zip(values.worksheets, counts, strict=True), start=1):
         sheet.reset_dimensions()
@@ -144,7 +144,7 @@ def _pages(values: Workbook, formulas: Workbook | None, counts: Sequence[int], f
             same = formulas.worksheets[number - 1]
             same.reset_dimensions()
             typed, stored = same.rows, sheet.rows
-        mark = partial(CellMark, file, sheet=sheet.title, number=number)
+        mark = partial(CellLocation, file, sheet=sheet.title, number=number)
         rows = _rows(zip(typed, stored, strict=True), count, mark)
         pages.append(Page(sheet.title, rows, sheet.sheet_state != "visible"))
     return tuple(pages)
@@ -202,7 +202,7 @@ def _whole(read: Iterator[tuple[CellRow, CellRow]], mark: Marks) -> Iterator[tup
         raise RefusedError("sheet-damaged", mark(last + 1, 1)) from None
 
 
-def _cell(typed: Any, stored: Any, mark: CellMark) -> SheetCell:
+def _cell(typed: Any, stored: Any, mark: CellLocation) -> SheetCell:
     value, kind = _value(stored.value, stored.data_type, mark)
     code = displayed(value, _format(stored)) if isinstance(value, float) else ""
     if typed.data_type != "f":
@@ -220,7 +220,7 @@ def _format(cell: Any) -> str:
         return GENERAL
 
 
-def _value(value: object, type: str, mark: CellMark) -> tuple[str | float | None, CellKind]:
+def _value(value: object, type: str, mark: CellLocation) -> tuple[str | float | None, CellKind]:
     match value:
         case None:
             return None, "empty"
@@ -287,11 +287,11 @@ def _read(path: Path, data: bytes | None) -> tuple[Page, ...]:
         try:
             data = contents(path, LARGEST + 1)
         except OSError as fault:
-            raise RefusedError("unreadable", Mark(file), reason=type(fault).__name__) from None
+            raise RefusedError("unreadable", Location(file), reason=type(fault).__name__) from None
     if len(data) > LARGEST:
-        raise RefusedError("too-large", Mark(file), largest=str(LARGEST // 1000))
+        raise RefusedError("too-large", Location(file), largest=str(LARGEST // 1000))
     if not data.strip():
-        raise RefusedError("empty", Mark(file))
+        raise RefusedError("empty", Location(file))
     if path.suffix.lower() in BOOKS or data.startswith(_BINARY):
         return read_xlsx(data, file)
     return (_read_csv(data, file, path.stem),)
@@ -311,7 +311,7 @@ def _read_csv(data: bytes, file: str, name: str) -> Page:
         rows.append(row)
         cells += len(row)
         if exceeds(len(rows), len(row), cells):
-            raise too_large(row[-1].mark if row else Mark(file))
+            raise too_large(row[-1].mark if row else Location(file))
     return Page(name, tuple(rows))
 
 
@@ -326,7 +326,7 @@ def _csv_rows(text: str, file: str) -> Iterator[tuple[SheetCell, ...]]:
     at = start
     row: list[SheetCell] = []
     while at < len(text) or row:
-        mark = Mark(file, line, at - start + 1)
+        mark = Location(file, line, at - start + 1)
         match = cell.match(text, at)
         assert match is not None, "any text begins with a cell, which may be empty"
         quoted, closed, behind, unquoted = match.groups()

@@ -63,7 +63,7 @@ class Entry:
 
 
 @dataclass(frozen=True, slots=True)
-class BookSheet:
+class WorksheetData:
     """A page of a workbook: rows of entries or of bare values.
 
     `widths` are those of the columns, in characters; `frozen` are the rows and columns that stay in view.
@@ -84,7 +84,7 @@ class BookSheet:
 class Book:
     """A workbook of one or more sheets; their names are made valid and distinct."""
 
-    sheets: Sequence[BookSheet]
+    sheets: Sequence[WorksheetData]
     title: str = ""
 
 
@@ -121,7 +121,7 @@ def write_xlsx(book: Book) -> bytes:
     return _timeless(stream.getvalue())
 
 
-def _fill(page: Worksheet, sheet: BookSheet) -> None:
+def _fill(page: Worksheet, sheet: WorksheetData) -> None:
     from openpyxl.comments import Comment
     from openpyxl.utils import get_column_letter
 

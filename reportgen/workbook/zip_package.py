@@ -17,7 +17,7 @@ from dataclasses import dataclass
 from typing import Any, Literal
 from xml.parsers import expat
 
-from reportgen.base.errors import Fault, Mark
+from reportgen.base.errors import Fault, Location
 
 MOST_PARTS = 2_000
 MOST_UNPACKED = 60_000_000
@@ -79,7 +79,7 @@ class Package:
 
     def __init__(self, data: bytes, file: str, bounds: Bounds | None = None) -> None:
         """Open and check a package; raises `RefusedError`."""
-        self.mark = Mark(file)
+        self.mark = Location(file)
         self.bounds = bounds or Bounds()
         if data.startswith(_OLD):
             raise self.refused("sheet-encrypted" if _ENCRYPTED in data else "sheet-old")
@@ -337,7 +337,7 @@ class SheetCell:
     """
 
     value: str | float | None
-    mark: Mark
+    mark: Location
     kind: CellKind
     formula: str = ""
     code: str = ""
@@ -371,7 +371,7 @@ class Page:
 class RefusedError(Exception):
     """A file that is not read any further; carries the `Fault`."""
 
-    def __init__(self, code: str, mark: Mark, **arguments: str) -> None:
+    def __init__(self, code: str, mark: Location, **arguments: str) -> None:
         super().__init__(code)
         self.fault = Fault(code, mark, arguments)
 
@@ -381,11 +381,11 @@ def exceeds(row: int, column: int, cells: int = 0) -> bool:
     return row > MOST_ROWS or column > MOST_COLUMNS or cells > MOST_CELLS
 
 
-def too_large(mark: Mark) -> RefusedError:
+def too_large(mark: Location) -> RefusedError:
     return RefusedError("table-too-large", mark, rows=str(MOST_ROWS), columns=str(MOST_COLUMNS), cells=str(MOST_CELLS))
 
 
-def too_long(mark: Mark) -> RefusedError:
+def too_long(mark: Location) -> RefusedError:
     return RefusedError("text-too-long", mark, largest=str(LONGEST_CELL))
 
 

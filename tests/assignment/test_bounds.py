@@ -10,7 +10,7 @@ import pytest
 
 from reportgen.assignment import common, fields
 from reportgen.assignment.fields import Interval
-from reportgen.base.errors import Fault, Mark
+from reportgen.base.errors import Fault, Location
 from reportgen.base.units import Language
 from reportgen.base.words import as_problem
 from reportgen.catalogue import given_loads
@@ -44,7 +44,7 @@ TYPES = {
 
 def told(interval: Interval, unit: str, language: Language) -> str:
     arguments = {"text": "x", "unit": f" {unit}" if unit else "", **interval.words}
-    return as_problem(Fault("out-of-range", Mark(""), arguments), language).message.partition(": ")[2]
+    return as_problem(Fault("out-of-range", Location(""), arguments), language).message.partition(": ")[2]
 
 
 @pytest.mark.parametrize(

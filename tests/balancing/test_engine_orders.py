@@ -10,12 +10,12 @@ import pytest
 
 from reportgen import load
 from reportgen.balancing import orders_ids
-from reportgen.balancing.engine_calculation import FACTORS, ORDERS, EngineSheet
+from reportgen.balancing.engine_calculation import FACTORS, ORDERS, EngineCalculation
 from reportgen.balancing.engine_drawings import scheme
 from reportgen.balancing.engine_file import Parameters
 from reportgen.cases import opened
 from reportgen.drawing import Polyline
-from reportgen.formula.calculation import Sheet
+from reportgen.formula.calculation import Calculation
 from tests.lanes import proof
 
 PITCH = 0.1
@@ -24,13 +24,13 @@ Layout = list[tuple[float, float, float]]
 """Of each cylinder: its crank (°), its place (pitches), its bank (°)."""
 
 
-def sheet_of(layout: Layout, l: float = 160.0) -> Sheet:  # noqa: E741
+def sheet_of(layout: Layout, l: float = 160.0) -> Calculation:  # noqa: E741
     cylinders = [
         {"crank": f"{math.fmod(θ, 360):.12g} deg", "at": f"{z * PITCH * 1e3:.12g} mm", "bank": f"{ψ:.12g} deg"}
         for θ, z, ψ in layout
     ]
     given = {"r": "40 mm", "l": f"{l} mm", "n": "3000 rpm", "m3": "0.5 kg", "m2": "0.6 kg"}
-    return EngineSheet(Parameters.model_validate({**given, "s": "0.35", "cylinders": cylinders})).written()
+    return EngineCalculation(Parameters.model_validate({**given, "s": "0.35", "cylinders": cylinders})).written()
 
 
 @pytest.mark.parametrize(

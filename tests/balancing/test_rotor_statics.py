@@ -11,7 +11,7 @@ import pytest
 
 from reportgen import load, solve
 from reportgen.balancing import rotor_ids
-from reportgen.balancing.rotor_calculation import AFTER, BEFORE, RotorSheet
+from reportgen.balancing.rotor_calculation import AFTER, BEFORE, RotorCalculation
 from reportgen.balancing.rotor_file import BEARINGS, Parameters
 from reportgen.base.errors import AssignmentError
 from reportgen.cases import opened
@@ -56,7 +56,7 @@ def sheet_of(count: int, **more: object):  # type: ignore[no-untyped-def]
     """The sheet of some rotor of so many masses; its numbers do not matter."""
     masses = [{"m": "1 kg", "r": f"{50 + k} mm", "angle": f"{37 * k} deg", "z": f"{60 * k} mm"} for k in range(count)]
     given = {"planes": {"A": "30 mm", "B": "500 mm"}, "masses": masses, "correction": {"r": "80 mm"}}
-    return RotorSheet(
+    return RotorCalculation(
         Parameters.model_validate({**given, "bearings": ["0 mm", "600 mm"], "n": "900 rpm", **more})
     ).written()
 

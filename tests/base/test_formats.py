@@ -24,8 +24,8 @@ def roff(job):
 ADDED = """
 import sys
 from pathlib import Path
-from reportgen.base import formats
-formats.FORMATS += (formats.Format("report", "troff", "made_up:roff", ending="roff"),)
+from reportgen.base import output_formats
+output_formats.FORMATS += (output_formats.Format("report", "troff", "made_up:roff", ending="roff"),)
 from typer.testing import CliRunner
 from reportgen import api
 from reportgen.base.files import standing

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import pytest
 
 from reportgen import catalogue
-from reportgen.base.errors import Mark, Where
+from reportgen.base.errors import Location, Where
 from reportgen.base.kinds import kinds
 from reportgen.base.yaml_edit import EditError, as_list, exchanged, with_key, with_value, without
 from reportgen.base.yaml_source import MappingNode, Node, Scalar, SequenceNode, plain, read_text
@@ -34,7 +34,7 @@ parts:
 
 
 def said(text: str, where: Where, value: str) -> str:
-    return with_value(text, where, Scalar(value, Mark("")))
+    return with_value(text, where, Scalar(value, Location("")))
 
 
 @pytest.mark.parametrize(
@@ -87,7 +87,7 @@ def test_remarks_that_are_set_deeper_stay_with_their_table() -> None:
 
 
 def test_a_key_gives_way_to_another_that_says_the_same() -> None:
-    changed = with_key(TEXT, ("parameters", "a"), "b", Scalar("27 cm", Mark("")))
+    changed = with_key(TEXT, ("parameters", "a"), "b", Scalar("27 cm", Location("")))
     assert changed == TEXT.replace("a: 270 mm", "b: 27 cm")
 
 

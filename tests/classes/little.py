@@ -14,7 +14,7 @@ from hashlib import sha256
 from pathlib import Path
 
 from reportgen.api import Engine
-from reportgen.base.errors import AssignmentError, Mark, Problem
+from reportgen.base.errors import AssignmentError, Location, Problem
 from reportgen.base.units import Language
 from reportgen.classes.batch_run import Order, run_batch
 
@@ -28,7 +28,7 @@ def little(path: Path, engine: Engine, language: Language | None) -> Mapping[str
             log.write(f"{path.stem} begun\n")
     time.sleep(float(orders.get("seconds", "0")))
     if "wrong" in orders:
-        raise AssignmentError([Problem("wrong", orders["wrong"], Mark(str(path), 1, 8))])
+        raise AssignmentError([Problem("wrong", orders["wrong"], Location(str(path), 1, 8))])
     if "crash" in orders:
         raise ZeroDivisionError(f"in {path}")
     if orders.get("dies") == "always":

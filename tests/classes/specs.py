@@ -7,7 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import NamedTuple
 
-from reportgen.base.errors import AssignmentError, Fault, Mark
+from reportgen.base.errors import AssignmentError, Fault, Location
 from reportgen.classes.roster import Roster, RosterEntry
 from reportgen.classes.variant_draw import Draw, DrawnVariant, FindFaults
 from reportgen.classes.variant_spec import Spec
@@ -33,7 +33,7 @@ Put = Callable[..., Path]
 
 
 def classes(*ids: str) -> Roster:
-    return Roster(tuple(RosterEntry({"id": id}, {}, Mark("r", k)) for k, id in enumerate(ids, start=2)))
+    return Roster(tuple(RosterEntry({"id": id}, {}, Location("r", k)) for k, id in enumerate(ids, start=2)))
 
 
 class Result(NamedTuple):

@@ -14,7 +14,7 @@ from reportgen.base.yaml_source import plain, read_text
 from reportgen.classes.variant_draw import FindFaults, judge_of, pick
 from reportgen.classes.variant_spec import Settings, Spec, read_spec
 from reportgen.classes.variants import Effort, compare, make_variants
-from reportgen.workbook import Book, BookSheet, write_xlsx
+from reportgen.workbook import Book, WorksheetData, write_xlsx
 from tests.classes.specs import BARS, ROOT, Put, classes, draw, ids, located
 from tests.lanes import matrix
 
@@ -115,7 +115,7 @@ def test_the_eight_published_engines_go_round_a_class(put_file: Put) -> None:
     flat = [{key: value for key, value in top["parameters"].items() if isinstance(value, str)} for top in tops]
     keys = list(dict.fromkeys(key for one in flat for key in one))
     rows = [[top["variant"], *(one.get(key) for key in keys)] for top, one in zip(tops, flat, strict=True)]
-    put_file(write_xlsx(Book((BookSheet("T", (("variant", *keys), *rows)),))), "table.xlsx")
+    put_file(write_xlsx(Book((WorksheetData("T", (("variant", *keys), *rows)),))), "table.xlsx")
     text = sources[0].read_text(encoding="utf-8")
     text = re.sub(r"(?s)\nparameters:.*?\n\n", "\nvariants: table.xlsx\n\n", text)
     assert "parameters:" not in text

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from reportgen.base.errors import AssignmentError, Mark
+from reportgen.base.errors import AssignmentError, Location
 from reportgen.base.yaml_source import Scalar
 from reportgen.classes import class_marking
 from reportgen.classes.class_marking import Graded
@@ -95,7 +95,7 @@ def test_the_roster_goes_before_the_worksheet_and_who_has_no_date_is_told(tmp_pa
     ]
     path.write_text(WORKSHEET + "\n".join(rows), encoding="utf-8")
     who = {name: Participant(name, frozenset(), number) for name, number in zip("ABCDE", "12345", strict=True)}
-    said = {"B": Scalar("20/11/2026 12:00", Mark("roster.csv", 3, 4))}
+    said = {"B": Scalar("20/11/2026 12:00", Location("roster.csv", 3, 4))}
     handings = {name: Handing(one, f"{name}.xlsx", said.get(name), name == "E") for name, one in who.items()}
     days, problems = days_late(RULE, handings, read_gradebook(path), "en")
     assert days == {"A": 2, "B": 0}

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from reportgen.base.errors import Mark, Problem
+from reportgen.base.errors import Location, Problem
 from reportgen.base.template_folders import templates
 from reportgen.base.words import templates_hash
 from reportgen.classes import batch_manifest
@@ -19,7 +19,7 @@ from tests.classes.classes import Batch
 from tests.classes.little import little
 
 JOB = Job("Số 7", "So_7-1", "little", little, "7.yaml", b"seconds: 0", making("typst", None))
-FAULT = Problem("wrong", "không đúng", Mark("7.yaml", 1, 8))
+FAULT = Problem("wrong", "không đúng", Location("7.yaml", 1, 8))
 DONE = batch_manifest.entry_of(JOB, Outcome({"a.pdf": b"A", "b.xlsx": b"B"}))
 FAILED = batch_manifest.entry_of(replace(JOB, student="8", folder="8"), Outcome(problems=(FAULT,), exit_code=1))
 

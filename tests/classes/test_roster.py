@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 from reportgen.base.errors import AssignmentError
 from reportgen.base.words import messages
 from reportgen.classes.roster import HANDED_IN, NAME_PARTS, PERSONAL, folded, folder_name, read_roster
-from reportgen.workbook import Book, BookSheet, write_xlsx
+from reportgen.workbook import Book, WorksheetData, write_xlsx
 
 Put = Callable[..., Path]
 
@@ -132,9 +132,9 @@ def test_blank_lines_quoted_commas_and_a_title_above(put: Put) -> None:
 def test_a_workbook_of_numbers_with_sheets_before_it(put: Put) -> None:
     book = Book(
         (
-            BookSheet("Cũ", (("MSSV",), ("K0",)), hidden=True),
-            BookSheet("Ghi chú", (("read me",),)),
-            BookSheet(
+            WorksheetData("Cũ", (("MSSV",), ("K0",)), hidden=True),
+            WorksheetData("Ghi chú", (("read me",),)),
+            WorksheetData(
                 "Lớp", (("MSSV", "Họ tên", "parameters.H (mm)"), (195520103001, "An", 95), ("007", "=1+1", None))
             ),
         )

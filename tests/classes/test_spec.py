@@ -11,13 +11,13 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from typer.testing import CliRunner
 
-from reportgen.base.errors import AssignmentError, Mark
+from reportgen.base.errors import AssignmentError, Location
 from reportgen.base.units import Language
 from reportgen.base.yaml_source import MappingNode, Scalar, SequenceNode, plain, read_text
 from reportgen.base.yaml_values import quoted, text_of
 from reportgen.classes.variant_spec import Spec, read_spec
 from reportgen.cli import app
-from reportgen.workbook import Book, BookSheet, write_xlsx
+from reportgen.workbook import Book, WorksheetData, write_xlsx
 from tests.classes.specs import BARS, ROOT, Put, located
 
 
@@ -133,7 +133,7 @@ def test_a_table_of_variants(put_file: Put) -> None:
 def test_faults_of_a_table_of_variants_stand_in_its_cells(put_file: Put) -> None:
     base = BARS.replace("  BC: [340 mm, 350 mm]\n", "") + "variants: table.xlsx\n"
     rows = (("variant", "BC", "CD", "Cd"), ("I", 340, "1 mm", None), ("I", "350 mm", None, None))
-    table = put_file(write_xlsx(Book((BookSheet("T", rows),))), "table.xlsx")
+    table = put_file(write_xlsx(Book((WorksheetData("T", rows),))), "table.xlsx")
     spec = put_file(base)
     with pytest.raises(AssignmentError) as caught:
         read_spec(spec, "en")
@@ -174,11 +174,11 @@ def test_any_text_is_read_as_it_was_quoted(text: str) -> None:
 def test_any_nodes_are_read_as_they_were_written(content: object) -> None:
     def node(value: object) -> Scalar | SequenceNode | MappingNode:
         if isinstance(value, str):
-            return Scalar(value, Mark(""))
+            return Scalar(value, Location(""))
         if isinstance(value, list):
-            return SequenceNode(tuple(map(node, value)), Mark(""))
+            return SequenceNode(tuple(map(node, value)), Location(""))
         assert isinstance(value, dict)
-        return MappingNode(tuple((Scalar(key, Mark("")), node(item)) for key, item in value.items()), Mark(""))
+        return MappingNode(tuple((Scalar(key, Location("")), node(item)) for key, item in value.items()), Location(""))
 
     top = node({"a": content})
     assert isinstance(top, MappingNode)
@@ -188,7 +188,7 @@ def test_any_nodes_are_read_as_they_were_written(content: object) -> None:
             return {unicodedata.normalize("NFC", key): composed(item) for key, item in value.items()}
         return [composed(item) for item in value] if isinstance(value, list) else value
 
-    got = plain(read_text(text_of(top, "", MappingNode((), Mark("")))).top)
+    got = plain(read_text(text_of(top, "", MappingNode((), Location("")))).top)
     assert got == composed(plain(top))
 
 

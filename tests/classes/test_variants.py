@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from reportgen import api
-from reportgen.base.errors import AssignmentError, Mark
+from reportgen.base.errors import AssignmentError, Location
 from reportgen.base.yaml_source import Scalar, plain, read_text
 from reportgen.base.yaml_values import put
 from reportgen.classes.roster import read_roster
@@ -60,7 +60,9 @@ def test_every_file_passes_check_and_says_what_was_drawn(put_file: Put, kind: st
         assignment = api.load(file.path)
         assert (assignment.kind, assignment.id) == (kind, one.student.id)
         assert assignment.report.student.name == f"An {one.student.id}"
-        want = plain(put(spec.source(one.settings).top, ("variant",), Scalar(spec.label(one.combination), Mark(""))))
+        want = plain(
+            put(spec.source(one.settings).top, ("variant",), Scalar(spec.label(one.combination), Location("")))
+        )
         student = {"name": f"An {one.student.id}", "id": one.student.id, "class": "K58"}
         want.setdefault("report", {})["student"] = student
         got = plain(read_text(file.text).top)

@@ -17,7 +17,7 @@ from openpyxl import load_workbook
 
 from reportgen import check, load, solve
 from reportgen.api import result_files
-from reportgen.base.errors import Mark
+from reportgen.base.errors import Location
 from reportgen.base.units import Language
 from reportgen.cases import open_case, opener
 from reportgen.coursework.case import Coursework, PartCase
@@ -232,7 +232,7 @@ def marked(case: Coursework, change: Callable[[str, float], float], policy: Poli
     scheme = marking_scheme(case, policy or Policy(guard=False))
     key = Ask().of(scheme.key)
     values = {
-        (row.id, k): Answer(change(row.id, float(row.values[row.at(k)])), "", Mark("sheet"))
+        (row.id, k): Answer(change(row.id, float(row.values[row.at(k)])), "", Location("sheet"))
         for row in key.asked
         for k in row.positions
     }

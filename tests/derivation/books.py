@@ -10,7 +10,7 @@ from reportgen.derivation import ONE_QUANTITY
 from reportgen.derivation.group_forces import enter_forces
 from reportgen.derivation.group_motion import enter_kinematics
 from reportgen.derivation.load_entries import Polygon
-from reportgen.formula.calculation import Sheet
+from reportgen.formula.calculation import Calculation
 from reportgen.formula.ledger import Ledger
 from reportgen.machine import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
 from reportgen.machine.force_analysis import Forces, Load, inertia_loads, solve_forces, virtual_work_torque, weights
@@ -31,7 +31,7 @@ class Book:
     loads: tuple[Load, ...]
     forces: Forces
     work: np.ndarray
-    b: Sheet
+    b: Calculation
     polygons: tuple[Polygon, ...]
 
     def ledger(self) -> Ledger:
@@ -54,7 +54,7 @@ def keep(
     ]
     applied += [Load(f"M{link}", link, still + 0j, still + 0j, still + torque) for link, torque in torques]
     loads = (*weights(linkage, motion), *inertia_loads(linkage, motion), *applied)
-    b = Sheet(len(driver))
+    b = Calculation(len(driver))
     if isinstance(linkage.driver, Crank):
         b.give("phi.1", driver)
         b.give("omega.1", RATE)

@@ -11,7 +11,7 @@ from reportgen.derivation.kinematic_entries import links_in_plane_motion
 from reportgen.formula import Chain, Number
 from reportgen.machine import Crank, Dyad, Linkage, LinkPoint
 from reportgen.marking.toleranced_key import key_of
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 from reportgen.report.template_equations import lines
 from tests.report import built
 
@@ -74,7 +74,7 @@ def test_a_velocity_that_is_nothing_has_no_angle_with_the_link() -> None:
     assert still.any()
     np.testing.assert_array_equal(np.isnan(angle), still)
     position = 1 + int(np.argmax(still))
-    (line,) = lines(Report(case), ["ic.along.2.C"], position).rows
+    (line,) = lines(ReportContext(case), ["ic.along.2.C"], position).rows
     assert isinstance(line, Chain)
     assert line.parts == (case.printed.symbol("ic.along.2.C"), Number(0.0, None, "m/s"))
     assert line.note

@@ -15,7 +15,7 @@ from reportgen.derivation.load_entries import Polygon
 from reportgen.derivation.plan_scales import SHEET_BOXES, TEXT_BOX
 from reportgen.drawing.vector_plan import Plan
 from reportgen.marking.judging import mark
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 from reportgen.report.plan_figures import force_plan, motion_plan
 from tests.marking import students
 from tests.report import built
@@ -57,7 +57,7 @@ def read_from(case: MachineCase, polygon: Polygon) -> list[str]:
 
 def test_worked_force_plans_are_100_mm_long_or_as_long_as_the_page_allows(case: MachineCase) -> None:
     """Or as what is laid off in them was read: a longer plan would draw what a ruler left of it larger."""
-    report = Report(case)
+    report = ReportContext(case)
     for k in report.worked_forces:
         for polygon in case.polygons:
             drawn = size(force_plan(report, polygon, k))
@@ -71,7 +71,7 @@ def test_worked_force_plans_are_100_mm_long_or_as_long_as_the_page_allows(case: 
 
 @pytest.mark.parametrize("what", ["v", "a"])
 def test_worked_motion_plans_are_60_mm_long_or_as_long_as_the_sheets_allow(case: MachineCase, what: What) -> None:
-    report = Report(case)
+    report = ReportContext(case)
     every = [size(motion_plan(report, what, k)) for k in range(1, report.count + 1)]
     largest = max(width for width, _ in every), max(height for _, height in every)
     growth = finer(report.ledger.number(f"mu.{what}").value)

@@ -12,7 +12,7 @@ from reportgen.drawing.animation import MovingBody, MovingVector
 from reportgen.drawing.spring_drawings import OUTER, TEETH
 from reportgen.formula import Symbol
 from reportgen.page.motion_samples import Samples
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 from reportgen.report.mechanism_figures import scheme
 from reportgen.sheets.plates import Sources, plates_of
 
@@ -36,11 +36,11 @@ def case() -> MachineAnalysis:
 
 
 @pytest.fixture(scope="module")
-def report(case: MachineAnalysis) -> Report:
-    return Report(case)
+def report(case: MachineAnalysis) -> ReportContext:
+    return ReportContext(case)
 
 
-def test_springs_of_the_scheme_are_as_long_as_they_are(report: Report) -> None:
+def test_springs_of_the_scheme_are_as_long_as_they_are(report: ReportContext) -> None:
     """The scheme stands at the second position: between the ends lies l over the figure's own scale."""
     (scene,) = scheme(report).scenes
     lines = [item for item in scene.items if isinstance(item, Polyline) and len(item.points) == TEETH + 4]
@@ -79,7 +79,9 @@ def test_a_torsion_spring_holds_its_link(case: MachineAnalysis) -> None:
     assert lines[TEETH + 2].end.values == pytest.approx((0.3 + 0.42j) * samples.scale)
 
 
-def test_a_plate_shows_the_springs_and_no_curve_of_single_instants(case: MachineAnalysis, report: Report) -> None:
+def test_a_plate_shows_the_springs_and_no_curve_of_single_instants(
+    case: MachineAnalysis, report: ReportContext
+) -> None:
     """Machine and table of lengths; over a whole turn the curves of force and of torque stand with them."""
     plates = {plate.title: plate for plate in plates_of(Sources.of(case), "forces")}
     still = len(plates[report.words["plates"]["springs"]].scenes)

@@ -13,7 +13,7 @@ import pytest
 from reportgen.base.arrays import Complexes
 from reportgen.drawing import Arc, Circle, Hatch, Label, Line, Polyline
 from reportgen.drawing.canvas import finish
-from reportgen.drawing.indicator import Branch, Frame, Reading, beside, indicator
+from reportgen.drawing.indicator import Branch, ChartFrame, Reading, beside, indicator
 from reportgen.drawing.position_plan import PositionPlan, position_plan
 from reportgen.drawing.scheme import Looks, driver_arrow, groups, scheme, skeleton
 from reportgen.formula import Symbol
@@ -121,7 +121,7 @@ def test_the_indicator_diagram_stands_in_line_with_the_piston(side: complex) -> 
     scale = 50 / R
     top, bottom = 1j * (L + R) * scale, 1j * (L - R) * scale
     axis_top, axis_bottom, mu = beside(top, bottom, side, 30.0, 40.0)
-    frame = Frame(axis_top, axis_bottom, side, mu, Symbol("p"))
+    frame = ChartFrame(axis_top, axis_bottom, side, mu, Symbol("p"))
     x = tuple(np.linspace(0, 1, 11))
     rows = {"a": [-2.5] * 11, "b": [28 * (1 - s) ** 2 - 2.5 for s in x], "c": [40 * (1 - s) + 3.6 for s in x]}
     branches = [Branch(name, x, tuple(row)) for name, row in rows.items()]
@@ -153,7 +153,7 @@ def test_the_indicator_diagram_is_clear_on_both_sides_of_a_cylinder_in_any_direc
         assert abs(end - start) == pytest.approx(70)
         branches = (Branch("Expansion", (0, 0.1, 0.4, 1), (640, 400, 120, 30)), Branch("Exhaust", (0, 1), (2, 30)))
         readings = [Reading(Symbol(str(n), "(3)"), n / 8, 640 * (1 - n / 8) ** 2) for n in range(9)]
-        frame = Frame(start, end, side, mu, "p, N/cm²")
+        frame = ChartFrame(start, end, side, mu, "p, N/cm²")
         assert overlaps(finish(indicator(frame, branches, readings))) == []
 
 

@@ -8,7 +8,7 @@ from reportgen import api, cases
 from reportgen.drawing import Label
 from reportgen.formula import Symbol
 from reportgen.report import mechanism_figures
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 
 ENGINE = """
 kind: engine-v
@@ -37,7 +37,7 @@ def test_no_position_of_two_pistons_is_without_its_number(tmp_path: Path) -> Non
     """24 positions of a cycle on each of two pistons: 48 numbers, many of them on the two lines near p = 0."""
     file = tmp_path / "engine.yaml"
     file.write_text(ENGINE.lstrip(), encoding="utf-8")
-    report = Report(cases.opened(api.load(file, "en")))
+    report = ReportContext(cases.opened(api.load(file, "en")))
     shown = {
         item.content
         for scene in mechanism_figures.indicator(report).scenes

@@ -19,7 +19,7 @@ from reportgen.drawing.scheme import ARROWS, LINES, line_styles
 from reportgen.drawing.style import clip_hatch
 from reportgen.drawing.vector_plan import Plan, PlanVector, plan, set_apart
 from reportgen.formula import Symbol
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 from reportgen.report.named_figures import FIGURES
 from tests.lanes import matrix
 from tests.report import built
@@ -32,8 +32,8 @@ every = pytest.mark.parametrize("name", matrix(NAMES, NAMES[::3]))
 
 
 @cache
-def report(name: str) -> Report:
-    return Report(built.case(ASSIGNMENTS / f"{name}.yaml", "en"))
+def report(name: str) -> ReportContext:
+    return ReportContext(built.case(ASSIGNMENTS / f"{name}.yaml", "en"))
 
 
 def draw(name: str, figure: str, *shown: object) -> FigureScenes:

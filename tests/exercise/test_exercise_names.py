@@ -11,7 +11,7 @@ from reportgen import api
 from reportgen.case.quantity_wording import phrase
 from reportgen.exercise.case import ExerciseCase
 from reportgen.formula import vocabulary
-from reportgen.formula.vocabulary import Chapter
+from reportgen.formula.vocabulary import KeyChapter
 
 FOLDER = Path(__file__).parents[2] / "assignments" / "plane-motion"
 OF_MACHINES = ("centre of percussion", "tâm va đập", "khâu", "link ")
@@ -28,7 +28,8 @@ def test_every_quantity_has_a_name(path: Path, language: Any) -> None:
 
 
 @pytest.mark.parametrize(
-    ("id", "chapter"), [("v.M.x", Chapter.velocity), ("v.A.r", Chapter.velocity), ("a.M.y", Chapter.acceleration)]
+    ("id", "chapter"),
+    [("v.M.x", KeyChapter.velocity), ("v.A.r", KeyChapter.velocity), ("a.M.y", KeyChapter.acceleration)],
 )
-def test_components_stand_with_their_vectors(id: str, chapter: Chapter) -> None:
+def test_components_stand_with_their_vectors(id: str, chapter: KeyChapter) -> None:
     assert vocabulary.row(id).chapter is chapter

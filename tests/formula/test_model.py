@@ -7,15 +7,15 @@ import pytest
 
 from reportgen.formula import asin, cos, sin, sqrt
 from reportgen.formula.array_evaluation import model
-from reportgen.formula.calculation import Sheet
+from reportgen.formula.calculation import Calculation
 
 R, L, PHI, UP, X, BETA = "l.O1A", "l.AB", "cam.phi", "cam.u", "cam.s", "cam.alpha"
 """Ids that the vocabulary has: for crank, rod, angle of the crank, height of the pin, way of the slider, rod."""
 
 
-def slider() -> Sheet:
+def slider() -> Calculation:
     """x = r cos φ + √(l² − r² sin² φ), sin β = r sin φ/l."""
-    q = Sheet(2)
+    q = Calculation(2)
     r, length, φ = q.give(R, 0.05), q.give(L, 0.2), q.give(PHI, np.array([0.0, 1.0]))
     up = q.define(UP, r * sin(φ))
     q.define(X, r * cos(φ) + sqrt(length**2 - up**2))

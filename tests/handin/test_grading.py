@@ -11,7 +11,7 @@ from pathlib import Path
 import openpyxl
 import pytest
 
-from reportgen.base.errors import AssignmentError, Mark
+from reportgen.base.errors import AssignmentError, Location
 from reportgen.case.answer_key import Key
 from reportgen.cases import open_case
 from reportgen.classes import class_marking, class_outputs
@@ -85,7 +85,7 @@ def test_the_same_values_give_the_same_verdicts_by_sheet_and_by_report() -> None
         scheme = marking_scheme(open_case(made_reports.ROOT / "four-bar-01.yaml", made.key.language), RULES)
         scheme = replace(scheme, key=made.key)
         own = submission([word_report.read(Path("r.docx"), made.file(), made.key)], made.key.language)
-        typed = {place: Answer(answer.value, answer.text, Mark("s.xlsx")) for place, answer in own.values.items()}
+        typed = {place: Answer(answer.value, answer.text, Location("s.xlsx")) for place, answer in own.values.items()}
         sheet = Submission(own.assignment, "s.xlsx", typed, {})
         by_report, by_sheet = mark(scheme, own), mark(scheme, sheet)
         verdicts = [
@@ -130,7 +130,7 @@ def test_a_class_hands_in_reports_and_sheets_together(assignments: Path, key: Ke
     (handed / "K03" / "report.docx").write_bytes(report(key, {"v.D": "v_D = 9,99 m/s"}))
     scheme = marking_scheme(open_case(assignments / "K03.yaml"), RULES)
     right = {
-        (row.id, k): Answer(float(row.values[row.at(k)]), "", Mark("")) for row in key.asked for k in row.positions
+        (row.id, k): Answer(float(row.values[row.at(k)]), "", Location("")) for row in key.asked for k in row.positions
     }
     book = reading_book(scheme.key, Submission("K03", "", right, {}))
     (handed / "K03" / "answers.xlsx").write_bytes(_as_plain_sheet(book))
@@ -346,5 +346,5 @@ def test_read_writes_a_sheet_that_nobody_loses(key: Key, tmp_path: Path) -> None
     ],
 )
 def test_two_values_are_one_where_one_is_rounded(first: str, second: str, same: bool) -> None:
-    answers = [Answer(float(text.replace(",", ".")), text, Mark("")) for text in (first, second)]
+    answers = [Answer(float(text.replace(",", ".")), text, Location("")) for text in (first, second)]
     assert agree(*answers) is same

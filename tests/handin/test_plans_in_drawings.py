@@ -18,7 +18,7 @@ from reportgen.cases import opened
 from reportgen.formula.ledger import follow
 from reportgen.handin import FileReading, submission
 from reportgen.handin.drawing_file import marked, read, wanted_plans
-from reportgen.handin.drawing_reader import DrawnMark
+from reportgen.handin.drawing_reader import DrawnLocation
 from reportgen.handin.dxf_corrections import LAYER, RedVector, with_corrections
 from reportgen.marking.judging import mark
 from reportgen.marking.marking_data import Verdict
@@ -219,7 +219,7 @@ def test_a_wrong_vector_is_red_as_it_should_be() -> None:
     assert not lines
     for cell in wrong:
         where = reading.values[cell.id, cell.position].mark
-        assert isinstance(where, DrawnMark)
+        assert isinstance(where, DrawnLocation)
         factor = truth.factors[next(p.scale for p in true_plans(case) if cell.id in p.vectors), cell.position]
         # What is right in the drawing is the key's length at the drawing's own scale.
         assert abs(where.right - where.at) == pytest.approx(1e3 * cell.expected * factor, rel=0.01)

@@ -17,7 +17,7 @@ import numpy as np
 from reportgen.case.answer_key import Key
 from reportgen.cases import open_case
 from reportgen.classes.variants import make_variants
-from reportgen.formula.vocabulary import Chapter
+from reportgen.formula.vocabulary import KeyChapter
 from reportgen.marking.answer_sheet import NAMES, asked_positions
 from reportgen.marking.marking_data import Answer, Place, Submission
 from reportgen.marking.marking_scheme import MarkingScheme, marking_scheme
@@ -38,7 +38,7 @@ def as_told(scheme: MarkingScheme, sheet: Submission) -> Submission:
 
 def half_done(scheme: MarkingScheme, sheet: Submission) -> Submission:
     """Velocities and accelerations only."""
-    kept = {Chapter.geometry, Chapter.velocity, Chapter.acceleration}
+    kept = {KeyChapter.geometry, KeyChapter.velocity, KeyChapter.acceleration}
     values = {place: given for place, given in sheet.values.items() if scheme.rows[place[0]].part in kept}
     return replace(sheet, values=values)
 

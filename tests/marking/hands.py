@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from reportgen.base.errors import Mark
+from reportgen.base.errors import Location
 from reportgen.case.answer_key import Role
 from reportgen.cases import opened
 from reportgen.marking.marking_data import Answer, Submission
@@ -42,7 +42,7 @@ def handed_in(scheme: MarkingScheme, worked: Mapping[int, Hand]) -> Submission:
             hand = worked[position] if position else next(iter(worked.values()))
             value = hand.written.get(row.id)
             if value is not None and np.isfinite(value):
-                values[row.id, position] = Answer(value, str(value), Mark("sheet.csv"))
+                values[row.id, position] = Answer(value, str(value), Location("sheet.csv"))
     return Submission(scheme.key.id, "sheet.csv", values, {})
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from reportgen.base.units import Language, rounded
 from reportgen.case.answer_key import Key, KeyRow, Role
 from reportgen.formula import Symbol
-from reportgen.formula.vocabulary import Chapter
+from reportgen.formula.vocabulary import KeyChapter
 from reportgen.marking.answer_sheet import HEAD, answer_book
 
 LABELS = ("1", "2", "3", "4")
@@ -18,7 +18,7 @@ LABELS = ("1", "2", "3", "4")
 
 def row(
     id: str,
-    part: Chapter,
+    part: KeyChapter,
     symbol: Symbol,
     kind: str,
     unit: str,
@@ -52,17 +52,23 @@ def row(
 def small_key(language: Language = "vi", id: str = "crank-07", student: str = "Nguyễn Văn A") -> Key:
     """A crank of 0.15 m at 300 rpm: one given value, a scale, single values and values at four positions."""
     rows = (
-        row("l.AB", Chapter.data, Symbol("l", "AB"), "length", "m", [0.15], Role.given, decimals=None),
-        row("n", Chapter.data, Symbol("n"), "speed of rotation", "vg/ph", [300.0], Role.given, decimals=None),
-        row("mu.l", Chapter.geometry, Symbol("μ", "l"), "length scale", "m/mm", [0.003], Role.scale, decimals=4),
-        row("omega.1", Chapter.velocity, Symbol("ω", "1"), "angular velocity", "rad/s", [10 * math.pi]),
-        row("v.B", Chapter.velocity, Symbol("v", "B"), "velocity", "m/s", [4.71, 2.36, -1.2, 0.0]),
+        row("l.AB", KeyChapter.data, Symbol("l", "AB"), "length", "m", [0.15], Role.given, decimals=None),
+        row("n", KeyChapter.data, Symbol("n"), "speed of rotation", "vg/ph", [300.0], Role.given, decimals=None),
+        row("mu.l", KeyChapter.geometry, Symbol("μ", "l"), "length scale", "m/mm", [0.003], Role.scale, decimals=4),
+        row("omega.1", KeyChapter.velocity, Symbol("ω", "1"), "angular velocity", "rad/s", [10 * math.pi]),
+        row("v.B", KeyChapter.velocity, Symbol("v", "B"), "velocity", "m/s", [4.71, 2.36, -1.2, 0.0]),
         row(
-            "dir.v.B", Chapter.velocity, Symbol("α", "vB"), "angle", "°", [90, 180, 270, math.nan], positions=(1, 2, 3)
+            "dir.v.B",
+            KeyChapter.velocity,
+            Symbol("α", "vB"),
+            "angle",
+            "°",
+            [90, 180, 270, math.nan],
+            positions=(1, 2, 3),
         ),
         row(
             "M.eq",
-            Chapter.torque,
+            KeyChapter.torque,
             Symbol("M", "cb"),
             "torque",
             "N·m",

@@ -16,7 +16,7 @@ import yaml
 
 from reportgen import api
 from reportgen.assignment import Assignment
-from reportgen.base.errors import AssignmentError, Mark
+from reportgen.base.errors import AssignmentError, Location
 from reportgen.case.answer_key import Key, KeyRow
 from reportgen.cases import opened
 from reportgen.formula.ledger import follow
@@ -102,7 +102,7 @@ def sheet(scheme: MarkingScheme, cell: Cell) -> Submission:
         for position in row.positions:
             value = cell(row, position, float(row.values[row.at(position)]))
             if value is not None:
-                values[(row.id, position)] = Answer(value, str(value), Mark("sheet.csv"))
+                values[(row.id, position)] = Answer(value, str(value), Location("sheet.csv"))
     return Submission(scheme.key.id, "sheet.csv", values, {})
 
 

@@ -14,7 +14,7 @@ from reportgen.base.units import Language
 from reportgen.case.answer_key import Key
 from reportgen.cases import open_case, opened
 from reportgen.document import PageBreak, text_of
-from reportgen.formula.vocabulary import Chapter
+from reportgen.formula.vocabulary import KeyChapter
 from reportgen.marking.answer_sheet import answer_book, read_submission
 from reportgen.marking.marking_data import Verdict
 from reportgen.marking.marking_policy import Policy, Scale, read_policy
@@ -54,7 +54,10 @@ def test_what_is_asked_by_default_is_a_sheet_that_a_student_can_fill_in(name: st
     assert 15 <= cells <= 90
     assert cells < 0.55 * sum(len(row.positions) for row in full.asked)
     assert [row.id for row in asked.rows] == [row.id for row in full.rows]
-    assert {row.part for row in full.asked} - {row.part for row in asked.asked} <= {Chapter.formulas, Chapter.geometry}
+    assert {row.part for row in full.asked} - {row.part for row in asked.asked} <= {
+        KeyChapter.formulas,
+        KeyChapter.geometry,
+    }
 
 
 def test_paper_and_file_ask_for_the_same(tmp_path: Path) -> None:

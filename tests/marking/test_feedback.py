@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from openpyxl import load_workbook
 
-from reportgen.base.errors import CellMark, Problem
+from reportgen.base.errors import CellLocation, Problem
 from reportgen.base.template_folders import languages, search_path
 from reportgen.base.units import Language
 from reportgen.base.words import load_words
@@ -40,8 +40,8 @@ SLIPS = {"too-few-figures", "rows-swapped", "wrong-column", "other-scale", *(nam
 }
 
 
-def at(row: int, column: int) -> CellMark:
-    return CellMark(FILE, row, column, sheet="Answers")
+def at(row: int, column: int) -> CellLocation:
+    return CellLocation(FILE, row, column, sheet="Answers")
 
 
 def cell(id: str, position: int, verdict: Verdict, given: float | None, expected: float, **more: Any) -> Marked:

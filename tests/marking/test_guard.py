@@ -12,7 +12,7 @@ from reportgen.base.template_folders import search_path
 from reportgen.base.units import Language
 from reportgen.base.words import load_words
 from reportgen.cases import opened
-from reportgen.formula.vocabulary import Chapter
+from reportgen.formula.vocabulary import KeyChapter
 from reportgen.marking.authenticity import Classmate
 from reportgen.marking.judging import mark
 from reportgen.marking.marking_data import Submission, Verdict
@@ -216,8 +216,10 @@ def test_the_same_mistake_is_no_copy(room: Room, mistake: str) -> None:
 
 
 COPIES: dict[str, Callable[[MarkingScheme, str, int], bool]] = {
-    "reactions": lambda scheme, id, k: scheme.rows[id].part is Chapter.forces,
-    "loads and forces": lambda scheme, id, k: scheme.rows[id].part in (Chapter.loads, Chapter.forces, Chapter.torque),
+    "reactions": lambda scheme, id, k: scheme.rows[id].part is KeyChapter.forces,
+    "loads and forces": lambda scheme, id, k: (
+        scheme.rows[id].part in (KeyChapter.loads, KeyChapter.forces, KeyChapter.torque)
+    ),
     "a column": lambda scheme, id, k: k == 4,
     "the sheet": lambda scheme, id, k: True,
 }

@@ -12,7 +12,7 @@ from reportgen.case.answer_key import Role
 from reportgen.drawing import Circle
 from reportgen.drawing.statistics_charts import intervals, scatter
 from reportgen.formula import Symbol
-from reportgen.formula.vocabulary import Chapter
+from reportgen.formula.vocabulary import KeyChapter
 from reportgen.marking.item_statistics import by_cell, by_question, by_section, question_rows
 from reportgen.marking.marking_data import Marking, Submission, Verdict
 from reportgen.marking.marking_policy import Policy
@@ -27,7 +27,7 @@ RIGHT = {True: Verdict.right, False: Verdict.wrong}
 def sheet(number: int, answers: list[bool], length: float = 0.15) -> Marking:
     """A student with right and wrong answers at ω₁ and at the four positions of v_B."""
     key = small_key("en", f"crank-{number:02}")
-    given = row("l.AB", Chapter.data, Symbol("l", "AB"), "length", "m", [length], Role.given, decimals=None)
+    given = row("l.AB", KeyChapter.data, Symbol("l", "AB"), "length", "m", [length], Role.given, decimals=None)
     key = replace(key, rows=(given, *key.rows[1:]))
     places = [("omega.1", 0), *(("v.B", k) for k in (1, 2, 3, 4))]
     cells = [cell(id, k, RIGHT[right], 1.0, 1.0) for (id, k), right in zip(places, answers, strict=True)]

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from reportgen.document import Paragraph, plain
-from reportgen.formula.vocabulary import Chapter
+from reportgen.formula.vocabulary import KeyChapter
 from reportgen.marking.key_files import key_document
 from tests.lanes import matrix
 from tests.marking import students
@@ -46,7 +46,7 @@ def test_the_rule_over_the_positions_gives_what_is_right_or_not_asked(name: str)
 def test_some_positions_make_no_flywheel() -> None:
     scheme = students.scheme("engine-single-III", (2, 4))
     assert not {"J.d", "A.excess", "omega.of", "J.r"} & {row.id for row in scheme.key.asked}
-    assert scheme.key.row("J.d").part is Chapter.cycle
+    assert scheme.key.row("J.d").part is KeyChapter.cycle
 
 
 @pytest.mark.parametrize(("name", "told"), [("engine-single-III", True), ("four-bar-01", False)])

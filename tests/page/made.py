@@ -17,7 +17,7 @@ from reportgen.drawing.animation import Animation, Pane, Track
 from reportgen.machine.analysis import Analysis, analyse
 from reportgen.page import page
 from reportgen.page.motion_samples import animation
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 from tests.lanes import matrix
 from tests.report import built
 
@@ -40,8 +40,8 @@ class Made:
     file: Path
 
     @cached_property
-    def report(self) -> Report:
-        return Report(self.case)
+    def report(self) -> ReportContext:
+        return ReportContext(self.case)
 
     @cached_property
     def animation(self) -> Animation:

@@ -18,13 +18,13 @@ from reportgen.derivation import write_ledger
 from reportgen.drawing import Polyline
 from reportgen.flywheel.regulation import flywheel, regulate, regulated_in
 from reportgen.flywheel.views import wittenbauer
-from reportgen.formula.calculation import Sheet
+from reportgen.formula.calculation import Calculation
 from reportgen.machine.analysis import Machine, analyse, motion_at
 from reportgen.machine.load_laws import FULL_TURN
 from reportgen.machine.quadrature import accumulated
 from reportgen.machine.reduction import reduced_inertia
 from reportgen.machine.regulated_cycle import RegulatedCycle
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 from tests.lanes import matrix
 
 ASSIGNMENTS = Path(__file__).parents[2] / "assignments"
@@ -176,7 +176,7 @@ def api_mean(machine: Machine) -> float:
 
 def with_unevenness(machine: Machine, delta: float) -> Machine:
     """The machine of an assignment that asks for the flywheel of δ."""
-    sheet = Sheet()
+    sheet = Calculation()
     for family in machine.sheet.families.values():
         if family.id != "unevenness":
             sheet.enter(family)
@@ -238,7 +238,7 @@ def test_mercalovs_way_differs_by_no_more_than_the_inertia_of_the_links(machine:
 def test_the_tangents_are_drawn_to_the_axis_at_their_inclinations(name: str) -> None:
     """From J = 0, at a and b, at the angles ψ that the text prints to 0.01° and at its scales μ_J, μ_A."""
     case = open_case(ASSIGNMENTS / f"{name}.yaml")
-    ledger, (scene,) = case.printed, wittenbauer(Report(case)).scenes
+    ledger, (scene,) = case.printed, wittenbauer(ReportContext(case)).scenes
     frame = next(item for item in scene.items if isinstance(item, Polyline) and item.closed)
     left = frame.points[0].real
     open_lines = [item.points for item in scene.items if isinstance(item, Polyline) and not item.closed]

@@ -28,7 +28,7 @@ from reportgen.machine.load_laws import (
     Opposing,
     Stroke,
     TableLaw,
-    WayLaw,
+    TravelLaw,
     by_stroke,
 )
 from reportgen.machine.loads import Applied
@@ -61,7 +61,9 @@ def asked(text: str, names: set[str]) -> Iterator[int]:
 
 
 def test_a_question_about_a_class_is_noticed() -> None:
-    text = "isinstance(a.law, (int, TableLaw))\nmatch a:\n    case WayLaw():\n        TableLaw(a)\nisinstance(a, str)\n"
+    text = (
+        "isinstance(a.law, (int, TableLaw))\nmatch a:\n    case TravelLaw():\n        TableLaw(a)\nisinstance(a, str)\n"
+    )
     assert sorted(asked(text, law_classes())) == [1, 3]
 
 
@@ -89,7 +91,7 @@ COURSE = Stroke(link=3, rod=2, pin="B", crank_pin="A", top=1j, bottom=0j, top_an
         (Opposing(5.0, (0.0, np.pi), 1.0), False, True, None),
         (AngleLaw((0.0, 2 * np.pi), (3.0, 3.0)), True, True, 1),
         (AngleLaw((0.0, 2 * np.pi), (3.0, 4.0)), False, True, 1),
-        (WayLaw((0.0, 0.1), (0.0, 0.0), 0.1), True, False, 1),
+        (TravelLaw((0.0, 0.1), (0.0, 0.0), 0.1), True, False, 1),
         (TableLaw(COURSE, by_stroke((0.0, 1.0), (2.0, 2.0), (0.0, 0.0)), turns=1), False, True, 2),
         (TableLaw(COURSE, by_stroke((0.0, 1.0), (2.0, 2.0), (2.0, 2.0)), turns=1), True, True, 2),
         (GasLaw(COURSE, StrokeIndicator((0.0, 1.0), *[(1e5, 0.0)] * 4), area=1e-2), False, True, 4),

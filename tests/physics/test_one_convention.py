@@ -12,7 +12,7 @@ from reportgen import api
 from reportgen.cases import MachineCase
 from reportgen.document import InlineMath, Table, Value
 from reportgen.formula import Symbol
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 from tests.lanes import matrix
 from tests.report.built import walk
 
@@ -43,7 +43,7 @@ AGREE = 1e-9
 
 def turning(
     name: str, direction: str, folder: Path, extent: str = "full", change: tuple[str, str] = ("", "")
-) -> Report:
+) -> ReportContext:
     """The report of an assignment whose crank turns in a direction."""
     text = (ROOT / "assignments" / f"{name}.yaml").read_text(encoding="utf-8")
     if "direction:" in text.partition("positions:")[2].partition("}")[0]:
@@ -53,7 +53,7 @@ def turning(
     text = text.replace(*change).replace("report:\n", f"report:\n  extent: {extent}\n")
     file = folder / f"{name}.yaml"
     file.write_text(text, encoding="utf-8")
-    return Report(MachineCase(api.load(file)))
+    return ReportContext(MachineCase(api.load(file)))
 
 
 @pytest.fixture(params=matrix(["anticlockwise", "clockwise"], ["clockwise"]))
@@ -116,7 +116,7 @@ def test_no_symbol_has_two_signs(name: str, direction: str, tmp_path: Path) -> N
         seen[family.symbol, family.kind].append((id, values))
 
 
-def compare_coordinates(report: Report) -> None:
+def compare_coordinates(report: ReportContext) -> None:
     """x_E of a formula is that of the table of positions: x to the right, y upwards, whichever way the crank turns."""
     points = report.analysis.motion.points
     for id, family in report.case.ledger.families.items():
@@ -136,7 +136,7 @@ def test_the_way_of_a_yoke_on_an_upright_guide_has_a_letter_of_its_own(direction
 # --- the same quantity in several tables of one report ------------------------------------------------
 
 
-def columns(report: Report) -> dict[Symbol, list[list[float]]]:
+def columns(report: ReportContext) -> dict[Symbol, list[list[float]]]:
     """The columns of all tables by what is on top of them, where it is one symbol and all cells below are numbers."""
     found: dict[Symbol, list[list[float]]] = {}
     for block in walk(report.case.document().blocks):

@@ -15,7 +15,7 @@ from time_integration import integrate
 from reportgen import catalogue
 from reportgen.assignment.common import Positions
 from reportgen.flywheel.regulation import flywheel
-from reportgen.formula.calculation import Sheet
+from reportgen.formula.calculation import Calculation
 from reportgen.machine import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
 from reportgen.machine.analysis import Machine, analyse, breaks
 from reportgen.machine.load_laws import FULL_TURN, AngleLaw, ConstantLaw, Law, Stroke, TableLaw, by_stroke, opposing
@@ -49,7 +49,7 @@ SLIDER_CRANK = Linkage(
 
 def with_load(law: Law, linkage: Linkage = SLIDER_CRANK, torques: tuple[Torque, ...] = ()) -> Machine:
     applied = (Applied("P3", 3, "B", fixed(1 + 0j), law),)
-    return Machine("", linkage, 0.0, 1, 27.0, 12, 1, Sheet(), (), applied=applied, torques=torques)
+    return Machine("", linkage, 0.0, 1, 27.0, 12, 1, Calculation(), (), applied=applied, torques=torques)
 
 
 R3 = with_load(WORKING)
@@ -427,7 +427,9 @@ def made_at_random(seed: int) -> tuple[Machine, float, Drive]:
             law = TableLaw(stroke, by_stroke((0.0, 0.3, 1.0), (900.0, 300.0, 0.0), (900.0, 100.0, 50.0)), turns=1)
         applied.append(Applied("P3a", 3, "B", fixed(along), law))
     resisting = Torque("M1", 1, ConstantLaw(-turn * rng.uniform(20.0, 40.0)))
-    machine = Machine("", linkage, 0.3, turn, 25.0, 12, 1, Sheet(), (), applied=tuple(applied), torques=(resisting,))
+    machine = Machine(
+        "", linkage, 0.3, turn, 25.0, 12, 1, Calculation(), (), applied=tuple(applied), torques=(resisting,)
+    )
     added = rng.uniform(0.5, 2.0)
     body = ReducedMachine(machine, added)
     mean, _ = mean_torque(body, body.along(body.parted(0.0)))

@@ -31,7 +31,7 @@ from reportgen.balancing.shaking_force import (
     shaking_moment,
 )
 from reportgen.cases import MachineCase, open_case
-from reportgen.formula.calculation import Sheet
+from reportgen.formula.calculation import Calculation
 from reportgen.machine import GROUND, Crank, Dyad, Guide, Inertia, Linkage, LinkPoint, joints
 from reportgen.machine.analysis import Machine, analyse, motion_at
 from reportgen.machine.force_analysis import inertia_loads, reaction_name, solve_forces
@@ -44,7 +44,7 @@ ASSIGNMENTS = Path(__file__).parents[2] / "assignments"
 
 def machine_of(linkage: Linkage, speed: float, balancing: Balancing | None = None) -> Machine:
     topics = {} if balancing is None else {"balancing": balancing}
-    return Machine("linkage", linkage, 0.0, 1, speed, 12, 1, Sheet(), (), topics=topics)
+    return Machine("linkage", linkage, 0.0, 1, speed, 12, 1, Calculation(), (), topics=topics)
 
 
 def slider_crank(r: float, l: float, e: float, share: complex, masses: tuple[float, float, float]) -> Linkage:  # noqa: E741

@@ -12,7 +12,7 @@ from agreement import prove
 
 from reportgen import api
 from reportgen.machine.analysis import Analysis, analyse
-from reportgen.machine.load_laws import WayLaw
+from reportgen.machine.load_laws import TravelLaw
 
 FILE = Path(__file__).parents[2] / "assignments" / "linkage-slide.yaml"
 WAYS, FORCES = (0.0, 0.06, 0.1, 0.12), (300.0, 380.0, 600.0, 900.0)
@@ -81,7 +81,7 @@ def test_the_drivers_work_is_what_the_loads_take_and_the_links_gain(analysis: An
 
 def test_a_way_is_not_a_cycle() -> None:
     """At the end of the way the last value stands, not the first again."""
-    law = WayLaw((0.0, 0.1), (1.0, 5.0), 0.1)
+    law = TravelLaw((0.0, 0.1), (1.0, 5.0), 0.1)
     motion = api.analyse(api.load(FILE)).motion
     assert law.value(np.array([0.0, np.pi, 2 * np.pi]), motion) == pytest.approx([1, 3, 5])
     assert list(law.breaks(lambda angle: motion)) == pytest.approx([0, 2 * np.pi])

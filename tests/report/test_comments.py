@@ -11,7 +11,7 @@ import pytest
 from reportgen.document import Block, Paragraph, Table, plain
 from reportgen.formula import vocabulary
 from reportgen.report import overview, table_remarks
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 from tests.lanes import matrix
 from tests.report import built
 
@@ -20,11 +20,11 @@ HALF = 0.5000001
 FILES = pytest.mark.parametrize("path", matrix(built.FILES, built.TYPESET), ids=lambda path: path.stem)
 
 
-def opened(path: Path) -> Report:
-    return Report(built.case(path, built.own_language(path)))
+def opened(path: Path) -> ReportContext:
+    return ReportContext(built.case(path, built.own_language(path)))
 
 
-def sizes(report: Report, id: str, count: int) -> np.ndarray:
+def sizes(report: ReportContext, id: str, count: int) -> np.ndarray:
     """A quantity in the unit it is printed in, without its sign."""
     family = report.ledger[id]
     values = np.broadcast_to(family.values, report.machine.positions)[:count]
@@ -71,7 +71,7 @@ def test_the_balancing_torque_has_each_position_once(path: Path) -> None:
         assert numbers(report, table_remarks.labels(report, found)) == [str(report.machine.position(k)) for k in found]
 
 
-def numbers(report: Report, text: str) -> list[str]:
+def numbers(report: ReportContext, text: str) -> list[str]:
     """The labels that a list of positions stands for."""
     every = [str(k) for k in report.all_positions]
     found: list[str] = []
@@ -106,7 +106,7 @@ def remarks(blocks: tuple[Block, ...]) -> list[str]:
 
 
 def test_every_report_remarks_on_its_main_tables(written: built.Written) -> None:
-    report = Report(written.case)
+    report = ReportContext(written.case)
     found = remarks(written.document.blocks)
     wanted = (
         2
@@ -121,7 +121,7 @@ def test_every_report_remarks_on_its_main_tables(written: built.Written) -> None
 
 def test_each_kind_of_symbol_has_its_meaning(written: built.Written) -> None:
     """What the vocabulary has a letter for is in the list, but for what stands in the table of given data."""
-    report = Report(written.case)
+    report = ReportContext(written.case)
     listed = {id for ids in overview.symbol_kinds(report).values() for id in ids}
     own = {"lambda", "theta", "K", "H", "e", "D", "s", "scale"}
     parts = re.compile(r"f\..*|ic\..*|v\.(work|back)|.*\.lone.*|alpha.*|psi.*|q\..*|[AB]\..*|d[AB]\..*|frame\..*")
@@ -140,5 +140,5 @@ def test_a_page_of_results_follows_the_task(written: built.Written) -> None:
     assert order == sorted(order)
     tables = {block.key: block for block in built.walk(written.document.blocks) if isinstance(block, Table)}
     symbols = [plain(row[1].inlines, written.language) for row in tables["tab.main.figures"].rows]
-    report = Report(written.case)
+    report = ReportContext(written.case)
     assert ("J.d" in report.ledger) == any(text.startswith("J_") for text in symbols)

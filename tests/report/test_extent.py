@@ -18,7 +18,7 @@ from reportgen.document.layout import contents
 from reportgen.document.numbering import unreferenced
 from reportgen.marking.task_paper import task_of
 from reportgen.marking.toleranced_key import key_of
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 from reportgen.report.report_extents import LEFT_OUT
 from reportgen.sheets import drawing_sheets, plates_by_set
 from tests.lanes import matrix
@@ -59,14 +59,14 @@ def test_the_sections_of_the_published_sample() -> None:
     """In its order: contents, foreword, task, structure, motion, synthesis, three plans, forces, balancing torque."""
     kinematics = ["given", "scheme", "structure", "motion", "synthesis", "positions", "velocity", "acceleration"]
     short = ["contents", "foreword", *kinematics, *FORCES, "conclusion", "references"]
-    assert Report(case("engine-twin-05", "short")).sections == short
+    assert ReportContext(case("engine-twin-05", "short")).sections == short
 
 
 def test_the_sections_of_a_full_report() -> None:
     opening = ["contents", "given", "scheme", "overview", "foreword", "symbols", "structure", "motion"]
     kinematics = ["synthesis", "positions", "velocity", "centres", "acceleration", "diagrams"]
     full = [*opening, *kinematics, *FORCES, "conclusion", "references", "checks"]
-    assert Report(case("engine-twin-05", "full")).sections == full
+    assert ReportContext(case("engine-twin-05", "full")).sections == full
 
 
 def test_a_short_report_of_other_kinds() -> None:
@@ -75,15 +75,15 @@ def test_a_short_report_of_other_kinds() -> None:
     beginning = ["contents", "given", "scheme", "structure", "motion"]
     end = ["conclusion", "references"]
     forces = ["working", "loads", "groups", "crank"]
-    assert Report(case("shaper-02", "short")).sections == [
+    assert ReportContext(case("shaper-02", "short")).sections == [
         *beginning, "synthesis", *kinematics, "diagrams", "functions", *forces, *end,
     ]  # fmt: skip
-    assert Report(case("toggle-press-01", "short")).sections == [
+    assert ReportContext(case("toggle-press-01", "short")).sections == [
         *beginning, "dimensions", *kinematics, *forces, "flywheel", *end,
     ]  # fmt: skip
-    assert Report(case("slotted-lever-01", "short")).sections == [*beginning, "dimensions", *kinematics, *end]
+    assert ReportContext(case("slotted-lever-01", "short")).sections == [*beginning, "dimensions", *kinematics, *end]
     # The source of the six-link lever mechanism has the table of all velocities and accelerations.
-    assert Report(case("lever-six-bar-01", "short")).sections == [
+    assert ReportContext(case("lever-six-bar-01", "short")).sections == [
         *beginning, "dimensions", *kinematics, "summary", *forces, *end,
     ]  # fmt: skip
     assert "tab.summary.2" in keys("lever-six-bar-01", "short")
@@ -153,7 +153,7 @@ def test_its_pages(name: str, engine: api.Engine) -> None:
     pdf = api.typeset(document(name, "short"), engine)[1]
     with pymupdf.open(stream=pdf) as pages:
         sheets = sum(isinstance(block, Plate) for block in document(name, "short").blocks)
-        moves = 4 * ("true-motion" in Report(case(name, "short")).sections)
+        moves = 4 * ("true-motion" in ReportContext(case(name, "short")).sections)
         assert len(pages) <= (ENGINE if name.startswith("engine") else OTHER) + min(sheets, 1) + moves
 
 

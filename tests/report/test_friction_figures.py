@@ -17,7 +17,7 @@ from reportgen.formula import Symbol
 from reportgen.friction import views as friction
 from reportgen.friction.joints import relative_sense, with_friction
 from reportgen.friction.tilting import face_forces
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 from reportgen.report.mechanism_figures import drawing_scale
 from tests.lanes import matrix
 
@@ -27,10 +27,10 @@ RULER = 0.01
 SHAPER, SLIDER_CRANK = (ROOT / f"{name}-friction.yaml" for name in ("shaper", "slider-crank"))
 
 
-def report_of(file: Path) -> tuple[Report, int]:
+def report_of(file: Path) -> tuple[ReportContext, int]:
     case = open_case(file)
     assert isinstance(case, MachineCase)
-    report = Report(case)
+    report = ReportContext(case)
     return report, report.worked_forces[0]
 
 
@@ -162,7 +162,7 @@ parameters:
 """
 
 
-def wide(folder: Path, language: str = "en") -> tuple[Report, int]:
+def wide(folder: Path, language: str = "en") -> tuple[ReportContext, int]:
     file = folder / "wide.yaml"
     file.write_text(WIDE.replace("LANGUAGE", language), encoding="utf-8")
     return report_of(file)

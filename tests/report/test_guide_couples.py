@@ -16,7 +16,7 @@ from reportgen.base.units import Language
 from reportgen.base.words import common_words
 from reportgen.document import Figure, Table, plain, text_of
 from reportgen.drawing import Arc
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 from tests.report import built
 
 YOKE = """
@@ -40,18 +40,18 @@ MEASURED = 1800 * 0.005 * 0.0017 + 0.005
 """The greatest force (N) by half a hundredth of a millimetre of its arm, at 0.0017 m/mm; and half the last digit."""
 
 
-def opened(text: str, folder: Path, language: Language = "en") -> Report:
+def opened(text: str, folder: Path, language: Language = "en") -> ReportContext:
     file = folder / "yoke.yaml"
     file.write_text(text.lstrip(), encoding="utf-8")
-    return Report(cases.opened(api.load(file, language)))
+    return ReportContext(cases.opened(api.load(file, language)))
 
 
 @pytest.fixture(scope="module")
-def yoke(tmp_path_factory: pytest.TempPathFactory) -> Report:
+def yoke(tmp_path_factory: pytest.TempPathFactory) -> ReportContext:
     return opened(YOKE, tmp_path_factory.mktemp("yoke"))
 
 
-def test_a_couple_has_no_line_of_action(yoke: Report) -> None:
+def test_a_couple_has_no_line_of_action(yoke: ReportContext) -> None:
     exact = yoke.case.ledger.families
     assert exact["M.03"].values == pytest.approx(M03, abs=1e-9)
     assert np.abs(M03).max() == pytest.approx(121.38, abs=0.005)
@@ -59,7 +59,7 @@ def test_a_couple_has_no_line_of_action(yoke: Report) -> None:
         assert list(np.isnan(place)) == list(~LEVEL)
 
 
-def test_the_table_of_reactions_has_the_moment(yoke: Report) -> None:
+def test_the_table_of_reactions_has_the_moment(yoke: ReportContext) -> None:
     document = yoke.case.document()
     (table,) = (one for one in built.walk(document.blocks) if isinstance(one, Table) and one.key == "tab.R")
     columns = list(
@@ -69,14 +69,14 @@ def test_the_table_of_reactions_has_the_moment(yoke: Report) -> None:
     assert [float(one.replace("−", "-")) for one in moments[2:]] == pytest.approx(np.where(LEVEL, 0, M03), abs=MEASURED)
 
 
-def test_the_text_says_so_and_names_no_point(yoke: Report) -> None:
+def test_the_text_says_so_and_names_no_point(yoke: ReportContext) -> None:
     text = text_of(yoke.case.document())
     assert "equal and opposite to M_03: its magnitude is 13.46 N·m, its sense anticlockwise" in text
     assert "x_03" not in text
     assert "R_03 acts at B" not in text
 
 
-def test_the_separated_links_show_the_couple(yoke: Report) -> None:
+def test_the_separated_links_show_the_couple(yoke: ReportContext) -> None:
     figures = [one for one in built.walk(yoke.case.document().blocks) if isinstance(one, Figure)]
     (bodies,) = (one for one in figures if one.key == "fig.bodies.23.2")
     # At position 2 the yoke is turned anticlockwise by its guide, in the group and on its own.
@@ -94,7 +94,7 @@ def test_a_wide_slider_bears_the_couple_at_both_ends(tmp_path: Path) -> None:
     assert ledger["face.03.2"].values == pytest.approx(-wanted, nan_ok=True)
 
 
-def test_captions_promise_only_what_has_a_column(yoke: Report) -> None:
+def test_captions_promise_only_what_has_a_column(yoke: ReportContext) -> None:
     captions = {
         one.key: plain(one.caption, "en") for one in built.walk(yoke.case.document().blocks) if isinstance(one, Table)
     }

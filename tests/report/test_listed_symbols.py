@@ -11,7 +11,7 @@ from reportgen.document import Block, Equation, InlineMath, Paragraph, Plate, Se
 from reportgen.document import Figure as Drawn
 from reportgen.drawing import Label, Scene
 from reportgen.formula.plain_text import formula
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 from reportgen.report.overview import symbol_kinds
 from tests.report.built import Written, walk
 
@@ -78,7 +78,7 @@ def test_each_kind_of_symbol_that_occurs_is_listed(written: Written) -> None:
     """But for what is explained where it stands, as the mobility W is, which is no work."""
     section, others = parts(written)
     language = written.document.language
-    report = Report(written.case)
+    report = ReportContext(written.case)
     lines = (
         formula(row, language) for block in walk(tuple(others)) if isinstance(block, Equation) for row in block.rows
     )

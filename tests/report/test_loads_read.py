@@ -11,7 +11,7 @@ from reportgen import api, cases
 from reportgen.document import text_of
 from reportgen.formula import Chain, Number, walk
 from reportgen.machine.kinematics import solve_motion
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 from tests.report import built
 
 PRESS = """
@@ -45,13 +45,13 @@ OVER_A_TURN = (
 )
 
 
-def opened(text: str, folder: Path) -> Report:
+def opened(text: str, folder: Path) -> ReportContext:
     file = folder / "machine.yaml"
     file.write_text(text.lstrip(), encoding="utf-8")
-    return Report(cases.opened(api.load(file, "en")))
+    return ReportContext(cases.opened(api.load(file, "en")))
 
 
-def line(report: Report, id: str, k: int) -> Chain:
+def line(report: ReportContext, id: str, k: int) -> Chain:
     chain = report.ledger.chain(id, k)
     assert len(chain.parts) == 4, "symbol = formula = numbers = result"
     return chain
@@ -90,7 +90,7 @@ def test_a_force_over_the_angle_is_read_in_the_first_turn(k: int, tmp_path: Path
 
 def test_a_length_from_coordinates_has_its_line() -> None:
     """l_BE = √(110² + 60²) mm, and from C, whose rod is 170 mm: √((170 − 110)² + 60²) mm."""
-    report = Report(built.case(built.ROOT / "assignments" / "linkage-8.yaml", "vi"))
+    report = ReportContext(built.case(built.ROOT / "assignments" / "linkage-8.yaml", "vi"))
     text = text_of(report.case.document())
     assert "l_BE = √(0,11^2 + 0,06^2) = 0,12530 m" in text
     assert "= 0,084853 m" in text

@@ -10,14 +10,14 @@ from reportgen.cases import open_case
 from reportgen.derivation.kinematic_entries import What
 from reportgen.drawing.mirrored_plans import mirrored
 from reportgen.drawing.vector_plan import Plan, PlanVector
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 from reportgen.report.plan_figures import motion_plan
 
 ASSIGNMENTS = Path(__file__).parents[2] / "assignments"
 
 
 def plans_of(name: str, what: What) -> dict[int, Plan]:
-    report = Report(open_case(ASSIGNMENTS / f"{name}.yaml"))
+    report = ReportContext(open_case(ASSIGNMENTS / f"{name}.yaml"))
     return {k: motion_plan(report, what, k) for k in range(1, report.count + 1)}
 
 

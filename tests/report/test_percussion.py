@@ -12,7 +12,7 @@ from reportgen import api, cases
 from reportgen.document import Figure, InlineMath, Paragraph, text_of
 from reportgen.drawing import Label, Scene
 from reportgen.formula import Expression, Symbol, walk
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 from reportgen.report.percussion import percussion
 from tests.lanes import matrix
 from tests.report import built
@@ -32,13 +32,13 @@ indicator:
 
 
 @pytest.fixture(scope="module")
-def engine(tmp_path_factory: pytest.TempPathFactory) -> Report:
+def engine(tmp_path_factory: pytest.TempPathFactory) -> ReportContext:
     file = tmp_path_factory.mktemp("engine") / "engine.yaml"
     file.write_text(ENGINE.lstrip(), encoding="utf-8")
-    return Report(cases.opened(api.load(file, "en")))
+    return ReportContext(cases.opened(api.load(file, "en")))
 
 
-def test_where_the_piston_has_no_acceleration_no_two_lines_meet(engine: Report) -> None:
+def test_where_the_piston_has_no_acceleration_no_two_lines_meet(engine: ReportContext) -> None:
     """Where a_C = 0, a_B and a_SB lie along a_BC; the force passes through the centre of percussion seen from C."""
     (body,) = engine.couples
     motion, B, C, S = engine.analysis.motion, *(engine.analysis.motion.points[name] for name in ("B", "C", "S2"))
@@ -53,7 +53,7 @@ def test_where_the_piston_has_no_acceleration_no_two_lines_meet(engine: Report) 
     assert abs(motion.links[2].epsilon[2]) > 0
 
 
-def test_its_text_says_that_they_are_parallel(engine: Report) -> None:
+def test_its_text_says_that_they_are_parallel(engine: ReportContext) -> None:
     text = text_of(engine.case.document())
     third = text[text.index("Inertia forces at position a") :]
     third = third[: third.index("Inertia forces at all positions")]

@@ -24,7 +24,7 @@ from reportgen.drawing.labels import label
 from reportgen.drawing.position_plan import DOT
 from reportgen.formula import Chain, Symbol, vocabulary
 from reportgen.report import mechanism_figures
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 from reportgen.sheets.plates import Sources
 from tests.drawing.overlaps import astray, cross, overlaps, watched
 from tests.lanes import matrix
@@ -43,11 +43,11 @@ def assignment(name: str, extent: Extent = "full") -> Assignment:
     return built.assignment(built.ROOT / "assignments" / f"{name}.yaml").with_extent(extent)
 
 
-def report(made: Assignment) -> Report:
-    return Report(MachineCase(made))
+def report(made: Assignment) -> ReportContext:
+    return ReportContext(MachineCase(made))
 
 
-def drawn(name: str, kind: str) -> tuple[Report, list[FigureScenes]]:
+def drawn(name: str, kind: str) -> tuple[ReportContext, list[FigureScenes]]:
     """The plans of a report, alone and beside the gas; of a sheet before it is enlarged."""
     shown = report(assignment(name, "short" if kind == "short" else "full"))
     if kind == "sheet":
@@ -69,7 +69,7 @@ def rows(scene: Scene) -> Iterator[list[Symbol]]:
     yield row
 
 
-def places(shown: Report) -> dict[Symbol, complex]:
+def places(shown: ReportContext) -> dict[Symbol, complex]:
     """Where each numbered point is on paper at the scale of the text, mm."""
     points, scale = shown.analysis.motion.points, MM / float(shown.ledger["mu.l"].values[0])
     return {
@@ -138,7 +138,7 @@ def test_text_and_caption_say_how_much_smaller_a_plan_is(name: str, language: st
     """Both name the factor and no scale but that of the text; one in the scale of the text has it printed below."""
     path = built.ROOT / "assignments" / f"{name}.yaml"
     made = built.written(path, language, "short")
-    shown, document = Report(made.case), made.document
+    shown, document = ReportContext(made.case), made.document
     scale = Chain((shown.ledger.symbol("mu.l"), shown.ledger.number("mu.l")))
     said = " ".join(plain(b.inlines, language) for b in built.walk(document.blocks) if isinstance(b, Paragraph))
     captions = {b.key: b for b in built.walk(document.blocks) if isinstance(b, (Figure, Plate)) and b.key in PLANS}

@@ -21,7 +21,7 @@ from reportgen.formula.formula_layout import BOUND, MathRow, columns
 from reportgen.formula.vocabulary import vector
 from reportgen.machine import SlidingDriver
 from reportgen.report import force_figures, result_tables
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 from tests.derivation.printed import SHARE
 from tests.lanes import matrix
 from tests.report import built
@@ -49,25 +49,25 @@ def written(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFac
 
 
 @pytest.fixture(scope="module")
-def report(written: Written) -> Report:
+def report(written: Written) -> ReportContext:
     """Machines with loads only."""
-    found = Report(written.case)
+    found = ReportContext(written.case)
     if not found.has_forces:
         pytest.skip("nothing loads this machine")
     return found
 
 
 @pytest.fixture(scope="module")
-def blocks(report: Report, written: Written) -> list[Block]:
+def blocks(report: ReportContext, written: Written) -> list[Block]:
     return list(built.walk(written.document.blocks))
 
 
-def positions(report: Report) -> list[int]:
+def positions(report: ReportContext) -> list[int]:
     further = range(1, report.cycle_count + 1, max(report.cycle_count // FURTHER, 1))
     return sorted({*map(int, report.worked_forces), *further})
 
 
-def value(report: Report, name: str, k: int) -> float:
+def value(report: ReportContext, name: str, k: int) -> float:
     """The size that the formula or the plan of a reaction gives."""
     ledger, digits = report.ledger, name.removeprefix("R")
     if name == "Rcb":
@@ -77,7 +77,7 @@ def value(report: Report, name: str, k: int) -> float:
     return abs(float(ledger[ids[0]].at(k)))
 
 
-def true(report: Report, name: str, k: int) -> complex:
+def true(report: ReportContext, name: str, k: int) -> complex:
     """The force on the link by the equations of equilibrium, which know no plans."""
     analysis = report.analysis
     if name == "Rcb":
@@ -91,7 +91,7 @@ def true(report: Report, name: str, k: int) -> complex:
     return -complex(reactions[f"R{digits[::-1]}"].force[k - 1])
 
 
-def off(report: Report, scene: Scene, k: int) -> list[str]:
+def off(report: ReportContext, scene: Scene, k: int) -> list[str]:
     """The reactions of a scene whose arrow, times the size, is not their true force along the arrow."""
     wrong = []
     for item in scene.items:
@@ -106,7 +106,7 @@ def off(report: Report, scene: Scene, k: int) -> list[str]:
     return wrong
 
 
-def test_an_arrow_times_its_size_is_the_true_force(report: Report) -> None:
+def test_an_arrow_times_its_size_is_the_true_force(report: ReportContext) -> None:
     found, seen = [], 0
     for k in positions(report):
         for group in report.groups:
@@ -117,7 +117,7 @@ def test_an_arrow_times_its_size_is_the_true_force(report: Report) -> None:
     assert seen > 0
 
 
-def test_what_balances_the_driver_is_drawn_in_its_true_sense(report: Report) -> None:
+def test_what_balances_the_driver_is_drawn_in_its_true_sense(report: ReportContext) -> None:
     for k in positions(report):
         drawing = force_figures.driver(report, k).scenes[0]
         assert off(report, drawing, k) == []
@@ -132,7 +132,7 @@ def test_what_balances_the_driver_is_drawn_in_its_true_sense(report: Report) -> 
             )
 
 
-def test_what_moments_give_is_positive_with_a_clockwise_moment(report: Report) -> None:
+def test_what_moments_give_is_positive_with_a_clockwise_moment(report: ReportContext) -> None:
     """As the words beside the figure say: the moment of the true force about the centre of the link's moments."""
     for k in positions(report):
         at = {name: complex(one.p[k - 1]) for name, one in report.analysis.motion.points.items()}
@@ -148,7 +148,7 @@ def test_what_moments_give_is_positive_with_a_clockwise_moment(report: Report) -
 
 
 @pytest.mark.parametrize("language", ["vi", "en"])
-def test_power_is_the_moment_in_the_sense_of_rotation(report: Report, language: Any) -> None:
+def test_power_is_the_moment_in_the_sense_of_rotation(report: ReportContext, language: Any) -> None:
     """Force times velocity is μ_v times the moment on the lever where both turn one way; the words say which way."""
     words = load_words(search_path(language, report.machine.kind))["lever"]
     said = {"vi": "mômen dương theo chiều {ω}", "en": "moments counted positive in the sense of {ω}"}[language]
@@ -177,7 +177,7 @@ def chains(blocks: list[Block]) -> Iterator[Chain]:
             yield from (row for row in block.rows if isinstance(row, Chain))
 
 
-def test_every_reaction_of_the_table_has_a_worked_line(report: Report, blocks: list[Block]) -> None:
+def test_every_reaction_of_the_table_has_a_worked_line(report: ReportContext, blocks: list[Block]) -> None:
     printed = [chain.parts for chain in chains(blocks) if len(chain.parts) > 1]
     first = {parts[0] for parts in printed}
     symbols = {report.ledger.symbol(id) for id in result_tables.reactions(report)}
@@ -204,7 +204,7 @@ def test_no_segment_is_used_before_it_is_measured(blocks: list[Block]) -> None:
             known.add(shown)
 
 
-def test_inertia_forces_are_named_only_where_links_have_mass(report: Report, blocks: list[Block]) -> None:
+def test_inertia_forces_are_named_only_where_links_have_mass(report: ReportContext, blocks: list[Block]) -> None:
     words = {"en": "inertia forces included", "vi": "kể cả lực quán tính"}[report.assignment.language]
     assert any(words in said(block) for block in blocks) == bool(report.inertia_lines)
 

@@ -12,7 +12,7 @@ import pytest
 
 from reportgen.base.template_folders import templates
 from reportgen.document import Section, Table, plain, text_of
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 from reportgen.report.table_remarks import top_reactions
 from tests.lanes import matrix
 from tests.report import built
@@ -24,9 +24,9 @@ TELLING = ("engine-single-I", "shaper-01", "four-bar-02")
 
 
 @cache
-def page(name: str, language: Any) -> tuple[Report, str]:
+def page(name: str, language: Any) -> tuple[ReportContext, str]:
     made = built.written(ROOT / "assignments" / f"{name}.yaml", language)
-    return Report(made.case), text_of(made.document)
+    return ReportContext(made.case), text_of(made.document)
 
 
 @pytest.mark.parametrize("language", ["vi", "en"])

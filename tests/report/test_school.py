@@ -17,7 +17,7 @@ from reportgen.cases import open_case
 from reportgen.document import text_of
 from reportgen.document.template_rendering import Prose
 from reportgen.formula import Symbol
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 from reportgen.report.template_names import names
 from reportgen.sheets import title_block
 from reportgen.writers import latex, pdflatex, typst_math
@@ -181,14 +181,14 @@ def test_a_school_may_have_words_in_any_one_language(language: str, tmp_path: Pa
 
 
 @pytest.fixture(scope="module")
-def report() -> Report:
+def report() -> ReportContext:
     case = open_case(CRANK, "en")
     assert isinstance(case, MachineAnalysis)
-    return Report(case)
+    return ReportContext(case)
 
 
 @pytest.mark.parametrize("gap", ["{0}", "{}", "{#f}", "{x y}", "{_x}", "{'}"])
-def test_a_gap_that_names_nothing_is_a_fault_of_its_line(gap: str, report: Report, tmp_path: Path) -> None:
+def test_a_gap_that_names_nothing_is_a_fault_of_its_line(gap: str, report: ReportContext, tmp_path: Path) -> None:
     """What is no name of a quantity or of a letter becomes no formula, whose source the typesetter would refuse."""
     file = tmp_path / "en.md"
     file.write_text(f'%% foreword\n# Ours\n\n{{{{ say("{gap}", driver) }}}} ends here.\n', encoding="utf-8")

@@ -9,7 +9,7 @@ import pytest
 from reportgen.drawing import Arrow, Line
 from reportgen.drawing.style import NEW
 from reportgen.drawing.vector_plan import Plan, merged, stages
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 from reportgen.report.link_views import GroupView
 from reportgen.report.plan_figures import force_stages, motion_plan
 from tests.lanes import matrix
@@ -36,7 +36,7 @@ def additions(drawing: Plan, stage: int) -> list[tuple[complex, complex]]:
 
 @pytest.mark.parametrize("file", matrix(built.FILES, built.TYPESET), ids=lambda file: file.stem)
 def test_force_plans_begin_with_what_is_known_without_moments(file: Path) -> None:
-    report = Report(built.case(file, built.own_language(file)))
+    report = ReportContext(built.case(file, built.own_language(file)))
     k = report.assignment.worked_positions[0]
 
     def is_drawn(group: GroupView, name: str) -> bool:
@@ -59,7 +59,7 @@ def test_force_plans_begin_with_what_is_known_without_moments(file: Path) -> Non
 
 @pytest.mark.parametrize("file", matrix(built.FILES, built.TYPESET), ids=lambda file: file.stem)
 def test_every_stage_adds_an_arrow_or_a_line(file: Path) -> None:
-    report = Report(built.case(file, built.own_language(file)))
+    report = ReportContext(built.case(file, built.own_language(file)))
     for k in range(1, report.count + 1):
         for drawing in (motion_plan(report, "v", k), motion_plan(report, "a", k)):
             parts = merged(drawing)

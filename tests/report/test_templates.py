@@ -30,7 +30,7 @@ def each_of(file: str, *kinds: type[nodes.Node]) -> list[Any]:
 
 @pytest.mark.parametrize("file", FILES)
 def test_no_template_lists_ids(file: str) -> None:
-    """Which lines belong together is said where they are written, by `Sheet.set_out`."""
+    """Which lines belong together is said where they are written, by `Calculation.set_out`."""
     lists = each_of(file, nodes.List, nodes.Tuple)
     assert [each for each in lists if any(isinstance(item, nodes.Const) for item in each.items)] == []
 

@@ -16,7 +16,7 @@ from reportgen.formula import Number
 from reportgen.motion import views as running
 from reportgen.motion.curves import stopping
 from reportgen.motion.true_motion import at_positions, motion_in
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 from reportgen.report.result_tables import residuals
 from tests.lanes import proof
 from tests.report import built, trees
@@ -69,7 +69,7 @@ def test_the_ledger_has_the_values_of_the_solver() -> None:
 
 
 def test_readings_and_steadiness_are_checked() -> None:
-    checked = residuals(Report(built.case(FILE, "en")))
+    checked = residuals(ReportContext(built.case(FILE, "en")))
     assert checked["drive"] < 1e-12
     assert checked["run_energy"] < 1e-12
 
@@ -96,7 +96,7 @@ def test_a_stop_within_a_few_degrees_has_its_curves(brake: int, tmp_path: Path) 
     file.write_text(text, encoding="utf-8")
     case = open_case(file)
     assert isinstance(case, MachineCase)
-    scenes = stopping(Report(case)).scenes
+    scenes = stopping(ReportContext(case)).scenes
     over_angle = [item.content for item in scenes[0].items if isinstance(item, Label)]
     angles = [content.value for content in over_angle if isinstance(content, Number) and content.unit == "°"]
     assert len(angles) > 2
@@ -124,7 +124,7 @@ def test_a_machine_at_another_speed_than_planned_is_warned_of(tmp_path: Path) ->
 @pytest.mark.parametrize(("true", "verdict"), [(0.033343, "exceeded"), (0.0333334, "kept"), (0.0333, "kept")])
 def test_the_verdict_compares_what_is_printed(true: float, verdict: str) -> None:
     """1/30 to the decimals of δ is 0.033333; 0.033343 exceeds it by 0.03 %."""
-    report = Report(built.case(FILE, "en"))
+    report = ReportContext(built.case(FILE, "en"))
     delta = Number(true, 6)
     with (
         mock.patch.object(running, "_permitted", return_value=1 / 30),

@@ -24,7 +24,7 @@ from reportgen.derivation.equation_sides import image
 from reportgen.drawing import Arrow
 from reportgen.drawing.drawing_sheet import DrawingSheet
 from reportgen.formula import ids
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 from reportgen.report.plan_figures import motion_construction
 from reportgen.sheets import dxf
 from reportgen.writers import typst, typst_compiler
@@ -134,7 +134,7 @@ def test_segments_of_velocities_and_accelerations_are_those_printed(name: str, e
         # The report computes the segments of some points that it does not draw, as of the crank's mass centre.
         drawn = {
             found["corner"]
-            for id in motion_construction(Report(case), what).corners
+            for id in motion_construction(ReportContext(case), what).corners
             if (found := ids.plan_point.read(id))
         }
         for head, plan in shown:
@@ -191,7 +191,7 @@ def test_arms_are_those_printed(name: str) -> None:
     for id in ledger.families:
         lever = ids.lever_arm.read(id)
         arm = lever or ids.arm.read(id)
-        for k in Report(case).worked_forces if arm else ():
+        for k in ReportContext(case).worked_forces if arm else ():
             size = abs(ledger.number(id, k).value)
             if size > DRAWN:
                 drawn = found.get(("lever" if lever else "bodies", ledger[id].of, int(k)), [])

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from reportgen import api
-from reportgen.base.errors import Mark
+from reportgen.base.errors import Location
 from reportgen.base.yaml_source import MappingNode, Scalar, read_source
 from reportgen.base.yaml_values import put, text_of
 from reportgen.catalogue import module
@@ -136,7 +136,7 @@ def test_labels_stay_labels_when_a_file_is_written_anew(tmp_path: Path) -> None:
     path.write_text(re.sub(r"\n  (language|course|worked_positions):.*", "", text), encoding="utf-8")
     top = read_source(path).top
     assert isinstance(top, MappingNode)
-    changed = put(top, ("report", "language"), Scalar("en", Mark("")))
+    changed = put(top, ("report", "language"), Scalar("en", Location("")))
     assert isinstance(changed, MappingNode)
     path.write_text(text_of(changed, path.read_text(encoding="utf-8"), top), encoding="utf-8")
     assert (api.load(path).language, api.load(path).worked_positions) == ("en", (2, 3))

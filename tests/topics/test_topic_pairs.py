@@ -25,7 +25,7 @@ from reportgen.machine import Linkage, joints
 from reportgen.machine.loads import carriers
 from reportgen.machine.shared_results import PHYSICS
 from reportgen.notebook import Model
-from reportgen.report.context import Report
+from reportgen.report.context import ReportContext
 from tests.lanes import matrix
 
 MACHINES = [kind for kind in kinds() if issubclass(catalogue.kind(kind).base, TopicParameters)]
@@ -115,7 +115,7 @@ def test_two_topics_of_one_machine(kind: str, pair: tuple[str, str]) -> None:
     machine = case.analysis.machine
     assert set(pair) <= machine.topics.keys()
     assert case.fault() == ""
-    assert {section_of(topic).chapter for topic in pair} <= set(Report(case).sections)
+    assert {section_of(topic).chapter for topic in pair} <= set(ReportContext(case).sections)
     assert all(map(np.isfinite, numbers(case.entries.positions)))
     if pair in SEEN_TOGETHER:
         assert SEEN_TOGETHER[pair](case)

@@ -10,14 +10,14 @@ from pathlib import Path
 import pytest
 
 from reportgen.base.errors import AssignmentError
-from reportgen.workbook import Book, BookSheet, Entry, Page, read
+from reportgen.workbook import Book, Entry, Page, WorksheetData, read
 
 CYNICAL = ("=cmd|' /C calc'!A0", "+1+1", "-2+3", "@SUM(A1)", "\t=1", '=HYPERLINK("http://x")', "'=1", "＝1")
 """Texts that a spreadsheet would take for formulas."""
 
 BOOK = Book(
     (
-        BookSheet(
+        WorksheetData(
             "Điểm: 1/2",
             (
                 (Entry("Họ tên", "head"), Entry("n", "head", comment="rpm")),
@@ -30,7 +30,7 @@ BOOK = Book(
             frozen=(1, 1),
             protected=True,
         ),
-        BookSheet("điểm_ 1_2", (("x",),), hidden=True),
+        WorksheetData("điểm_ 1_2", (("x",),), hidden=True),
     ),
     title="=1",
 )

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import openpyxl
 
-from reportgen.base.errors import CellMark, Mark, column_letters
-from reportgen.workbook import Book, BookSheet, SheetCell, read, write_xlsx
+from reportgen.base.errors import CellLocation, Location, column_letters
+from reportgen.workbook import Book, SheetCell, WorksheetData, read, write_xlsx
 from tests.workbook.tables import BOOK, CYNICAL
 
 
@@ -45,7 +45,7 @@ def test_a_workbook_comes_back_as_it_was_written(put: Callable[..., Path]) -> No
     first, second = read(path)
     assert (first.name, first.hidden, second.name, second.hidden) == ("Điểm_ 1_2", False, "điểm_ 1_2 (2)", True)
     assert [row[0].value for row in first.rows[1:9]] == list(CYNICAL)
-    assert first.rows[1][1] == SheetCell(-1.25, CellMark(str(path), 2, 2, "Điểm_ 1_2", 1), "number")
+    assert first.rows[1][1] == SheetCell(-1.25, CellLocation(str(path), 2, 2, "Điểm_ 1_2", 1), "number")
     assert [cell.kind for cell in first.rows[9]] == ["empty", "number"]
     assert [cell.text for cell in first.rows[10]] == ["#DIV/0!", "_x0041_"]
     assert [cell.text for cell in first.rows[11]] == ["a\N{REPLACEMENT CHARACTER}b", "12"]
@@ -54,8 +54,8 @@ def test_a_workbook_comes_back_as_it_was_written(put: Callable[..., Path]) -> No
 
 def test_a_sheet_prints_as_wide_as_a_page_with_its_heads_on_each() -> None:
     pages = (
-        BookSheet("narrow", [["head"], ["1"]], (24.0, 44.0), (1, 0)),
-        BookSheet("wide", [["head"], ["1"]], (12.0,) * 20, (1, 1)),
+        WorksheetData("narrow", [["head"], ["1"]], (24.0, 44.0), (1, 0)),
+        WorksheetData("wide", [["head"], ["1"]], (12.0,) * 20, (1, 1)),
     )
     book = openpyxl.load_workbook(io.BytesIO(write_xlsx(Book(pages))))
     for page, orientation in zip(book.worksheets, ("portrait", "landscape"), strict=True):
@@ -66,7 +66,7 @@ def test_a_sheet_prints_as_wide_as_a_page_with_its_heads_on_each() -> None:
 
 
 def test_marks_of_files_sheets_and_cells_are_ordered() -> None:
-    a, c = Mark("a", 2, 1), Mark("c")
-    first, second = CellMark("b", 9, 1, "z", 1), CellMark("b", 1, 1, "a", 2)
+    a, c = Location("a", 2, 1), Location("c")
+    first, second = CellLocation("b", 9, 1, "z", 1), CellLocation("b", 1, 1, "a", 2)
     assert sorted([c, second, first, a]) == [a, first, second, c]
     assert [column_letters(number) for number in (1, 26, 27, 702, 703)] == ["A", "Z", "AA", "ZZ", "AAA"]
