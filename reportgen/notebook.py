@@ -125,7 +125,7 @@ class Model:
         for name, value in values.items():
             where = (PARAMETERS, *name.split("."))
             nearest = next(node for step in range(len(where), -1, -1) if (node := at(top, where[:step])) is not None)
-            changed = put(top, where, Scalar(self._typed(where, value), nearest.mark))
+            changed = put(top, where, Scalar(self._typed(where, value), nearest.location))
             table = at(changed, where[:-1])
             if isinstance(table, MappingNode) and (others := self._alternatives(where) - values.keys()):
                 changed = put(changed, where[:-1], without(table, others))

@@ -242,7 +242,7 @@ def _handed_in(number: int, chance: random.Random, folder: Path) -> None:
     file.write_bytes(content)
     key = _key()[0]
     reading = read_file(file, content, key, "en")
-    remarks = [MarginNote(answer.text, getattr(answer.mark, "element", None)) for answer in reading.values.values()]
+    remarks = [MarginNote(answer.text, getattr(answer.location, "element", None)) for answer in reading.values.values()]
     with_comments(open_word(file, content), [MarginNote("\0 <&>"), *remarks])
 
 
@@ -271,7 +271,7 @@ def _drawing(number: int, chance: random.Random, folder: Path) -> None:
     file = folder / "sheet.dxf"
     file.write_bytes(data)
     reading = read_file(file, data, key, "en", plans)
-    places = [answer.mark for answer in reading.values.values() if isinstance(answer.mark, DrawnLocation)]
+    places = [answer.location for answer in reading.values.values() if isinstance(answer.location, DrawnLocation)]
     with_corrections(data, [RedVector(mark.at, mark.right, ("đúng",)) for mark in places], 1.0)
 
 

@@ -296,7 +296,7 @@ for language in ("en", "vi"):
         "field": field_words("slider-crank", language)["parameters.wear.pins.k"].whole,
         "fault": [fault.code, fault.message, fault.hint],
     }
-found["partial"] = [[one.code, one.mark.line] for one in catalogue.check(file, "ru")]
+found["partial"] = [[one.code, one.location.line] for one in catalogue.check(file, "ru")]
 found["whole"] = is_whole("ru", "slider-crank")
 found["results"], found["dense"] = api.solve(api.load(file)), api.solve(api.load(dense))
 

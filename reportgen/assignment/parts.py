@@ -59,7 +59,7 @@ def read(
         if assignment is None:
             # The faults of a part in place belong to this file, those of a part in a separate file to that one.
             faults += [
-                replace(fault, where=(PARTS, index, *fault.where)) if fault.mark.file == str(path) else fault
+                replace(fault, where=(PARTS, index, *fault.where)) if fault.location.file == str(path) else fault
                 for fault in wrong
             ]
             continue
@@ -101,7 +101,7 @@ def _no_part(source: Source, find: Callable[[str], Kind]) -> Iterator[Fault]:
     """Yield the fault of a kind that cannot be a part, as a machine, which could name parts itself."""
     name = at(source.top, ("kind",))
     if isinstance(name, Scalar) and name.text in kinds() and not find(name.text).part:
-        yield Fault("no-part", name.mark, {"text": name.text})
+        yield Fault("no-part", name.location, {"text": name.text})
 
 
 def numbered(head: str, number: int) -> str:
@@ -137,7 +137,7 @@ def in_place(top: MappingNode, path: Path) -> tuple[MappingNode, dict[int, Sourc
         if not unread and isinstance(source.top, MappingNode):
             about = tuple(entry for entry in item.entries if entry[0].text in ABOUT and entry[0].text != "file")
             own = without(source.top, (*UNUSED, *ABOUT))
-            whole = put(whole, (PARTS, index), MappingNode((*about, *own.entries), item.mark))
+            whole = put(whole, (PARTS, index), MappingNode((*about, *own.entries), item.location))
             if item.find("file"):
                 sources[index] = source
     assert isinstance(whole, MappingNode), "parts are put into a table"
@@ -179,13 +179,13 @@ def source_of(top: MappingNode, path: Path, index: int) -> tuple[Source, list[Fa
     named = place[1]
     if inline.entries:
         second = inline.entries[0][0]
-        return Source(str(path)), [Fault("both-given", second.mark, {"first": "file", "second": second.text})]
+        return Source(str(path)), [Fault("both-given", second.location, {"first": "file", "second": second.text})]
     file = path.parent / named.text
     if leads_out(file, path.parent):
         # The file is outside the folder, so it is not read and its content is not reported.
-        return Source(str(path)), [Fault("path-outside", named.mark, {"text": named.text})]
+        return Source(str(path)), [Fault("path-outside", named.location, {"text": named.text})]
     source = read_source(file)
-    unread = [replace(fault, mark=named.mark) for fault in source.faults if fault.code == "unreadable"]
+    unread = [replace(fault, location=named.location) for fault in source.faults if fault.code == "unreadable"]
     return source, unread
 
 
@@ -221,13 +221,13 @@ def _with_taken(
         if not isinstance(value, Scalar) or value.null:
             known = ", ".join(_quantities(top))
             own_place = ("from", datum.key, "of")
-            faults.append(Fault("no-datum", wanted.mark, {"text": datum.of, "known": known}, own_place))
+            faults.append(Fault("no-datum", wanted.location, {"text": datum.of, "known": known}, own_place))
         elif own is not None:
-            faults.append(Fault("datum-twice", own.mark, {"key": datum.key}, ("parameters", datum.key)))
+            faults.append(Fault("datum-twice", own.location, {"key": datum.key}, ("parameters", datum.key)))
         elif node is not None:
             times = factors[datum.key]
             text = value.text if times is None else scaled(value.text, times)
-            node = put(node, ("parameters", datum.key), Scalar(text, wanted.mark))
+            node = put(node, ("parameters", datum.key), Scalar(text, wanted.location))
     return replace(source, top=node), faults
 
 
@@ -244,9 +244,9 @@ def _with_direction(source: Source, top: MappingNode, find: Callable[[str], Kind
     sense = of_machine.text if isinstance(of_machine, Scalar) and not of_machine.null else ANTICLOCKWISE
     if isinstance(own, Scalar) and not own.null:
         against = own.text in SENSES and sense in SENSES and own.text != sense
-        wrong = Fault("shaft-sense", own.mark, {"text": own.text, "of": sense}, ("parameters", DIRECTION))
+        wrong = Fault("shaft-sense", own.location, {"text": own.text, "of": sense}, ("parameters", DIRECTION))
         return source, [wrong] if against else []
-    return replace(source, top=put(node, ("parameters", DIRECTION), Scalar(sense, name.mark))), []
+    return replace(source, top=put(node, ("parameters", DIRECTION), Scalar(sense, name.location))), []
 
 
 def place_of(name: str) -> Where:

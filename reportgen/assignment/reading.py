@@ -58,9 +58,9 @@ def assess(
             places = {finding.where for finding in findings}
             findings += [finding for finding in check_one(draft) if finding.where not in places]
     # The source has already refused these nodes; they are not checked again.
-    refused = {fault.mark.line for fault in faults if fault.code in {"alias", "tag", "tab"}}
+    refused = {fault.location.line for fault in faults if fault.code in {"alias", "tag", "tab"}}
     placed = [_placed(finding, top) for finding in _without_renamed(findings)]
-    faults += [fault for fault in placed if fault.mark.line not in refused]
+    faults += [fault for fault in placed if fault.location.line not in refused]
     if faults or kind is None:
         return None, faults
     values = {"positions": Positions(), "drawing": Drawing(), "indicator": None, **draft.sections}
@@ -158,7 +158,7 @@ def _doubtful(node: Node | None) -> Iterator[Fault]:
                 if key.text in WORDED:
                     continue
                 if isinstance(value, Scalar) and value.null:
-                    yield Fault("left-empty", key.mark, {"key": key.text})
+                    yield Fault("left-empty", key.location, {"key": key.text})
                 yield from _doubtful(value)
         case SequenceNode(items):
             texts = [item.text for item in items if isinstance(item, Scalar)]
@@ -179,8 +179,8 @@ def _top(source: Source) -> tuple[MappingNode | None, list[Fault]]:
     if isinstance(source.top, MappingNode):
         return source.top, faults
     if source.top is not None and not faults:
-        wrong = Fault("wrong-type", source.top.mark, {"expected": "mapping"})
-        faults.append((isinstance(source.top, Scalar) and slip(source.top.text, source.top.mark)) or wrong)
+        wrong = Fault("wrong-type", source.top.location, {"expected": "mapping"})
+        faults.append((isinstance(source.top, Scalar) and slip(source.top.text, source.top.location)) or wrong)
     return None, faults
 
 
@@ -320,24 +320,24 @@ def _real(location: Where, content: Any) -> Iterator[str | int]:
 def _placed(finding: Finding, top: MappingNode) -> Fault:
     """Return the finding with its mark; a missing value is reported at the key it is missing under."""
     node: Node = top
-    key_mark = top.mark
+    key_location = top.location
     for step in finding.where:
         entry = node.find(step) if isinstance(node, MappingNode) else None
         if entry is not None:
             key, node = entry
-            key_mark = key.mark
+            key_location = key.location
             continue
         if isinstance(node, SequenceNode) and isinstance(step, int) and step < len(node.items):
             node = node.items[step]
-            key_mark = node.mark
+            key_location = node.location
             continue
-        return Fault(finding.code, key_mark, finding.arguments, finding.where)
+        return Fault(finding.code, key_location, finding.arguments, finding.where)
     unwritten = isinstance(node, Scalar) and node.null
     at_key = finding.at == "key"
-    mark: Location = key_mark if at_key or unwritten else node.mark
+    location: Location = key_location if at_key or unwritten else node.location
     text = str(finding.where[-1]) if at_key else node.text if isinstance(node, Scalar) and not node.quoted else ""
     # Faults of a valid value, for example that it is out of range, stay.
-    mistyped = slip(text, mark) if finding.code in MISTYPED else None
+    mistyped = slip(text, location) if finding.code in MISTYPED else None
     if mistyped is not None:
         return replace(mistyped, where=finding.where)
-    return Fault(finding.code, mark, finding.arguments, finding.where)
+    return Fault(finding.code, location, finding.arguments, finding.where)

@@ -27,4 +27,4 @@ def handed_out(path: Path) -> str:
         bare = put(whole, REPORT, without(report, LOOK))
         assert isinstance(bare, MappingNode), "a section is put into a table"
         whole = bare
-    return text_of(whole, "", MappingNode((), whole.mark))
+    return text_of(whole, "", MappingNode((), whole.location))

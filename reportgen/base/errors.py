@@ -69,7 +69,7 @@ class Fault:
     """
 
     code: str
-    mark: Location
+    location: Location
     arguments: Mapping[str, str] = field(default_factory=dict)
     where: Where = field(default=(), compare=False)
     """The place in the content of its file, as far as there is one."""
@@ -107,7 +107,7 @@ class Problem:
 
     code: str
     message: str
-    mark: Location
+    location: Location
     hint: str | None = None
     level: Level = "error"
     advice: str = "hint"
@@ -116,10 +116,10 @@ class Problem:
 
     def in_file(self, file: str) -> Problem:
         """Return the same problem, its file named as `file`."""
-        return replace(self, mark=replace(self.mark, file=file))
+        return replace(self, location=replace(self.location, file=file))
 
     def __str__(self) -> str:
-        line = f"{self.mark}: {self.level}[{self.code}]: {self.message}"
+        line = f"{self.location}: {self.level}[{self.code}]: {self.message}"
         return f"{line}\n    {self.advice}: {self.hint}" if self.hint else line
 
 
@@ -135,7 +135,7 @@ class AssignmentError(ReportgenError):
     """An input file is at fault; `problems` are all its faults, in the order of the file."""
 
     def __init__(self, problems: list[Problem]) -> None:
-        self.problems = tuple(sorted(problems, key=lambda problem: problem.mark))
+        self.problems = tuple(sorted(problems, key=lambda problem: problem.location))
         super().__init__("\n".join(str(problem) for problem in self.problems))
 
     def __reduce__(self) -> tuple[type[AssignmentError], tuple[list[Problem]]]:

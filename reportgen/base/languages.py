@@ -241,7 +241,7 @@ def read_setting(file: Path) -> LanguageSetting:
         raise TemplateError(f"{file}: {text.wordless}")
     source = read_own(text, str(file))
     if source.faults:
-        raise TemplateError("\n".join(f"{fault.mark}: {fault.wordless}" for fault in source.faults))
+        raise TemplateError("\n".join(f"{fault.location}: {fault.wordless}" for fault in source.faults))
     setting: LanguageSetting = _table(LanguageSetting, source.top, str(file))
     return setting
 
@@ -258,21 +258,21 @@ _PARTS: Mapping[str, type[Any]] = {
 
 def _table(form: type[Any], node: Node | None, place: str) -> Any:
     if not isinstance(node, MappingNode):
-        raise TemplateError(f"{node.mark if node else place}: a table is wanted here")
+        raise TemplateError(f"{node.location if node else place}: a table is wanted here")
     known = {field.name: field for field in fields(form)}
     values: dict[str, Any] = {}
     for key, value in node.entries:
         if key.text not in known:
-            raise TemplateError(f"{key.mark}: {key.text} is no key here; those are {', '.join(known)}")
+            raise TemplateError(f"{key.location}: {key.text} is no key here; those are {', '.join(known)}")
         part = _PARTS.get(key.text) if form is LanguageSetting else None
         values[key.text] = _table(part, value, place) if part else _value(str(known[key.text].type), value)
         if isinstance(values[key.text], PageMargins) and values[key.text].narrow:
-            raise TemplateError(f"{value.mark}: figures and tables need a page with 160 mm across and 255 mm down")
+            raise TemplateError(f"{value.location}: figures and tables need a page with 160 mm across and 255 mm down")
     try:
         return form(**values)
     except TypeError:
         missing = ", ".join(name for name in ("name", "code", "decimal") if name in known and name not in values)
-        raise TemplateError(f"{node.mark}: missing: {missing}") from None
+        raise TemplateError(f"{node.location}: missing: {missing}") from None
 
 
 def _value(kind: str, node: Node) -> Any:
@@ -309,7 +309,7 @@ def _value(kind: str, node: Node) -> Any:
         "tuple[str, ...]": "a list, or none",
         "Mapping[str, str]": "a table of texts",
     }
-    raise TemplateError(f"{node.mark}: {wanted.get(kind, 'true, false or a list')} is wanted here")
+    raise TemplateError(f"{node.location}: {wanted.get(kind, 'true, false or a list')} is wanted here")
 
 
 __all__ = ["DecimalMark", "Language", "LanguageSetting", "decimal_mark", "languages", "read_setting", "setting_of"]

@@ -33,13 +33,13 @@ def meant(key: str) -> str:
     return unparted["key"] if unparted else in_quotes(key) or _ODD_BLANK.sub("", key)
 
 
-def slip(text: str, mark: Location) -> Fault | None:
+def slip(text: str, location: Location) -> Fault | None:
     """Return the typing mistake in a text that was meant to be a key, a value or a section; None if there is none."""
     if odd := _ODD_BLANK.search(text):
-        return _odd_blank(odd, mark)
+        return _odd_blank(odd, location)
     if in_quotes(text) is not None:
-        return Fault("typographic-quotes", mark, {"text": text, "fixed": in_quotes(text) or ""})
-    return _unparted(text, mark)
+        return Fault("typographic-quotes", location, {"text": text, "fixed": in_quotes(text) or ""})
+    return _unparted(text, location)
 
 
 def slips_above(lines: list[str], line: int, file: str) -> list[Fault]:
@@ -55,14 +55,14 @@ def slips_above(lines: list[str], line: int, file: str) -> list[Fault]:
     return faults
 
 
-def misplaced(lines: list[str], mark: Location) -> Location:
+def misplaced(lines: list[str], location: Location) -> Location:
     """Return the mark of a line or of the line above it, whichever has the indentation that is unusual in this file."""
     indents = {number: len(line) - len(line.lstrip(" ")) for number, line in enumerate(lines, 1) if _bare(line).strip()}
     usual = Counter(filter(None, indents.values())).most_common(1)
-    above = max((number for number in indents if number < mark.line), default=0)
-    if above and usual and indents[above] % usual[0][0] and indents.get(mark.line, 0) % usual[0][0] == 0:
-        return Location(mark.file, above, indents[above] + 1)
-    return mark
+    above = max((number for number in indents if number < location.line), default=0)
+    if above and usual and indents[above] % usual[0][0] and indents.get(location.line, 0) % usual[0][0] == 0:
+        return Location(location.file, above, indents[above] + 1)
+    return location
 
 
 def _bare(line: str) -> str:
@@ -79,12 +79,12 @@ def _slips_in(line: str, number: int, file: str) -> Iterator[Fault]:
         yield from [fault] if fault else []
 
 
-def _odd_blank(blank: re.Match[str], mark: Location) -> Fault:
+def _odd_blank(blank: re.Match[str], location: Location) -> Fault:
     about = {"text": f"U+{ord(blank[0]):04X}"}
-    return Fault("odd-blank", Location(mark.file, mark.line, mark.column + blank.start()), about)
+    return Fault("odd-blank", Location(location.file, location.line, location.column + blank.start()), about)
 
 
-def _unparted(text: str, mark: Location) -> Fault | None:
+def _unparted(text: str, location: Location) -> Fault | None:
     """Return a fault for a key and its value without a separator, or with an equals sign."""
     match = _UNPARTED.fullmatch(text)
     if match is None:
@@ -92,6 +92,8 @@ def _unparted(text: str, mark: Location) -> Fault | None:
     value = _NEXT.sub("", match["value"])
     end = match.start("value")
     code = "equals-sign" if "=" in text[len(match["key"]) : end] else "no-blank"
-    column = mark.column + len(match["lead"])
+    column = location.column + len(match["lead"])
     fixed = f"{match['key']}: {value}"
-    return Fault(code, Location(mark.file, mark.line, column), {"text": text[:end].lstrip() + value, "line": fixed})
+    return Fault(
+        code, Location(location.file, location.line, column), {"text": text[:end].lstrip() + value, "line": fixed}
+    )

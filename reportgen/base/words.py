@@ -84,8 +84,8 @@ def named_school() -> Path | None:
         return None
     folder = Path(named).absolute()
     if strays := school_strays(folder):
-        mark = Location(str(strays[0]))
-        raise TemplateError(str(as_problem(Fault("path-outside", mark, {"text": strays[0].name}), None)))
+        location = Location(str(strays[0]))
+        raise TemplateError(str(as_problem(Fault("path-outside", location, {"text": strays[0].name}), None)))
     if not is_school(folder):
         raise TemplateError(word("no_templates", None, place=folder))
     return folder
@@ -164,7 +164,7 @@ def _as_written(section: Passage, place: Path, of_others: bool) -> Mapping[str, 
         ):
             if not sound:
                 refusal = word(key, of_file(place), longest=LONGEST)
-                raise TemplateError(f"{_below(scalar.mark, section.line)}: {refusal}")
+                raise TemplateError(f"{_below(scalar.location, section.line)}: {refusal}")
     return _table(source, section.line)
 
 
@@ -201,21 +201,21 @@ def of_file(file: Path) -> Language:
 def _table(source: Source, above: int = 0) -> Mapping[str, Any]:
     """Return the table that a file is, or the part of one below its first lines."""
     if source.faults:
-        raise TemplateError("\n".join(f"{_below(fault.mark, above)}: {fault.wordless}" for fault in source.faults))
+        raise TemplateError("\n".join(f"{_below(fault.location, above)}: {fault.wordless}" for fault in source.faults))
     if not isinstance(source.top, MappingNode):
         raise TemplateError(f"{_below(Location(source.file), above)}: a table of words is wanted here")
 
     def said(scalar: Scalar) -> str:
         text = _Word(in_a_line(scalar.text))
-        text.mark = _below(scalar.mark, above)
+        text.mark = _below(scalar.location, above)
         return text
 
     content: Mapping[str, Any] = plain(source.top, said)
     return content
 
 
-def _below(mark: Location, above: int) -> Location:
-    return replace(mark, line=mark.line + above)
+def _below(location: Location, above: int) -> Location:
+    return replace(location, line=location.line + above)
 
 
 def _over(below: Mapping[str, Any], above: Mapping[str, Any], place: Path, where: Where = ()) -> Mapping[str, Any]:
@@ -229,7 +229,7 @@ def _over(below: Mapping[str, Any], above: Mapping[str, Any], place: Path, where
         if not _alike(value, common):
             section = sections(place)[SECTION]
             node = at(read_text(section.text).top, here)
-            line = section.line + (node.mark.line if node else 0)
+            line = section.line + (node.location.line if node else 0)
             raise TemplateError(f"{place}:{line}: {word('template_form', of_file(place), text=path_text(here))}")
         result[key] = _over(common, value, place, here) if isinstance(value, Mapping) else value
     return result | {key: value for key, value in below.items() if key not in result}
@@ -348,7 +348,7 @@ def as_problem(fault: Fault, language: Language | None, level: Level = "error") 
     hint = next((hint for hint in hints if gaps(hint) <= arguments.keys()), None)
     advice = hint.format_map(arguments) if hint else None
     called = str(table["words"]["hint"])
-    problem = Problem(fault.code, message, fault.mark, advice, level, called)
+    problem = Problem(fault.code, message, fault.location, advice, level, called)
     return replace(problem, where=fault.where, remedies=fault.remedies)
 
 

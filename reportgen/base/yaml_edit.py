@@ -159,7 +159,7 @@ def _above(top: MappingNode, where: Where) -> tuple[Node, Where]:
 def _within(keys: Where, value: Node) -> Node:
     """Return a value in as many tables as there are keys."""
     for key in reversed(keys):
-        value = MappingNode(((Scalar(str(key), value.mark), value),), value.mark)
+        value = MappingNode(((Scalar(str(key), value.location), value),), value.location)
     return value
 
 
@@ -242,7 +242,7 @@ def _with_entry(text: str, table: MappingNode, key: str, value: Node) -> str:
         return f"{before}{', ' if table.entries else ''}{quoted(key)}: {flow(value)}{text[closing:]}"
     depth = table.span[0] - _line_start(text, table.span[0])
     end = _behind(text, table.span[1], depth)
-    lines = entry_text(Scalar(key, value.mark), value, depth).replace("\n", _newline(text))
+    lines = entry_text(Scalar(key, value.location), value, depth).replace("\n", _newline(text))
     head = text[:end] if text[:end].endswith("\n") else text[:end] + _newline(text)
     return head + lines + text[end:]
 

@@ -64,7 +64,7 @@ class Scalar:
     """
 
     text: str
-    mark: Location
+    location: Location
     null: bool = False
     quoted: bool = False
     span: Span = field(default=NOWHERE, compare=False, repr=False)
@@ -79,7 +79,7 @@ class Quoted(str):
 @dataclass(frozen=True, slots=True)
 class SequenceNode:
     items: tuple[Node, ...]
-    mark: Location
+    location: Location
     span: Span = field(default=NOWHERE, compare=False, repr=False)
 
 
@@ -88,7 +88,7 @@ class MappingNode:
     """A mapping: its entries in the order of the file, each key once."""
 
     entries: tuple[tuple[Scalar, Node], ...]
-    mark: Location
+    location: Location
     span: Span = field(default=NOWHERE, compare=False, repr=False)
 
     def find(self, key: object) -> tuple[Scalar, Node] | None:
@@ -195,8 +195,8 @@ def read_text(text: str, file: str = "") -> Source:
     except yaml.MarkedYAMLError as fault:
         told, lines = _syntax(fault, file), _lines(text)
         if told.arguments.get("hint") == "syntax-indent":
-            told = replace(told, mark=misplaced(lines, told.mark))
-        return Source(file, text, faults=(*loader.faults, *(slips_above(lines, told.mark.line, file) or [told])))
+            told = replace(told, location=misplaced(lines, told.location))
+        return Source(file, text, faults=(*loader.faults, *(slips_above(lines, told.location.line, file) or [told])))
     except ValueError:
         # A number in an escape or a directive that Python refuses to read.
         here = Location(file, loader.line + 1, loader.column + 1)
@@ -276,21 +276,21 @@ class _Loader(yaml.SafeLoader):
         parser: Any = self
         event = parser.peek_event()
         ends = event.start_mark, event.end_mark
-        mark = _mark(event.start_mark, self.file)
+        location = _location(event.start_mark, self.file)
         if isinstance(parent, yaml.MappingNode) and index is None and len(parent.value) == MOST_KEYS:
-            self.stop(Fault("too-many", mark, {"most": str(MOST_KEYS)}))
+            self.stop(Fault("too-many", location, {"most": str(MOST_KEYS)}))
         if isinstance(event, yaml.AliasEvent):
             parser.get_event()
-            self.add(Fault("alias", mark))
+            self.add(Fault("alias", location))
             return yaml.ScalarNode("tag:yaml.org,2002:null", "", *ends)
         if getattr(event, "anchor", None):
-            self.add(Fault("alias", mark))
+            self.add(Fault("alias", location))
             self.anchors.pop(event.anchor, None)
         if getattr(event, "tag", None):
-            self.add(Fault("tag", mark, {"tag": str(event.tag)}))
+            self.add(Fault("tag", location, {"tag": str(event.tag)}))
         self.depth += 1
         if self.depth > DEEPEST:
-            self.stop(Fault("too-deep", mark, {"deepest": str(DEEPEST)}))
+            self.stop(Fault("too-deep", location, {"deepest": str(DEEPEST)}))
         node = super().compose_node(parent, index)
         self.depth -= 1
         return node
@@ -305,25 +305,27 @@ class _Loader(yaml.SafeLoader):
         raise _StoppedError
 
 
-def _mark(place: yaml.Mark, file: str) -> Location:
+def _location(place: yaml.Mark, file: str) -> Location:
     return Location(file, place.line + 1, place.column + 1)
 
 
 def _node(node: yaml.Node, file: str, faults: list[Fault]) -> Node:
-    mark = _mark(node.start_mark, file)
+    location = _location(node.start_mark, file)
     start, end = node.start_mark.index, node.end_mark.index
     if isinstance(node, yaml.SequenceNode):
         items = tuple(_node(item, file, faults) for item in node.value)
         # A list in block form ends with its last item, not where the next thing begins.
-        return SequenceNode(items, mark, (start, end if node.flow_style or not items else items[-1].span[1]))
+        return SequenceNode(items, location, (start, end if node.flow_style or not items else items[-1].span[1]))
     if isinstance(node, yaml.MappingNode):
         entries = tuple(_entries(node, file, faults))
-        return MappingNode(entries, mark, (start, end if node.flow_style or not entries else entries[-1][1].span[1]))
+        return MappingNode(
+            entries, location, (start, end if node.flow_style or not entries else entries[-1][1].span[1])
+        )
     style = getattr(node, "style", None) or None  # libyaml gives a plain scalar the style ""
     if style is None and "\t" in node.value:
-        faults.append(Fault("tab", mark))
+        faults.append(Fault("tab", location))
     null, in_marks = style is None and node.value in _NULL, style in ("'", '"')
-    return Scalar(node.value, mark, null=null, quoted=in_marks, span=(start, end))
+    return Scalar(node.value, location, null=null, quoted=in_marks, span=(start, end))
 
 
 def _entries(node: yaml.MappingNode, file: str, faults: list[Fault]) -> Iterator[tuple[Scalar, Node]]:
@@ -332,14 +334,14 @@ def _entries(node: yaml.MappingNode, file: str, faults: list[Fault]) -> Iterator
     for key_node, value_node in _rejoined(node):
         key, value = _node(key_node, file, faults), _node(value_node, file, faults)
         if not isinstance(key, Scalar):
-            faults.append(Fault("wrong-type", key.mark, {"expected": "text"}))
+            faults.append(Fault("wrong-type", key.location, {"expected": "text"}))
             continue
         name = unicodedata.normalize("NFC", key.text)
         if name in seen:
-            faults.append(Fault("duplicate-key", key.mark, {"key": key.text, "line": str(seen[name].line)}))
+            faults.append(Fault("duplicate-key", key.location, {"key": key.text, "line": str(seen[name].line)}))
             continue
-        seen[name] = key.mark
-        yield Scalar(name, key.mark, span=key.span), value
+        seen[name] = key.location
+        yield Scalar(name, key.location, span=key.span), value
 
 
 def _rejoined(node: yaml.MappingNode) -> list[tuple[yaml.Node, yaml.Node]]:
@@ -383,12 +385,12 @@ def _lines(text: str) -> list[str]:
 
 def _syntax(fault: yaml.MarkedYAMLError, file: str) -> Fault:
     place = fault.problem_mark or fault.context_mark
-    mark = _mark(place, file) if place else Location(file)
+    location = _location(place, file) if place else Location(file)
     problem = f"{fault.context or ''} {fault.problem or ''}"
     if "'\\t'" in problem:
-        return Fault("tab", mark)
+        return Fault("tab", location)
     hint = next((key for words, key in _SYNTAX if words in problem), "syntax")
-    return Fault("syntax", mark, {"hint": hint})
+    return Fault("syntax", location, {"hint": hint})
 
 
 def mark_after(before: str, file: str) -> Location:

@@ -38,9 +38,9 @@ def put(node: Node, where: Where, value: Node) -> Node:
         return replace(node, items=items)
     entries = node.entries if isinstance(node, MappingNode) else ()
     if step not in [key.text for key, _ in entries]:
-        entries = (*entries, (Scalar(str(step), value.mark), MappingNode((), value.mark)))
+        entries = (*entries, (Scalar(str(step), value.location), MappingNode((), value.location)))
     changed = tuple((key, put(old, rest, value) if key.text == step else old) for key, old in entries)
-    return MappingNode(changed, node.mark)
+    return MappingNode(changed, node.location)
 
 
 def without(table: MappingNode, keys: Collection[str]) -> MappingNode:
@@ -90,9 +90,9 @@ def _block(table: MappingNode, original: MappingNode, lines: Sequence[str], dept
         elif value is entry[1]:
             text += _joined(span)
         elif isinstance(value, MappingNode) and isinstance(entry[1], MappingNode) and _is_block(entry[0], entry[1]):
-            start = entry[0].mark.line - 1
-            text += _joined(lines[start : entry[1].mark.line - 1])
-            text += _block(value, entry[1], lines[: start + len(span)], entry[1].mark.column - 1)
+            start = entry[0].location.line - 1
+            text += _joined(lines[start : entry[1].location.line - 1])
+            text += _block(value, entry[1], lines[: start + len(span)], entry[1].location.column - 1)
         else:
             text += _with_comment(entry_text(key, value, depth), span, value)
     return text
@@ -103,14 +103,18 @@ def _joined(lines: Sequence[str]) -> str:
 
 
 def _is_block(key: Scalar, table: MappingNode) -> bool:
-    return bool(table.entries) and table.mark.line > key.mark.line and table.mark == table.entries[0][0].mark
+    return (
+        bool(table.entries)
+        and table.location.line > key.location.line
+        and table.location == table.entries[0][0].location
+    )
 
 
 def _spans(table: MappingNode, lines: Sequence[str]) -> dict[str, Sequence[str]]:
     """Return the lines of each entry, up to the next; empty for entries that share lines."""
     keys = [key for key, _ in table.entries]
-    starts = [key.mark.line for key in keys]
-    shared = any(lines[key.mark.line - 1][: key.mark.column - 1].strip() for key in keys)
+    starts = [key.location.line for key in keys]
+    shared = any(lines[key.location.line - 1][: key.location.column - 1].strip() for key in keys)
     if not keys or shared or len(set(starts)) < len(starts):
         return {}
     ends = [*(line - 1 for line in starts[1:]), len(lines)]

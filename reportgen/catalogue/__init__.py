@@ -202,7 +202,7 @@ def problems_of(source: Source, path: Path, language: Language | None = None) ->
     problems = [as_problem(one, spoken, level) for level in by_level for one in reading.placed(source, by_level[level])]
     doubtful = (*reading.doubtful(source), *reading.doubtful_parts(source, path))
     problems += [as_problem(one, spoken, "warning") for one in doubtful]
-    return sorted(problems, key=lambda problem: problem.mark)
+    return sorted(problems, key=lambda problem: problem.location)
 
 
 def _doubts(assignment: Assignment) -> Iterator[Finding]:
@@ -227,9 +227,9 @@ def example(path: Path, language: Language | None = None) -> str:
     assert isinstance(source.top, MappingNode), "an example is in order"
     if language is None:
         return source.text
-    top = put(source.top, ("report", "language"), Scalar(language, source.top.mark))
+    top = put(source.top, ("report", "language"), Scalar(language, source.top.location))
     assert isinstance(top, MappingNode), "a key is put into a table"
-    before = source.text.splitlines(keepends=True)[: source.top.mark.line - 1]
+    before = source.text.splitlines(keepends=True)[: source.top.location.line - 1]
     return "".join(before) + text_of(top, source.text, source.top)
 
 

@@ -69,19 +69,19 @@ def opened(path: Path, data: bytes | None, judge: CountStudents) -> Iterator[Arc
     Raises `RefusedError` for one that is damaged, encrypted, unpacks to too much or has names that lead outside; also
     while its members are read.
     """
-    mark = Location(str(path))
+    location = Location(str(path))
     try:
         with zipfile.ZipFile(path if data is None else io.BytesIO(data)) as file:
             infos = [info for info in file.infolist() if not info.is_dir()]
             names = decoded_names(infos, judge)
             members = tuple(ArchiveMember(name, info) for name, info in zip(names, infos, strict=True))
             if fault := _fault(members, path):
-                raise RefusedError(fault.code, fault.mark, **fault.arguments)
+                raise RefusedError(fault.code, fault.location, **fault.arguments)
             yield Archive(members, file)
     except UNREADABLE_ZIP:
-        raise RefusedError("archive-damaged", mark) from None
+        raise RefusedError("archive-damaged", location) from None
     except OSError as error:
-        raise RefusedError("unreadable", mark, reason=cause(error)) from None
+        raise RefusedError("unreadable", location, reason=cause(error)) from None
 
 
 def decoded_names(infos: Sequence[zipfile.ZipInfo], judge: CountStudents) -> list[str]:
@@ -121,13 +121,13 @@ def _stated(info: zipfile.ZipInfo) -> str | None:
 def _fault(members: Sequence[ArchiveMember], path: Path) -> Fault | None:
     """Return the reason to reject an archive, or None: outside names, links, encryption, or too much content."""
     for member in members:
-        info, mark = member.info, Location(str(path / PurePosixPath(member.name).name))
+        info, location = member.info, Location(str(path / PurePosixPath(member.name).name))
         if not _is_harmless(member.name) or stat.S_ISLNK(info.external_attr >> 16):
-            return Fault("archive-path", mark, {"text": member.name})
+            return Fault("archive-path", location, {"text": member.name})
         if info.flag_bits & 1:
-            return Fault("archive-encrypted", mark)
+            return Fault("archive-encrypted", location)
         if info.file_size > SMALL and info.file_size > MOST_RATIO * max(info.compress_size, 1):
-            return Fault("archive-bomb", mark)
+            return Fault("archive-bomb", location)
     twice = [name for name, count in Counter(member.name for member in members).items() if count > 1]
     if twice:
         return Fault("archive-path", Location(str(path)), {"text": twice[0]})

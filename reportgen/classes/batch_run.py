@@ -194,7 +194,7 @@ def _run(
             watch(job.folder, job.product, "kept")
         for student, problem in refused:
             # The manifest contains no folders.
-            text = str(problem.in_file(Path(problem.mark.file).name))
+            text = str(problem.in_file(Path(problem.location.file).name))
             for product in makers:
                 add(ManifestEntry(student.id, student.folder, product, problems=(text,)), (problem,), exit_code=1)
         files = {student.id: str(file) for student, file in assigned}
@@ -203,7 +203,7 @@ def _run(
                 outcome = _put(job, made, out, entries.get((job.student, job.product)))
                 file_name = files[job.student]
                 problems = tuple(
-                    one if isinstance(one, str) else one.in_file(str(Path(file_name).parent / one.mark.file))
+                    one if isinstance(one, str) else one.in_file(str(Path(file_name).parent / one.location.file))
                     for one in outcome.problems
                 )
                 add(entry_of(job, outcome), problems, outcome.exit_code)

@@ -73,7 +73,7 @@ def files_of(
         )
         missing += refused
         problems += missing
-        said = (f"{Path(problem.mark.file).name}: {problem.message}" for problem in missing)
+        said = (f"{Path(problem.location.file).name}: {problem.message}" for problem in missing)
         markings.append(replace(marking, unwritten=tuple(said)))
         folder = _folder(key)
         yield from ((folder / name, content) for name, content in {**copies, **files}.items())
@@ -133,7 +133,7 @@ def _copies(
 
 def _unwritten(problem: Problem, language: Language | None) -> Problem:
     """Return the warning that a file is marked but no copy is returned, with the reason."""
-    fault = Fault("own-not-written", problem.mark, {"text": problem.message})
+    fault = Fault("own-not-written", problem.location, {"text": problem.message})
     return replace(as_problem(fault, language, "warning"), hint=problem.hint)
 
 

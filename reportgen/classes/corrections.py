@@ -42,7 +42,7 @@ SIGNED, DATED = "judged_by", "judged_on"
 class Correction:
     """A row: student, quantity and position as typed.
 
-    `judgement` is right, wrong or a number of points; `marks` are the locations of its cells.
+    `judgement` is right, wrong or a number of points; `locations` are those of its cells.
     """
 
     who: str
@@ -51,7 +51,7 @@ class Correction:
     judgement: Verdict | float
     reason: str
     value: str
-    marks: Mapping[str, Location]
+    locations: Mapping[str, Location]
     signed: tuple[str, ...] = ()
     """The person and the date of the correction, as typed."""
 
@@ -73,7 +73,7 @@ def read_corrections(path: Path, language: Language | None = None) -> tuple[Corr
         names = {column.name for column in headed}
         who = next((name for name in ("id", "email", "name") if name in names), "id")
         lacking = [name for name in (who, *NEEDED) if name not in names]
-        faults += [Fault("correction-column", headed[0].mark, {"key": name}) for name in lacking]
+        faults += [Fault("correction-column", headed[0].location, {"key": name}) for name in lacking]
         rows = [] if lacking else list(records(page, headed, head + 1, faults))
         made = [_correction(row, who, faults) for row in rows]
         if faults:
@@ -85,7 +85,7 @@ def read_corrections(path: Path, language: Language | None = None) -> tuple[Corr
 def _correction(row: Record, who: str, faults: list[Fault]) -> Correction | None:
     texts = {name: " ".join(value.text.split()) for name, value in row.values.items()}
     lacking = [name for name in (who, *NEEDED) if not texts.get(name) and name not in row.refused]
-    faults += [Fault("correction-lacks", row.cells.get(name, row.mark), {"key": name}) for name in lacking]
+    faults += [Fault("correction-lacks", row.cells.get(name, row.location), {"key": name}) for name in lacking]
     judgement = None if "judgement" in lacking else _judgement(texts.get("judgement", ""))
     if judgement is None and "judgement" in texts:
         faults.append(Fault("correction-judgement", row.cells["judgement"], {"text": texts["judgement"]}))
@@ -94,11 +94,11 @@ def _correction(row: Record, who: str, faults: list[Fault]) -> Correction | None
     if judgement is None or lacking:
         return None
     quantity, position, value = (texts.get(name, "") for name in ("quantity", "position", "value"))
-    marks = {name: row.cells.get(name, row.mark) for name in ("quantity", "position", "judgement", "value")}
-    marks["who"] = row.cells[who]
+    locations = {name: row.cells.get(name, row.location) for name in ("quantity", "position", "judgement", "value")}
+    locations["who"] = row.cells[who]
     signed = tuple(texts[name] for name in (SIGNED, DATED) if texts.get(name))
     return Correction(
-        texts[who], quantity, position, judgement, texts["reason"], value=value, marks=marks, signed=signed
+        texts[who], quantity, position, judgement, texts["reason"], value=value, locations=locations, signed=signed
     )
 
 
@@ -132,7 +132,7 @@ def applied(
     problems: list[Problem] = []
     for correction in corrections:
         ids = [key.id for key in known if _is_of(correction.who, key)]
-        about = correction.marks["who"], {"text": correction.who}
+        about = correction.locations["who"], {"text": correction.who}
         if len(ids) != 1:
             problems.append(as_problem(Fault("correction-nobody", *about), language))
         elif (marking := by_id.get(ids[0])) is None:
@@ -141,7 +141,7 @@ def applied(
             problems.append(as_problem(made, language))
         else:
             if _verdicts_of(made) == _verdicts_of(marking):
-                idle = Fault("correction-idle", correction.marks["judgement"])
+                idle = Fault("correction-idle", correction.locations["judgement"])
                 problems.append(as_problem(idle, language, "warning"))
             by_id[ids[0]] = made
     return [by_id[marking.key.id] for marking in markings], problems
@@ -165,7 +165,7 @@ def corrected(marking: Marking, correction: Correction) -> Marking | Fault:
         names = [symbol_text(row, marking.key) for row in marking.key.asked] + [row.id for row in marking.key.asked]
         close = close_or_known(correction.quantity, names).get("close", "")
         about = {"text": correction.quantity, **({"close": close} if close else {})}
-        return Fault("correction-no-quantity", correction.marks["quantity"], about)
+        return Fault("correction-no-quantity", correction.locations["quantity"], about)
     what, belongs = named
     wanted = correction.position.casefold()
     cells = [
@@ -176,15 +176,15 @@ def corrected(marking: Marking, correction: Correction) -> Marking | Fault:
     ]
     if not cells:
         text = correction.position or correction.quantity
-        return Fault("correction-no-cell", correction.marks["position" if wanted else "quantity"], {"text": text})
+        return Fault("correction-no-cell", correction.locations["position" if wanted else "quantity"], {"text": text})
     worth = points_of(cells)[1]
     if correction.value and (present := _other_value(marking, cells, correction.value)) is not None:
         about = {"text": correction.value, "found": present}
-        return Fault("correction-value", correction.marks["value"], about)
+        return Fault("correction-value", correction.locations["value"], about)
     points = correction.judgement
     if isinstance(points, float) and not 0 <= points <= worth + 1e-9:
         most = {"text": f"{points:g}", "most": f"{worth:g}"}
-        return Fault("correction-points", correction.marks["judgement"], most)
+        return Fault("correction-points", correction.locations["judgement"], most)
     reason = correction.reason_in(marking.key.language)
     places = {(cell.id, cell.position): _judged(cell, points, worth, reason) for cell in cells}
     shown = (*what, Text(f" ({correction.position})")) if wanted else what

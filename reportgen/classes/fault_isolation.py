@@ -32,7 +32,7 @@ def isolated(work: Callable[[], Result], path: Path, language: Language | None) 
         return list(error.problems)
     except RefusedError as error:
         problem = as_problem(error.fault, language)
-        return [problem if problem.mark.file else problem.in_file(str(path))]
+        return [problem if problem.location.file else problem.in_file(str(path))]
     except ReportgenError as error:
         return [_failed(path, str(error), language)]
     except Exception as error:

@@ -246,10 +246,10 @@ def _is_canvas(rows: Sequence[Sequence[_Cell]]) -> bool:
 def _canvas(rows: Sequence[Sequence[_Cell]], wanted: str, path: Path) -> _Table | Fault:
     """Return Canvas's gradebook for one of its assignments, which `wanted` must name if there are several."""
     head = [cell.text for cell in rows[0]]
-    mark = Location(str(path))
+    location = Location(str(path))
     points = next((row for row in rows[1:] if "Points Possible" in row[0].text), None)
     if points is None or "ID" not in head:
-        return Fault("gradebook-unknown", mark)
+        return Fault("gradebook-unknown", location)
     titles = {k: match for k in range(head.index("Section") + 1, len(head)) if (match := _TITLE.fullmatch(head[k]))}
     open_ones = {
         k: match for k, match in titles.items() if k < len(points) and _NUMBER.fullmatch(points[k].text.strip())
@@ -257,7 +257,7 @@ def _canvas(rows: Sequence[Sequence[_Cell]], wanted: str, path: Path) -> _Table 
     chosen = [k for k, match in open_ones.items() if not wanted or wanted in (match[0], match[1], match[2])]
     if len(chosen) != 1:
         known = "; ".join(match[0] for match in open_ones.values())
-        return Fault("gradebook-which-column", mark, {"known": known or "–"})
+        return Fault("gradebook-which-column", location, {"known": known or "–"})
     (column,) = chosen
     people = [head.index(name) for name in ("SIS User ID", "SIS Login ID") if name in head]
     students = [

@@ -58,8 +58,8 @@ def days_late(
 def _handed_in(handing: Handing, gradebook: Gradebook | None) -> datetime.datetime | Fault | None:
     """Return the submission time, None if there is none, or a fault for a date that cannot be read."""
     text = gradebook.handed_in(handing.student) if gradebook else ""
-    said, mark = (handing.said.text, handing.said.mark) if handing.said else (text, None)
+    said, location = (handing.said.text, handing.said.location) if handing.said else (text, None)
     if said.strip() in NONE:
         return None
-    place = mark or Location(str(gradebook.path) if gradebook else handing.file)
+    place = location or Location(str(gradebook.path) if gradebook else handing.file)
     return moment(said) or Fault("moment", place, {"text": said})

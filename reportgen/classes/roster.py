@@ -48,7 +48,7 @@ class RosterColumn:
     index: int
     name: str
     unit: str
-    mark: Location
+    location: Location
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,7 +59,7 @@ class Record:
     """
 
     values: Mapping[str, Scalar]
-    mark: Location
+    location: Location
     cells: Mapping[str, Location]
     refused: frozenset[str] = frozenset()
 
@@ -89,7 +89,7 @@ def columns(row: Sequence[SheetCell]) -> list[RosterColumn]:
         match = None if known else _WITH_UNIT.fullmatch(title)
         name, unit = (match[1], match[2]) if match else (title, "")
         if title:
-            headed.append(RosterColumn(index, known or _known_columns().get(folded(name)) or name, unit, cell.mark))
+            headed.append(RosterColumn(index, known or _known_columns().get(folded(name)) or name, unit, cell.location))
     return headed
 
 
@@ -107,7 +107,7 @@ def records(page: Page, headings: Sequence[RosterColumn], start: int, faults: li
     seen: set[str] = set()
     for column in headings:
         if column.name in seen:
-            faults.append(Fault("column-twice", column.mark, {"key": column.name}))
+            faults.append(Fault("column-twice", column.location, {"key": column.name}))
         seen.add(column.name)
     for row in page.rows[start:]:
         values: dict[str, Scalar] = {}
@@ -118,16 +118,16 @@ def records(page: Page, headings: Sequence[RosterColumn], start: int, faults: li
             if not (text or cell.kind == "formula"):
                 continue
             if cell.kind in ("error", "formula") and (cell.value is None or str(cell.value).startswith("#")):
-                faults.append(Fault("no-cell-value", cell.mark, {"text": cell.formula or cell.text}))
+                faults.append(Fault("no-cell-value", cell.location, {"text": cell.formula or cell.text}))
                 refused.add(column.name)
                 continue
             # A bare number has the unit of its heading.
             bare = column.unit and _NUMBER.fullmatch(text)
-            values[column.name] = Scalar(f"{text} {column.unit}" if bare else text, cell.mark)
+            values[column.name] = Scalar(f"{text} {column.unit}" if bare else text, cell.location)
         first = next((cell for cell in row if not cell.blank), None)
         if first is not None:
-            cells = {column.name: cell.mark for column, cell in present}
-            yield Record(values, first.mark, cells, frozenset(refused))
+            cells = {column.name: cell.location for column, cell in present}
+            yield Record(values, first.location, cells, frozenset(refused))
 
 
 CANVAS_ID = "SIS User ID"
@@ -157,7 +157,7 @@ class RosterEntry:
 
     card: Mapping[str, str]
     overrides: Mapping[str, Scalar]
-    mark: Location
+    location: Location
     handed_in: Scalar | None = None
 
     @property
@@ -194,7 +194,7 @@ def read_roster(path: Path, language: Language | None = None) -> Roster:
     page, start = _page(read(path, language))
     faults: list[Fault] = []
     if start is None:
-        first = next((cell.mark for row in page.rows for cell in row if not cell.blank), Location(str(path)))
+        first = next((cell.location for row in page.rows for cell in row if not cell.blank), Location(str(path)))
         raise as_error([Fault("no-id-column", first)], language)
     headed = columns(page.rows[start])
     of_canvas = any(cell.text.strip() == CANVAS_ID for cell in page.rows[start])
@@ -214,12 +214,14 @@ def read_roster(path: Path, language: Language | None = None) -> Roster:
     faults += [fault for row in rows for fault in _unfit(row)]
     faults += _id_faults(rows)
     if not rows:
-        faults.append(Fault("empty-roster", headings[0].mark))
+        faults.append(Fault("empty-roster", headings[0].location))
     if faults:
         raise as_error(faults, language)
     overriding = tuple(column for column in used if _PATH.fullmatch(column.name))
-    by_address = [Fault("roster-ids-mail", headings[0].mark, {"text": rows[0].values["id"].text})] if by_mail else []
-    left = (Fault("roster-row-left", row.mark, {"text": _said(row)}) for row in left_out)
+    by_address = (
+        [Fault("roster-ids-mail", headings[0].location, {"text": rows[0].values["id"].text})] if by_mail else []
+    )
+    left = (Fault("roster-row-left", row.location, {"text": _said(row)}) for row in left_out)
     notes = (as_problem(fault, language, "note") for fault in (*by_address, *left))
     return Roster(tuple(map(_student, rows)), overriding, tuple(notes))
 
@@ -235,7 +237,7 @@ def _identified(rows: Sequence[Record]) -> list[Record]:
             continue
         local = mail.text.partition("@")[0]
         id = local if counts[comparable(local)] == 1 and local else mail.text
-        identified.append(replace(row, values={**row.values, "id": Scalar(id, mail.mark)}))
+        identified.append(replace(row, values={**row.values, "id": Scalar(id, mail.location)}))
     return identified
 
 
@@ -249,7 +251,7 @@ def _students_rows(rows: Sequence[Record]) -> tuple[list[Record], list[Record]]:
     students: list[Record] = []
     left_out: list[Record] = []
     for number, row in enumerate(rows):
-        apart |= number > last and row.mark.line > rows[number - 1].mark.line + 1
+        apart |= number > last and row.location.line > rows[number - 1].location.line + 1
         named = any(name in row.values for name in ("name", *NAME_PARTS))
         is_student = "id" in row.values or row.refused or (named and not apart)
         (students if is_student else left_out).append(row)
@@ -270,7 +272,7 @@ def _in_spoken_order(row: Record) -> Record:
     spoken = chinese.full_name(first, last)
     # A Chinese name begins with the family name.
     spoken = spoken if " " in spoken else f"{last}{first}"
-    return replace(row, values={**row.values, "name": Scalar(spoken, name.mark)})
+    return replace(row, values={**row.values, "name": Scalar(spoken, name.location)})
 
 
 def _page(pages: Sequence[Page]) -> tuple[Page, int | None]:
@@ -306,10 +308,10 @@ def _normal(column: RosterColumn, faults: list[Fault]) -> RosterColumn:
         return column
     section = match[1].casefold()
     if section in SECTIONS:
-        return RosterColumn(column.index, f"{section}{match[2]}", column.unit, column.mark)
+        return RosterColumn(column.index, f"{section}{match[2]}", column.unit, column.location)
     if close := close_or_known(section, SECTIONS).get("close"):
-        faults.append(Fault("unknown-column", column.mark, {"key": column.name, "close": f"{close}{match[2]}"}))
-    return RosterColumn(column.index, "", "", column.mark)
+        faults.append(Fault("unknown-column", column.location, {"key": column.name, "close": f"{close}{match[2]}"}))
+    return RosterColumn(column.index, "", "", column.location)
 
 
 def _unfit(row: Record) -> Iterable[Fault]:
@@ -320,7 +322,7 @@ def _unfit(row: Record) -> Iterable[Fault]:
                 TypedText().read(row.values[name].text)
             except PydanticCustomError as error:
                 context = {key: str(value) for key, value in (error.context or {}).items()}
-                yield Fault(context.pop("code"), row.values[name].mark, context)
+                yield Fault(context.pop("code"), row.values[name].location, context)
 
 
 def _id_faults(rows: Iterable[Record]) -> Iterable[Fault]:
@@ -330,11 +332,13 @@ def _id_faults(rows: Iterable[Record]) -> Iterable[Fault]:
         id = row.values.get("id")
         if id is None:
             if "id" not in row.refused:
-                yield Fault("missing-id", row.cells.get("id", row.mark))
+                yield Fault("missing-id", row.cells.get("id", row.location))
             continue
-        first = seen.setdefault(comparable(id.text), id.mark)
-        if first is not id.mark:
-            yield Fault("duplicate-id", id.mark, {"text": id.text, "place": str(first).removeprefix(f"{first.file}:")})
+        first = seen.setdefault(comparable(id.text), id.location)
+        if first is not id.location:
+            yield Fault(
+                "duplicate-id", id.location, {"text": id.text, "place": str(first).removeprefix(f"{first.file}:")}
+            )
 
 
 def _student(row: Record) -> RosterEntry:
@@ -343,7 +347,7 @@ def _student(row: Record) -> RosterEntry:
     texts["name"] = chinese.joined(texts["name"])
     overrides = {name: value for name, value in row.values.items() if _PATH.fullmatch(name)}
     card = {name: texts[name] for name in PERSONAL if texts.get(name)}
-    return RosterEntry(card, overrides, row.mark, row.values.get(HANDED_IN))
+    return RosterEntry(card, overrides, row.location, row.values.get(HANDED_IN))
 
 
 def folder_name(id: str) -> str:
@@ -429,7 +433,7 @@ def match_files(
     assigned: list[Assigned] = []
     for student in students:
         own_file = next((files[stem] for stem in map(comparable, (student.folder, student.id)) if stem in files), None)
-        missing = Fault("no-assignment", student.mark, {"text": student.id})
+        missing = Fault("no-assignment", student.location, {"text": student.id})
         assigned.append((student, own_file or as_problem(missing, language)))
     taken = {file for _, file in assigned}
     return assigned, [path for path in files.values() if path not in taken]

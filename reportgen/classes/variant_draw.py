@@ -117,7 +117,7 @@ class Draw:
             if not fewest:
                 break
         if chosen is None:
-            self.faults.append(Fault("no-other-variant", student.mark, {"text": student.id}))
+            self.faults.append(Fault("no-other-variant", student.location, {"text": student.id}))
             return
         self.taken[self._key(student, chosen)] += 1
         yield self._drawn(student, chosen)
@@ -134,7 +134,7 @@ class Draw:
             else:
                 # No combination is usable, so no other student could get one either.
                 tried = {"count": str(min(self.spec.size, MOST_TRIED)), "size": str(self.spec.size)}
-                self.faults = [Fault("no-variant", self.spec.mark, tried), *self._reasons(student)]
+                self.faults = [Fault("no-variant", self.spec.location, tried), *self._reasons(student)]
                 return
 
     @property
@@ -197,16 +197,16 @@ class Draw:
         reasons: dict[tuple[str, str], Fault] = {}
         for combination in self._attempts(student):
             for fault in self._faults(student, combination):
-                reasons.setdefault((fault.code, str(fault.mark)), fault)
+                reasons.setdefault((fault.code, str(fault.location)), fault)
             if len(reasons) >= MOST_REASONS:
                 break
         return list(reasons.values())[:MOST_REASONS]
 
     def _faults_of_roster(self, student: RosterEntry) -> list[Fault]:
         """Return the reasons located at the student's own values, or else the first reason at the first of them."""
-        cells = [value.mark for value in student.overrides.values()]
+        cells = [value.location for value in student.overrides.values()]
         reasons = self._reasons(student)
-        own = [fault for fault in reasons if fault.mark in cells]
+        own = [fault for fault in reasons if fault.location in cells]
         return own or [Fault(fault.code, cells[0], fault.arguments) for fault in reasons[:1]]
 
 
@@ -232,6 +232,6 @@ def judge_of(spec: Spec) -> FindFaults:
         if assignment is None:
             return tuple(faults)
         code = opened(assignment).fault()
-        return (Fault(code, spec.mark),) if code else ()
+        return (Fault(code, spec.location),) if code else ()
 
     return judge

@@ -111,10 +111,10 @@ class Spec:
         return {index: names[index] for index in self.parts}
 
     @property
-    def mark(self) -> Location:
+    def location(self) -> Location:
         """The location of faults of whole combinations: the parameters."""
         section = self.top.find("parameters")
-        return section[0].mark if section else self.top.mark
+        return section[0].location if section else self.top.location
 
     @property
     def size(self) -> int:
@@ -192,7 +192,7 @@ def read_spec(path: Path, language: Language | None = None, shared: Sequence[Pat
         file = path.parent / table.text
         if leads_out(file, path.parent, *shared):
             # The file is not read, so that no message reveals its content.
-            outside = Fault("path-outside", table.mark, {"text": table.text, "hint": "path-shared"})
+            outside = Fault("path-outside", table.location, {"text": table.text, "hint": "path-shared"})
             raise as_error([*faults, outside], language)
         rows = _rows(file, kind, base, faults, language)
         faults += _given_twice(base, axes, rows)
@@ -242,7 +242,7 @@ def _own_text(top: MappingNode, key: str, faults: list[Fault]) -> Scalar | None:
         return None
     if isinstance(entry[1], Scalar):
         return entry[1]
-    faults.append(Fault("wrong-type", entry[1].mark, {"expected": "text"}))
+    faults.append(Fault("wrong-type", entry[1].location, {"expected": "text"}))
     return None
 
 
@@ -290,16 +290,16 @@ def _axis(where: Where, values: Sequence[Scalar]) -> DrawnParameter:
 def _listed(node: SequenceNode, faults: list[Fault]) -> tuple[Scalar, ...]:
     """Return the choices of a list."""
     if not node.items:
-        faults.append(Fault("too-few", node.mark, {"least": "1"}))
+        faults.append(Fault("too-few", node.location, {"least": "1"}))
     if len(node.items) > MOST_CHOICES:
-        faults.append(Fault("too-many", node.mark, {"most": str(MOST_CHOICES)}))
+        faults.append(Fault("too-many", node.location, {"most": str(MOST_CHOICES)}))
         return ()
     values: dict[str, Scalar] = {}
     for item in node.items:
         if not isinstance(item, Scalar) or item.null:
-            faults.append(Fault("wrong-type", item.mark, {"expected": "text"}))
+            faults.append(Fault("wrong-type", item.location, {"expected": "text"}))
         elif item.text in values:
-            faults.append(Fault("choice-repeated", item.mark, {"text": item.text}))
+            faults.append(Fault("choice-repeated", item.location, {"text": item.text}))
         else:
             values[item.text] = item
     return tuple(values.values())
@@ -320,18 +320,18 @@ def _stepped(node: MappingNode, faults: list[Fault]) -> tuple[Scalar, ...]:
         try:
             numbers.append(_number(end.text, unit))
         except QuantityFault as fault:
-            faults.append(Fault(fault.code, end.mark, fault.arguments))
+            faults.append(Fault(fault.code, end.location, fault.arguments))
             return ()
     start, stop, step = numbers
     if step <= 0:
-        faults.append(Fault("range-step", ends[2].mark))
+        faults.append(Fault("range-step", ends[2].location))
     elif start > stop:
-        faults.append(Fault("range-order", first.mark, {"last": last.text}))
+        faults.append(Fault("range-order", first.location, {"last": last.text}))
     elif (stop - start) / step + _DUST >= MOST_CHOICES:
-        faults.append(Fault("too-many", node.mark, {"most": str(MOST_CHOICES)}))
+        faults.append(Fault("too-many", node.location, {"most": str(MOST_CHOICES)}))
     else:
         count = int((stop - start) / step + _DUST) + 1
-        return tuple(Scalar(f"{_typed(start + k * step)} {unit}".strip(), first.mark) for k in range(count))
+        return tuple(Scalar(f"{_typed(start + k * step)} {unit}".strip(), first.location) for k in range(count))
     return ()
 
 
@@ -339,15 +339,15 @@ def _ends(node: MappingNode, faults: list[Fault]) -> Iterator[Scalar]:
     """Yield the scalars of from, to and step that exist; add faults for the others."""
     for key, _ in node.entries:
         if key.text not in RANGE_KEYS:
-            faults.append(Fault("unknown-key", key.mark, {"key": key.text, "known": ", ".join(RANGE_KEYS)}))
+            faults.append(Fault("unknown-key", key.location, {"key": key.text, "known": ", ".join(RANGE_KEYS)}))
     for name in RANGE_KEYS:
         entry = node.find(name)
         if entry is None:
-            faults.append(Fault("missing-key", node.mark, {"key": name}))
+            faults.append(Fault("missing-key", node.location, {"key": name}))
         elif isinstance(entry[1], Scalar) and not entry[1].null:
             yield entry[1]
         else:
-            faults.append(Fault("wrong-type", entry[1].mark, {"expected": "number"}))
+            faults.append(Fault("wrong-type", entry[1].location, {"expected": "number"}))
 
 
 def _number(text: str, unit: str) -> Decimal:
@@ -380,11 +380,11 @@ def _rows(file: Path, kind: Kind, base: MappingNode, faults: list[Fault], langua
     for record in records(page, headings, start + 1, faults):
         name = record.values["variant"].text if "variant" in record.values else str(len(rows) + 1)
         if name in names:
-            faults.append(Fault("choice-repeated", record.mark, {"text": name}))
+            faults.append(Fault("choice-repeated", record.location, {"text": name}))
         names.add(name)
         rows.append(Choice(name, {places[key]: value for key, value in record.values.items() if key in places}))
     if not rows:
-        faults.append(Fault("empty-roster", headings[0].mark))
+        faults.append(Fault("empty-roster", headings[0].location))
     return tuple(rows)
 
 
@@ -395,7 +395,7 @@ def _no_place(kind: Kind, base: MappingNode, column: RosterColumn) -> Iterator[F
     if "scalar" not in allowed_forms(kind, where) or any(at(base, item) is None for item in items):
         known = known_keys(kind, where[:-1])
         hint = close_or_known(str(where[-1]), known) if known else {}
-        yield Fault("unknown-column", column.mark, {"key": column.name, **hint})
+        yield Fault("unknown-column", column.location, {"key": column.name, **hint})
 
 
 def _given_twice(base: MappingNode, axes: Iterable[DrawnParameter], rows: Iterable[Choice]) -> Iterator[Fault]:
@@ -404,7 +404,7 @@ def _given_twice(base: MappingNode, axes: Iterable[DrawnParameter], rows: Iterab
     for where in dict.fromkeys(where for row in rows for where in row.settings):
         node = at(base, where)
         if node is not None and (path_text(where) in drawn or not (isinstance(node, Scalar) and node.null)):
-            yield Fault("not-in-table", node.mark, {"key": path_text(where)})
+            yield Fault("not-in-table", node.location, {"key": path_text(where)})
 
 
 def _unreadable(spec: Spec) -> list[Fault]:
@@ -418,5 +418,5 @@ def _unreadable(spec: Spec) -> list[Fault]:
     for axis in spec.axes:
         for choice in axis.choices:
             for fault in misread(assembled(first, choice.settings), spec.kind):
-                faults.setdefault((fault.code, fault.mark), fault)
+                faults.setdefault((fault.code, fault.location), fault)
     return list(faults.values())

@@ -238,7 +238,7 @@ def _named_part(top: MappingNode, index: int, file: str) -> MappingNode:
     item = at(top, (PARTS, index))
     assert isinstance(item, MappingNode), "a part is a table"
     about = (entry for entry in item.entries if entry[0].text in parts.ABOUT)
-    return MappingNode(((_scalar("file"), _scalar(file)), *about), item.mark)
+    return MappingNode(((_scalar("file"), _scalar(file)), *about), item.location)
 
 
 def _part_text(spec: Spec, drawn: DrawnVariant, top: MappingNode, index: int) -> str:
@@ -299,7 +299,7 @@ def _table(spec: Spec, drawn: DrawnVariant) -> MappingNode:
     # The kind and the variant come first.
     first = {"kind": 0, "variant": 1}
     entries = sorted(top.entries, key=lambda entry: first.get(entry[0].text, 2))
-    return MappingNode(tuple(entries), top.mark)
+    return MappingNode(tuple(entries), top.location)
 
 
 def _scalar(text: str) -> Scalar:

@@ -132,7 +132,7 @@ def run_job(job: Job) -> Outcome:
     except AssignmentError as error:
         # Its folder is gone, so a mark names the file as the job does.
         own = {str(Path(scratch, name)): name for name in job.beside}
-        problems = tuple(problem.in_file(own.get(problem.mark.file, job.file)) for problem in error.problems)
+        problems = tuple(problem.in_file(own.get(problem.location.file, job.file)) for problem in error.problems)
         return Outcome(problems=problems, exit_code=error.exit_code)
     except ReportgenError as error:
         return Outcome(problems=(without_paths(str(error)),), exit_code=error.exit_code)

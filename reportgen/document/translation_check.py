@@ -88,11 +88,11 @@ def _files(folder: Path) -> set[str]:
     return {path.relative_to(folder).as_posix() for path in paths}
 
 
-def _differences(what: str, own: Set[str], wanted: Set[str], mark: Location) -> Iterator[Fault]:
+def _differences(what: str, own: Set[str], wanted: Set[str], location: Location) -> Iterator[Fault]:
     """Yield faults for names that are missing here, and for names that the language of reference does not have."""
     for code, names in (("words-missing", wanted - own), ("words-beyond", own - wanted)):
         if names:
-            yield Fault(code, mark, {"expected": f"{what} of words", "place": ", ".join(sorted(names))})
+            yield Fault(code, location, {"expected": f"{what} of words", "place": ", ".join(sorted(names))})
 
 
 # --- sections ---------------------------------------------------------------------------------------
@@ -114,7 +114,7 @@ def _sections(file: Path, model: Path, terms: Terms, free: Set[str]) -> Iterator
 
 def _compared(here: Passage, there: Passage, free: Set[str]) -> Iterator[Fault]:
     """Yield the differences between a section and that of reference."""
-    mark, own, wanted = Location(str(here.file), here.line), SectionContents.of(here), SectionContents.of(there)
+    location, own, wanted = Location(str(here.file), here.line), SectionContents.of(here), SectionContents.of(there)
     if MOBILITY not in wanted.calls:
         free = frozenset()
     # Where the letter of a quantity is the language's own, a template asks for it.
@@ -122,9 +122,9 @@ def _compared(here: Passage, there: Passage, free: Set[str]) -> Iterator[Fault]:
     free |= asked | {call.removesuffix("()") for call in asked} | (wanted.formulas if asked else frozenset())
     for what in ("call", "name", "reference", "formula"):
         of_own, of_reference = (frozenset(getattr(one, f"{what}s")) - free for one in (own, wanted))
-        yield from _differences(what, of_own, of_reference, mark)
+        yield from _differences(what, of_own, of_reference, location)
     if own.headings != wanted.headings:
-        yield Fault("words-headings", mark, {"place": _marks(own.headings), "known": _marks(wanted.headings)})
+        yield Fault("words-headings", location, {"place": _marks(own.headings), "known": _marks(wanted.headings)})
     for line, text in own.in_braces:
         yield Fault("words-in-braces", Location(str(here.file), here.line + line), {"text": text})
 
@@ -231,7 +231,7 @@ def _read_in(section: Passage) -> Source:
 def _sound(source: Source, above: int) -> Source:
     if source.faults:
         first = source.faults[0]
-        raise TemplateError(f"{source.file}:{first.mark.line + above}: {first.wordless}")
+        raise TemplateError(f"{source.file}:{first.location.line + above}: {first.wordless}")
     return source
 
 
@@ -266,32 +266,32 @@ def _node(
     """Yield the differences at a place of two tables; `around` are the gaps of the surrounding texts in each of
     them.
     """
-    mark = Location(own.mark.file, own.mark.line + above, own.mark.column)
+    location = Location(own.location.file, own.location.line + above, own.location.column)
     match own, wanted:
         case MappingNode(), MappingNode():
             if where in ONE_SIDED:
                 return
             here, there = ({key.text: value for key, value in table.entries} for table in (own, wanted))
             optional = {one[-1] for one in ONE_SIDED if one[:-1] == where}
-            yield from _differences("key", here.keys() & there.keys() - optional, there.keys() - optional, mark)
+            yield from _differences("key", here.keys() & there.keys() - optional, there.keys() - optional, location)
             if idle := here.keys() - there.keys() - optional:
-                yield Fault("words-idle", mark, {"place": ", ".join(sorted(idle))})
+                yield Fault("words-idle", location, {"place": ", ".join(sorted(idle))})
             near = (around[-1], frozenset(_all_gaps(wanted)) if where else frozenset())
             for key in (key for key in there if key in here):
                 yield from _node(here[key], there[key], (*where, key), above, near)
         case SequenceNode(), SequenceNode():
             if not FREE_LISTS & {*where} and len(own.items) != len(wanted.items):
-                yield Fault("words-list", mark, {"count": str(len(own.items)), "known": str(len(wanted.items))})
+                yield Fault("words-list", location, {"count": str(len(own.items)), "known": str(len(wanted.items))})
             for here_item, there_item in zip(own.items, wanted.items, strict=False):
                 yield from _node(here_item, there_item, where, above, around)
         case Scalar(), Scalar():
             if not FREE_LISTS & {*where}:
-                here_gaps, there_gaps = _gaps(own, mark), _gaps(wanted, wanted.mark)
+                here_gaps, there_gaps = _gaps(own, location), _gaps(wanted, wanted.location)
                 # A language may name again what its neighbours name.
                 known = here_gaps & frozenset().union(*around)
-                yield from _differences("gap", here_gaps - (known - there_gaps), there_gaps, mark)
+                yield from _differences("gap", here_gaps - (known - there_gaps), there_gaps, location)
         case _ if not FREE_LISTS & {*where}:
-            yield Fault("words-form", mark, {"place": ".".join(where)})
+            yield Fault("words-form", location, {"place": ".".join(where)})
 
 
 def _all_gaps(node: Node) -> Iterator[str]:
@@ -303,15 +303,15 @@ def _all_gaps(node: Node) -> Iterator[str]:
             for item in items:
                 yield from _all_gaps(item)
         case Scalar():
-            yield from _gaps(node, node.mark)
+            yield from _gaps(node, node.location)
 
 
-def _gaps(said: Scalar, mark: Location) -> frozenset[str]:
+def _gaps(said: Scalar, location: Location) -> frozenset[str]:
     """The gaps of a word, whatever form of them a language takes: {Shaft} as {shaft}, {month_name} as {month}."""
     try:
         return frozenset(gap.casefold().removesuffix("_name") or gap for gap in gaps(said.text))
     except ValueError as error:
-        raise TemplateError(f"{mark}: {error}") from error
+        raise TemplateError(f"{location}: {error}") from error
 
 
 # --- letters ----------------------------------------------------------------------------------------
@@ -349,8 +349,8 @@ class Terms:
         wanted, text = (_IN_BRACES.sub(" ", section.text) for section in (there, here))
         for term, (in_reference, own) in self.names.items():
             if in_reference.search(wanted) and not any(pattern.search(text) for pattern in own.values()):
-                mark = Location(str(here.file), here.line)
-                yield Fault("words-term", mark, {"text": term, "known": ", ".join(own)})
+                location = Location(str(here.file), here.line)
+                yield Fault("words-term", location, {"text": term, "known": ", ".join(own)})
 
 
 def _terms(language: str) -> Terms:

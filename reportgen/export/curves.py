@@ -160,7 +160,7 @@ def read_measured(path: Path, case: Case, of: Sequence[str]) -> list[Measured]:
     found: list[Measured] = []
     over = AXES.get(_name_and_unit(head[0])[0]) if head else None
     if over is None:
-        where = head[0].mark if head else Location(str(path))
+        where = head[0].location if head else Location(str(path))
         raise as_error([Fault("measured-no-axis", where)], case.assignment.language)
     x = _column(head[0], rows, 0, "rad" if over == "phi" else "s", faults)
     for place, cell in enumerate(head[1:], start=1):
@@ -170,7 +170,7 @@ def read_measured(path: Path, case: Case, of: Sequence[str]) -> list[Measured]:
             unit = quantity(case, id).family.how.unit
             found.append(Measured(id, over, x, _column(cell, rows, place, unit, faults), path.stem))
     if not found:
-        faults.append(Fault("measured-nothing", head[0].mark, {"known": ", ".join(of)}))
+        faults.append(Fault("measured-nothing", head[0].location, {"known": ", ".join(of)}))
     if faults:
         raise as_error(faults, case.assignment.language)
     return found
@@ -187,12 +187,12 @@ def _column(
     """The numbers of a column in SI units; an empty cell is a gap."""
     factor, given = 1.0, _name_and_unit(head)[1]
     if unit and not given:
-        faults.append(Fault("missing-unit", head.mark, {"text": head.text, "unit": unit}))
+        faults.append(Fault("missing-unit", head.location, {"text": head.text, "unit": unit}))
     elif given:
         try:
             factor = read_unit(given, unit)
         except QuantityFault as fault:
-            faults.append(Fault(fault.code, head.mark, fault.arguments))
+            faults.append(Fault(fault.code, head.location, fault.arguments))
     return np.array([_number(row[place], faults) if place < len(row) else math.nan for row in rows]) * factor
 
 
@@ -202,5 +202,5 @@ def _number(cell: SheetCell, faults: list[Fault]) -> float:
     try:
         return read_number(cell.text)
     except QuantityFault as fault:
-        faults.append(Fault(fault.code, cell.mark, fault.arguments))
+        faults.append(Fault(fault.code, cell.location, fault.arguments))
         return math.nan

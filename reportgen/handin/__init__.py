@@ -74,7 +74,7 @@ def submission(readings: Sequence[FileReading], language: Language | None) -> Su
         for place, answer in reading.values.items():
             first = values.setdefault(place, answer)
             if not agree(first, answer):
-                unread[place] = Fault("unread-two-values", answer.mark, {"text": answer.text, "first": first.text})
+                unread[place] = Fault("unread-two-values", answer.location, {"text": answer.text, "first": first.text})
     for place in unread:
         del values[place]
     for reading in readings:

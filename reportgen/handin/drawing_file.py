@@ -69,15 +69,15 @@ def marked(path: Path, data: bytes, reading: FileReading, marking: Marking, poli
     said: dict[DrawnLocation, list[str]] = {}
     for cell in marking.cells:
         answer = reading.values.get((cell.id, cell.position))
-        if answer is None or not isinstance(answer.mark, DrawnLocation):
+        if answer is None or not isinstance(answer.location, DrawnLocation):
             continue
         # If a sheet or a report has the value too, that one counts.
         judged = (cell.id, cell.position) in marking.submission.measured
         if judged and (cell.verdict in AT_FAULT or (cell.corrected and not cell.points)):
-            lines = said.setdefault(answer.mark, [])
+            lines = said.setdefault(answer.location, [])
             lines.append(_told(cell, marking, cell_comment(cell, marking, words, policy.show_answers)))
-        elif judged and answer.mark.wrong:
-            said.setdefault(answer.mark, [])
+        elif judged and answer.location.wrong:
+            said.setdefault(answer.location, [])
     for (id, position), mark in reading.beside.items():
         row = marking.key.find(id)
         if isinstance(mark, DrawnLocation) and row is not None:
@@ -88,7 +88,7 @@ def marked(path: Path, data: bytes, reading: FileReading, marking: Marking, poli
     else:
         turned = (words["drawing"]["turned"],)
         vectors = [RedVector(mark.at, mark.right, tuple(lines) or turned, mark.space) for mark, lines in said.items()]
-    units = {answer.mark.unit for answer in reading.values.values() if isinstance(answer.mark, DrawnLocation)}
+    units = {answer.location.unit for answer in reading.values.values() if isinstance(answer.location, DrawnLocation)}
     return MARKED, with_corrections(data, vectors, 1 / next(iter(units), 1.0))
 
 

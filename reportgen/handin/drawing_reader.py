@@ -107,7 +107,7 @@ def _with_space(first: FileReading, second: FileReading) -> FileReading:
     }
     values = {place: answer for place, answer in {**second.values, **first.values}.items() if place not in clash}
     unread = {place: fault for place, fault in {**second.unread, **first.unread}.items() if place not in values}
-    unread |= {place: Fault("unread-two-plans", second.values[place].mark) for place in clash}
+    unread |= {place: Fault("unread-two-plans", second.values[place].location) for place in clash}
     return replace(
         first,
         values=values,
@@ -203,20 +203,20 @@ class _Reading:
                 # The longest vector determines the plan's scale, so its own length is not judged.
                 own = self.place(vector.length, fit) if number != longest else None
                 if (id(fit), number) in wrong and not (own or self.place(vector.direction, fit)):
-                    beside[vector.length, fit.shape.position] = self.mark(fit, number, line[0], wrong=True)
+                    beside[vector.length, fit.shape.position] = self.location(fit, number, line[0], wrong=True)
                 for place, read in ((own, _length), (self.place(vector.direction, fit), _direction)):
                     if place is not None:
                         value, error, expected = read(fit, number, *line)
                         # A length is quoted as it is drawn.
                         shown = value * fit.scale if place is own else value
                         text = f"{shown:.4g} {self.key.row(place[0]).unit}"
-                        mark = self.mark(fit, number, line[0], (id(fit), number) in wrong)
-                        values[place] = Answer(value, text, mark)
+                        location = self.location(fit, number, line[0], (id(fit), number) in wrong)
+                        values[place] = Answer(value, text, location)
                         measured[place] = ReadOff(fit.scale, error, expected)
         for fit in (fit for several in plans.doubtful for fit in several):
             for number, vector in enumerate(fit.shape.vectors):
                 for place in filter(None, (self.place(name, fit) for name in (vector.length, vector.direction))):
-                    unread.setdefault(place, Fault("unread-two-plans", self.mark(fit, number)))
+                    unread.setdefault(place, Fault("unread-two-plans", self.location(fit, number)))
         unread = {place: fault for place, fault in unread.items() if place not in values}
         drawn = frozenset((*values, *unread))
         return FileReading(self.key.id, self.file, values, unread, measured=measured, drawn=drawn, beside=beside)
@@ -243,10 +243,10 @@ class _Reading:
         here = fit.lines[number] >= 0
         if length < SEEN * self.search.lines.error or not (vector.drawn or here):
             return {}
-        fault = Fault("unread-beside" if here else "unread-vector", self.mark(fit, number))
+        fault = Fault("unread-beside" if here else "unread-vector", self.location(fit, number))
         return {place: fault for name in (vector.length, vector.direction) if (place := self.place(name, fit))}
 
-    def mark(self, fit: Fit, number: int, start: complex | None = None, wrong: bool = False) -> DrawnLocation:
+    def location(self, fit: Fit, number: int, start: complex | None = None, wrong: bool = False) -> DrawnLocation:
         """Return the start of a vector, as drawn or as it should be, with its right end."""
         unit, a = self.search.unit, complex(fit.at(fit.shape.starts[number])) if start is None else start
         along = fit.scale * complex(fit.shape.ends[number] - fit.shape.starts[number])

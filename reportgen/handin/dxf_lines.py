@@ -70,12 +70,12 @@ def read_lines(data: bytes, file: str) -> DrawnLines:
     spaces = {name: unfolding.unfolded(own) for name, own in pieces.items()}
     model = spaces.pop(b"")
     unit = UNITS.get(contents.number(b"$INSUNITS"))
-    mark = Location(file)
-    notes = [Fault("drawing-pictures", mark, {"count": f"{contents.pictures}"})] if contents.pictures else []
+    location = Location(file)
+    notes = [Fault("drawing-pictures", location, {"count": f"{contents.pictures}"})] if contents.pictures else []
     names = [name.decode(encoding, "replace") for name, block in contents.blocks.items() if block.external]
-    notes += [Fault("drawing-external", mark, {"text": name}) for name in names]
+    notes += [Fault("drawing-external", location, {"text": name}) for name in names]
     hidden = unfolding.hidden
-    notes += [Fault("drawing-hidden", mark, {"count": f"{hidden}"})] if hidden else []
+    notes += [Fault("drawing-hidden", location, {"count": f"{hidden}"})] if hidden else []
     sheets = [
         DrawnLines(own.lines, tuple(own.texts), unit, space=name)
         for name, own in spaces.items()

@@ -59,16 +59,18 @@ class Gathering:
         keys = [part.key for part in self.key.parts] or [self.key]
         return any(bare(text).casefold() == bare(label).casefold() for key in keys for label in key.labels)
 
-    def doubt(self, row: KeyRow, position: int | None, code: str, mark: WordLocation, text: str, **more: str) -> None:
+    def doubt(
+        self, row: KeyRow, position: int | None, code: str, location: WordLocation, text: str, **more: str
+    ) -> None:
         """Record an unread entry for a row, at a position or at any (None)."""
         for one in row.positions:
             if position is None or one == position:
                 shown = _tidy(text)
-                self.doubts.setdefault((row.id, one), Fault(code, mark, {"text": shown, **more}))
+                self.doubts.setdefault((row.id, one), Fault(code, location, {"text": shown, **more}))
 
-    def give(self, row: KeyRow, position: int, value: float, mark: WordLocation, text: str) -> None:
+    def give(self, row: KeyRow, position: int, value: float, location: WordLocation, text: str) -> None:
         """Record a value of a place; if the place already has a different one, it becomes unread."""
-        place, answer = (row.id, position), Answer(value, _tidy(text), mark)
+        place, answer = (row.id, position), Answer(value, _tidy(text), location)
         if position not in row.positions or place in self.clashes or place in self.fixed:
             return
         first = self.values.get(place)
@@ -85,10 +87,17 @@ class Gathering:
             self.values[place] = max(first, answer, key=lambda one: one.value)
         else:
             del self.values[place]
-            self.clashes[place] = Fault("unread-two-values", mark, {"text": answer.text, "first": first.text})
+            self.clashes[place] = Fault("unread-two-values", location, {"text": answer.text, "first": first.text})
 
     def number(
-        self, row: KeyRow, position: int, number: str, unit: str, mark: WordLocation, words: str, barred: bool = False
+        self,
+        row: KeyRow,
+        position: int,
+        number: str,
+        unit: str,
+        location: WordLocation,
+        words: str,
+        barred: bool = False,
     ) -> None:
         """Read a number for a place, with the sense given by the words beside it."""
         text = f"{number.strip()} {unit}".strip()
@@ -96,13 +105,13 @@ class Gathering:
             value = read_value(number, unit, row, self.marks)
         except QuantityFault as fault:
             code = "unread-product" if fault.code == "product" else "unread-unit" if unit else "unread-number"
-            self.doubt(row, position, code, mark, text, unit=row.unit)
+            self.doubt(row, position, code, location, text, unit=row.unit)
             return
         signed = self._signed(row, position, value, words, barred)
         if signed is None:
-            self.doubt(row, position, "unread-sense", mark, text)
+            self.doubt(row, position, "unread-sense", location, text)
         else:
-            self.give(row, position, signed, mark, text)
+            self.give(row, position, signed, location, text)
 
     def _signed(self, row: KeyRow, position: int, value: float, words: str, barred: bool) -> float | None:
         """Return a value with its sign; a rotation has the sense given beside it, and without one only its size counts.
@@ -120,15 +129,15 @@ class Gathering:
             return -value if known < 0 else value
         return None if barred and is_signed(row) else value
 
-    def note(self, code: str, mark: Location, **arguments: str) -> None:
-        self.notes.append(Fault(code, mark, arguments))
+    def note(self, code: str, location: Location, **arguments: str) -> None:
+        self.notes.append(Fault(code, location, arguments))
 
     def reading(self) -> FileReading:
         """Return everything collected; values take precedence over doubts."""
         unread = {place: fault for place, fault in self.doubts.items() if place not in self.values}
         return FileReading(self.key.id, self.file, self.values, {**unread, **self.clashes}, tuple(self.notes))
 
-    def mark(self, line: TextLine, index: int) -> WordLocation:
+    def location(self, line: TextLine, index: int) -> WordLocation:
         """Return the location of a letter of a line."""
         node = line.nodes[min(max(index, 0), len(line.nodes) - 1)]
         return WordLocation(self.file, line.number, index + 1, element=node.number)

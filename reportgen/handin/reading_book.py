@@ -65,9 +65,9 @@ def _page(key: Key, name: str, submission: Submission) -> WorksheetData:
         if position not in cells.get(row.id, ()):
             return given_entry(row, position)
         if (answer := submission.values.get(place)) is not None:
-            return Entry(answer.value, "input", comment=f"{answer.mark}\n{answer.text}", unlocked=True)
+            return Entry(answer.value, "input", comment=f"{answer.location}\n{answer.text}", unlocked=True)
         if (problem := submission.unread.get(place)) is not None:
-            return Entry(UNSETTLED, "doubt", comment=f"{problem.mark}\n{problem.message}", unlocked=True)
+            return Entry(UNSETTLED, "doubt", comment=f"{problem.location}\n{problem.message}", unlocked=True)
         return Entry(None, "input", unlocked=True)
 
     rows = grid(key, words["title"], words["reading_note"], filling, rows_shown(key), asked_positions(key))
@@ -87,6 +87,6 @@ def _unread_rows(key: Key, submission: Submission) -> Iterator[tuple[Entry, ...]
     for place in sorted(submission.unread, key=lambda place: (order[place[0]], place[1])):
         id, position = place
         problem = submission.unread[place]
-        where = str(problem.mark).rpartition("/")[2]
+        where = str(problem.location).rpartition("/")[2]
         label = key.label(position, id)
         yield tuple(map(Entry, (id, symbol_text(key.row(id), key), label, where, problem.message)))

@@ -29,7 +29,7 @@ def read_blanks(tree: XmlNode, lines: Sequence[TextLine], gathering: Gathering) 
         content.number = paragraphs.get(content.nodes[0].number, 0)
         row, (_, position) = gathering.key.row(place[0]), place
         match = _FILLED.fullmatch(text)
-        mark = gathering.mark(content, match.start(1) if match else 0)
+        mark = gathering.location(content, match.start(1) if match else 0)
         if match is None:
             gathering.doubt(row, position, "unread-number", mark, text)
         else:

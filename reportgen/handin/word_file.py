@@ -125,7 +125,7 @@ def word_faults() -> Iterator[None]:
         yield
     except RefusedError as refused:
         fault = refused.fault
-        raise RefusedError(_CODES.get(fault.code, fault.code), fault.mark, **fault.arguments) from None
+        raise RefusedError(_CODES.get(fault.code, fault.code), fault.location, **fault.arguments) from None
 
 
 @word_faults()

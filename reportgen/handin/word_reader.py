@@ -150,22 +150,22 @@ class _Reader:
             own, unsure = self.own_position(statement, label, carried, named)
             carried = own if said.labels_in(statement.lead) else carried
             for_rows = [row for row in gathering.rows_of(statement.symbol) if row.positions]
-            mark = gathering.mark(line, statement.at)
+            location = gathering.location(line, statement.at)
             shown = f"{statement.symbol} {statement.clauses[0].strip()}"
             if len(for_rows) > 1:
                 for row in for_rows:
                     if said.has_number(statement):
-                        gathering.doubt(row, gathering.position(row, own), "unread-several", mark, shown)
+                        gathering.doubt(row, gathering.position(row, own), "unread-several", location, shown)
                 continue
             for row in for_rows:
                 if said.is_supposed(statement):
                     if said.has_number(statement):
-                        gathering.doubt(row, gathering.position(row, own), "unread-supposed", mark, shown)
+                        gathering.doubt(row, gathering.position(row, own), "unread-supposed", location, shown)
                 elif statement.doubt:
-                    gathering.doubt(row, gathering.position(row, own), "unread-number", mark, shown)
+                    gathering.doubt(row, gathering.position(row, own), "unread-number", location, shown)
                 elif unsure and not row.single:
                     if said.has_number(statement):
-                        gathering.doubt(row, None, "unread-positions", mark, shown)
+                        gathering.doubt(row, None, "unread-positions", location, shown)
                 else:
                     self.statement(line, statement, row, own, last)
 
@@ -174,7 +174,7 @@ class _Reader:
         for symbol, text, at in said.said_otherwise(line.text):
             for row in self.gathering.rows_of(symbol):
                 position = self.gathering.position(row, label)
-                self.gathering.doubt(row, position, "unread-number", self.gathering.mark(line, at), text)
+                self.gathering.doubt(row, position, "unread-number", self.gathering.location(line, at), text)
 
     def own_position(
         self, statement: Statement, label: str | None, carried: str | None, named: set[str]
@@ -202,18 +202,20 @@ class _Reader:
         position = gathering.position(row, label)
         value = said.value_of(statement)
         shown = f"{statement.symbol} {statement.clauses[0].strip()}"
-        mark = gathering.mark(line, value.at if value else statement.at)
+        location = gathering.location(line, value.at if value else statement.at)
         at_end = last and len(statement.clauses) == 1
         if value is None or value.withdrawn:
             if value is not None or said.is_worked(statement):
-                gathering.doubt(row, position, "unread-number", mark, shown)
+                gathering.doubt(row, position, "unread-number", location, shown)
             if value is None and at_end:
                 self.open = row, label
             return
         if position is None:
-            gathering.doubt(row, None, "unread-no-position", mark, shown)
+            gathering.doubt(row, None, "unread-no-position", location, shown)
             return
-        gathering.number(row, position, value.number, value.unit, mark, words=statement.text, barred=statement.barred)
+        gathering.number(
+            row, position, value.number, value.unit, location, words=statement.text, barred=statement.barred
+        )
         if at_end and not value.unit:
             self.open = row, label
 
@@ -223,7 +225,7 @@ class _Reader:
         count = line.text.count(OBJECT)
         if count:
             self.hidden[label] = self.hidden.get(label, 0) + count
-            self.first_object = self.first_object or self.gathering.mark(line, line.text.index(OBJECT))
+            self.first_object = self.first_object or self.gathering.location(line, line.text.index(OBJECT))
 
     def objects(self) -> None:
         """Record doubts for missing values that may be in equations that cannot be opened."""

@@ -60,10 +60,10 @@ def marked(path: Path, data: bytes, reading: FileReading, marking: Marking, poli
         place = (cell.id, cell.position)
         own, counted = reading.values.get(place), marking.submission.values.get(place)
         fault = reading.unread.get(place)
-        mark = own.mark if own is not None else fault.mark if fault is not None else None
+        location = own.location if own is not None else fault.location if fault is not None else None
         # If a sheet counts, a different value in the report is not the one that was judged.
         judged = own is None or (counted is not None and agree(own, counted))
         text = cell_comment(cell, marking, words, policy.show_answers)
-        if text and judged and isinstance(mark, WordLocation):
-            remarks.append(MarginNote(text, mark.element))
+        if text and judged and isinstance(location, WordLocation):
+            remarks.append(MarginNote(text, location.element))
     return MARKED, with_comments(open_word(path, data), remarks)

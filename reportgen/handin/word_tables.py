@@ -75,7 +75,7 @@ def _leave(ways: Sequence[TextCells], gathering: Gathering) -> None:
         numbers = [cell for cell in row if _NUMBER_CELL.fullmatch(cell.line.text)]
         named = _named(row, gathering)
         for one in named[0].rows if named and numbers else ():
-            mark = gathering.mark(numbers[0].line, 0)
+            mark = gathering.location(numbers[0].line, 0)
             gathering.doubt(one, None, "unread-table", mark, numbers[0].line.text)
 
 
@@ -177,7 +177,7 @@ def _read_single(rows: TextCells, gathering: Gathering, label: str | None) -> bo
             position = gathering.position(one, label)
             line = numbers[0].line
             if position is None:
-                gathering.doubt(one, None, "unread-no-position", gathering.mark(line, 0), line.text)
+                gathering.doubt(one, None, "unread-no-position", gathering.location(line, 0), line.text)
             else:
                 _read_cell(numbers[0], one, position, unit, len(quantity.rows) > 1, gathering)
             read = True
@@ -255,7 +255,7 @@ def _read_cell(
     if is_blank(text) or not line.nodes:
         return
     match = _NUMBER_CELL.fullmatch(text)
-    mark = gathering.mark(line, match.start(1) if match else 0)
+    mark = gathering.location(line, match.start(1) if match else 0)
     if OBJECT in text:
         gathering.doubt(row, position, "unread-object", mark, "")
     elif several:

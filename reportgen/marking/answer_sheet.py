@@ -212,16 +212,16 @@ def read_submission(
     if first_sheet is None:
         raise as_error([Fault("sheet-no-head", Location(str(path)))], language)
     named = _beside(pages, "assignment") or _titled(first_sheet[0].rows[: first_sheet[1]])
-    name, mark = named or (path.stem, Location(str(path)))
+    name, location = named or (path.stem, Location(str(path)))
     if isinstance(key_of, Key):
         key = key_of
         if named and name != key.id:
-            raise as_error([Fault("sheet-of-another", mark, {"text": name, "wanted": key.id})], language)
+            raise as_error([Fault("sheet-of-another", location, {"text": name, "wanted": key.id})], language)
     else:
         try:
             key = key_of(name)
         except KeyError:
-            raise as_error([Fault("sheet-unknown", mark, {"text": name})], language) from None
+            raise as_error([Fault("sheet-unknown", location, {"text": name})], language) from None
     kind = _beside(pages, "kind")
     if kind and kind[0] != key.kind:
         about = {"text": f"{name} ({kind[0]})", "wanted": f"{key.id} ({key.kind})"}
@@ -233,7 +233,11 @@ def read_submission(
         shown = [fault for answers in answered for fault in _data_shown(key, *answers)]
         unsaid = not shown and named is not None and name != key.id
         about = {"text": name, "wanted": key.id}
-        if faults := [Fault("sheet-of-another", mark, about)] if unsaid else [one for one in shown if one is not None]:
+        if (
+            faults := [Fault("sheet-of-another", location, about)]
+            if unsaid
+            else [one for one in shown if one is not None]
+        ):
             raise as_error(faults, language)
     for answers in answered:
         reading.sheet(*answers)
@@ -283,7 +287,7 @@ def _beside(pages: Sequence[Page], label: str) -> tuple[str, Location] | None:
         for row in page.rows:
             for label_cell, cell in pairwise(row):
                 if _says(label_cell, label) and cell.text.strip():
-                    return cell.label.strip(), cell.mark
+                    return cell.label.strip(), cell.location
     return None
 
 
@@ -292,7 +296,7 @@ def _titled(rows: Sequence[Sequence[SheetCell]]) -> tuple[str, Location] | None:
     for cell in (cell for row in rows for cell in row):
         title, dash, name = cell.text.partition("–")
         if dash and title.strip().casefold() in _words("title") and name.strip():
-            return name.strip(), cell.mark
+            return name.strip(), cell.location
     return None
 
 
@@ -311,7 +315,7 @@ def _data_shown(key: Key, page: Page, head: int) -> Iterator[Fault | None]:
         if re.fullmatch(units.NUMBER, own):
             about = {"symbol": symbol_text(row, key), "text": own, "wanted": f"{entry.value} {row.unit}".strip()}
             same = math.isclose(float(own), float(str(entry.value)), rel_tol=1e-9)
-            yield None if same else Fault("sheet-other-data", cells[column].mark, about)
+            yield None if same else Fault("sheet-other-data", cells[column].location, about)
 
 
 # --- reading it -----------------------------------------------------------------------------------
@@ -345,8 +349,8 @@ class _Reading:
             if place not in filled:
                 filled[place] = cell
             elif filled[place].text.strip() != cell.text.strip():
-                first = str(filled[place].mark).removeprefix(f"{cell.mark.file}:")
-                self.problem(place, Fault("cell-repeated", cell.mark, {"first": first}))
+                first = str(filled[place].location).removeprefix(f"{cell.location.file}:")
+                self.problem(place, Fault("cell-repeated", cell.location, {"first": first}))
         texts = (cell.text for cell in filled.values() if isinstance(cell.value, str))
         mark, agreed = decimal_mark(texts, self.key.language)
         for place, cell in filled.items():
@@ -368,7 +372,7 @@ class _Reading:
                 if label in known:
                     columns[number] = label
                 else:
-                    self.note(Fault("cell-no-position", cell.mark, {"text": cell.text}))
+                    self.note(Fault("cell-no-position", cell.location, {"text": cell.text}))
         return columns
 
     def positions(self, id: str) -> Mapping[str, int]:
@@ -392,8 +396,8 @@ class _Reading:
                 places = ((self.positions(id).get(label), cell) for label, cell in answers)
                 yield from (((id, k), cell) for k, cell in places if k is not None and k in asked[id].positions)
             elif answers and id not in known:
-                mark = cells[at].mark if id else answers[0][1].mark
-                self.note(Fault("cell-unknown-row" if id else "cell-no-row", mark, {"text": id}))
+                location = cells[at].location if id else answers[0][1].location
+                self.note(Fault("cell-unknown-row" if id else "cell-no-row", location, {"text": id}))
 
     def is_empty(self, cell: SheetCell) -> bool:
         """Return True if a cell has no answer, not even one that is to be settled."""
@@ -403,29 +407,29 @@ class _Reading:
         """Read one cell: store a number, or a problem at its place."""
         row = self.key.row(place[0])
         if cell.text.strip() == UNSETTLED:
-            self.unread[place] = as_problem(Fault("cell-unsettled", cell.mark), self.language)
+            self.unread[place] = as_problem(Fault("cell-unsettled", cell.location), self.language)
             return None
         if cell.kind in _UNREADABLE:
-            return self.problem(place, Fault(_UNREADABLE[cell.kind], cell.mark, {"text": cell.text}))
+            return self.problem(place, Fault(_UNREADABLE[cell.kind], cell.location, {"text": cell.text}))
         if cell.value is None:
-            return self.problem(place, Fault("cell-formula", cell.mark, {"text": cell.formula}))
+            return self.problem(place, Fault("cell-formula", cell.location, {"text": cell.formula}))
         if cell.kind == "formula":
-            self.note(Fault("cell-formula-used", cell.mark, {"text": cell.text}))
+            self.note(Fault("cell-formula-used", cell.location, {"text": cell.text}))
         if isinstance(cell.value, float):
-            self.values[place] = Answer(cell.value, cell.text, cell.mark)
+            self.values[place] = Answer(cell.value, cell.text, cell.location)
             return None
         try:
             number, doubtful = read_number(cell.value, typed_unit(row), mark, agreed)
         except QuantityFault as fault:
             # The unit is named as the sheet prints it.
             arguments = fault.arguments | ({"unit": row.unit} if "unit" in fault.arguments else {})
-            return self.problem(place, Fault(fault.code, cell.mark, arguments))
+            return self.problem(place, Fault(fault.code, cell.location, arguments))
         if doubtful:
             ways = sorted({read_number(cell.value, typed_unit(row), one)[0] for one in get_args(DecimalMark)}, key=abs)
             number = _nearest(ways, float(row.values[row.at(place[1])]), number)
             read, other_reading = (units.write(way, None, self.language or self.key.language) for way in ways)
-            self.note(Fault("cell-thousands", cell.mark, {"text": cell.text, "read": read, "other": other_reading}))
-        self.values[place] = Answer(number, cell.text, cell.mark)
+            self.note(Fault("cell-thousands", cell.location, {"text": cell.text, "read": read, "other": other_reading}))
+        self.values[place] = Answer(number, cell.text, cell.location)
         return None
 
     def problem(self, place: Place, fault: Fault) -> None:

@@ -279,9 +279,9 @@ def _unread(marking: Marking, words: Mapping[str, Any]) -> Iterator[Block]:
 
 def _listed(problems: Iterable[Problem]) -> Iterator[Block]:
     """Yield the problems of single cells, each with its location in the student's own file."""
-    in_order = sorted(problems, key=lambda problem: problem.mark)
+    in_order = sorted(problems, key=lambda problem: problem.location)
     if in_order:
-        texts = (f"{str(one.mark).removeprefix(f'{one.mark.file}:')}: {one.message}." for one in in_order)
+        texts = (f"{str(one.location).removeprefix(f'{one.location.file}:')}: {one.message}." for one in in_order)
         yield tree.List(tuple((paragraph(text),) for text in texts))
 
 

@@ -326,7 +326,7 @@ def _lines(scheme: MarkingScheme, marking: Marking, hint: bool, agrees: bool) ->
     counted = Counter(cell.verdict for cell in marking.cells)
     for cell in marking.first_errors:
         given = marking.submission.values[(cell.id, cell.position)]
-        yield words["first"].format(mark=str(given.mark), symbol=_named(marking, cell), text=given.text)
+        yield words["first"].format(mark=str(given.location), symbol=_named(marking, cell), text=given.text)
         if hint:
             yield f"    {_hint(scheme, marking, cell)}"
     later = counted[Verdict.wrong] - len(marking.first_errors)
@@ -346,7 +346,7 @@ def _unread(marking: Marking) -> Iterator[str]:
     for (id, position), problem in submission.unread.items():
         symbol = symbol_text(marking.key.row(id), marking.key)
         named = words["at"].format(symbol=symbol, label=marking.key.label(position, id)) if position else symbol
-        yield words["unread"].format(mark=str(problem.mark), symbol=named, message=problem.message)
+        yield words["unread"].format(mark=str(problem.location), symbol=named, message=problem.message)
     if submission.own_files:
         yield words["read"].format(read=round(100 * submission.share_read), count=len(submission.values))
 

@@ -20,7 +20,7 @@ class Answer:
 
     value: float
     text: str
-    mark: Location
+    location: Location
 
 
 @dataclass(frozen=True, slots=True)

@@ -79,7 +79,7 @@ def unmarked_comment(student: Unmarked) -> Iterator[str]:
     else:
         yield said["unsettled"].format(read=round(100 * submission.share_read), count=len(submission.unread))
     for note in (*submission.notes, *submission.unread.values()):
-        yield f"– {Path(note.mark.file).name}: {note.message}" + (f" ({note.hint})" if note.hint else "")
+        yield f"– {Path(note.location.file).name}: {note.message}" + (f" ({note.hint})" if note.hint else "")
 
 
 def _named(cell: Marked, key: Key) -> str:

@@ -18,7 +18,7 @@ from reportgen.base.topics import topics
 from reportgen.formula import Call, Ref, ids, refs, vocabulary
 from reportgen.formula.calculation import DUST, ZERO, Family
 from reportgen.formula.ledger import Ledger
-from reportgen.marking.topic_marks import MARKS
+from reportgen.marking.topic_marking import MARKS
 
 PAPER_ERROR = 0.5e-3
 """Largest error (m on paper) of a drawn point, at each end of a measured length."""

@@ -493,6 +493,6 @@ def _by_place(problems: list[Problem], source: Source) -> dict[Where, list[Probl
         where = problem.where
         while where and isinstance(where[-1], int) and not isinstance(at(source.top, where), MappingNode):
             where = where[:-1]
-        if problem.mark.file == source.file:
+        if problem.location.file == source.file:
             places.setdefault(where, []).append(problem)
     return places

@@ -107,7 +107,7 @@ def read_letterhead(path: Path, language: Language) -> Letterhead:
     except RefusedError as refused:
         fault = refused.fault
         code = fault.code if fault.code.startswith("letterhead") else _CODES.get(fault.code[6:], "letterhead-damaged")
-        raise TemplateError(str(as_problem(Fault(code, fault.mark, fault.arguments), language))) from None
+        raise TemplateError(str(as_problem(Fault(code, fault.location, fault.arguments), language))) from None
     except OSError as error:
         fault = Fault("unreadable", Location(str(path)), {"reason": cause(error)})
         raise TemplateError(str(as_problem(fault, language))) from error

@@ -95,7 +95,7 @@ def _judged(package: Package) -> tuple[bytes, list[int], bool]:
     }
     listed = [attributes.get("id", "") for tag, attributes in package.elements(workbook) if tag == "sheet"]
     if len(listed) > MOST_SHEETS:
-        raise too_large(package.mark)
+        raise too_large(package.location)
     present = {places[id] for id in listed if places.get(id, "") in package}
     if len(present) < len(listed):
         raise package.refused("sheet-damaged")
@@ -171,9 +171,9 @@ def _rows(read: Iterator[tuple[CellRow, CellRow]], count: int, mark: Marks) -> t
             if cell.blank:
                 continue
             if exceeds(row, column):
-                raise too_large(cell.mark)
+                raise too_large(cell.location)
             if isinstance(cell.value, str) and len(cell.value) > LONGEST_CELL:
-                raise too_long(cell.mark)
+                raise too_long(cell.location)
             cells.setdefault(row, {})[column] = cell
     if rows_read != count:
         # openpyxl leaves out rows and cells that are not in order.
@@ -202,14 +202,14 @@ def _whole(read: Iterator[tuple[CellRow, CellRow]], mark: Marks) -> Iterator[tup
         raise RefusedError("sheet-damaged", mark(last + 1, 1)) from None
 
 
-def _cell(typed: Any, stored: Any, mark: CellLocation) -> SheetCell:
-    value, kind = _value(stored.value, stored.data_type, mark)
+def _cell(typed: Any, stored: Any, location: CellLocation) -> SheetCell:
+    value, kind = _value(stored.value, stored.data_type, location)
     code = displayed(value, _format(stored)) if isinstance(value, float) else ""
     if typed.data_type != "f":
-        return SheetCell(value, mark, kind, code=code)
+        return SheetCell(value, location, kind, code=code)
     # The formula of an array is an object with its text, that of a data table one without.
     text = typed.value if isinstance(typed.value, str) else getattr(typed.value, "text", "=")
-    return SheetCell(value, mark, "formula", text, code)
+    return SheetCell(value, location, "formula", text, code)
 
 
 def _format(cell: Any) -> str:
@@ -220,7 +220,7 @@ def _format(cell: Any) -> str:
         return GENERAL
 
 
-def _value(value: object, type: str, mark: CellLocation) -> tuple[str | float | None, CellKind]:
+def _value(value: object, type: str, location: CellLocation) -> tuple[str | float | None, CellKind]:
     match value:
         case None:
             return None, "empty"
@@ -232,7 +232,7 @@ def _value(value: object, type: str, mark: CellLocation) -> tuple[str | float | 
             except OverflowError:
                 number = math.inf
             if not math.isfinite(number):
-                raise RefusedError("sheet-damaged", mark)
+                raise RefusedError("sheet-damaged", location)
             return number, "number"
         case str() if type == "e":
             return value, "error"
@@ -304,14 +304,14 @@ def _read_csv(data: bytes, file: str, name: str) -> Page:
     """Return the page of a CSV file; refuse it at the place that cannot be read."""
     text = decoded(data, file)
     if isinstance(text, Fault):
-        raise RefusedError(text.code, text.mark)
+        raise RefusedError(text.code, text.location)
     rows: list[tuple[SheetCell, ...]] = []
     cells = 0
     for row in _csv_rows(text, file):
         rows.append(row)
         cells += len(row)
         if exceeds(len(rows), len(row), cells):
-            raise too_large(row[-1].mark if row else Location(file))
+            raise too_large(row[-1].location if row else Location(file))
     return Page(name, tuple(rows))
 
 
@@ -326,17 +326,17 @@ def _csv_rows(text: str, file: str) -> Iterator[tuple[SheetCell, ...]]:
     at = start
     row: list[SheetCell] = []
     while at < len(text) or row:
-        mark = Location(file, line, at - start + 1)
+        location = Location(file, line, at - start + 1)
         match = cell.match(text, at)
         assert match is not None, "any text begins with a cell, which may be empty"
         quoted, closed, behind, unquoted = match.groups()
         if closed == "":
-            raise RefusedError("quote-open", mark)
+            raise RefusedError("quote-open", location)
         content = unquoted if quoted is None else quoted.replace('""', '"') + behind
         if len(content) > LONGEST_CELL:
-            raise too_long(mark)
+            raise too_long(location)
         shown = unguarded(unicodedata.normalize("NFC", content))
-        row.append(SheetCell(shown, mark, "text") if shown.strip() else SheetCell(None, mark, "empty"))
+        row.append(SheetCell(shown, location, "text") if shown.strip() else SheetCell(None, location, "empty"))
         for inner in _LINE_END.finditer(text, at, match.end()):
             line, start = line + 1, inner.end()
         at = match.end()

@@ -79,7 +79,7 @@ class Package:
 
     def __init__(self, data: bytes, file: str, bounds: Bounds | None = None) -> None:
         """Open and check a package; raises `RefusedError`."""
-        self.mark = Location(file)
+        self.location = Location(file)
         self.bounds = bounds or Bounds()
         if data.startswith(_OLD):
             raise self.refused("sheet-encrypted" if _ENCRYPTED in data else "sheet-old")
@@ -108,7 +108,7 @@ class Package:
         return self._parts[name].file_size
 
     def refused(self, code: str, **arguments: str) -> RefusedError:
-        return RefusedError(code, self.mark, **arguments)
+        return RefusedError(code, self.location, **arguments)
 
     def bomb(self) -> RefusedError:
         return self.refused("sheet-bomb", largest=str(self.bounds.unpacked // 1_000_000))
@@ -337,7 +337,7 @@ class SheetCell:
     """
 
     value: str | float | None
-    mark: Location
+    location: Location
     kind: CellKind
     formula: str = ""
     code: str = ""
@@ -371,9 +371,9 @@ class Page:
 class RefusedError(Exception):
     """A file that is not read any further; carries the `Fault`."""
 
-    def __init__(self, code: str, mark: Location, **arguments: str) -> None:
+    def __init__(self, code: str, location: Location, **arguments: str) -> None:
         super().__init__(code)
-        self.fault = Fault(code, mark, arguments)
+        self.fault = Fault(code, location, arguments)
 
 
 def exceeds(row: int, column: int, cells: int = 0) -> bool:
@@ -381,12 +381,14 @@ def exceeds(row: int, column: int, cells: int = 0) -> bool:
     return row > MOST_ROWS or column > MOST_COLUMNS or cells > MOST_CELLS
 
 
-def too_large(mark: Location) -> RefusedError:
-    return RefusedError("table-too-large", mark, rows=str(MOST_ROWS), columns=str(MOST_COLUMNS), cells=str(MOST_CELLS))
+def too_large(location: Location) -> RefusedError:
+    return RefusedError(
+        "table-too-large", location, rows=str(MOST_ROWS), columns=str(MOST_COLUMNS), cells=str(MOST_CELLS)
+    )
 
 
-def too_long(mark: Location) -> RefusedError:
-    return RefusedError("text-too-long", mark, largest=str(LONGEST_CELL))
+def too_long(location: Location) -> RefusedError:
+    return RefusedError("text-too-long", location, largest=str(LONGEST_CELL))
 
 
 def number_text(value: float) -> str:

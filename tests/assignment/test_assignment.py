@@ -239,7 +239,7 @@ def test_no_text_makes_a_traceback(edits: list[tuple[int, int, str]]) -> None:
         file.write_bytes(text.encode("utf-8", "replace"))
         problems = check(file)
         lines = text.count("\n") + text.count("\x85") + text.count("\u2028") + text.count("\r") + 2
-        assert all(1 <= problem.mark.line <= lines and problem.mark.column >= 1 for problem in problems)
+        assert all(1 <= problem.location.line <= lines and problem.location.column >= 1 for problem in problems)
         if not problems:
             assert load(file).kind == "engine-twin"
 

@@ -71,7 +71,7 @@ def test_check_is_silent_where_there_is_no_doubt(tmp_path: Path, F: str) -> None
 def test_a_comma_where_yaml_parts_is_the_fault(tmp_path: Path) -> None:
     """One fault, at the number, in place of two about a unit and a key that nobody wrote."""
     (problem,) = checked(tmp_path, "1,600 N")
-    assert (problem.code, problem.mark.column, problem.hint) == ("decimal-comma", 79, "write 1.6 N or 1600 N")
+    assert (problem.code, problem.location.column, problem.hint) == ("decimal-comma", 79, "write 1.6 N or 1600 N")
     (problem,) = checked(tmp_path, "1,400,000 N")
     assert (problem.code, problem.hint) == ("decimal-comma", "write 1400000 N")
     (problem,) = checked(tmp_path, "1.600,5 N")
@@ -107,7 +107,7 @@ def test_the_files_of_parts_are_looked_at_too(tmp_path: Path) -> None:
     assert "r0: 80 mm" in text
     cam.write_text(text.replace("r0: 80 mm", "r0: 80.000 mm"), encoding="utf-8")
     (problem,) = api.examine(tmp_path / "shaper.yaml")
-    assert (problem.code, problem.level, problem.mark.file) == ("thousands", "warning", str(cam))
+    assert (problem.code, problem.level, problem.location.file) == ("thousands", "warning", str(cam))
 
 
 def test_who_draws_variants_is_told(tmp_path: Path) -> None:

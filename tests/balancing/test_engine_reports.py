@@ -199,7 +199,7 @@ def test_what_cannot_be_is_located(old: str, new: str, faults: list[str], tmp_pa
     file.write_text(TEXT.replace(old, new), encoding="utf-8")
     for language in LANGUAGES:
         found = api.check(file, language)
-        assert [f"{one.mark.line}:{one.mark.column} {one.code}" for one in found] == faults
+        assert [f"{one.location.line}:{one.location.column} {one.code}" for one in found] == faults
 
 
 @pytest.mark.parametrize("language", ["vi", "en"])

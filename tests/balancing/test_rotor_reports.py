@@ -246,13 +246,13 @@ def test_what_cannot_be_is_located(old: str, new: str, faults: list[str], tmp_pa
     file.write_text(TEXT.replace(old, new), encoding="utf-8")
     for language in ("vi", "en"):
         found = api.check(file, language)
-        assert [f"{one.mark.line}:{one.mark.column} {one.code}" for one in found] == faults
+        assert [f"{one.location.line}:{one.location.column} {one.code}" for one in found] == faults
 
 
 def test_no_masses_are_a_fault(tmp_path: Path) -> None:
     file = tmp_path / "rotor.yaml"
     file.write_text(re.sub(r"  masses:\n.*", "  masses: []\n", TEXT, flags=re.DOTALL), encoding="utf-8")
-    assert [(one.code, one.mark.line) for one in api.check(file, "en")] == [("too-few", 7)]
+    assert [(one.code, one.location.line) for one in api.check(file, "en")] == [("too-few", 7)]
 
 
 def test_a_plane_that_is_in_balance_by_itself(tmp_path: Path) -> None:
@@ -312,7 +312,7 @@ def test_masses_alike_on_both_sides_of_the_plane_leave_no_couple(tmp_path: Path)
 def test_masses_in_the_first_plane_need_no_second(tmp_path: Path) -> None:
     file = tmp_path / "rotor.yaml"
     file.write_text(TEXT.replace("z: 100 mm", "z: 0 mm").replace("z: 300 mm", "z: 0 mm"), encoding="utf-8")
-    assert [(one.code, one.mark.line) for one in api.check(file, "en")] == [("rotor-one-plane", 3)]
+    assert [(one.code, one.location.line) for one in api.check(file, "en")] == [("rotor-one-plane", 3)]
 
 
 def test_a_radius_in_one_plane_and_a_mass_in_the_other(tmp_path: Path) -> None:

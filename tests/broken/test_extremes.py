@@ -83,7 +83,7 @@ def test_next_to_a_dead_point_is_a_located_fault(
     assert group in problem.message
     assert place in problem.message
     assert "accepted from" in problem.message
-    assert problem.mark.line > 1
+    assert problem.location.line > 1
 
 
 def transmitted(degrees: float) -> dict[str, tuple[str, str, str]]:

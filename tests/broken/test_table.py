@@ -28,7 +28,7 @@ def put(folder: Path, content: bytes | str) -> Path:
 
 
 def faults(problems: list[Problem]) -> tuple[str, ...]:
-    return tuple(f"{one.mark.line}:{one.mark.column} {one.code}" for one in problems)
+    return tuple(f"{one.location.line}:{one.location.column} {one.code}" for one in problems)
 
 
 @pytest.mark.parametrize(
@@ -40,7 +40,7 @@ def test_every_row(tmp_path: Path, row: Row, language: Language) -> None:
     found = check(file, language)
     assert faults(found) == row.faults
     for one in found:
-        assert str(one).startswith(f"{file}:{one.mark.line}:{one.mark.column}: error[{one.code}]: ")
+        assert str(one).startswith(f"{file}:{one.location.line}:{one.location.column}: error[{one.code}]: ")
         # Every gap of a sentence is filled; a list of keys may be quoted from the file.
         assert "{" not in one.message.replace("{a: b}", "")
     told = "\n".join(str(one) for one in found)

@@ -84,5 +84,5 @@ def test_the_first_line_told_is_the_slips_own_and_mends_it(
     path = tmp_path / "own.yaml"
     path.write_text(text.replace(right, slip, 1), encoding="utf-8")
     first, *_ = [problem for problem in api.examine(path, "en") if problem.level == "error"]
-    assert first.mark.line == text[: text.index(right)].count("\n") + 1
+    assert first.location.line == text[: text.index(right)].count("\n") + 1
     assert mend in f"{first.message} {first.hint}"

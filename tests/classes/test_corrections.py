@@ -88,7 +88,7 @@ def test_the_later_of_two_rows_holds(path: Path) -> None:
 )
 def test_what_a_row_no_longer_fits_is_told_at_its_place(row: str, code: str, place: str, path: Path) -> None:
     found, problems = corrected(row, path)
-    assert [(one.code, str(one.mark)) for one in problems] == [(code, f"{path}:{place}")]
+    assert [(one.code, str(one.location)) for one in problems] == [(code, f"{path}:{place}")]
     assert points(found) == points(marking())
 
 
@@ -98,7 +98,7 @@ def test_a_row_for_a_value_holds_while_the_sheet_has_it(path: Path) -> None:
     found = replace(found, submission=replace(found.submission, values=values))
     for value in ("7.77", '"7,77 m/s"'):
         assert points(corrected(f"crank-07,v.B,3,right,seen,{value}", path, found)[0])["v.B", 3] == 1
-    values[("v.B", 3)] = Answer(7.5, "7.5", values["v.B", 3].mark)
+    values[("v.B", 3)] = Answer(7.5, "7.5", values["v.B", 3].location)
     later = replace(found, submission=replace(found.submission, values=values))
     left, problems = corrected("crank-07,v.B,3,right,seen,7.77", path, later)
     assert points(left)["v.B", 3] == 0

@@ -82,7 +82,7 @@ def test_the_policy_says_when_it_is_due(tmp_path: Path) -> None:
     path.write_text("late: {due: soon, per_day: 1}\ntwice: both\n", encoding="utf-8")
     with pytest.raises(AssignmentError) as found:
         read_policy(path, "en")
-    assert [(one.code, one.mark.line) for one in found.value.problems] == [("moment", 1), ("choice", 2)]
+    assert [(one.code, one.location.line) for one in found.value.problems] == [("moment", 1), ("choice", 2)]
 
 
 def test_the_roster_goes_before_the_worksheet_and_who_has_no_date_is_told(tmp_path: Path) -> None:
@@ -99,7 +99,7 @@ def test_the_roster_goes_before_the_worksheet_and_who_has_no_date_is_told(tmp_pa
     handings = {name: Handing(one, f"{name}.xlsx", said.get(name), name == "E") for name, one in who.items()}
     days, problems = days_late(RULE, handings, read_gradebook(path), "en")
     assert days == {"A": 2, "B": 0}
-    assert [(one.code, one.level, one.mark.file) for one in problems] == [
+    assert [(one.code, one.level, one.location.file) for one in problems] == [
         ("moment", "error", str(path)),
         ("late-undated", "error", "E.xlsx"),
         ("late-unknown", "warning", "C.xlsx"),
@@ -146,7 +146,7 @@ def test_of_two_sheets_the_last_one_is_marked_unless_the_policy_says_the_first(
     assert [Path(one.submission.file).stem for one in found.markings] == [marked]
     (problem,) = found.problems
     assert problem.code == "sheet-twice"
-    assert Path(problem.mark.file).stem == {"a": "z", "z": "a"}[marked]
+    assert Path(problem.location.file).stem == {"a": "z", "z": "a"}[marked]
     assert f"{marked}.xlsx" in problem.message
 
 

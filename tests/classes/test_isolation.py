@@ -70,7 +70,7 @@ def test_damaged_files_leave_the_marks_of_the_class(handed: tuple[Path, Path], t
     assert rows[CUT]["not given back"].startswith(f"{CUT}.dxf: it is marked, but no comments")
     assert not rows[GOOD]["not given back"]
     assert not rows[UNITS]["not given back"]
-    assert {(Path(one.mark.file).stem, one.level) for one in told} == {(SETTINGS, "warning"), (CUT, "warning")}
+    assert {(Path(one.location.file).stem, one.level) for one in told} == {(SETTINGS, "warning"), (CUT, "warning")}
 
 
 def test_an_exception_nobody_expected_concerns_one_student(

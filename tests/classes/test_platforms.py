@@ -117,7 +117,7 @@ def test_moodles_download_is_marked_and_given_back_under_its_names(
     assert {id: owner.number for id, owner in result.owners.items()} == {AN: "4711", ANH: "4712", BAO: "4713"}
     # Whoever handed in no sheet is told, by the place of what there is.
     assert [problem.code for problem in result.problems] == ["download-no-sheet"]
-    assert result.problems[0].mark.file.endswith("Vũ Hà_4714_assignsubmission_file/bai.txt")
+    assert result.problems[0].location.file.endswith("Vũ Hà_4714_assignsubmission_file/bai.txt")
     files = dict(class_outputs.files_of(result, Policy(), "typst", None))
     with zipfile.ZipFile(io.BytesIO(files[Path("feedback.zip")])) as back:
         names = back.namelist()
@@ -192,7 +192,7 @@ def refused(path: Path) -> list[Fault]:
 def test_a_name_that_leads_elsewhere_refuses_the_archive(name: str, tmp_path: Path) -> None:
     (fault,) = refused(archive(tmp_path / "d.zip", {"good.csv": b"x", name: b"x"}))
     assert fault.code == "archive-path"
-    assert fault.mark.file.startswith(str(tmp_path / "d.zip"))
+    assert fault.location.file.startswith(str(tmp_path / "d.zip"))
 
 
 def test_links_bombs_and_damage_are_refused(tmp_path: Path) -> None:
@@ -215,7 +215,7 @@ def test_a_sheet_that_is_too_large_is_a_fault_of_its_own(assignments: Path, tmp_
         made.writestr(f"{AN}{sheet(AN)[0]}", sheet(AN)[1])
     result = class_marking.grade([tmp_path / "d.zip"], assignments, Policy())
     assert [problem.code for problem in result.problems] == ["too-large"]
-    assert result.problems[0].mark.file == str(tmp_path / "d.zip" / "large.csv")
+    assert result.problems[0].location.file == str(tmp_path / "d.zip" / "large.csv")
     assert len(result.markings) == 1
 
 
@@ -294,7 +294,7 @@ def test_another_table_is_refused(text: str, code: str, tmp_path: Path) -> None:
     path.write_text(text, encoding="utf-8")
     with pytest.raises(AssignmentError) as found:
         fill(path, RESULTS, Scale())
-    assert [(one.code, one.mark.file) for one in found.value.problems] == [(code, str(path))]
+    assert [(one.code, one.location.file) for one in found.value.problems] == [(code, str(path))]
 
 
 def test_a_workbook_is_refused_since_no_platform_takes_it_back(tmp_path: Path) -> None:
@@ -404,4 +404,4 @@ def test_a_link_out_of_the_folder_handed_in_is_refused(tmp_path: Path) -> None:
     (folder / "b.csv").write_text("id,value\n", encoding="utf-8")
     faults: list[Fault] = []
     assert [handed.path.name for handed in handed_in([folder], faults)] == ["b.csv"]
-    assert [(fault.code, fault.mark.file) for fault in faults] == [("path-outside", str(folder / "a.csv"))]
+    assert [(fault.code, fault.location.file) for fault in faults] == [("path-outside", str(folder / "a.csv"))]

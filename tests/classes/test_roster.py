@@ -126,7 +126,7 @@ def test_blank_lines_quoted_commas_and_a_title_above(put: Put) -> None:
     path = put('Danh sách lớp\n\n,\nid,name,\n\n01,"Nam, Trần"\n  , \n02,Lan\n')
     roster = read_roster(path)
     assert [(one.id, one.card["name"]) for one in roster.students] == [("01", "Nam, Trần"), ("02", "Lan")]
-    assert str(roster.students[1].mark) == f"{path}:8:1"
+    assert str(roster.students[1].location) == f"{path}:8:1"
 
 
 def test_a_workbook_of_numbers_with_sheets_before_it(put: Put) -> None:
@@ -143,7 +143,7 @@ def test_a_workbook_of_numbers_with_sheets_before_it(put: Put) -> None:
     roster = read_roster(path)
     assert [(one.id, one.card["name"]) for one in roster.students] == [("195520103001", "An"), ("007", "=1+1")]
     first = roster.students[0].overrides["parameters.H"]
-    assert (first.text, str(first.mark)) == ("95 mm", f"{path}:Lớp!C2")
+    assert (first.text, str(first.location)) == ("95 mm", f"{path}:Lớp!C2")
     assert roster.students[1].overrides == {}
 
 

@@ -41,7 +41,7 @@ def test_a_greedy_sheet_is_given_up(handed: list[Path], limits: Limits, monkeypa
     assert [one.path for one, _ in found] == handed
     first, greedy, last = (pages for _, pages in found)
     assert isinstance(greedy, list)
-    assert [(problem.code, problem.mark.file) for problem in greedy] == [("sheet-beyond-limits", str(handed[1]))]
+    assert [(problem.code, problem.location.file) for problem in greedy] == [("sheet-beyond-limits", str(handed[1]))]
     assert isinstance(first, tuple)
     assert isinstance(last, tuple)
 

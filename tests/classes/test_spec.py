@@ -209,7 +209,11 @@ def test_a_table_of_variants_lies_below_the_spec(tmp_path: Path, name: str, lang
     with pytest.raises(AssignmentError) as caught:
         read_spec(spec, language)
     (problem,) = caught.value.problems
-    assert (problem.code, problem.mark.line, problem.mark.column) == ("path-outside", len(BARS.splitlines()) + 1, 11)
+    assert (problem.code, problem.location.line, problem.location.column) == (
+        "path-outside",
+        len(BARS.splitlines()) + 1,
+        11,
+    )
     assert told in str(problem)
     assert not re.search("nobody|root:", str(caught.value))
 

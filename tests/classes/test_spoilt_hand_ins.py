@@ -111,4 +111,4 @@ def test_no_spoilt_file_ends_the_marking(part: int, tmp_path: Path, monkeypatch:
     # Many are read in spite of the damage, and of each there are marks, a state, or both.
     assert len(graded.markings) > STUDENTS / 4
     assert all(row["mark"] or row["state"] for row in rows.values())
-    assert all(problem.mark.file for problem in (*graded.problems, *told))
+    assert all(problem.location.file for problem in (*graded.problems, *told))

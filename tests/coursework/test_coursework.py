@@ -390,7 +390,7 @@ def test_a_fault_is_told_where_it_stands(name: str, tmp_path: Path) -> None:
     (tmp_path / "whole.yaml").write_text(MACHINE + whole, encoding="utf-8")
     (tmp_path / "part.yaml").write_text(part, encoding="utf-8")
     found = [
-        f"{Path(one.mark.file).name}:{one.mark.line}:{one.mark.column} {one.code}"
+        f"{Path(one.location.file).name}:{one.location.line}:{one.location.column} {one.code}"
         for one in check(tmp_path / "whole.yaml")
     ]
     assert found == [wanted]

@@ -142,7 +142,7 @@ def test_a_missing_or_wrong_part_is_told_where_it_stands_and_harms_nobody_else(t
     result = made()
     assert (result.made, result.kept) == (1, 1)
     told = {
-        failure.student: [(Path(one.mark.file).name, one.mark.line, one.code) for one in failure.problems]  # type: ignore[union-attr]
+        failure.student: [(Path(one.location.file).name, one.location.line, one.code) for one in failure.problems]  # type: ignore[union-attr]
         for failure in result.failures
     }
     line = 1 + next(n for n, text in enumerate(files[1].read_text(encoding="utf-8").splitlines()) if "- file:" in text)
@@ -163,7 +163,7 @@ def test_a_fault_of_a_parts_spec_stands_in_its_file(tmp_path: Path) -> None:
     cams.write_text(cams.read_text(encoding="utf-8").replace("arm: 132 mm", "arm: 132"), encoding="utf-8")
     with pytest.raises(AssignmentError) as caught:
         make_variants(tmp_path / "spec.yaml", tmp_path / "roster.csv", tmp_path / "out")
-    places = [(Path(one.mark.file).name, one.mark.line, one.code) for one in caught.value.problems]
+    places = [(Path(one.location.file).name, one.location.line, one.code) for one in caught.value.problems]
     assert ("cams.yaml", 7, "missing-unit") in places
 
 
@@ -184,7 +184,7 @@ def test_a_job_takes_the_files_of_the_parts_along(tmp_path: Path) -> None:
     assert float(run_job(job).files["n"]) == pytest.approx(52)
     edited = replace(job, beside={part.name: content.replace(b"132 mm", b"132")})
     assert edited.assignment != job.assignment
-    assert [one.mark.file for one in run_job(edited).problems if not isinstance(one, str)] == [part.name]
+    assert [one.location.file for one in run_job(edited).problems if not isinstance(one, str)] == [part.name]
 
 
 def test_a_sheet_goes_out_comes_back_and_is_marked_by_parts(tmp_path: Path) -> None:

@@ -214,7 +214,7 @@ def test_what_cannot_be_is_located(text: str, fault: str, tmp_path: Path) -> Non
     file.write_text(f"kind: friction\nparameters:\n  {text}\n", encoding="utf-8")
     for language in ("vi", "en"):
         (found,) = api.check(file, language)  # type: ignore[arg-type]
-        assert f"{found.mark.line}:{found.mark.column} {found.code}".endswith(fault)
+        assert f"{found.location.line}:{found.location.column} {found.code}".endswith(fault)
 
 
 @pytest.mark.parametrize("language", ["vi", "en"])

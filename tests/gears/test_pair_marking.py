@@ -219,7 +219,7 @@ def told(text: str, tmp_path: Path, language: str) -> list[tuple[str, str, str]]
     path = tmp_path / "pair.yaml"
     path.write_text(f"kind: gear-pair\nreport: {{language: {language}}}\nparameters: {{{text}}}\n", encoding="utf-8")
     found = catalogue.examine(path)
-    return [(f"{one.mark.line}:{one.mark.column}", one.code, f"{one.message} {one.hint}") for one in found]
+    return [(f"{one.location.line}:{one.location.column}", one.code, f"{one.message} {one.hint}") for one in found]
 
 
 @pytest.mark.parametrize("language", ["vi", "en"])

@@ -207,7 +207,7 @@ def test_what_cannot_be_is_named(changes: dict[str, object], codes: list[str], t
         found = api.check(file, language)  # type: ignore[arg-type]
         assert sorted(problem.code for problem in found) == sorted(codes)
         for problem in found:
-            assert problem.mark.line > 0
+            assert problem.location.line > 0
 
 
 def test_what_mends_a_fault_is_right(tmp_path: Path) -> None:

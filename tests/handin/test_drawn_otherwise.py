@@ -102,7 +102,7 @@ def test_vectors_are_read_however_they_are_drawn(name: str, way: str) -> None:
     reading = read_as(name, redrawn(data, WAYS[way]))
     counted = counts(name, reading, truth)
     assert counted["wrong"] == 0
-    assert not any(answer.mark.wrong for answer in reading.values.values())
+    assert not any(answer.location.wrong for answer in reading.values.values())
     share = 2 / 3 if way in ("in_pieces", "with_gaps") else 1.0
     assert counted["right"] >= share * plain > 50 * share
 

@@ -59,7 +59,7 @@ def counts(name: str, reading: FileReading, truth: Truth, unit: float = 1.0) -> 
         answer = reading.values.get(place)
         if answer is None or not scheme.key.row(place[0]).positions:
             continue
-        start = answer.mark.at * unit
+        start = answer.location.at * unit
         own = [truth.lines[other] for other in truth.alike[place] if other in truth.lines]
         near = any(min(abs(start - a), abs(start - b)) < 1e-3 for a, b in own)
         length = float(answer.text.split()[0])
@@ -80,7 +80,7 @@ def test_vectors_are_read_and_none_under_a_wrong_name(name: str, letters: bool) 
     assert counted["wrong"] == 0
     judged = {place for place in seen(truth, truth.lines) if place[1] and place[0] in opened_at_all(name)[1].rows}
     assert counted["right"] > 0.6 * len(judged)
-    assert not any(answer.mark.wrong for answer in reading.values.values())
+    assert not any(answer.location.wrong for answer in reading.values.values())
 
 
 @pytest.mark.parametrize("name", matrix(MACHINES, {"four-bar-02"}))
@@ -105,7 +105,7 @@ def test_wrong_vectors_are_told_and_no_others(name: str) -> None:
     for seed in (1, 2):
         data, truth = drawn(name, Manner(noise=0.3, wrong=0.5), seed)
         reading = read_as(name, data)
-        places = {place: answer.mark for place, answer in reading.values.items() if answer.mark.wrong}
+        places = {place: answer.location for place, answer in reading.values.items() if answer.location.wrong}
         places |= reading.beside
         for place, where in places.items():
             if place[0].startswith("seg."):
@@ -218,7 +218,7 @@ def test_a_wrong_vector_is_red_as_it_should_be() -> None:
     lines = [(at(e.dxf.start), at(e.dxf.end)) for e in red if e.dxftype() == "LINE"]
     assert not lines
     for cell in wrong:
-        where = reading.values[cell.id, cell.position].mark
+        where = reading.values[cell.id, cell.position].location
         assert isinstance(where, DrawnLocation)
         factor = truth.factors[next(p.scale for p in true_plans(case) if cell.id in p.vectors), cell.position]
         # What is right in the drawing is the key's length at the drawing's own scale.

@@ -86,7 +86,7 @@ PLACE = ("v.D", 2)
 def test_a_statement_has_its_number(text: str, value: float) -> None:
     reading = read(HERE, line(text))
     assert reading.values[PLACE].value == pytest.approx(value)
-    assert str(reading.values[PLACE].mark) == "r.docx:¶2"
+    assert str(reading.values[PLACE].location) == "r.docx:¶2"
 
 
 @pytest.mark.parametrize(

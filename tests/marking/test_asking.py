@@ -108,7 +108,7 @@ def test_a_policy_says_what_is_asked_and_how_marks_are_told(tmp_path: Path) -> N
     file.write_text("ask: []\nmark: {step: 0}\n", encoding="utf-8")
     with pytest.raises(AssignmentError) as found:
         read_policy(file, "en")
-    assert [str(problem.mark).rpartition("policy.yaml")[2] for problem in found.value.problems] == [":1:6", ":2:14"]
+    assert [str(problem.location).rpartition("policy.yaml")[2] for problem in found.value.problems] == [":1:6", ":2:14"]
 
 
 @pytest.mark.parametrize(
@@ -198,7 +198,9 @@ def test_a_pattern_that_fits_nothing_is_a_located_fault(tmp_path: Path) -> None:
     ask = read_policy(policy, "en").ask
     with pytest.raises(AssignmentError) as error:
         ask.check([key("four-bar-01", "en"), key("engine-twin-05", "en")], "en")
-    found = [(problem.code, problem.mark.line, problem.mark.column, problem.hint) for problem in error.value.problems]
+    found = [
+        (problem.code, problem.location.line, problem.location.column, problem.hint) for problem in error.value.problems
+    ]
     assert found[0][:3] == ("ask-fits-nothing", 4, 5)
     assert found[1] == ("ask-fits-nothing", 5, 5, "did you mean “formulas”?")
     assert "-sge.*" in str(error.value.problems[0])

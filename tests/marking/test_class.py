@@ -71,7 +71,7 @@ def test_points_of_the_class(graded: Graded) -> None:
 
 def test_unreadable_cells_are_located(graded: Graded) -> None:
     marking = next(one for one in graded.markings if one.key.id == "K225520103040")
-    marks = [str(problem.mark) for problem in marking.submission.problems.values()]
+    marks = [str(problem.location) for problem in marking.submission.problems.values()]
     assert all(mark.split("!")[1][0] in "EF" and "K225520103040.xlsx:" in mark for mark in marks)
 
 
@@ -80,7 +80,7 @@ def test_what_is_no_sheet_that_can_be_read_is_told(few: Path, tmp_path: Path) ->
     for name in ("K225520103001.xls", "K225520103004.ods", "K225520103007.xlsm"):
         (tmp_path / name).write_bytes(b"\xd0\xcf\x11\xe0" if name.endswith(".xls") else b"PK\x03\x04")
     result = class_marking.grade([tmp_path], few, Policy())
-    assert [Path(problem.mark.file).suffix for problem in result.problems] == [".xls", ".ods", ".xlsm"]
+    assert [Path(problem.location.file).suffix for problem in result.problems] == [".xls", ".ods", ".xlsm"]
 
 
 def test_nobody_displaces_a_sheet_by_claiming_its_name(few: Path, tmp_path: Path) -> None:
@@ -90,7 +90,7 @@ def test_nobody_displaces_a_sheet_by_claiming_its_name(few: Path, tmp_path: Path
         (tmp_path / name).write_bytes(own.read_bytes())
     result = class_marking.grade([tmp_path], few, Policy())
     assert [Path(marking.submission.file) for marking in result.markings] == [own]
-    assert {Path(problem.mark.file).name for problem in result.problems} == {"A.csv", "Z.csv"}
+    assert {Path(problem.location.file).name for problem in result.problems} == {"A.csv", "Z.csv"}
     assert all("K225520103004.csv" in problem.message for problem in result.problems)
 
 
@@ -103,7 +103,9 @@ def test_a_sheet_named_after_a_classmate_is_told(few: Path, tmp_path: Path, plac
     sheet.write_bytes((demo.SHEETS / "K225520103004.csv").read_bytes())
     result = class_marking.grade([tmp_path], few, Policy(), "en")
     assert [marking.key.id for marking in result.markings] == ["K225520103004"]
-    assert [(problem.code, problem.mark.file) for problem in result.problems] == [("sheet-named-otherwise", str(sheet))]
+    assert [(problem.code, problem.location.file) for problem in result.problems] == [
+        ("sheet-named-otherwise", str(sheet))
+    ]
     for name in ("“K225520103007”", "“K225520103004”"):
         assert name in result.problems[0].message
     sheet.rename(tmp_path / "homework.csv")
@@ -120,7 +122,7 @@ def test_one_sheet_never_stops_the_others(assignments: Path, tmp_path: Path) -> 
     (folder / "~$K225520103001.xlsx").write_bytes(b"lock")
     result = class_marking.grade([folder, tmp_path / "nowhere"], assignments, Policy())
     assert len(result.markings) == len(list(demo.SHEETS.iterdir()))
-    assert {Path(problem.mark.file).name for problem in result.problems} == {
+    assert {Path(problem.location.file).name for problem in result.problems} == {
         "broken.xlsx",
         "stranger.csv",
         "again.csv",

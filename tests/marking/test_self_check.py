@@ -113,5 +113,5 @@ def test_a_sheet_is_known_by_its_data_whatever_the_files_are_called(tmp_path: Pa
     with pytest.raises(AssignmentError) as found:
         compare(open_case(own, "en"), sheet)
     first = found.value.problems[0]
-    assert (first.code, first.mark.file) == ("sheet-other-data", str(sheet))
+    assert (first.code, first.location.file) == ("sheet-other-data", str(sheet))
     assert "is 0.2 on the sheet and 0.25 m in the assignment" in first.message

@@ -93,7 +93,7 @@ def test_a_scale_costs_nothing() -> None:
     assert wrong(right) == {}
     for factor in (1e3, 1e-3, 0.0, -1.0):
         values = {
-            place: Answer(factor * one.value, "", one.mark) if place[0].startswith("mu.") else one
+            place: Answer(factor * one.value, "", one.location) if place[0].startswith("mu.") else one
             for place, one in sheet.values.items()
         }
         slipped = graded(scheme, replace(sheet, values=values))
@@ -113,12 +113,12 @@ def test_tolerances_follow_a_stated_scale_both_ways(factor: float, off: float, i
     scheme = students.scheme("four-bar-01", POSITIONS)
     sheet = drawn_at(scheme, 1.0, 0)
     values = {
-        place: Answer(factor * one.value, "", one.mark) if place[0].startswith("mu.") else one
+        place: Answer(factor * one.value, "", one.location) if place[0].startswith("mu.") else one
         for place, one in sheet.values.items()
     }
     key = scheme.key.row("v.C")
     millimetre = float(scheme.key.row("mu.v").values[0])
-    values["v.C", 4] = Answer(float(key.values[3]) + off * millimetre, "", sheet.values["v.C", 4].mark)
+    values["v.C", 4] = Answer(float(key.values[3]) + off * millimetre, "", sheet.values["v.C", 4].location)
     marking = graded(scheme, replace(sheet, values=values))
     (cell,) = (one for one in marking.cells if (one.id, one.position) == ("v.C", 4))
     assert (cell.verdict is Verdict.right) == is_right

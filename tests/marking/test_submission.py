@@ -237,7 +237,7 @@ def test_a_sheet_of_another_assignment_is_refused_where_it_names_it(tmp_path: Pa
         read_submission(path, small_key())
     (problem,) = caught.value.problems
     assert problem.code == "sheet-of-another"
-    assert str(problem.mark) == f"{path}:Thông tin!B1"
+    assert str(problem.location) == f"{path}:Thông tin!B1"
 
 
 def test_a_sheet_of_another_machine_is_refused(tmp_path: Path) -> None:
@@ -247,7 +247,7 @@ def test_a_sheet_of_another_machine_is_refused(tmp_path: Path) -> None:
         read_submission(path, small_key())
     (problem,) = caught.value.problems
     assert problem.code == "sheet-of-another"
-    assert str(problem.mark) == f"{path}:Thông tin!B2"
+    assert str(problem.location) == f"{path}:Thông tin!B2"
     assert "shaper" in problem.message
 
 
@@ -336,7 +336,7 @@ def test_one_value_in_two_cells_must_be_one_number(tmp_path: Path) -> None:
     submission = read_submission(path, small_key())
     assert numbers(submission) == {("v.B", 1): 4.71}
     assert submission.problems["v.B", 2].code == "cell-repeated"
-    assert str(submission.problems["v.B", 2].mark) == f"{path}:3:11"
+    assert str(submission.problems["v.B", 2].location) == f"{path}:3:11"
 
 
 def test_a_number_that_reads_two_ways_is_noted_unless_the_sheet_decides(tmp_path: Path) -> None:

@@ -41,7 +41,7 @@ def changed(file: Path, where: tuple[str | int, ...], value: str) -> Assignment:
     if value.endswith("%"):
         number, _, unit = old.text.partition(" ")
         value = f"{float(number) * float(value[:-1]) / 100:g} {unit}"
-    top = put(source.top, where, Scalar(value, old.mark))
+    top = put(source.top, where, Scalar(value, old.location))
     assignment, faults = catalogue.understood(Source(str(file), top=top), file)
     assert not faults
     assert assignment is not None

@@ -72,7 +72,7 @@ def test_without_a_font_the_language_is_what_is_told(tmp_path: Path, monkeypatch
     with pytest.raises(AssignmentError) as caught:
         api.build(file, tmp_path / "out")
     (problem,) = caught.value.problems
-    assert (problem.code, problem.mark.line) == ("no-letters", text[: text.index("language:")].count("\n") + 1)
+    assert (problem.code, problem.location.line) == ("no-letters", text[: text.index("language:")].count("\n") + 1)
     assert "reportgen[zh]" in str(problem)
 
 

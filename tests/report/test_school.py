@@ -84,7 +84,7 @@ def test_a_section_that_no_report_has_is_a_located_fault(tmp_path: Path, monkeyp
 @pytest.mark.parametrize("name", ["nowhere", "vi", "../vi", "frames"])
 def test_an_unknown_school_is_a_located_fault(tmp_path: Path, name: str) -> None:
     (problem,) = api.check(with_school(tmp_path, name), "en")
-    assert (problem.code, problem.mark.line, problem.mark.column) == ("no-such-school", 7, 11)
+    assert (problem.code, problem.location.line, problem.location.column) == ("no-such-school", 7, 11)
 
 
 # --- a school's letter
@@ -109,14 +109,14 @@ def test_a_font_that_an_engine_lacks_is_a_located_fault(tmp_path: Path, engine: 
     with pytest.raises(AssignmentError) as caught:
         api.build(file, tmp_path / "out", engine)
     (problem,) = caught.value.problems
-    assert (problem.code, problem.mark.line, problem.mark.column) == ("no-such-font", 7, 9)
+    assert (problem.code, problem.location.line, problem.location.column) == ("no-such-font", 7, 9)
     assert "No Such Font" in problem.message
     assert there in problem.message
 
 
 def test_a_size_that_no_school_asks_for_is_a_fault(tmp_path: Path) -> None:
     (problem,) = api.check(lettered(tmp_path, size="40 pt"))
-    assert (problem.code, problem.mark.line) == ("choice", 7)
+    assert (problem.code, problem.location.line) == ("choice", 7)
 
 
 @pytest.mark.usefixtures("here")

@@ -210,7 +210,7 @@ def test_a_link_out_of_the_folder_of_a_school_is_refused(
     target.symlink_to(elsewhere)
     (problem,) = api.check(file, language)
     line = file.read_text(encoding="utf-8").splitlines().index("  school: ours") + 1
-    assert (problem.code, problem.mark.line, problem.mark.column) == ("path-outside", line, 11)
+    assert (problem.code, problem.location.line, problem.location.column) == ("path-outside", line, 11)
     assert told in str(problem)
 
 

@@ -21,7 +21,7 @@ WARNED = frozenset({"words-term", "words-untranslated", "words-idle"})
 def told(folder: Path) -> list[tuple[str, str]]:
     """The places and codes of what is wrong with a language."""
     return [
-        (f"{Path(fault.mark.file).name}:{fault.mark.line}", fault.code)
+        (f"{Path(fault.location.file).name}:{fault.location.line}", fault.code)
         for fault in faults(folder)
         if fault.code not in WARNED
     ]
@@ -87,7 +87,7 @@ def test_letters_that_no_font_has_are_told(tmp_path: Path) -> None:
     shutil.copy(templates() / REFERENCE / "language.yaml", folder)
     (folder / "comments.md").write_text("%% moved\nAll Ω well\n", encoding="utf-8")
     letters = [fault for fault in faults(folder, lambda text: "Ω" if "Ω" in text else "") if "letters" in fault.code]
-    assert [(fault.mark.line, fault.arguments["text"]) for fault in letters] == [(2, "Ω")]
+    assert [(fault.location.line, fault.arguments["text"]) for fault in letters] == [(2, "Ω")]
 
 
 def test_a_kind_is_whole_or_not_offered() -> None:

@@ -114,7 +114,7 @@ def test_a_label_names_its_position_and_a_number_counts_all_of_them(tmp_path: Pa
     path = with_worked(tmp_path, named)
     assert api.load(path).worked_positions == (2, 3, 4)
     (note,) = [problem for problem in api.examine(path, "en") if problem.level == "note"]
-    assert (note.mark.line, note.mark.column) == (7, 21)
+    assert (note.location.line, note.location.column) == (7, 21)
     assert "number 2, labelled 1; number 3, labelled a; number 4, labelled 2" in note.message
 
 

@@ -43,7 +43,7 @@ def test_a_table_may_be_saved_by_notepad_or_powershell(put: Callable[..., Path],
 def test_cells_of_csv_know_line_and_column(put: Callable[..., Path]) -> None:
     path = put('id,name\n"1","two\r\nlines"\nx,ý,z\n'.encode())
     (page,) = read(path)
-    places = {cell.text: str(cell.mark).removeprefix(str(path)) for row in page.rows for cell in row}
+    places = {cell.text: str(cell.location).removeprefix(str(path)) for row in page.rows for cell in row}
     first = {"id": ":1:1", "name": ":1:4", "1": ":2:1", "two\r\nlines": ":2:5"}
     assert places == {**first, "x": ":4:1", "ý": ":4:3", "z": ":4:5"}
 

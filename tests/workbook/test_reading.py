@@ -55,7 +55,7 @@ def test_what_programs_write_is_understood(put: Callable[..., Path]) -> None:
         ],
     ]
     assert page.rows[2][4].text == "195520103001"
-    assert str(page.rows[3][3].mark) == f"{path}:S!D4"
+    assert str(page.rows[3][3].location) == f"{path}:S!D4"
 
 
 def test_what_no_cell_needs_is_not_looked_at(put: Callable[..., Path]) -> None:

@@ -49,7 +49,7 @@ def test_a_workbook_comes_back_as_it_was_written(put: Callable[..., Path]) -> No
     assert [cell.kind for cell in first.rows[9]] == ["empty", "number"]
     assert [cell.text for cell in first.rows[10]] == ["#DIV/0!", "_x0041_"]
     assert [cell.text for cell in first.rows[11]] == ["a\N{REPLACEMENT CHARACTER}b", "12"]
-    assert str(first.rows[1][1].mark) == f"{path}:Điểm_ 1_2!B2"
+    assert str(first.rows[1][1].location) == f"{path}:Điểm_ 1_2!B2"
 
 
 def test_a_sheet_prints_as_wide_as_a_page_with_its_heads_on_each() -> None:

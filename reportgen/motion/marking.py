@@ -9,7 +9,7 @@ import numpy as np
 from reportgen.formula import ids
 from reportgen.formula.ledger import Ledger
 from reportgen.marking.tolerance_bands import DIGITS, half_unit
-from reportgen.marking.topic_marks import MarkHooks
+from reportgen.marking.topic_marking import MarkHooks
 
 TRUE_MOTION = "run."
 

@@ -13,7 +13,7 @@ from reportgen.balancing import balance_ids
 from reportgen.balancing.shaking_force import round_points
 from reportgen.formula.ledger import Ledger
 from reportgen.machine import DRIVER
-from reportgen.marking.topic_marks import MarkHooks
+from reportgen.marking.topic_marking import MarkHooks
 
 
 def errors_of_positions(ledger: Ledger) -> Mapping[str, np.ndarray]:

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from reportgen.formula.ledger import Ledger
-from reportgen.marking.topic_marks import MarkHooks
+from reportgen.marking.topic_marking import MarkHooks
 
 
 def errors_of_positions(ledger: Ledger) -> Mapping[str, np.ndarray]:

@@ -29,4 +29,4 @@ class MarkHooks:
     """Returns the id of the integral that a quantity is computed from, else its own id."""
 
 
-MARKS = HookModule("marks", MarkHooks)
+MARKS = HookModule("marking", MarkHooks)
