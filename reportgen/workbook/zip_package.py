@@ -299,7 +299,7 @@ def measure(package: Package, name: str) -> tuple[int, int]:
             length += len(data)
             longest = max(longest, length)
             if length > LONGEST_CELL:
-                raise too_long(package.mark)
+                raise too_long(package.location)
 
     package.walk(name, start, end, text)
     if dependents * longest > MOST_TRANSLATED:
