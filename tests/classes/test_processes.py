@@ -126,8 +126,8 @@ def test_a_long_way_to_temporary_files_stops_no_batch(method: str, tmp_path: Pat
     temporary = tmp_path / ("t" * 90)
     temporary.mkdir()
     out = tmp_path / "out"
-    nowhere = "leavings.SHORT = (); " if method == "spawn" else ""
-    code = f"from reportgen.classes import leavings; {nowhere}import sys, tests.classes.little as l; sys.exit(l.main())"
+    nowhere = "cleanup.SHORT = (); " if method == "spawn" else ""
+    code = f"from reportgen.classes import cleanup; {nowhere}import sys, tests.classes.little as l; sys.exit(l.main())"
     command = (sys.executable, "-c", code, tmp_path / "roster.csv", tmp_path / "given", out)
     ended = subprocess.run(list(map(str, command)), cwd=ROOT, env=os.environ | {"TMPDIR": str(temporary)}, text=True)
     assert (ended.returncode, [*temporary.iterdir()]) == (0, [])

@@ -141,7 +141,7 @@ TELLING = ("shaper-01", "engine-single-load", "shaper-whole", "rocker-flat-01", 
     "file", matrix(_samples(), [file for file in _samples() if file.stem in TELLING]), ids=lambda file: file.stem
 )
 def test_a_question_says_all_that_the_task_gives(file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(moodle_quiz.pictures, "pngs", lambda scenes, *_: [b"PNG"] * len(scenes))
+    monkeypatch.setattr(moodle_quiz.picture_files, "pngs", lambda scenes, *_: [b"PNG"] * len(scenes))
     case = open_case(file, "vi")
     key = key_of(case)
     row = next(row for row in key.asked if row.role is Role.asked)

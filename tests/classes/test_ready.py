@@ -14,8 +14,8 @@ from reportgen.classes.worker_pool import KINDS
 from tests.lanes import matrix
 
 ASKED = (
-    "import reportgen.classes.preload; from reportgen.document import prose; from reportgen.base import words; "
-    "print(prose._environment.cache_info().currsize, words._as_of.cache_info().currsize)"
+    "import reportgen.classes.preload; from reportgen.document import template_rendering; from reportgen.base import words; "
+    "print(template_rendering._environment.cache_info().currsize, words._as_of.cache_info().currsize)"
 )
 
 
