@@ -43,7 +43,7 @@ bench: $(VENV)/.developing
 	$(BIN)/python -m tests.bench.page
 	$(BIN)/python -m tests.bench.form
 	$(BIN)/python -m tests.bench.reading
-	$(BIN)/python -m tests.bench.growth --plot docs/growth.png
+	$(BIN)/python -m tests.bench.growth --plot docs/pictures/growth.png
 
 # The seed of the day: another ten thousand files each time, and new examples of what holds for any numbers.
 fuzz: $(VENV)/.developing

@@ -1,4 +1,4 @@
-"""Write the tables of keys in `docs/machines.md` of the words of the kinds, as the form and the remarks of `new` are.
+"""Write the tables of keys in `docs/reference/machines.md` from the words that the form and `new` show.
 
 `make pictures` runs this in the project's folder, too.  Keys that several kinds share, and what stands in them, have
 tables of their own there.
@@ -15,7 +15,7 @@ from reportgen.assignment.schema import Schema, alternatives_to, choices_of, fil
 from reportgen.base.errors import Where
 from reportgen.base.field_words import PARAMETERS, field_words, shared_keys
 
-PAGE = Path(__file__).resolve().parent / "machines.md"
+PAGE = Path(__file__).resolve().parent / "reference" / "machines.md"
 KINDS = (
     *("engine-twin", "engine-single", "engine-v", "slider-crank", "four-bar", "lever-six-bar", "toggle-press"),
     *("scotch-yoke", "slotted-lever", "shaper", "linkage", "cam", "gear-pair", "planetary-train", "plane-motion"),

@@ -1,7 +1,7 @@
 """Draw the pictures of README and docs: a page with a plan, a sheet, a machine in motion, the scheme of each kind.
 
-`make pictures` runs this in the project's folder; the pictures go to `docs/`.  The machine in motion is drawn by
-chromium, and left as it is where there is none.
+`make pictures` runs this in the project's folder; the pictures go to `docs/pictures/`.  The machine in motion is drawn
+by chromium, and left as it is where there is none.
 """
 
 from __future__ import annotations
@@ -28,6 +28,7 @@ from reportgen.base.kinds import kinds
 from reportgen.document import Document, Figure
 
 ROOT = Path(__file__).resolve().parent.parent
+PICTURES = ROOT / "docs" / "pictures"
 SAMPLE = ROOT / "assignments" / "engine-twin-05.yaml"
 CAPTION = ". Velocity plan at"
 """A part of the text of the page that the README shows, the number of the figure before it."""
@@ -108,11 +109,11 @@ def drawn(page: pymupdf.Page) -> pymupdf.Rect:
 
 
 def save(page: pymupdf.Page, name: str, dpi: int, clip: pymupdf.Rect | None = None) -> None:
-    """Save a page, or the part of it within `clip`, as `docs/NAME.png`."""
+    """Save a page, or the part of it within `clip`, as `docs/pictures/NAME.png`."""
     pixels = page.get_pixmap(dpi=dpi, clip=clip)
     picture = Image.frombytes("RGB", (pixels.width, pixels.height), pixels.samples)
     few_colours = picture.quantize(COLOURS, Image.Quantize.FASTOCTREE)
-    few_colours.save(ROOT / "docs" / f"{name}.png", optimize=True)
+    few_colours.save(PICTURES / f"{name}.png", optimize=True)
 
 
 @contextmanager
@@ -153,11 +154,11 @@ def frame(png: bytes) -> Image.Image:
 
 def save_moving(frames: list[Image.Image], name: str, duration: int) -> None:
     first, *others = frames
-    first.save(ROOT / "docs" / name, save_all=True, append_images=others, duration=duration, loop=0)
+    first.save(PICTURES / name, save_all=True, append_images=others, duration=duration, loop=0)
 
 
 def moving() -> None:
-    """Save what a page shows of a machine over one turn as `docs/moving.gif`."""
+    """Save what a page shows of a machine over one turn as `docs/pictures/moving.gif`."""
     with browser() as driver, tempfile.TemporaryDirectory() as folder:
         if driver is None:
             return
@@ -172,7 +173,7 @@ def moving() -> None:
 
 
 def form() -> None:
-    """Save the form of a machine, a slider of which is drawn, as `docs/edit.gif`."""
+    """Save the form of a machine, a slider of which is drawn, as `docs/pictures/edit.gif`."""
     with browser() as driver, tempfile.TemporaryDirectory() as folder:
         if driver is None:
             return
@@ -197,10 +198,10 @@ def form() -> None:
 
 
 def word_page() -> None:
-    """Save a page of the sample's Word file, as LibreOffice lays it out, as `docs/word.png`."""
+    """Save a page of the sample's Word file, as LibreOffice lays it out, as `docs/pictures/word.png`."""
     office = shutil.which("soffice")
     if office is None:
-        print("docs/word.png is left as it is: LibreOffice Writer is not installed", file=sys.stderr)
+        print("docs/pictures/word.png is left as it is: LibreOffice Writer is not installed", file=sys.stderr)
         return
     with tempfile.TemporaryDirectory() as folder:
         file = api.build(SAMPLE, folder, language="en", formats=["docx"])
@@ -210,7 +211,7 @@ def word_page() -> None:
 
 
 def curves() -> None:
-    """Save the chart of the notebook beside this file as `docs/curves.png`."""
+    """Save the chart of the notebook beside this file as `docs/pictures/curves.png`."""
     import matplotlib
 
     matplotlib.use("agg")
@@ -221,7 +222,7 @@ def curves() -> None:
     stream = BytesIO()
     names["fig"].savefig(stream, dpi=CURVES_DPI)
     Image.open(stream).convert("RGB").quantize(COLOURS, Image.Quantize.FASTOCTREE).save(
-        ROOT / "docs" / "curves.png", optimize=True
+        PICTURES / "curves.png", optimize=True
     )
 
 

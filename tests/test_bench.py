@@ -221,9 +221,9 @@ def test_bytecode_is_kept_whatever_the_surroundings_say(tmp_path: Path, monkeypa
 def test_pages_are_told_as_the_documents_have_them() -> None:
     head, rule, row = page.table([page.Page("engine-twin-05", 1.41, 0.62, 37.4)])
     assert row == "| `engine-twin-05` | 37 | 0.62 s | 1.41 MB |"
-    assert f"{head}\n{rule}\n| `engine-twin-05` |" in (SAMPLE.parents[1] / "docs" / "speed.md").read_text(
-        encoding="utf-8"
-    )
+    assert f"{head}\n{rule}\n| `engine-twin-05` |" in (
+        SAMPLE.parents[1] / "docs" / "explanation" / "speed.md"
+    ).read_text(encoding="utf-8")
 
 
 def test_growth_tells_a_line_from_a_curve() -> None:

@@ -28,12 +28,12 @@ def pages(language: Language | None = None) -> Mapping[str, Path]:
     """
     folder = documentation()
     first = folder if (folder / f"{FIRST}{SUFFIX}").is_file() else folder.parent
-    names = [path.stem for path in sorted(folder.glob(f"*{SUFFIX}")) if "." not in path.stem and path.stem != FIRST]
+    places = sorted(folder.rglob(f"*{SUFFIX}"), key=lambda path: path.name)
     asked = language or spoken()
     files = {}
-    for name, place in [(FIRST, first), *((name, folder) for name in names)]:
-        own = place / f"{name}.{asked}{SUFFIX}"
-        files[name] = own if own.is_file() else place / f"{name}{SUFFIX}"
+    for page in (first / f"{FIRST}{SUFFIX}", *(path for path in places if "." not in path.stem and path.stem != FIRST)):
+        own = page.with_suffix(f".{asked}{SUFFIX}")
+        files[page.stem] = own if own.is_file() else page
     return files
 
 

@@ -16,7 +16,7 @@ from reportgen.base.words import as_problem
 from reportgen.catalogue import given_loads
 from reportgen.flywheel.topic import Unevenness
 
-DOCUMENT = Path(__file__).parents[2] / "docs" / "assignment.md"
+DOCUMENT = Path(__file__).parents[2] / "docs" / "reference" / "assignment.md"
 TYPES = {
     "positions a turn": common.Count,
     "length drawn for the crank": get_args(common.Drawing.model_fields["crank"].annotation)[0],

@@ -71,7 +71,7 @@ def test_a_row_alone_makes_a_format(language: str, tmp_path: Path) -> None:
 
 
 def test_documentation_has_every_format_with_what_it_needs() -> None:
-    text = (ROOT / "docs" / "commands.md").read_text(encoding="utf-8")
+    text = (ROOT / "docs" / "reference" / "commands.md").read_text(encoding="utf-8")
     listed = re.findall(r"^\| `(\w+)` \| `([\w-]+)` \| (.*) \|$", text, re.MULTILINE)
     assert listed == [
         (COMMANDS.get(row.product, row.product), row.name, ", ".join(row.needs) or "–") for row in FORMATS

@@ -143,7 +143,7 @@ def felt(driver: Any, name: str, where: tuple[str, ...], times: int = TIMES) -> 
 
 
 def table(samples: dict[str, Drawn], feelings: dict[str, Felt]) -> Iterator[str]:
-    """The measurements in Markdown, as `docs/speed.md` has them."""
+    """The measurements in Markdown, as `docs/explanation/speed.md` has them."""
     yield "| file | samples of a value drawn | sent |"
     yield "| --- | --- | --- |"
     for name, cost in samples.items():

@@ -75,7 +75,7 @@ def measure(driver: Any, name: str, folder: Path) -> Page:
 
 
 def table(pages: Sequence[Page]) -> Iterator[str]:
-    """The measurements in Markdown, as `docs/speed.md` has them."""
+    """The measurements in Markdown, as `docs/explanation/speed.md` has them."""
     yield f"| page | frames a second, {SLOWED}× slowed ({AIMS[0]}) | ready ({AIMS[1]}) | size ({AIMS[2]}) |"
     yield "| --- | --- | --- | --- |"
     for page in pages:

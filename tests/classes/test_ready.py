@@ -14,7 +14,9 @@ from reportgen.classes.worker_pool import KINDS
 from tests.lanes import matrix
 
 ASKED = (
-    "import reportgen.classes.preload; from reportgen.document import template_rendering; from reportgen.base import words; "
+    "import reportgen.classes.preload\n"
+    "from reportgen.base import words\n"
+    "from reportgen.document import template_rendering\n"
     "print(template_rendering._environment.cache_info().currsize, words._as_of.cache_info().currsize)"
 )
 

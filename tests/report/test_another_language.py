@@ -94,7 +94,7 @@ def make_language(templates: Path) -> None:
 @pytest.fixture(scope="module")
 def place(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A copy of the program with the further language, and nothing else that is new."""
-    from tests.test_docs import copy_of_repository
+    from tests.documents import copy_of_repository
 
     folder = copy_of_repository(tmp_path_factory.mktemp("xx"))
     make_language(folder / "templates")

@@ -1,0 +1,161 @@
+"""The documents of the project for tests: their text, the files that they print and the commands that they show."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from fnmatch import fnmatchcase
+from pathlib import Path
+
+ROOT = Path(__file__).parent.parent
+PAGES = (
+    *("README.md", "README.vi.md"),
+    *sorted(page.relative_to(ROOT).as_posix() for page in (ROOT / "docs").rglob("*.md")),
+)
+"""Pages for users; each is read, and its commands are run, separately."""
+
+DOCUMENTS = (*PAGES, "CONTRIBUTING.md", "ARCHITECTURE.md", "CHANGELOG.md")
+
+FENCE = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+FILE = re.compile(r"`([\w./-]+\.\w+)`[^`\n]*:\n\n```\w+\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+
+
+def text_of(document: str) -> str:
+    return (ROOT / document).read_text(encoding="utf-8")
+
+
+def fences(document: str, language: str) -> list[str]:
+    return [body for name, body in FENCE.findall(text_of(document)) if name == language]
+
+
+def section(text: str, heading: str) -> str:
+    """Return the text between a heading and the next one of any level, ignoring headings in code blocks."""
+    found = re.search(rf"^{re.escape(heading)}\n((?:^```.*?^```$|.)*?)(?=^##+ |\Z)", text, re.MULTILINE | re.DOTALL)
+    assert found, heading
+    return found[1]
+
+
+@dataclass(frozen=True, slots=True)
+class Command:
+    """A line of a console block and its shown output."""
+
+    line: str
+    output: tuple[str, ...]
+
+    @property
+    def is_make(self) -> bool:
+        return self.line.startswith("make ")
+
+    @property
+    def runnable(self) -> str:
+        """The command to run; make only does a dry run, because it would install and run everything again."""
+        return self.line.replace("make ", "make -n ", 1) if self.is_make else self.line
+
+    @property
+    def possible(self) -> bool:
+        return "--engine latex" not in self.line or shutil.which("pdflatex") is not None
+
+
+def commands(document: str) -> Iterator[Command]:
+    for block in fences(document, "console"):
+        shown = re.split(r"^\$ ", block, flags=re.MULTILINE)
+        assert shown[0] == "", f"a console block begins with a command: {block}"
+        for one in shown[1:]:
+            line, *output = one.splitlines()
+            yield Command(line, tuple(output))
+
+
+def agrees(shown: Sequence[str], printed: Sequence[str]) -> bool:
+    """Return True if the lines match the output; `…` stands for any text, or for any lines if alone on its line.
+
+    Columns may be wider or narrower: blanks between words count as two.
+    """
+    if not shown:
+        return not printed
+    if shown[0] == "…":
+        return any(agrees(shown[1:], printed[start:]) for start in range(len(printed) + 1))
+    if not printed:
+        return False
+    wanted, line = (re.sub(r"(?<=\S) {2,}", "  ", text.rstrip()) for text in (shown[0], printed[0]))
+    pattern = re.sub(r"[*?[]", r"[\g<0>]", wanted).replace("…", "*")
+    return fnmatchcase(line, pattern) and agrees(shown[1:], printed[1:])
+
+
+def run(lines: Sequence[str], place: Path) -> list[tuple[list[str], int]]:
+    """Return each command's output in one shell that knows `reportgen` and `python`, and its exit code.
+
+    `$?` passes from one to the next.
+    """
+    programs = place / ".programs"
+    programs.mkdir(exist_ok=True)
+    for name, arguments in (("reportgen", "-m reportgen.cli"), ("python", "")):
+        program = programs / name
+        program.write_text(f'#!/bin/sh\nexec "{sys.executable}" {arguments} "$@"\n', encoding="utf-8")
+        program.chmod(0o755)
+    mark = "\x1e"
+    script = "".join(f"(exit $status)\n{line}\nstatus=$?; printf '{mark}%s{mark}' $status\n" for line in lines)
+    done = subprocess.run(
+        ["sh", "-c", "status=0\n" + script],
+        cwd=place,
+        env={
+            **os.environ,
+            "PATH": f"{programs}{os.pathsep}{os.environ['PATH']}",
+            "PYTHONPATH": str(place),
+            "COLUMNS": "100",
+        },
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        encoding="utf-8",
+        timeout=300,
+        check=True,
+    )
+    outputs, codes = done.stdout.split(mark)[:-1:2], done.stdout.split(mark)[1::2]
+    return [(output.strip("\n").splitlines(), int(code)) for output, code in zip(outputs, codes, strict=True)]
+
+
+def copy_of_repository(place: Path) -> Path:
+    """Copy the package with its compiled files, since each command is a process that would compile it again."""
+    for name in ("reportgen", "templates", "assignments"):
+        # What another process is about to write has a name that will be gone.
+        shutil.copytree(ROOT / name, place / name, ignore=shutil.ignore_patterns("*.pyc.*"))
+    for name in ("Makefile", "pyproject.toml", "requirements-dev.lock"):
+        shutil.copy(ROOT / name, place)
+    (place / "out").mkdir()
+    return place
+
+
+def follow(document: str, place: Path) -> list[str]:
+    """Write the files that a document prints and run its commands in order; return the differences."""
+    for name, content in FILE.findall(text_of(document)):
+        file = place / name
+        assert not file.exists(), f"{name} is there already"
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(content, encoding="utf-8")
+    shown = [command for command in commands(document) if command.possible]
+    printed = run([command.runnable for command in shown], place)
+    return [
+        "\n".join((f"$ {command.line}", *output))
+        for command, (output, code) in zip(shown, printed, strict=True)
+        if not (code == 0 if command.is_make else agrees(command.output, output))
+    ]
+
+
+def lint(place: Path, *files: str) -> str:
+    """Return the style and type errors of `make lint` for new or changed files, "" if there are none."""
+    if (known := ROOT / ".mypy_cache").is_dir():
+        # Where types were checked before, only these files are new.
+        shutil.copytree(known, place / known.name, dirs_exist_ok=True)
+    code = [file for file in files if file.startswith("reportgen/")]
+    checks = (("ruff", "format", "--check", *files), ("ruff", "check", *files), ("mypy", *code))
+    done = [
+        subprocess.run([sys.executable, "-m", *check], cwd=place, capture_output=True, text=True, check=False)
+        for check in checks
+    ]
+    return "".join(one.stdout + one.stderr for one in done if one.returncode)
