@@ -98,6 +98,13 @@ def test_every_page_is_in_the_index_once_and_its_name_is_unique() -> None:
     assert len({Path(page).stem for page in pages}) == len(pages)
 
 
+@pytest.mark.parametrize("page", sorted((ROOT / "docs" / "how-to").glob("*.md")), ids=lambda path: path.stem)
+def test_a_task_has_numbered_steps_and_fits_a_screen(page: Path) -> None:
+    text = page.read_text(encoding="utf-8")
+    assert len(text.splitlines()) <= 60
+    assert re.search(r"^1\. .*^2\. ", text, re.MULTILINE | re.DOTALL)
+
+
 def test_the_one_command_that_installs_tex_is_given() -> None:
     assert fences("docs/reference/commands.md", "sh") == [f"{pdflatex.INSTALL}\n"]
 
