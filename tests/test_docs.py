@@ -5,14 +5,19 @@ from __future__ import annotations
 import importlib.util
 import os
 import re
+from inspect import cleandoc
 from pathlib import Path
 
 import pytest
 import typer
+import yaml
 
 from reportgen import api, catalogue
 from reportgen.base.kinds import kinds
+from reportgen.base.template_folders import search_path
+from reportgen.base.words import load_words
 from reportgen.cli import app
+from reportgen.marking.policy import read_policy
 from reportgen.writers import pdflatex
 from tests.documents import DOCUMENTS, FILE, PAGES, ROOT, fences, section, text_of
 
@@ -75,6 +80,19 @@ def test_every_key_of_the_results_is_explained() -> None:
     results = api.solve(api.load(ROOT / "assignments" / "engine-twin-05.yaml"))
     for key in (*results, *results["positions"][0]):
         assert f"`{key}`" in text, key
+
+
+def test_every_column_of_the_grades_is_explained() -> None:
+    text = section(text_of("docs/reference/grading.md"), "### Columns of `grades.csv`")
+    for heading in load_words(search_path("en"))["grades"].values():
+        assert f"`{heading}`" in text, heading
+
+
+def test_every_key_of_the_policy_is_explained() -> None:
+    text = text_of("docs/reference/policy.md")
+    shown = cleandoc(read_policy.__doc__ or "").partition("\n\n")[2]
+    for name in yaml.safe_load(shown):
+        assert re.search(rf"`{name}[`.]", text), name
 
 
 def links_of(document: str) -> set[str]:
