@@ -7,6 +7,7 @@ import re
 import shutil
 import subprocess
 import sys
+import textwrap
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
@@ -25,8 +26,14 @@ FENCE = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 FILE = re.compile(r"`([\w./-]+\.\w+)`[^`\n]*:\n\n```\w+\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
 
+_INDENTED = re.compile(r"^(?P<blanks> +)```\w+\n.*?^(?P=blanks)```$", re.MULTILINE | re.DOTALL)
+"""A code block within a step of a list."""
+
+
 def text_of(document: str) -> str:
-    return (ROOT / document).read_text(encoding="utf-8")
+    """Return the text of a document, with the code blocks within lists at the margin."""
+    text = (ROOT / document).read_text(encoding="utf-8")
+    return _INDENTED.sub(lambda block: textwrap.dedent(block[0]), text)
 
 
 def fences(document: str, language: str) -> list[str]:

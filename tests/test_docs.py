@@ -5,14 +5,19 @@ from __future__ import annotations
 import importlib.util
 import os
 import re
+from inspect import cleandoc
 from pathlib import Path
 
 import pytest
 import typer
+import yaml
 
 from reportgen import api, catalogue
 from reportgen.base.kinds import kinds
+from reportgen.base.template_folders import search_path
+from reportgen.base.words import load_words
 from reportgen.cli import app
+from reportgen.marking.policy import read_policy
 from reportgen.writers import pdflatex
 from tests.documents import DOCUMENTS, FILE, PAGES, ROOT, fences, section, text_of
 
@@ -77,6 +82,19 @@ def test_every_key_of_the_results_is_explained() -> None:
         assert f"`{key}`" in text, key
 
 
+def test_every_column_of_the_grades_is_explained() -> None:
+    text = section(text_of("docs/reference/grading.md"), "### Columns of `grades.csv`")
+    for heading in load_words(search_path("en"))["grades"].values():
+        assert f"`{heading}`" in text, heading
+
+
+def test_every_key_of_the_policy_is_explained() -> None:
+    text = text_of("docs/reference/policy.md")
+    shown = cleandoc(read_policy.__doc__ or "").partition("\n\n")[2]
+    for name in yaml.safe_load(shown):
+        assert re.search(rf"`{name}[`.]", text), name
+
+
 def links_of(document: str) -> set[str]:
     """Return the documents that a document links to, by their paths from the top of the repository."""
     home = (ROOT / document).parent
@@ -96,6 +114,13 @@ def test_every_page_is_in_the_index_once_and_its_name_is_unique() -> None:
         {*pages} - {"docs/index.md"}
     )
     assert len({Path(page).stem for page in pages}) == len(pages)
+
+
+@pytest.mark.parametrize("page", sorted((ROOT / "docs" / "how-to").glob("*.md")), ids=lambda path: path.stem)
+def test_a_task_has_numbered_steps_and_fits_a_screen(page: Path) -> None:
+    text = page.read_text(encoding="utf-8")
+    assert len(text.splitlines()) <= 60
+    assert re.search(r"^1\. .*^2\. ", text, re.MULTILINE | re.DOTALL)
 
 
 def test_the_one_command_that_installs_tex_is_given() -> None:

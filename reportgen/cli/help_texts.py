@@ -25,12 +25,12 @@ PAGES = {
     "words": "language",
     "new": "machines",
     "kinds": "machines",
-    "compare": "class",
-    "read": "class",
-    "variants": "class",
-    "batch": "class",
-    "key": "class",
-    "grade": "class",
+    "compare": "papers",
+    "read": "reading",
+    "variants": "variants",
+    "batch": "papers",
+    "key": "papers",
+    "grade": "grading",
 }
 """Documentation page for a command; others have the page of all commands."""
 OTHERS = "commands"

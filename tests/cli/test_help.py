@@ -65,7 +65,7 @@ def test_each_help_names_a_page_that_there_is(monkeypatch: pytest.MonkeyPatch) -
     assert set(PAGES) <= set(COMMANDS)
     known = pages("en")
     assert {*PAGES.values(), OTHERS} <= set(known)
-    assert shown(COMMANDS["grade"], "en", monkeypatch).endswith("More: reportgen docs class")
+    assert shown(COMMANDS["grade"], "en", monkeypatch).endswith("More: reportgen docs grading")
 
 
 def test_the_start_leads_from_the_kinds_to_the_report(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -84,10 +84,10 @@ def test_the_first_page_is_in_the_language_and_the_others_are_all_there() -> Non
 
 
 def test_a_page_for_the_browser_has_its_tables_and_the_places_that_links_name() -> None:
-    made = as_html(pages("en")["class"])
+    made = as_html(pages("en")["grading"])
     text = made.read_text(encoding="utf-8")
     made.unlink()
-    assert '<h3 id="corrections-that-stay">' in text
+    assert '<h2 id="corrections">' in text
     assert "<table>" in text
     assert "<base href=" in text
 
