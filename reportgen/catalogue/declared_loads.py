@@ -107,7 +107,7 @@ class OverAngle(_Listed):
         return self.angle
 
 
-class OverTravel(_Listed):
+class OverWay(_Listed):
     """A force or a torque over the way of a sliding driver from its start."""
 
     by: Literal["way"]
@@ -121,7 +121,7 @@ class OverTravel(_Listed):
         return self.way
 
 
-PlainLoad = Constant | OverAngle | OverTravel
+PlainLoad = Constant | OverAngle | OverWay
 CrankLoading = Annotated[Constant | OverAngle, Field(discriminator="by")]
 """Loads of a machine with a crank besides those of its kind."""
 
@@ -261,7 +261,7 @@ def law_of(load: PlainLoad, motion_at: MotionAt, *, through: bool = True, span: 
         unit = load.torque_unit if load.at is None else load.unit
         assert unit is not None, "a table without its unit is refused by the kind's checks"
         nodes, sizes = tuple(node.si for node in load.nodes), tuple(value * unit.si for value in load.values)
-        return TravelLaw(nodes, sizes, span) if isinstance(load, OverTravel) else AngleLaw(nodes, sizes)
+        return TravelLaw(nodes, sizes, span) if isinstance(load, OverWay) else AngleLaw(nodes, sizes)
     size = load.M if load.at is None else load.F
     assert size is not None, "a load without its size is refused by the kind's checks"
     if not load.against:

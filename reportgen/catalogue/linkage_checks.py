@@ -15,7 +15,7 @@ from reportgen.base.units import Given
 from reportgen.catalogue import assembly_checks, declared_loads
 from reportgen.catalogue import linkage_file as file
 from reportgen.catalogue.assembly_checks import Member
-from reportgen.catalogue.declared_loads import Constant, OverTravel, listed, on_link, pins, table
+from reportgen.catalogue.declared_loads import Constant, OverWay, listed, on_link, pins, table
 from reportgen.machine import DRIVER, GROUND, Crank, Linkage, mobility
 from reportgen.machine.kinematics import Motion, solve_motion
 from reportgen.machine.load_laws import FULL_TURN, STEPS
@@ -170,10 +170,10 @@ def _loads(given: file.Parameters) -> Iterator[Finding]:
     end = given.driver.span if isinstance(given.driver, file.SlideDriver) else given.turns * FULL_TURN
     for index, load in enumerate(given.loads):
         at = (*TOP, "loads", index)
-        if slides and not isinstance(load, Constant | OverTravel):
+        if slides and not isinstance(load, Constant | OverWay):
             yield Finding("needs-a-crank", (*at, "by"))
             continue
-        if isinstance(load, OverTravel) and not slides:
+        if isinstance(load, OverWay) and not slides:
             yield Finding("needs-a-slide", (*at, "by"))
             continue
         if isinstance(load, file.OverStroke | file.Gas):

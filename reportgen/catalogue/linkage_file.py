@@ -27,7 +27,7 @@ from reportgen.assignment.fields import (
 )
 from reportgen.base.errors import Where
 from reportgen.base.units import Given
-from reportgen.catalogue.declared_loads import LAST_LINK, LEVEL, Constant, Link, Name, OverAngle, OverTravel
+from reportgen.catalogue.declared_loads import LAST_LINK, LEVEL, Constant, Link, Name, OverAngle, OverWay
 from reportgen.catalogue.given_loads import Diagram
 from reportgen.catalogue.parameters import UnderGravity
 from reportgen.machine import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint, SlidingDriver
@@ -300,7 +300,7 @@ class Gas(Part):
     diagram: Diagram
 
 
-Loading = Annotated[Constant | OverAngle | OverTravel | OverStroke | Gas, Field(discriminator="by")]
+Loading = Annotated[Constant | OverAngle | OverWay | OverStroke | Gas, Field(discriminator="by")]
 
 
 class Declared(Part):
