@@ -53,11 +53,12 @@ def test_every_command_is_explained_with_its_options() -> None:
 
 
 def test_every_machine_is_shown_and_all_its_keys_are_explained() -> None:
-    text = text_of("docs/reference/machines.md")
+    text, keys = text_of("docs/reference/machines.md"), text_of("docs/reference/keys.md")
     for kind in kinds():
         row = rf"^\| \[`{kind}`\]\(#{kind}\) \| !\[[^\]]+\]\(\.\./pictures/{kind}\.png\) \| "
         assert re.search(row, text, re.MULTILINE)
-        explained = section(text, "## Keys of several kinds") + section(text, f"## `{kind}`")
+        assert f"keys.md#{kind})" in section(text, f"## `{kind}`")
+        explained = section(keys, "## Keys of several kinds") + section(keys, f"## `{kind}`")
         for name, field in catalogue.kind(kind).parameters.model_fields.items():
             assert f"`{field.alias or name}`" in explained, (kind, name)
     (row,) = [line for line in text.splitlines() if line.startswith("| `flywheel` |")]
@@ -65,14 +66,16 @@ def test_every_machine_is_shown_and_all_its_keys_are_explained() -> None:
     assert set(re.findall(r"`([a-z-]+)`", row)) - {"flywheel"} == with_flywheel
 
 
-def test_tables_of_keys_are_written_of_the_words() -> None:
-    """`make pictures` has written them, so nothing is written twice."""
-    spec = importlib.util.spec_from_file_location("keys", ROOT / "docs" / "keys.py")
+@pytest.mark.parametrize("script", ["keys"])
+def test_a_generated_page_is_as_its_script_writes_it(script: str) -> None:
+    """`make pictures` writes it from the words of the program, so that no fact is written twice."""
+    spec = importlib.util.spec_from_file_location(script, ROOT / "docs" / f"{script}.py")
     assert spec is not None
     assert spec.loader is not None
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
-    assert module.written(text_of("docs/reference/machines.md")) == text_of("docs/reference/machines.md")
+    for file, text in module.pages().items():
+        assert file.read_text(encoding="utf-8") == text, file
 
 
 def test_every_key_of_the_results_is_explained() -> None:
@@ -104,7 +107,9 @@ def links_of(document: str) -> set[str]:
 
 def test_every_page_is_two_clicks_from_the_readme() -> None:
     first = links_of("README.md")
-    assert set(DOCUMENTS) - {"README.md"} <= first.union(*map(links_of, first))
+    reached = first.union(*map(links_of, first))
+    # The pages of the site lead to their translations.
+    assert {page.replace(".vi.md", ".md") for page in DOCUMENTS} - {"README.md"} <= reached
 
 
 def test_every_page_is_in_the_index_once_and_its_name_is_unique() -> None:
