@@ -22,6 +22,7 @@ from typing import Any
 
 import pymupdf
 from PIL import Image
+from screens import Screen, first_report
 
 from reportgen import api, catalogue
 from reportgen.base.kinds import kinds
@@ -50,7 +51,7 @@ MOVING = ROOT / "assignments" / "shaper-01.yaml"
 """The machine that the README shows in motion."""
 WINDOW, FRAME_WIDTH, STEP, FRAME_MS, FRAME_COLOURS = (1180, 900), 760, 8, 100, 48
 """Of that picture: the window and the width of a frame (pixels), degrees and time (ms) from one to the next."""
-PAGE_DPI, WORD_DPI, SHEET_DPI, SCHEME_DPI, CURVES_DPI = 100, 80, 38, 60, 100
+PAGE_DPI, WORD_DPI, SHEET_DPI, SCHEME_DPI, CURVES_DPI, TUTORIAL_DPI = 100, 80, 38, 60, 100, 75
 COLOURS = 96
 """Few enough that a picture is small, and enough that thin lines stay smooth."""
 
@@ -197,6 +198,21 @@ def form() -> None:
         save_moving(frames, "edit.gif", FORM_MS)
 
 
+def save_screen(name: str, png: bytes) -> None:
+    """Save a screenshot as `docs/pictures/NAME.png`."""
+    picture = Image.open(BytesIO(png)).convert("RGB")
+    picture.quantize(COLOURS, Image.Quantize.FASTOCTREE).save(PICTURES / f"{name}.png", optimize=True)
+
+
+def tutorials() -> None:
+    """Save the screens that the tutorials show, and a page of the report that their reader makes."""
+    with browser() as driver, tempfile.TemporaryDirectory() as folder:
+        if driver is None:
+            return
+        report = pymupdf.open(first_report(Screen(driver), Path(folder), save_screen))
+        save(page_with(CAPTION, report), "first-report-page", TUTORIAL_DPI)
+
+
 def word_page() -> None:
     """Save a page of the sample's Word file, as LibreOffice lays it out, as `docs/pictures/word.png`."""
     office = shutil.which("soffice")
@@ -234,6 +250,7 @@ def main() -> None:
     save(pymupdf.open(stream=sheets["sheet-1.pdf"])[0], "sheet", SHEET_DPI)
     moving()
     form()
+    tutorials()
     curves()
     for kind in kinds():
         file = SHOWN.get(kind) or min(SAMPLE.parent.glob(f"{kind}-*.yaml"))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+import shlex
 import shutil
 import subprocess
 import sys
@@ -23,8 +24,8 @@ PAGES = (
 DOCUMENTS = (*PAGES, "CONTRIBUTING.md", "ARCHITECTURE.md", "CHANGELOG.md")
 
 FENCE = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
-FILE = re.compile(r"`([\w./-]+\.\w+)`[^`\n]*:\n\n```\w+\n(.*?)^```$", re.MULTILINE | re.DOTALL)
-
+FILE = re.compile(r"`([\w./-]+\.\w+)`[^`\n]*:\n\n```(?!diff)\w+\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+STEP = re.compile(r"^```(console|diff)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
 _INDENTED = re.compile(r"^(?P<blanks> +)```\w+\n.*?^(?P=blanks)```$", re.MULTILINE | re.DOTALL)
 """A code block within a step of a list."""
@@ -69,12 +70,28 @@ class Command:
 
 
 def commands(document: str) -> Iterator[Command]:
-    for block in fences(document, "console"):
+    """Yield the commands of a page, and the changes that it shows as `diff` of the file named last before."""
+    text = text_of(document)
+    for step in STEP.finditer(text):
+        language, block = step.groups()
+        if language == "diff":
+            yield edit(re.findall(r"`([\w./-]+\.\w+)`", text[: step.start()])[-1], block)
+            continue
         shown = re.split(r"^\$ ", block, flags=re.MULTILINE)
         assert shown[0] == "", f"a console block begins with a command: {block}"
         for one in shown[1:]:
             line, *output = one.splitlines()
             yield Command(line, tuple(output))
+
+
+def edit(file: str, change: str) -> Command:
+    """Return a command that replaces the text behind `-` by that behind `+`, which the file must have once."""
+    old, new = (re.sub(rf"^\{sign}\s*", "", line) for sign, line in zip("-+", change.splitlines(), strict=True))
+    code = (
+        f"import pathlib; file = pathlib.Path({file!r}); text = file.read_text(encoding='utf-8'); "
+        f"assert text.count({old!r}) == 1; file.write_text(text.replace({old!r}, {new!r}), encoding='utf-8')"
+    )
+    return Command(f"python -c {shlex.quote(code)}", ())
 
 
 def agrees(shown: Sequence[str], printed: Sequence[str]) -> bool:

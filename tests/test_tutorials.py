@@ -1,0 +1,42 @@
+"""The screens of the tutorials: the form shows the buttons, fields and messages that a page promises at each step."""
+
+from __future__ import annotations
+
+import importlib.util
+import re
+from pathlib import Path
+from types import ModuleType
+
+import pymupdf
+
+from tests.documents import ROOT, text_of
+from tests.lanes import proof
+from tests.page.browser import opened
+
+_BOLD = re.compile(r"\*\*([^*]+)\*\*")
+_PICTURE = re.compile(r"\]\(\.\./pictures/(first-report-[\w-]+)\.png\)")
+
+
+def screens() -> ModuleType:
+    """Return the module `docs/screens.py`, which takes the steps."""
+    spec = importlib.util.spec_from_file_location("screens", ROOT / "docs" / "screens.py")
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+@proof
+def test_the_first_report_is_made_in_the_form_as_described(tmp_path: Path) -> None:
+    steps, text = screens(), text_of("docs/tutorials/first-report.md")
+    pictures: dict[str, bytes] = {}
+    with opened() as browser:
+        screen = steps.Screen(browser.driver)
+        report = pymupdf.open(steps.first_report(screen, tmp_path, pictures.__setitem__))
+    assert set(_BOLD.findall(text)) <= screen.used
+    assert [*pictures, "first-report-page"] == _PICTURE.findall(text)
+    assert f"your report of {report.page_count} pages" in " ".join(text.split())
+    (page,) = (page for page in report if page.search_for(". Velocity plan at"))
+    assert page.search_for("0.02")
+    assert report[0].search_for("Lan Pham")
