@@ -30,10 +30,10 @@ TEXTS: Mapping[Language, Mapping[str, str]] = {
         "file": "keys.md",
         "top": """# Keys of each kind
 
-The keys under `parameters` of an assignment file, in the order of the form. A quantity is written with its unit. Keys with a
-point are within the key before the point: `force.F` is `force: {F: 800 N}`. [The machines](machines.md) shows and explains
-the kinds; [The assignment file](assignment.md) lists the keys outside `parameters`. The machines are the kinds from
-`engine-twin` to `linkage`.
+The keys under `parameters` of an assignment file, in the order of the form. A quantity is written with its unit. Keys
+with a point are within the key before the point: `force.F` is `force: {F: 800 N}`. [The machines](machines.md) shows
+and explains the kinds; [The assignment file](assignment.md) lists the keys outside `parameters`. The machines are the
+kinds from `engine-twin` to `linkage`.
 """,
         "shared": "Keys of several kinds",
         "head": "| key of `parameters` | meaning |",
@@ -48,9 +48,10 @@ the kinds; [The assignment file](assignment.md) lists the keys outside `paramete
         "file": "keys.vi.md",
         "top": """# Các khóa của từng loại cơ cấu
 
-Các khóa nằm dưới `parameters` của tệp đề bài, theo thứ tự của biểu mẫu. Mỗi đại lượng viết kèm đơn vị. Khóa có dấu chấm nằm
-bên trong khóa đứng trước dấu chấm: `force.F` nghĩa là `force: {F: 800 N}`. Trang [các loại cơ cấu](machines.md) có hình và
-giải thích từng loại; trang [tệp đề bài](assignment.md) liệt kê các khóa nằm ngoài `parameters`.
+Các khóa nằm dưới `parameters` của tệp đề bài, theo thứ tự của biểu mẫu. Mỗi đại lượng viết kèm đơn vị. Khóa có dấu
+chấm nằm bên trong khóa đứng trước dấu chấm: `force.F` nghĩa là `force: {F: 800 N}`. Trang [các loại cơ
+cấu](machines.md) có hình và giải thích từng loại; trang [tệp đề bài](assignment.md) liệt kê các khóa nằm ngoài
+`parameters`.
 “Mọi máy” là các loại từ `engine-twin` đến `linkage`.
 """,
         "shared": "Các khóa chung của nhiều loại",

@@ -11,13 +11,13 @@ from pathlib import Path
 import pytest
 import typer
 import yaml
-from reportgen.marking.policy import read_policy
 
 from reportgen import api, catalogue
 from reportgen.base.kinds import kinds
 from reportgen.base.template_folders import search_path
 from reportgen.base.words import load_words
 from reportgen.cli import app
+from reportgen.marking.marking_policy import read_policy
 from reportgen.writers import pdflatex
 from tests.documents import DOCUMENTS, FILE, PAGES, ROOT, fences, section, text_of
 
