@@ -1,0 +1,56 @@
+"""The Vietnamese pages: commands that the program has, files that are right, links to headings of Vietnamese pages.
+
+Their commands are those of the English pages, which are run; here they are only parsed.
+"""
+
+from __future__ import annotations
+
+import re
+import shlex
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+import typer
+
+from reportgen import catalogue
+from reportgen.base.errors import is_error
+from reportgen.cli import app
+from tests.documents import FENCE, FILE, PAGES, ROOT, text_of
+
+VIETNAMESE = [page for page in PAGES if page.endswith(".vi.md")]
+
+_INLINE = re.compile(r"`(reportgen [^`\n]+)`")
+
+
+def shown_commands(page: str) -> Iterator[str]:
+    """Yield the calls of `reportgen` on a page, in code blocks and in its sentences, each up to a pipe or a `>`."""
+    text = text_of(page)
+    lines = [line for name, body in FENCE.findall(text) if name in ("sh", "console") for line in body.splitlines()]
+    for line in (*(line.removeprefix("$ ") for line in lines), *_INLINE.findall(text)):
+        if line.startswith("reportgen "):
+            yield re.split(r" (?:\||\d?>) ", line)[0]
+
+
+@pytest.mark.parametrize("page", VIETNAMESE)
+def test_a_vietnamese_page_shows_commands_that_the_program_has(page: str) -> None:
+    program = typer.main.get_command(app)
+    commands = vars(program)["commands"]
+    for line in shown_commands(page):
+        _, *words = shlex.split(line)
+        command = commands.get(words[0])
+        assert command or words[0].startswith("-"), line
+        if command:
+            context = type(program)(name="reportgen").context_class(command, info_name=words[0])
+            command.make_parser(context).parse_args(words[1:])
+
+
+@pytest.mark.parametrize("page", [page for page in VIETNAMESE if FILE.search(text_of(page))])
+def test_the_assignment_files_of_a_vietnamese_page_are_right(page: str, tmp_path: Path) -> None:
+    files = dict(FILE.findall(text_of(page)))
+    for name, content in files.items():
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).write_text(content, encoding="utf-8")
+    for name, content in files.items():
+        if content.startswith("kind:") and "file:" not in content and "{from:" not in content:
+            assert not [fault for fault in catalogue.check(tmp_path / name, "vi") if is_error(fault)], name
