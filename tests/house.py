@@ -30,8 +30,17 @@ ID_HEADS = (
 """Prefixes of the ids of quantities, before their first dot."""
 _ID = re.compile(rf"({ID_HEADS})\.")
 _CAMEL_CASE = re.compile(r"[A-Z](?=.*[a-z])[A-Za-z0-9]*")
-VAGUE = {"one", "other", "found", "told", "way"}
+VAGUE = {"one", "other", "found", "told", "way", "shown"}
 """Names without a meaning."""
+PUBLIC = {
+    # keys of assignment files
+    "reportgen.catalogue.declared_loads": {"way"},
+    "reportgen.springs.topic": {"other"},
+    # members that templates read
+    "reportgen.catalogue.linkage_words": {"way"},
+    "reportgen.report.link_views": {"one"},
+}
+"""Vague names that modules must keep, because files or templates contain them."""
 
 Graph = Mapping[str, frozenset[str]]
 """The successors of each node."""
@@ -311,7 +320,7 @@ def vague_names(house: House) -> Counted:
         f"{module.path}:{line} {name}"
         for module in house.modules.values()
         for name, line in _bound(module.tree)
-        if name in VAGUE
+        if name in VAGUE - PUBLIC.get(module.name, set())
     ]
 
 

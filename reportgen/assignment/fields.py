@@ -82,8 +82,8 @@ class Interval:
         about_zero = low < 0
         ends = ("above" if self.above > -math.inf else "from") + ("_below" if self.below < math.inf else "_to")
         zero = "" if not self.tiny else "+or_small" if about_zero else "+or_zero"
-        shown = {"low": low if about_zero else max(low, self.tiny), "high": high, "tiny": self.tiny}
-        return {"range": f"{ends}{zero}", **{name: grouped(number) for name, number in shown.items()}}
+        numbers = {"low": low if about_zero else max(low, self.tiny), "high": high, "tiny": self.tiny}
+        return {"range": f"{ends}{zero}", **{name: grouped(number) for name, number in numbers.items()}}
 
     def require(self, value: float, text: str, unit: str = "", **hint: str) -> None:
         """Raise the fault of a value (SI), typed as `text`, that is outside the interval."""
@@ -285,9 +285,9 @@ class Until(Reader):
 
     def read(self, value: object) -> datetime.datetime:
         text = _text(value, "moment")
-        if (found := moment(text, end=True)) is None:
+        if (result := moment(text, end=True)) is None:
             raise fault("moment", text=text)
-        return found
+        return result
 
     def schema(self) -> dict[str, Any]:
         return {"type": "string"}

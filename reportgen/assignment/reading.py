@@ -77,11 +77,11 @@ def name_faults(path: Path) -> Iterator[Fault]:
     and that lies below.
     """
     stem = path.stem
-    shown = "".join(character for character in stem if unicodedata.category(character) not in _CONTROLS)
+    printable = "".join(character for character in stem if unicodedata.category(character) not in _CONTROLS)
     if os.path.isdir(path):
         # A folder in place of a file is reported as such.
         return
-    outside = stem.strip(" .") == "" or stem != shown.strip() or stem.endswith(".")
+    outside = stem.strip(" .") == "" or stem != printable.strip() or stem.endswith(".")
     if outside or RESERVED.fullmatch(stem.partition(".")[0].strip().upper()):
         yield Fault("file-name", Location(str(path)), {"text": stem})
 

@@ -34,7 +34,7 @@ RADIUS, SHARE = "balance.radius", "balance.share"
 mass = Name("balance.m.{link}")
 weight = Name("balance.G.{link}")
 centrifugal = Name("balance.C.{link}")
-way = Name("balance.way.{link}")  # direction of a counterweight from the centre of its link
+outward = Name("balance.way.{link}")  # direction of a counterweight from the centre of its link
 hold = Name("balance.hold.{link}")  # moment that turns a counterweight with its link
 
 # --- over the turn, without a counterweight (`before`), with that of a rule, or with the applied ones (`after`) --

@@ -9,7 +9,7 @@ from pydantic import Field
 from reportgen.assignment.common import Part
 from reportgen.assignment.fields import Angle, Coordinate, Length, RotationalSpeed, Share
 from reportgen.balancing.rotor_file import AT_ORIGIN, PositiveMass
-from reportgen.base.template_access import shown
+from reportgen.base.template_access import template_members
 from reportgen.base.units import Given
 
 MOST_CYLINDERS = 12
@@ -24,7 +24,7 @@ class CylinderPlace(Part):
     bank: Angle = UPRIGHT
 
 
-@shown("m2", "n")
+@template_members("m2", "n")
 class Parameters(Part):
     """An engine by its orders."""
 

@@ -157,8 +157,8 @@ def _charts(case: SolvedEngine, φ: EngineAngles) -> Iterator[Chart]:
             curves = [(Symbol(shaking.letter, of), along(part)) for of, part in shaking.parts.items()]
             if any(np.abs(values).max() > shaking.least for _, values in curves):
                 plots = tuple(PlottedCurve(symbol, np.degrees(φ), values) for symbol, values in curves)
-                shown = plotted(Diagram(plots, across, Chain((Symbol(shaking.letter, axis),), unit)), half=True)
-                yield Chart(shown, tuple(Curve(of, Track(values)) for of, values in curves))
+                scene = plotted(Diagram(plots, across, Chain((Symbol(shaking.letter, axis),), unit)), half=True)
+                yield Chart(scene, tuple(Curve(of, Track(values)) for of, values in curves))
 
 
 def _values(case: SolvedEngine, φ: EngineAngles) -> Iterator[MomentValue]:

@@ -39,7 +39,7 @@ def forces(turn: BalancedTurn, motion: Motion) -> list[tuple[str, str, Complexes
     return layers
 
 
-def shown(
+def shaking_items(
     report: ReportContext, motion: Motion, scale: float, longest: float, chosen: Callable[[str, Callable[[], Any]], Any]
 ) -> tuple[list[MovingItem], list[BarScale]]:
     """Return the shaking forces and their scale, on a drawing of `scale` mm to a metre; empty if they are not
@@ -103,4 +103,4 @@ def values(report: ReportContext, motion: Motion) -> Iterator[tuple[Symbol, str,
     yield ledger.symbol(balance_ids.MOMENT), "torque", shaking_moment(turn.machine.linkage, motion)
 
 
-HOOKS = LayerHooks(layers=LAYERS, shown=shown, room=with_room, values=values)
+HOOKS = LayerHooks(layers=LAYERS, shown=shaking_items, room=with_room, values=values)

@@ -355,7 +355,7 @@ class _Entry:
             if "g" in q:
                 q.define(balance_ids.weight(link), m * q["g"], scale=heavy * q.si("g"))
             along = cis(φ) if link == DRIVER else unit(q[ids.rod(link)])
-            q.construct(balance_ids.way(link), along * cis(q[balance_ids.angle(link)]))
+            q.construct(balance_ids.outward(link), along * cis(q[balance_ids.angle(link)]))
         if self.turn.products:
             self._force_after()
         self._torque_after(radius)
@@ -375,7 +375,7 @@ class _Entry:
             for axis, of in zip(AXES, (cos, sin), strict=True)
         )
         q.define(balance_ids.AFTER_FORCE, sqrt(x**2 + y**2), scale=self.force)
-        held, G = q["F.R01"] - P * q[balance_ids.way(DRIVER)], q.find(balance_ids.weight(DRIVER))
+        held, G = q["F.R01"] - P * q[balance_ids.outward(DRIVER)], q.find(balance_ids.weight(DRIVER))
         q.define(balance_ids.AFTER_REACTION, abs(held if G is None else held + turned(G)), scale=self.force)
 
     def _torque_after(self, radius: Ref) -> None:
@@ -388,7 +388,7 @@ class _Entry:
         torque: list[Expression] = [q["M.eq"]]
         moment: list[Expression] = [q[balance_ids.MOMENT]]
         for link in self.links:
-            direction, G, m = q[balance_ids.way(link)], q.find(balance_ids.weight(link)), q[balance_ids.mass(link)]
+            direction, G, m = q[balance_ids.outward(link)], q.find(balance_ids.weight(link)), q[balance_ids.mass(link)]
             hold: list[Expression] = []
             if link != DRIVER:
                 ω, ε = (q[ids.signed(rate, link)] for rate in ("omega", "eps"))

@@ -108,11 +108,11 @@ class RotorCalculation:
     def _lay_off(self, of: str, sizes: Mapping[str, Ref], directions: Mapping[str, Ref]) -> Ref:
         """Return the scale of a plan, and its known sides on paper."""
         q = self.q
-        shown = q.families[next(iter(sizes.values())).id].how.scale
-        steps = [q.si(sizes[place]) * np.exp(1j * q.si(directions[place])) / shown for place in sizes]
+        unit_size = q.families[next(iter(sizes.values())).id].how.scale
+        steps = [q.si(sizes[place]) * np.exp(1j * q.si(directions[place])) / unit_size for place in sizes]
         low, high = corners_of(np.cumsum([0.0, *steps]))
         room = max((high - low).real / ROOM.real, (high - low).imag / ROOM.imag)
-        per_mm = nice_up(room) * shown * MM
+        per_mm = nice_up(room) * unit_size * MM
         μ = q.give(names.scale(of), per_mm, optional=True)
         for place, size in sizes.items():
             q.define(
@@ -143,8 +143,8 @@ class RotorCalculation:
     # --- components
 
     def _enter_components(self) -> None:
-        q, shown = self.q, {"U": self.U, "V": self.V}
-        for of, sizes in shown.items():
+        q, plans = self.q, {"U": self.U, "V": self.V}
+        for of, sizes in plans.items():
             every = self._all(sizes)
             for axis, function in AXES.items() if sizes else ():
                 parts = [

@@ -211,8 +211,8 @@ def _polygon(case: SolvedRotor, of: str, sides: Sequence[str], closing: str, siz
         at = end
     end = at + complex(ledger[rotor_ids.drawn(of, closing)].values[0]) * on_paper
     vectors.append(PlanVector(f"{of}{closing}", at, end, "found", Symbol(of, closing)))
-    shown = ledger.symbol(rotor_ids.scale(of))
-    return Plan(tuple(vectors), (PlanPoint(Symbol("O"), 0j),), scale=size.note(shown, μ.value, μ.unit))
+    symbol = ledger.symbol(rotor_ids.scale(of))
+    return Plan(tuple(vectors), (PlanPoint(Symbol("O"), 0j),), scale=size.note(symbol, μ.value, μ.unit))
 
 
 DrawRotor = Callable[[SolvedRotor, FigureSize], Scene]

@@ -8,7 +8,7 @@ from pydantic import Field
 
 from reportgen.assignment.common import Part
 from reportgen.assignment.fields import Angle, Coordinate, Length, RotationalSpeed, quantity
-from reportgen.base.template_access import shown
+from reportgen.base.template_access import template_members
 from reportgen.base.units import Given
 
 MOST_MASSES = 24
@@ -51,7 +51,7 @@ class KnownCorrection(KnownMass):
     B: KnownMass | None = None
 
 
-@shown("correction", "bearings", "grade", "n")
+@template_members("correction", "bearings", "grade", "n")
 class Parameters(Part):
     """A rotor that is to be balanced."""
 

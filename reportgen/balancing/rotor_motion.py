@@ -164,8 +164,8 @@ def _charts(case: SolvedRotor, knots: NDArray[np.float64]) -> Iterator[Chart]:
             across = Chain((Symbol("φ"),), str(case.words["rotor"]["degrees"]))
             up = Chain((Symbol("N", f"{bearing_name}y"),), case.ledger.printed_unit(KINDS["force"].unit))
             plots = tuple(PlottedCurve(symbol, degrees, values) for symbol, values in curves)
-            shown = plotted(Diagram(plots, across, up), half=True)
-            yield Chart(shown, tuple(Curve(symbol, Track(values)) for symbol, values in curves))
+            scene = plotted(Diagram(plots, across, up), half=True)
+            yield Chart(scene, tuple(Curve(symbol, Track(values)) for symbol, values in curves))
 
 
 def _values(case: SolvedRotor, turn: RotorTurns) -> Iterator[MomentValue]:

@@ -233,9 +233,9 @@ def _of_turn(report: ReportContext) -> tuple[np.ndarray, np.ndarray, tuple[int, 
     cycle = report.dense_cycle
     count = int(np.searchsorted(cycle.cycle_angle, FULL_TURN * (1 + 1e-9), side="right"))
     force = shaking_force(report.machine.linkage, cycle.motion)[:count]
-    shown = [k for k in report.positions if k <= report.machine.count]
-    marks = np.searchsorted(cycle.cycle_angle, report.machine.cycle_angles[[k - 1 for k in shown]] - 1e-9)
-    return force, unit(cycle.motion.driver)[:count], tuple(map(int, marks)), tuple(map(str, shown))
+    positions = [k for k in report.positions if k <= report.machine.count]
+    marks = np.searchsorted(cycle.cycle_angle, report.machine.cycle_angles[[k - 1 for k in positions]] - 1e-9)
+    return force, unit(cycle.motion.driver)[:count], tuple(map(int, marks)), tuple(map(str, positions))
 
 
 def hodograph(report: ReportContext) -> FigureScenes:
@@ -261,15 +261,15 @@ def discs(report: ReportContext) -> FigureScenes:
     """Return the scheme with the counterweights that are carried out."""
     factor, index, motion = reduction(report), shown_at(report), report.analysis.motion
     scale = drawing_scale(report) * factor
-    shown = []
+    discs_drawn = []
     for weight in _turn(report).weights:
         pivot = complex(motion.origins[weight.link].p[index])
         arm = weight.place * complex(unit(motion.links[weight.link].angle[index]))
-        shown.append(
+        discs_drawn.append(
             CounterweightDisc(pivot + arm, pivot, weight.mass, report.ledger.symbol(balance_ids.mass(weight.link)))
         )
     linkage = report.machine.linkage
-    return FigureScenes((with_discs(linkage, motion, index, scale, looks(report, scale, factor), shown),))
+    return FigureScenes((with_discs(linkage, motion, index, scale, looks(report, scale, factor), discs_drawn),))
 
 
 def seen_curve(report: ReportContext) -> FigureScenes:

@@ -160,6 +160,6 @@ def remarked(text: str, words: Mapping[str, FieldWords], more: Callable[[str, st
         heads = not entry["value"].strip() and following is not None and len(following["indent"]) > depth
         path = ".".join(key for _, key in above)
         if path in words and not heads and " #" not in entry["value"]:
-            shown = f"{words[path].whole}{more(path, entry['value'].strip())}"
-            done[-1] = f"{line.rstrip():{COLUMN - 1}} # {shown}"
+            remark = f"{words[path].whole}{more(path, entry['value'].strip())}"
+            done[-1] = f"{line.rstrip():{COLUMN - 1}} # {remark}"
     return "\n".join(done) + "\n"

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any, TypeVar
 
-Shown = TypeVar("Shown", bound=type)
+Registered = TypeVar("Registered", bound=type)
 
 MEMBERS: dict[type, frozenset[str]] = {}
 """Readable members of each type; `__str__` among them allows a value to be printed in a text by its name."""
@@ -20,35 +20,35 @@ _ALL: dict[type, frozenset[str]] = {}
 """Cache of the members of types together with those of their bases."""
 
 
-def shown(*names: str) -> Callable[[Shown], Shown]:
+def template_members(*names: str) -> Callable[[Registered], Registered]:
     """Register members of a class that templates may read."""
 
-    def entered(of: Shown) -> Shown:
+    def entered(of: Registered) -> Registered:
         MEMBERS[of] = frozenset(names)
         return of
 
     return entered
 
 
-def view(*names: str) -> Callable[[Shown], Shown]:
+def view(*names: str) -> Callable[[Registered], Registered]:
     """Register the fields of a dataclass that is made for templates, and these further members."""
 
-    def entered(of: Shown) -> Shown:
+    def entered(of: Registered) -> Registered:
         listed: Iterable[str] = getattr(of, FIELDS, ())
-        return shown(*listed, *names)(of)
+        return template_members(*listed, *names)(of)
 
     return entered
 
 
 def members(of: type) -> frozenset[str]:
-    """Return the members that are shown of a type: its own and those of its bases."""
+    """Return the readable members of a type: its own and those of its base classes."""
     if of not in _ALL:
         _ALL[of] = frozenset().union(*(MEMBERS.get(one, ()) for one in of.__mro__))
     return _ALL[of]
 
 
 def member(of: object, name: str) -> Any:
-    """Return a shown member of a value, or the entry of a mapping.  Raises `LookupError` for any other."""
+    """Return a readable member of a value, or the entry of a mapping.  Raises `LookupError` for any other."""
     if isinstance(of, Mapping):
         return of[name]
     if name not in members(type(of)) or name.startswith("_"):
@@ -57,7 +57,7 @@ def member(of: object, name: str) -> Any:
 
 
 def text(of: object) -> str:
-    """Return a value as text. Raises `TypeError` for one that has no text."""
+    """Return a value as text.  Raises `TypeError` if its type has no text."""
     if isinstance(of, bool) or not (isinstance(of, (str, int)) or "__str__" in members(type(of))):
         raise TypeError(f"a {type(of).__name__} has no place in a text")
     return str(of)

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from reportgen.base.languages import Language as Language
 from reportgen.base.languages import common_unit, decimal_mark
-from reportgen.base.template_access import shown
+from reportgen.base.template_access import template_members
 
 if TYPE_CHECKING:
     import numpy as np
@@ -107,7 +107,7 @@ _TOWER = re.compile(r"[0-9]{2}|[0-9²³⁴¹][\s)]*(?:\^|\*\s*\*|[²³⁴⁻¹])
 """Powers no unit has: of two digits, or of a power, which take for ever to work out (m^9^9^9)."""
 
 
-@shown("si")
+@template_members("si")
 @dataclass(frozen=True, slots=True)
 class Given:
     """A quantity as it was given: `si` for computing; `value`, `unit` and `text` as typed."""

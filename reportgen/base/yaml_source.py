@@ -193,10 +193,10 @@ def read_text(text: str, file: str = "") -> Source:
     except _StoppedError:
         return Source(file, text, faults=tuple(loader.faults))
     except yaml.MarkedYAMLError as fault:
-        told, lines = _syntax(fault, file), _lines(text)
-        if told.arguments.get("hint") == "syntax-indent":
-            told = replace(told, location=misplaced(lines, told.location))
-        return Source(file, text, faults=(*loader.faults, *(slips_above(lines, told.location.line, file) or [told])))
+        error, lines = _syntax(fault, file), _lines(text)
+        if error.arguments.get("hint") == "syntax-indent":
+            error = replace(error, location=misplaced(lines, error.location))
+        return Source(file, text, faults=(*loader.faults, *(slips_above(lines, error.location.line, file) or [error])))
     except ValueError:
         # A number in an escape or a directive that Python refuses to read.
         here = Location(file, loader.line + 1, loader.column + 1)

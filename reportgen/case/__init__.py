@@ -286,8 +286,8 @@ def bounded(assignment: Assignment, make: Callable[..., Made], *arguments: Any) 
     try:
         return call_within(TEMPLATES, partial(_called, make), arguments)
     except LimitError as error:
-        told = word("template_limits", assignment.language, **asdict(TEMPLATES))
-        raise TemplateError(f"{file}:1: {told}") from error
+        message = word("template_limits", assignment.language, **asdict(TEMPLATES))
+        raise TemplateError(f"{file}:1: {message}") from error
     except DocumentError as error:
         raise TemplateError("\n".join(f"{file}:1: {fault}" for fault in error.faults)) from error
 

@@ -119,8 +119,8 @@ class DesignPage(ABC, Generic[Designed]):
 
     @property
     def words(self) -> Mapping[str, Any]:
-        found: Mapping[str, Any] = self.case.words[self.NAME]
-        return found
+        own_words: Mapping[str, Any] = self.case.words[self.NAME]
+        return own_words
 
     @property
     def full(self) -> bool:

@@ -29,12 +29,12 @@ def phrase(id: str, ledger: Ledger, words: Mapping[str, Any]) -> str:
     if given := words.get("given", {}).get(id):
         return _uncapitalised(str(given))
     phrases: Mapping[str, str] = words["quantities"]
-    shown, kind = (ledger[id].symbol, ledger[id].kind) if id in ledger else (_symbol(id), "")
+    symbol, kind = (ledger[id].symbol, ledger[id].kind) if id in ledger else (_symbol(id), "")
     vector = vocabulary.vector_of(id)
-    _, parts = vocabulary.wording(id, shown)
+    _, parts = vocabulary.wording(id, symbol)
     of = phrase(vector, ledger, words) if vector else ""
     bodies = {name: _body(parts[link], phrases) for name, link in (("body", "link"), ("onto", "other"))}
-    wording = next(vocabulary.words_of(phrases, id, kind, shown), "")
+    wording = next(vocabulary.words_of(phrases, id, kind, symbol), "")
     return wording.format(**parts, **bodies, of=of)
 
 

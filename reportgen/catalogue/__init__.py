@@ -166,11 +166,11 @@ def _in_order(source: Source, path: Path, language: Language | None) -> Assignme
 
 def _untold(assignment: Assignment, language: Language) -> Iterator[Finding]:
     """Find the kinds and the topics of an assignment that a language has not all words of."""
-    for one in (assignment, *(part.within(assignment) for part in assignment.parts)):
-        if not is_whole(language, one.kind):
-            words = {"kind": one.kind, "language": language, "known": ", ".join(offered(language)) or "–"}
+    for member in (assignment, *(part.within(assignment) for part in assignment.parts)):
+        if not is_whole(language, member.kind):
+            words = {"kind": member.kind, "language": language, "known": ", ".join(offered(language)) or "–"}
             yield Finding("language-partial", ("kind",), words)
-        asked = one.parameters.asked() if isinstance(one.parameters, TopicParameters) else ()
+        asked = member.parameters.asked() if isinstance(member.parameters, TopicParameters) else ()
         for topic in asked:
             if not is_topic_whole(language, topic):
                 words = {"kind": topic, "language": language}

@@ -54,7 +54,7 @@ class DriverTravel:
     end: float = FULL_TURN
     turning: bool = True
 
-    def shown(self, place: float) -> str:
+    def printed(self, place: float) -> str:
         """Return a place in degrees, −180…180, or in millimetres, without trailing zeros."""
         return f"{np.degrees(np.angle(np.exp(1j * place))) if self.turning else place * 1e3:.4g}"
 
@@ -91,11 +91,11 @@ def findings(
             around = np.array([place - step, place, place + step])
             gap = _gap(clear, around, np.array([True, False, True]))
         if gap is not None:
-            ends = dict(zip(("first", "last"), map(driven.shown, gap), strict=True))
+            ends = dict(zip(("first", "last"), map(driven.printed, gap), strict=True))
             yield Finding(f"no-assembly{of_slide}", member.where, {**about, **ends})
             return
         if least < SINGULAR**2:
-            at = {"angle" if driven.turning else "first": driven.shown(place)}
+            at = {"angle" if driven.turning else "first": driven.printed(place)}
             yield Finding(f"dead-point{of_slide}", member.where, {**about, **at})
             return
 
@@ -115,7 +115,7 @@ def near_dead_point(linkage: Linkage, driven: DriverTravel, where: Where) -> Ite
         if not least < limit**2:
             continue
         sine = float(np.sqrt(max(least, 0.0)))
-        about = {"group": f"{dyad.links[0]}, {dyad.links[1]}", "at": driven.shown(place)}
+        about = {"group": f"{dyad.links[0]}, {dyad.links[1]}", "at": driven.printed(place)}
         if dyad.kind == "RPR" and not dyad.lengths[1]:
             about |= {"near": f"{sine * size * 1e3:.3g}", "least": f"{limit * size * 1e3:.3g}"}
             yield Finding(f"near-pivot{of_slide}", where, about, at="key")
@@ -129,14 +129,14 @@ def at_instants(linkage: Linkage, places: Floats, turning: bool) -> Iterator[Fin
     """Report the instants at which a group does not assemble, or is so near to a dead point that its forces are
     rounding.
     """
-    motion, shown = solve_motion(linkage, places, 1.0), DriverTravel(turning=turning).shown
+    motion, printed = solve_motion(linkage, places, 1.0), DriverTravel(turning=turning).printed
     size, limit = _size(motion), np.sin(np.radians(LEAST_ANGLE))
     for index, place in enumerate(map(float, places)):
         where = ("positions", "at", index)
         for dyad in linkage.dyads:
             least = float(clearance(dyad, motion, size)[index])
             if not least >= limit**2:
-                at = f"{shown(place)}{'°' if turning else ' mm'}"
+                at = f"{printed(place)}{'°' if turning else ' mm'}"
                 about = {"group": f"{dyad.links[0]}, {dyad.links[1]}", "at": at}
                 yield Finding("no-assembly-at" if least < 0 else "dead-point-at", where, about)
                 break

@@ -100,7 +100,7 @@ class OverAngle(_Listed):
     angle: CycleAngles
     values: NodeValues
 
-    shown: ClassVar[tuple[float, str]] = (180 / math.pi, " deg")
+    message_unit: ClassVar[tuple[float, str]] = (180 / math.pi, " deg")
 
     @property
     def nodes(self) -> tuple[Given, ...]:
@@ -114,7 +114,7 @@ class OverWay(_Listed):
     way: DriverWays
     values: NodeValues
 
-    shown: ClassVar[tuple[float, str]] = (1e3, " mm")
+    message_unit: ClassVar[tuple[float, str]] = (1e3, " mm")
 
     @property
     def nodes(self) -> tuple[Given, ...]:
@@ -132,17 +132,17 @@ CrankLoading = Annotated[Constant | OverAngle, Field(discriminator="by")]
 def pins(linkage: Linkage) -> dict[int, set[str]]:
     """Return the points of every moving link: its joints and the points fixed to it."""
     driver = linkage.driver
-    found = {DRIVER: {driver.pin}}
+    points_of = {DRIVER: {driver.pin}}
     if isinstance(driver, Crank):
-        found[DRIVER].add(driver.centre)
+        points_of[DRIVER].add(driver.centre)
     for dyad in linkage.dyads:
         pinned = {"RPR": (), "RPP": dyad.links[1:]}.get(dyad.kind, dyad.links)
         for link, end in zip(dyad.links, (dyad.start, dyad.end), strict=True):
-            found[link] = set() if isinstance(end, Guide) else {end}
-            found[link] |= {dyad.middle} if link in pinned else set()
+            points_of[link] = set() if isinstance(end, Guide) else {end}
+            points_of[link] |= {dyad.middle} if link in pinned else set()
     for point in linkage.points:
-        found.setdefault(point.link, set()).add(point.name)
-    return found
+        points_of.setdefault(point.link, set()).add(point.name)
+    return points_of
 
 
 def listed(numbers: Collection[int]) -> str:
@@ -166,9 +166,9 @@ def faults(load: PlainLoad, points: Mapping[int, set[str]], end: float, at: Wher
     """
     yield from on_link(points, load.link, load.at, at)
     if not isinstance(load, Constant):
-        shown, unit = load.shown
-        nodes = tuple(node.si * shown for node in load.nodes)
-        yield from table(at, load.by, nodes, end * shown, unit, values=load.values)
+        factor, unit = load.message_unit
+        nodes = tuple(node.si * factor for node in load.nodes)
+        yield from table(at, load.by, nodes, end * factor, unit, values=load.values)
     yield from sized(load, at)
 
 

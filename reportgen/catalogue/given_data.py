@@ -99,8 +99,8 @@ class GivenData(Calculation):
     def gravity(self, letters: str = "Gm") -> None:
         """Enter g if one of these letters is given for any link; not in a horizontal plane."""
         assert self.given is not None, "a sheet without parameters has no links"
-        told = (self.of_link(letter, link) for letter in letters for link in self.given.links[letter])
-        if self.given.gravity and any(told):
+        entered = (self.of_link(letter, link) for letter in letters for link in self.given.links[letter])
+        if self.given.gravity and any(entered):
             self.datum("g", self.given.g)
 
     def mass(self, link: int, weight: Given | None = None, mass: Given | None = None, like: int = 0) -> None:

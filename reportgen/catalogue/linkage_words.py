@@ -77,7 +77,7 @@ def facts(given: file.Parameters, loads: tuple[str, ...], acting: Container[str]
     """
     rows = tuple(map(_group, given.groups))
     axes = _axes(given)
-    shown = tuple(_load(load, name) for load, name in zip(given.loads, loads, strict=True) if name in acting)
+    acting_loads = tuple(_load(load, name) for load, name in zip(given.loads, loads, strict=True) if name in acting)
     return {
         "frame": [(vocabulary.point(name), *map(as_typed, at)) for name, at in given.frame.items()],
         "quantities": tuple(_quantities(given, rows)),
@@ -89,11 +89,11 @@ def facts(given: file.Parameters, loads: tuple[str, ...], acting: Container[str]
         ),
         "motions": tuple(_motions(given)),
         "listed": "given" if given.masses else "massless",
-        "loads": shown,
+        "loads": acting_loads,
         "declared": (),
-        "interpolated": tuple(load for load in shown if load.nodes),
+        "interpolated": tuple(load for load in acting_loads if load.nodes),
         "two_turns": given.turns == 2,
-        "gases": tuple(load for load in shown if load.by == "gas"),
+        "gases": tuple(load for load in acting_loads if load.by == "gas"),
     }
 
 

@@ -231,7 +231,7 @@ class ClosedLoops:
     def eps(self, link: int, formula: Expression) -> Ref:
         return self.known("acceleration", ids.angular_acceleration(link), formula)
 
-    def shown(self, u: VectorComponents, w: VectorComponents, velocity: Sides, acceleration: Sides) -> None:
+    def enter_matrix_form(self, u: VectorComponents, w: VectorComponents, velocity: Sides, acceleration: Sides) -> None:
         """Enter the equations in matrix form: both unknowns and the right-hand side of each."""
         A = Matrix(((u[0], w[0]), (u[1], w[1])))
         for what, sides in {"velocity": velocity, "acceleration": acceleration}.items():
@@ -323,7 +323,7 @@ def _rrr(k: ClosedLoops, dyad: Dyad) -> None:
     k.closure(tip, add(T.p, scaled(l_j, along(φ_j))))
     inward = add(a, scaled(n_i, along(φ_i)), scaled(minus(n_j), along(φ_j)))
     u, w = scaled(l_i, turned(along(φ_i))), scaled(minus(l_j), turned(along(φ_j)))
-    k.shown(u, w, (ω_i, ω_j, v), (ε_i, ε_j, inward))
+    k.enter_matrix_form(u, w, (ω_i, ω_j, v), (ε_i, ε_j, inward))
     first = LoopBody(str(dyad.start), P, φ_i, ω_i, ε_i)
     k.point(Q, first.carried(at))
     k.put(i, first)
@@ -363,7 +363,7 @@ def _rrp(k: ClosedLoops, dyad: Dyad) -> None:
     k.closure(tip, add(rail.at, scaled(Symbol("s", joint), along(α))))
     e, square_to_e = along(α), turned(along(α))
     right = add(a, scaled(twice, square_to_e), scaled(n, along(φ)))
-    k.shown(scaled(l, turned(along(φ))), scaled(MINUS_ONE, e), (ω, rate, v), (ε, rate2, right))
+    k.enter_matrix_form(scaled(l, turned(along(φ))), scaled(MINUS_ONE, e), (ω, rate, v), (ε, rate2, right))
     if fixed:
         k.points[Q] = Moving(at, scaled(rate, e), scaled(rate2, e))
     else:
@@ -395,7 +395,7 @@ def _rpr(k: ClosedLoops, dyad: Dyad) -> None:
     slot, square_to_slot = along(φ), turned(along(φ))
     k.closure(add(T.p, scaled(s, slot), scaled(e, square_to_slot)), P.p)
     right = add(a, scaled(ω**2, r), scaled(minus(2 * ω * rate), square_to_slot))
-    k.shown(add(scaled(s, square_to_slot), scaled(minus(e), slot)), slot, (ω, rate, v), (ε, rate2, right))
+    k.enter_matrix_form(add(scaled(s, square_to_slot), scaled(minus(e), slot)), slot, (ω, rate, v), (ε, rate2, right))
     lever = LoopBody(str(dyad.end), T, φ, ω, ε)
     k.point(dyad.middle, lever.carried(P.p))
     k.put(i, LoopBody(str(dyad.start), P, φ, ω, ε))
@@ -425,7 +425,7 @@ def _prp(k: ClosedLoops, dyad: Dyad) -> None:
     e, e_other = along(α), along(β)
     k.closure(place, add(rail2.at, scaled(Symbol("s", second), e_other)))
     right = add(a, scaled(c_other, turned(e_other)), scaled(minus(c), turned(e)))
-    k.shown(e, scaled(MINUS_ONE, e_other), (rate, second_rate, v), (rate2, other2, right))
+    k.enter_matrix_form(e, scaled(MINUS_ONE, e_other), (rate, second_rate, v), (rate2, other2, right))
     k.point(Q, Moving(at, add(bases[0].v, scaled(rate, e)), add(bases[0].a, scaled(c, turned(e)), scaled(rate2, e))))
     for link, rail in ((i, rail1), (j, rail2)):
         k.put(link, LoopBody(Q, k.points[Q], rail.angle, rail.carrier.omega, rail.carrier.eps))
@@ -453,7 +453,7 @@ def _rpp(k: ClosedLoops, dyad: Dyad) -> None:
     e, slot = along(α), along(β)
     k.closure(add(place, scaled(Symbol("s", in_slot), slot)), P.p)
     right = add(a, scaled(minus(times(TWO, ω)), add(scaled(rate, turned(e)), scaled(slot_rate, turned(slot)))))
-    k.shown(e, slot, (rate, slot_rate, v), (rate2, other2, right))
+    k.enter_matrix_form(e, slot, (rate, slot_rate, v), (rate2, other2, right))
     twice = times(TWO, ω, rate)
     k.point(Q, Moving(at, add(start.v, scaled(rate, e)), add(start.a, scaled(twice, turned(e)), scaled(rate2, e))))
     k.put(i, LoopBody(str(dyad.start), P, α, ω, rail.carrier.eps))

@@ -268,9 +268,9 @@ class Coursework(CaseOfParts):
             own, of = self._taken_symbols(member, datum)
             id = _datum(member.case, datum.key, member.part.head)
             value = (member.case.printed.number(id),) if id else ()
-            shown = self.letters[member.name].get(own, own)
-            times: tuple[Expression, ...] = () if shown == of else (_times(datum.times, of),)
-            chains.append(Chain((shown, *times, *value)))
+            symbol = self.letters[member.name].get(own, own)
+            times: tuple[Expression, ...] = () if symbol == of else (_times(datum.times, of),)
+            chains.append(Chain((symbol, *times, *value)))
         if chains:
             yield Paragraph((Text(str(self.words["coursework"]["taken"]).strip()),))
             yield Equation(tuple(chains))
@@ -293,8 +293,8 @@ class Coursework(CaseOfParts):
             meaning = "" if family.hidden or family.is_plane else phrase(id, ledger, member.case.words)
             if meaning and family.symbol in used and not is_explained(family.symbol, known):
                 unit = ledger.units.get(family.how.unit, family.how.unit)
-                shown = letters.get(family.symbol, family.symbol)
-                alike.setdefault((_NUMBER.sub("", meaning), unit), {}).setdefault(shown, meaning)
+                symbol = letters.get(family.symbol, family.symbol)
+                alike.setdefault((_NUMBER.sub("", meaning), unit), {}).setdefault(symbol, meaning)
         for (_, unit), symbols in alike.items():
             meanings = list(dict.fromkeys(symbols.values()))
             numbers = ", ".join(number[0] for one in meanings if (number := _NUMBER.search(one)))
@@ -388,8 +388,8 @@ def _datum(case: Case, key: str, head: str = "") -> str:
         return wanted
     alike = [id for id in given if _letters(id) == _letters(wanted)]
     if not alike and (value := _typed(case.assignment, key)) is not None:
-        shown = [id for id, one in given.items() if not one.hidden and not one.is_plane]
-        alike = [id for id in shown if math.isclose(float(case.ledger[id].values[0]), value, rel_tol=1e-9)]
+        printed = [id for id, one in given.items() if not one.hidden and not one.is_plane]
+        alike = [id for id in printed if math.isclose(float(case.ledger[id].values[0]), value, rel_tol=1e-9)]
     return alike[0] if len(alike) == 1 else ""
 
 

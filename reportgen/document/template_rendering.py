@@ -40,7 +40,7 @@ from jinja2.utils import pass_context
 from reportgen.base.errors import ReportgenError, TemplateError
 from reportgen.base.files import keep, kept
 from reportgen.base.process_limits import TEMPLATES, LimitError
-from reportgen.base.template_access import shown
+from reportgen.base.template_access import template_members
 from reportgen.base.template_access import text as as_text
 from reportgen.base.template_folders import DEFAULT_LANGUAGE
 from reportgen.base.units import MINUS, Language
@@ -96,7 +96,7 @@ ENVIRONMENTS = 8
 """Number of search paths (language, kind, school) whose compiled templates are kept."""
 
 
-@shown("__str__")
+@template_members("__str__")
 class NamedPoint(str):
     """The name of a point, which templates print as its symbol."""
 

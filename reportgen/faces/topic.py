@@ -48,7 +48,7 @@ def faults(parameters: TopicParameters, machine: Machine) -> Iterator[Finding]:
 def enter(opening: Opening) -> TopicData:
     """Enter the data of the faces; faulty ones, which the file's checks report, are left out."""
     faces, datum = opening.given.section("faces", dict) or {}, opening.datum
-    sliders, found = carriers(opening.linkage), dict[int, Faces]()
+    sliders, entered = carriers(opening.linkage), dict[int, Faces]()
     for link, face in faces.items():
         if link not in sliders or face.from_.si >= face.to.si:
             continue
@@ -56,8 +56,8 @@ def enter(opening: Opening) -> TopicData:
         datum(ids.face_to(link), face.to, "", "")
         if face.below.si:
             datum(ids.face_below(link), face.below, "", "")
-        found[link] = Faces(face.from_.si, face.to.si, face.below.si)
-    return TopicData(found, provided={FACES.name: found})
+        entered[link] = Faces(face.from_.si, face.to.si, face.below.si)
+    return TopicData(entered, provided={FACES.name: entered})
 
 
 HOOKS = TopicSection(

@@ -66,8 +66,8 @@ def rows(report: ReportContext, digits: str) -> Iterator[Sequence[object]]:
     for k in report.all_positions:
         tilting = tilts(report, digits, k)
         at_ends = [bare(report, id, k) for id in ends] if tilting else ["–", "–"]
-        shown = [bare(report, name(digits), k) for name in (ids.normal_reaction, ids.normal_place)]
-        yield str(k), *shown, words["tilts" if tilting else "within"], *at_ends
+        values = [bare(report, name(digits), k) for name in (ids.normal_reaction, ids.normal_place)]
+        yield str(k), *values, words["tilts" if tilting else "within"], *at_ends
 
 
 HOOKS = ViewHooks(

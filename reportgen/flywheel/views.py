@@ -20,7 +20,7 @@ from reportgen.machine.shared_results import REGULATED_CYCLE
 from reportgen.report.context import ReportContext
 from reportgen.report.cycle_curves import axis_of, driver_axis
 from reportgen.report.quantity_tables import tables
-from reportgen.report.table_remarks import labels, shown
+from reportgen.report.table_remarks import labels, printed_values
 from reportgen.report.topic_views import ViewHooks, always
 
 THINNED = 4
@@ -76,8 +76,8 @@ def wittenbauer(report: ReportContext) -> FigureScenes:
     bounds = (("max", "A.upper", wheel.upper, wheel.fastest), ("min", "A.lower", wheel.lower, wheel.slowest))
     lines, angles = [], []
     for radius, (name, height, at, speed) in zip(ARCS, bounds, strict=True):
-        shown, slope = ledger.symbol(ids.bound_of_speed(name)), speed**2 / 2
-        lines.append(PlottedCurve(shown, ends, at + slope * ends, (0,), (ledger.symbol(height),)))
+        name_of_bound, slope = ledger.symbol(ids.bound_of_speed(name)), speed**2 / 2
+        lines.append(PlottedCurve(name_of_bound, ends, at + slope * ends, (0,), (ledger.symbol(height),)))
         angles.append(Inclination(ledger.symbol(ids.tangent(name)), 0.0, at, slope, radius))
     curve = PlottedCurve(Symbol("A"), wheel.inertia, wheel.work, (wheel.high, wheel.low))
     across, up = axis_of(report, "J.r"), axis_of(report, "A.excess")
@@ -150,7 +150,7 @@ class Range:
 
 def work_range(report: ReportContext) -> Range:
     """Return the range of the excess work of the flywheel's calculation."""
-    positions, values = report.all_positions, shown(report, "A.excess", report.all_positions)
+    positions, values = report.all_positions, printed_values(report, "A.excess", report.all_positions)
 
     def end(value: float) -> tuple[Value, str]:
         there = [k for k, one in zip(positions, values, strict=True) if one == value]

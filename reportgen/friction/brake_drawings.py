@@ -25,8 +25,8 @@ TURN = math.tau
 
 def drum(θ: float, sense: int, name: Symbol) -> Canvas:
     """Return a drum with the band that lies on it by θ (rad), S₁ on the right; an arrow inside turns with `sense`."""
-    shown = math.fmod(θ, TURN) or TURN
-    right, left = math.pi / 2 - shown / 2, math.pi / 2 + shown / 2
+    angle = math.fmod(θ, TURN) or TURN
+    right, left = math.pi / 2 - angle / 2, math.pi / 2 + angle / 2
     items: list[Item] = [
         Circle(0j, RADIUS, style.VISIBLE, style.TINT),
         Arc(0j, RADIUS + 0.4, right, right + min(θ, TURN), style.HEAVY),

@@ -229,8 +229,8 @@ def _without(forces: Forces, at: Flags) -> Forces:
     unknown = np.where(at, np.nan, 0.0)
     return Forces(
         {
-            name: Reaction(one.force + unknown, one.point + unknown, one.moment + unknown)
-            for name, one in forces.reactions.items()
+            name: Reaction(reaction.force + unknown, reaction.point + unknown, reaction.moment + unknown)
+            for name, reaction in forces.reactions.items()
         },
         forces.torque + unknown,
     )

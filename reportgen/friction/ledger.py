@@ -145,10 +145,10 @@ def _balanced(q: Calculation, linkage: Linkage) -> tuple[str, str, Ref]:
 def _rounds(solved: FrictionForces, worked: Sequence[int]) -> int:
     """Return the first round whose torque prints like that of the last round at the worked positions."""
     torques = np.array([forces.torque for forces in solved.rounds])
-    shown = torques[:, [k - 1 for k in worked]] if worked else torques
-    shown = shown[:, np.isfinite(shown).all(axis=0)]
+    compared = torques[:, [k - 1 for k in worked]] if worked else torques
+    compared = compared[:, np.isfinite(compared).all(axis=0)]
     decimals = significant_decimals(float(np.nanmax(np.abs(torques[-1]))), KINDS["torque"].digits)
-    printed = rounded(shown, decimals)
+    printed = rounded(compared, decimals)
     stands = (printed == printed[-1]).all(axis=1)
     return min(int(stands.argmax()), MOST_ROUNDS)
 

@@ -16,17 +16,17 @@ def at_position(analysis: Analysis, k: int, entry: dict[str, Any]) -> None:
 
     They are None where the mechanism locks.
     """
-    found = with_friction(analysis)
+    solved = with_friction(analysis)
     balance = "torque" if isinstance(analysis.machine.linkage.driver, Crank) else "force"
-    if not found.stands[k]:
-        locked: dict[str, None] = dict.fromkeys(found.forces.reactions)
+    if not solved.stands[k]:
+        locked: dict[str, None] = dict.fromkeys(solved.forces.reactions)
         entry["friction"] = {"reactions": locked, "loads": {}, balance: None, "efficiency": None}
         return
-    torque = float(found.torque[k])
+    torque = float(solved.torque[k])
     drives = analysis.machine.turn * analysis.torque[k] > 0
     entry["friction"] = {
-        "reactions": {name: reaction.force[k] for name, reaction in found.forces.reactions.items()},
-        "loads": load_entries(found.loads, k),
+        "reactions": {name: reaction.force[k] for name, reaction in solved.forces.reactions.items()},
+        "loads": load_entries(solved.loads, k),
         balance: torque,
         "efficiency": analysis.torque[k] / torque if drives else None,
     }

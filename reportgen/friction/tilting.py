@@ -119,10 +119,10 @@ def at_both_ends(named: Iterable[tuple[FaceForce, Symbol]], guide: complex, φ: 
     """Return the two forces on a slider that tilts, at the ends of its face, which is drawn as long as they
     have room.
     """
-    shown = list(named)
-    places = np.array([force.at for force, _ in shown])
+    faces = list(named)
+    places = np.array([force.at for force, _ in faces])
     middle, half = places.mean(), abs(places[1] - places[0]) / 2
     forces = [
-        Leaning(force.across, force.along, (force.at - middle) / half * DETAIL / 2, (name,)) for force, name in shown
+        Leaning(force.across, force.along, (force.at - middle) / half * DETAIL / 2, (name,)) for force, name in faces
     ]
     return leaning_forces(guide, forces, φ, title)

@@ -96,8 +96,8 @@ def data(report: ReportContext) -> Inlines:
     at = dict.fromkeys(str(each.point) if each.kind == "pin" else str(each.link) for each in joints)
     names = (friction_ids.coefficient, friction_ids.pin_radius, friction_ids.circle)
     given = (name(place) for place in at for name in names)
-    shown = [template_equations.quantity(report, id) for id in given if id in report.machine.sheet]
-    return tuple(inline for n, carried in enumerate(shown) for inline in (*((Text("; "),) if n else ()), *carried))
+    quantities = [template_equations.quantity(report, id) for id in given if id in report.machine.sheet]
+    return tuple(inline for n, carried in enumerate(quantities) for inline in (*((Text("; "),) if n else ()), *carried))
 
 
 def loss_lines(report: ReportContext) -> list[str]:
@@ -178,8 +178,8 @@ def rounds(report: ReportContext, key: str, caption: str, head: Sequence[str], k
     for each in joints:
         without = ids.reaction(each.digits)
         of_rounds = [friction_ids.reaction.of({"joint": each.digits, "round": name}) for name in names[1:]]
-        shown = [without, *(id for id in of_rounds if id in ledger), friction_ids.reaction(each.digits)]
-        columns.append([ledger.symbol(without), ledger.printed_unit("N"), *(bare(report, id, k) for id in shown)])
+        reactions = [without, *(id for id in of_rounds if id in ledger), friction_ids.reaction(each.digits)]
+        columns.append([ledger.symbol(without), ledger.printed_unit("N"), *(bare(report, id, k) for id in reactions)])
     torques = ["M.eq", *map(friction_ids.torque_of_round, numbers), friction_ids.torque]
     kind = ledger["M.eq"].how
     columns.append([report.balance_symbol(), ledger.printed_unit(kind.unit), *(bare(report, id, k) for id in torques)])
@@ -199,8 +199,8 @@ def dead_rows(report: ReportContext) -> Iterator[Sequence[object]]:
             turn = math.degrees((angle - course.phase) % (2 * math.pi))
             sides = [friction_ids.dead(course.link, number, side) for side in ("before", "behind")]
             if all(id in report.ledger for id in sides):
-                shown = Number(0.0 if abs(turn - 360) < 1e-9 else turn, 2)
-                yield str(course.link), shown, *(bare(report, id, None) for id in sides)
+                angle_printed = Number(0.0 if abs(turn - 360) < 1e-9 else turn, 2)
+                yield str(course.link), angle_printed, *(bare(report, id, None) for id in sides)
 
 
 # --- figures --------------------------------------------------------------------------------------
@@ -252,20 +252,20 @@ def scheme(report: ReportContext, k: int) -> FigureScenes:
 def scheme_scene(report: ReportContext, k: int, factor: float = 1.0) -> Scene:
     """Return the same by a factor of enlargement."""
     machine, motion, scale = report.machine.linkage, report.analysis.motion, drawing_scale(report) * factor
-    shown = [carried for carried in joint_forces(report, k) if carried.force]
+    loaded = [carried for carried in joint_forces(report, k) if carried.force]
     bones, look = skeleton(machine, motion, k - 1, scale), looks(report, scale, factor)
     draft = mechanism(bones, (0, *machine.links), look)
     circles = {
-        carried.each.point: _circle(report, carried.each) * scale for carried in shown if carried.each.kind == "pin"
+        carried.each.point: _circle(report, carried.each) * scale for carried in loaded if carried.each.kind == "pin"
     }
     marks: list[Item] = [Circle(bones.points[point], radius, style.REACTION) for point, radius in circles.items()]
     forces = []
-    for carried in shown:
+    for carried in loaded:
         if ends := _at_ends(report, carried):
             marks += face(report, carried.each.link, k, scale)
             forces += [Force(name, end.at * scale, end.across + end.along, "reaction") for end, name in ends]
             continue
-        marks += _line(carried, shown, scale)
+        marks += _line(carried, loaded, scale)
         forces.append(
             Force(_named(report, carried.each), (carried.at + carried.offset) * scale, carried.force, "reaction")
         )
@@ -275,10 +275,10 @@ def scheme_scene(report: ReportContext, k: int, factor: float = 1.0) -> Scene:
     return finish(Canvas(says=facts) + draft + Canvas(tuple(marks)) + draw_forces(forces), notes=look.notes)
 
 
-def _line(carried: JointForce, shown: Sequence[JointForce], scale: float) -> Iterator[Item]:
+def _line(carried: JointForce, loaded: Sequence[JointForce], scale: float) -> Iterator[Item]:
     """Yield the line of a force: to the other joint of its link if it is tangent to that one's circle too."""
     along, here = carried.force / abs(carried.force), (carried.at + carried.offset) * scale
-    for further in shown:
+    for further in loaded:
         there = (further.at + further.offset) * scale
         share_link = set(carried.each.of.joint.links) & set(further.each.of.joint.links) - {0}
         apart = (there - here) * along.conjugate()
@@ -406,9 +406,9 @@ def force_plan_with_friction(report: ReportContext, polygon: Polygon, k: int) ->
             digits = edge.name.removeprefix("R")
             symbol = report.named(Symbol("R", digits, "fr", "vector"))
             # A load gets its name at its new place in the plan with friction.
-            shown = symbol if edge.is_reaction else report.force_vector(edge.name)
+            vector = symbol if edge.is_reaction else report.force_vector(edge.name)
             name = f"{edge.start}{edge.end}.fr"
-            moved.append(PlanVector(name, at, end, "relative", shown, lettered=not edge.is_reaction))
+            moved.append(PlanVector(name, at, end, "relative", vector, lettered=not edge.is_reaction))
             if end != first:
                 points.append(PlanPoint(Symbol(edge.end, sup="′"), end))
         at = end

@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reportgen.base.arrays import Flags
-from reportgen.base.template_access import shown
+from reportgen.base.template_access import template_members
 from reportgen.formula.evaluation import inv
 from reportgen.gears import train_formulas as formulas
 from reportgen.gears.train_formulas import TrainScheme, over_teeth
@@ -220,7 +220,7 @@ def coaxial(demand: Demand) -> Iterator[Wholes]:
         yield np.column_stack((np.full(kept.sum(), z1), z2[kept], z2p[kept], z3[kept]))
 
 
-@shown("first", "left")
+@template_members("first", "left")
 @dataclass(frozen=True, eq=False)
 class TrainChoice:
     """Tooth numbers [N, 4] that fulfil a demand, by size, with the number left after each condition."""

@@ -10,7 +10,7 @@ from pydantic import Field
 
 from reportgen.assignment.common import Part
 from reportgen.assignment.fields import Decimal, Interval, Quantity, Ratio, RotationalSpeed, Whole
-from reportgen.base.template_access import shown
+from reportgen.base.template_access import template_members
 from reportgen.base.units import Given
 from reportgen.gears.tooth_numbers import LEAST_OUTER, MOST_SATELLITES, Demand, TrainChoice, choice
 
@@ -24,7 +24,7 @@ RowPair = Annotated[tuple[TrainTeeth, ...], Field(min_length=2, max_length=2)]
 Rows = Annotated[tuple[RowPair, ...], Field(max_length=4)]
 
 
-@shown("from_", "to")
+@template_members("from_", "to")
 class TeethLimits(Part):
     """The least and the greatest number of teeth of any wheel."""
 
@@ -39,7 +39,7 @@ class MeshEfficiency(Part):
     inner: OfMesh = 0.98
 
 
-@shown("u", "tolerance", "z", "before", "behind", "efficiency", "by_carrier")
+@template_members("u", "tolerance", "z", "before", "behind", "efficiency", "by_carrier")
 class Parameters(Part):
     """A planetary train that is sought, with rows of ordinary wheels before and behind it."""
 

@@ -20,7 +20,7 @@ MOST = 1500
 def timed_runs(report: ReportContext) -> tuple[TimedRun, ...]:
     """Return the motions that a page plays in time: that with the flywheel where start and stop have it."""
     motion = motion_in(report.analysis)
-    runs = {"steady": motion.states[motion.shown].run}
+    runs = {"steady": motion.states[motion.main_state].run}
     if motion.started is not None:
         runs["start"] = motion.started.run
     if motion.stopped is not None:

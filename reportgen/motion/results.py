@@ -17,7 +17,7 @@ def _at_positions(analysis: Analysis) -> list[Entries]:
     """
     machine, motion = analysis.machine, motion_in(analysis)
     at = {state: at_positions(machine, steady) for state, steady in motion.states.items()}
-    true = at_true_speeds(analysis, motion.states[motion.shown]) if motion.asked.forces else None
+    true = at_true_speeds(analysis, motion.states[motion.main_state]) if motion.asked.forces else None
     alone = motion.alone.run
     return [
         {

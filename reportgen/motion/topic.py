@@ -271,7 +271,7 @@ def warnings(machine: Machine) -> Iterator[Finding]:
     """Find a drive under which the machine runs at another speed than the one that it is calculated for."""
     motion = true_motion_of(machine)
     if motion is not None and motion.off_speed(machine) > OFF_SPEED:
-        words = {"speed": f"{motion.states[motion.shown].mean:.4g}", "planned": f"{machine.speed:.4g}"}
+        words = {"speed": f"{motion.states[motion.main_state].mean:.4g}", "planned": f"{machine.speed:.4g}"}
         yield Finding("motion-off-speed", ("parameters", "motion", "drive"), words, at="key")
 
 

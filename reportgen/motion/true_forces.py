@@ -28,7 +28,7 @@ def asks_forces(report: ReportContext) -> bool:
 def forces_table(report: ReportContext, key: str, caption: str, head: Sequence[str], k: Position) -> Table:
     """Return a table of values at a position, at constant speed and in the true motion, with their units."""
     motion = motion_of(report)
-    true = at_true_speeds(report.analysis, motion.states[motion.shown])
+    true = at_true_speeds(report.analysis, motion.states[motion.main_state])
     return list_table(report.prose, key, caption, head, list(_rows(report, true, k)), WIDTHS)
 
 
@@ -55,11 +55,11 @@ def _courses(report: ReportContext, true: Analysis) -> Iterator[tuple[str, np.nd
     for load in true.inertia:
         yield load.name, np.abs(load.force)
         yield ids.inertia_couple(load.link), np.abs(load.couple)
-    shown: set[frozenset[int]] = set()
+    entered_joints: set[frozenset[int]] = set()
     for name, reaction in true.forces.reactions.items():
         joint = frozenset(ids.links_of(name))
-        if joint not in shown and ids.of_force(name) in report.ledger:
-            shown.add(joint)
+        if joint not in entered_joints and ids.of_force(name) in report.ledger:
+            entered_joints.add(joint)
             yield ids.of_force(name), np.abs(reaction.force)
 
 
@@ -75,8 +75,8 @@ def _row(report: ReportContext, id: str, true: np.ndarray, k: Position) -> tuple
         decimals = figure_decimals(_greatest(true) / how.scale, how.digits) if how.decimals is None else how.decimals
     symbol: Symbol = ledger.symbol(id)
     there = float(true[k - 1]) / how.scale
-    shown = (Number(even.value, even.decimals), Number(there, decimals if there else None))
-    return (symbol if signed else size(symbol), *shown, ledger.units.get(how.unit, how.unit))
+    numbers = (Number(even.value, even.decimals), Number(there, decimals if there else None))
+    return (symbol if signed else size(symbol), *numbers, ledger.units.get(how.unit, how.unit))
 
 
 def _greatest(values: np.ndarray) -> float:

@@ -53,7 +53,7 @@ class TrueMotion:
 
     def off_speed(self, machine: Machine) -> float:
         """Return the relative difference of the mean speed of the motion that starts and stops from the planned one."""
-        return abs(self.states[self.shown].mean / machine.speed - 1)
+        return abs(self.states[self.main_state].mean / machine.speed - 1)
 
     def added(self, state: WheelState) -> float:
         """Return the inertia that turns with the crank besides the links (kg·m²): motor and gear, the flywheel."""
@@ -63,14 +63,14 @@ class TrueMotion:
         """Return the requirements for the drive in the steady motion, with the flywheel if start and stop
         include it.
         """
-        return DriveDemand.of(self.states[self.shown], machine.turns * FULL_TURN)
+        return DriveDemand.of(self.states[self.main_state], machine.turns * FULL_TURN)
 
     def motors(self, machine: Machine) -> list[MotorChecks]:
         """Return the motors to choose from by rising power, with their checks."""
         return judged(self.asked.motors, self.demand(machine), self.asked.ratio) if self.asked.motors else []
 
     @property
-    def shown(self) -> WheelState:
+    def main_state(self) -> WheelState:
         """State of the machine that starts and stops: "wheel" with the flywheel, else ""."""
         return "wheel" if self.asked.wheeled and self.wheeled is not None else ""
 
@@ -94,8 +94,8 @@ def true_motion(machine: Machine, asked: MotionAsked, regulated: RegulatedCycle 
         wheeled = replace(alone, added=asked.inertia + regulated.moment)
         with_wheel = steady(wheeled, drive, machine.speed, own)
         motion = replace(motion, wheel=regulated.moment, wheeled=with_wheel)
-    body = replace(alone, added=motion.added(motion.shown))
-    to = motion.states[motion.shown]
+    body = replace(alone, added=motion.added(motion.main_state))
+    to = motion.states[motion.main_state]
     if asked.start_from is not None:
         motion = replace(motion, started=start(body, drive, to, asked.start_from, own))
     if asked.stop_from is not None:
@@ -135,15 +135,15 @@ def least_inertia(body: ReducedMachine, path: ReducedTravel) -> tuple[float, flo
     angles, inertia = angles[order], np.concatenate((path.inertia.ravel(), path.at_edges[0][:-1]))[order]
     neighbours = np.minimum(np.roll(inertia, 1), np.roll(inertia, -1))
     lowest = np.flatnonzero(inertia <= np.minimum(neighbours, LOW * inertia.max()))
-    found = [(float(angles[inertia.argmin()]), float(inertia.min()))]
+    minima = [(float(angles[inertia.argmin()]), float(inertia.min()))]
     for at in lowest:
         middle, reach = float(angles[at]), 2 * body.whole / path.size
         for _ in range(CLOSER):
             near = middle + np.linspace(-reach, reach, 2 * FINER + 1) + body.whole
             around = body.reduced(near)[0]
             middle, reach = float(near[around.argmin()]) - body.whole, reach / FINER
-        found.append((middle % body.whole, float(around.min())))
-    return min(found, key=lambda one: one[1])
+        minima.append((middle % body.whole, float(around.min())))
+    return min(minima, key=lambda one: one[1])
 
 
 def at_positions(machine: Machine, motion: SteadyMotion) -> np.ndarray:

@@ -139,7 +139,7 @@ def drive_takes(report: ReportContext) -> bool:
 def starts_with(report: ReportContext) -> str:
     """Return "wheel" if start and stop include the flywheel, else "alone"."""
     motion = motion_in(report.analysis)
-    return "wheel" if motion.shown else "alone"
+    return "wheel" if motion.main_state else "alone"
 
 
 def swings(report: ReportContext) -> Inlines:
@@ -288,7 +288,7 @@ def _of_shown(name: str) -> Callable[[ReportContext], str]:
 
     def of(report: ReportContext) -> str:
         motion = motion_in(report.analysis)
-        return run_ids.in_state(name, motion.shown)
+        return run_ids.in_state(name, motion.main_state)
 
     return of
 
@@ -339,8 +339,8 @@ def steady_table(report: ReportContext, key: str, caption: str, head: Head) -> t
     """Return the steady motion at the positions."""
     shared = ["J.r", "run.dJ", "M.r"]
     own = [run_ids.in_state(name, "") for name in ("Md", "T", "omega", "eps", "t")]
-    shown = [id for id in report.known([*shared, *own]) if len(report.ledger[id].values) > 1]
-    return tables(report, key, caption, shown, report.all_positions)
+    varying = [id for id in report.known([*shared, *own]) if len(report.ledger[id].values) > 1]
+    return tables(report, key, caption, varying, report.all_positions)
 
 
 def wheel_table(report: ReportContext, key: str, caption: str, head: Head) -> tuple[Table | Paragraph, ...]:
@@ -365,8 +365,8 @@ def start_table(report: ReportContext, key: str, caption: str, head: Head) -> Ta
     first = [_last_at(run, at, started.ends[0]) for at in places if not np.isclose(at, begin)]
     ends = list(started.ends)
     step = -(-len(ends) // MOST_CYCLES)
-    shown = [0, *first, *dict.fromkeys([*ends[::step], ends[-1]])]
-    return list_table(report.prose, key, caption, head, _rows(report, run, shown), (40.0, 40.0, 40.0, 40.0))
+    indices = [0, *first, *dict.fromkeys([*ends[::step], ends[-1]])]
+    return list_table(report.prose, key, caption, head, _rows(report, run, indices), (40.0, 40.0, 40.0, 40.0))
 
 
 def _last_at(run: MotionRun, angle: float, end: int) -> int:
@@ -383,8 +383,8 @@ def stop_table(report: ReportContext, key: str, caption: str, head: Head) -> Tab
     every = (angle + turn * whole for turn in range(turns) for angle in report.machine.cycle_angles)
     passed = [angle for angle in every if run.angle[0] < angle < run.angle[-1]]
     step = -(-len(passed) // MOST_CYCLES) if passed else 1
-    shown = [0, *(run.place(angle) for angle in passed[::step]), len(run.angle) - 1]
-    return list_table(report.prose, key, caption, head, _rows(report, run, shown), (40.0, 40.0, 40.0, 40.0))
+    indices = [0, *(run.place(angle) for angle in passed[::step]), len(run.angle) - 1]
+    return list_table(report.prose, key, caption, head, _rows(report, run, indices), (40.0, 40.0, 40.0, 40.0))
 
 
 def _rows(report: ReportContext, run: MotionRun, places: Sequence[int]) -> Iterator[Sequence[object]]:

@@ -274,8 +274,8 @@ class ReportContext:
             further = {id: name for id, name in beside.items() if id not in names}
             # The acceleration of the crank is told behind its speed.
             places = [*names].index("omega.1") + 1 if "omega.1" in names else len(names)
-            told = list(names.items())
-            return dict((*told[:places], *further.items(), *told[places:]))
+            ordered = list(names.items())
+            return dict((*ordered[:places], *further.items(), *ordered[places:]))
         words = self.words["linkage"]["given"]
         declared = {
             id: words[what] + (subscripted(of) if what == "length" else of) for id, what, of in self.own["quantities"]

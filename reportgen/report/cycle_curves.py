@@ -27,9 +27,9 @@ from reportgen.report.template_equations import heading_words
 # --- axes
 
 
-def axis(report: ReportContext, shown: Symbol, kind: str) -> Chain:
+def axis(report: ReportContext, symbol: Symbol, kind: str) -> Chain:
     """Return the label of an axis: the symbol that the text uses, and its unit in parentheses."""
-    return Chain((shown,), report.ledger.printed_unit(KINDS[kind].unit))
+    return Chain((symbol,), report.ledger.printed_unit(KINDS[kind].unit))
 
 
 def axis_of(report: ReportContext, id: str) -> Chain:
@@ -52,8 +52,10 @@ ShownCurve = tuple[Symbol, np.ndarray]
 
 def motion(report: ReportContext) -> FigureScenes:
     """Displacement, velocity and acceleration of what slides on the ground, ω and ε of what turns, over one turn."""
-    shown = curves_of_motion(report)
-    return FigureScenes(tuple(over_a_turn(report, curves, title, half=len(shown) > 1).scene for curves, title in shown))
+    charted = curves_of_motion(report)
+    return FigureScenes(
+        tuple(over_a_turn(report, curves, title, half=len(charted) > 1).scene for curves, title in charted)
+    )
 
 
 def curves_of_motion(report: ReportContext) -> list[tuple[list[ShownCurve], Chain]]:
@@ -61,7 +63,7 @@ def curves_of_motion(report: ReportContext) -> list[tuple[list[ShownCurve], Chai
     moved = report.dense_cycle.motion
     along = report.slider_senses
     spins = scheme(report.machine.linkage).spins
-    turning = [link for link, other in spins.items() if link == other > DRIVER]
+    turning = [link for link, spin in spins.items() if link == spin > DRIVER]
 
     def of_points(base: str) -> list[ShownCurve]:
         vectors = {name: getattr(moved.points[name], base) for name in along}
@@ -70,13 +72,13 @@ def curves_of_motion(report: ReportContext) -> list[tuple[list[ShownCurve], Chai
     def of_links(base: str, quantity: str) -> list[ShownCurve]:
         return [(Symbol(base, str(link)), getattr(moved.links[link], quantity)) for link in turning]
 
-    one_way = headings(report, along.values())
-    way = one_way[0] if len(one_way) == 1 else ""
+    directions = headings(report, along.values())
+    positive = directions[0] if len(directions) == 1 else ""
     rotation = report.sense(1)
     drawings = (
         (_displacements(report), axis(report, Symbol("s"), "segment")),
-        (of_points("v"), _positive(report, axis(report, Symbol("v"), "velocity"), way)),
-        (of_points("a"), _positive(report, axis(report, Symbol("a"), "acceleration"), way)),
+        (of_points("v"), _positive(report, axis(report, Symbol("v"), "velocity"), positive)),
+        (of_points("a"), _positive(report, axis(report, Symbol("a"), "acceleration"), positive)),
         (of_links("ω", "omega"), _positive(report, axis(report, Symbol("ω"), "angular velocity"), rotation)),
         (of_links("ε", "epsilon"), _positive(report, axis(report, Symbol("ε"), "angular acceleration"), rotation)),
     )
@@ -90,26 +92,26 @@ def headings(report: ReportContext, ways: Iterable[complex]) -> list[str]:
 
 def _positive(report: ReportContext, title: Chain, sense: str) -> Chain:
     """The title of an axis with the sense in which its quantity is positive; plain where curves differ in it."""
-    told = str(report.words["figure"]["positive"]).format(title=title.note, sense=sense)
-    return replace(title, note=told) if sense else title
+    note = str(report.words["figure"]["positive"]).format(title=title.note, sense=sense)
+    return replace(title, note=note) if sense else title
 
 
 def _displacements(report: ReportContext) -> list[ShownCurve]:
     """Return the distance (mm) of each slider from its first dead centre, or else from the far end of its guide."""
     courses = {course.link: course for course in report.machine.sliders}
-    moved, found = report.dense_cycle.motion, []
+    moved, curves = report.dense_cycle.motion, []
     for slider in sliders(report):
         place = moved.slides[GROUND, slider.link].s
         course = courses.get(slider.link)
-        way = place.max() - place if course is None else course.fraction(moved) * course.stroke
-        found.append((Symbol("s", str(slider.link)), MM * way))
-    return found
+        travel = place.max() - place if course is None else course.fraction(moved) * course.stroke
+        curves.append((Symbol("s", str(slider.link)), MM * travel))
+    return curves
 
 
 def _marks(report: ReportContext) -> tuple[int, ...]:
     """Return the indices of the samples of the dense cycle that are the positions shown."""
-    shown = report.machine.cycle_angles[[k - 1 for k in report.all_positions]]
-    places = np.searchsorted(report.dense_cycle.cycle_angle, shown)
+    angles = report.machine.cycle_angles[[k - 1 for k in report.all_positions]]
+    places = np.searchsorted(report.dense_cycle.cycle_angle, angles)
     return tuple(map(int, places))
 
 
@@ -180,11 +182,11 @@ def polar(report: ReportContext) -> FigureScenes:
         loads.setdefault(pin, {})[subscripted(edge.name)] = load
     diagrams: list[Callable[..., Scene]] = []
     for name, parts in loads.items():
-        shown = dict(parts)
+        drawn = dict(parts)
         if len(parts) > 1:
-            shown[" + ".join(parts)] = np.sum(list(parts.values()), axis=0)
+            drawn[" + ".join(parts)] = np.sum(list(parts.values()), axis=0)
         along = names["along_crank"].format(arm=subscripted(f"{report.driver.centre}{name}"))
-        for forces, load in shown.items():
+        for forces, load in drawn.items():
             series = PlottedCurve("", load.real, load.imag, _marks(report), numbers)
             title = f"{names['pin']} {subscripted(name)}: {forces}"
             diagram = Diagram((series,), names["across_crank"], along, turn=False, equal=True, title=title)

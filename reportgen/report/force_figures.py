@@ -51,9 +51,9 @@ class _Bodies:
     def scene(self, forces: Sequence[Force], extra: Canvas | None = None, **more: Any) -> Scene:
         report, look = self.report, looks(self.report, self.scale, self.share)
         machine, motion = report.machine.linkage, report.analysis.motion
-        shown = self.wide_sliders() + (extra or Canvas())
+        drawn = self.wide_sliders() + (extra or Canvas())
         return bodies_figure(
-            machine, motion, self.k - 1, self.scale, self.links, forces, looks=look, extra=shown, **more
+            machine, motion, self.k - 1, self.scale, self.links, forces, looks=look, extra=drawn, **more
         )
 
     def wide_sliders(self) -> Canvas:
@@ -86,8 +86,8 @@ class _Bodies:
             torque = _is_torque(report, load)
             if torque or report.is_zero(load.name, self.k):
                 symbol = report.ledger.symbol(load.name if torque else ids.inertia_couple(load.link))
-                shown = _of_arc(symbol, float(load.couple[index])) if torque else symbol
-                result.append(Couple(shown, complex(load.point[index]) * self.scale, float(load.couple[index])))
+                label = _of_arc(symbol, float(load.couple[index])) if torque else symbol
+                result.append(Couple(label, complex(load.point[index]) * self.scale, float(load.couple[index])))
         return result
 
     def of_guides(self, group: GroupView) -> list[Couple]:
@@ -301,15 +301,15 @@ def lever(report: ReportContext, k: int) -> FigureScenes:
             continue
         at = np.full(motion.driver.shape, _acts_at(report, load, k))
         image = complex(motion.of(load.link, at).v[index]) * per
-        shown = report.force_vector(load.name)
-        forces.append(Force(shown, image, complex(load.force[index]), "load", load.name))
+        vector = report.force_vector(load.name)
+        forces.append(Force(vector, image, complex(load.force[index]), "load", load.name))
         if not report.is_zero(ids.lever_arm(load.name), k):
             arms.append(arm_of(report, ids.lever_arm(load.name), k, 0j))
     if machine.span and not report.is_zero("R.cb", k):
         # The force that balances a sliding driver acts on the lever too; that of a crank is a torque.
         image = complex(motion.points[report.driver.pin].v[index]) * per
-        shown = vocabulary.vector(report.balance_symbol())
-        forces.append(Force(shown, image, true_sense(report, "Rcb", k), "reaction", "Rcb"))
+        vector = vocabulary.vector(report.balance_symbol())
+        forces.append(Force(vector, image, true_sense(report, "Rcb", k), "reaction", "Rcb"))
         arms.append(ArmOf(ledger.symbol(report.driver.velocity_segment), 0j, "Rcb"))
     scale = Chain((ledger.symbol("mu.v"), ledger.number("mu.v")))
     drawing = motion_plan(report, "v", k)

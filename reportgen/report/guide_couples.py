@@ -34,8 +34,8 @@ def drawn(report: ReportContext, contact: Contact, link: int, k: int, at: comple
     if not is_couple(report, contact, k):
         return []
     moment = report.ledger.number(contact.moment, k).value
-    shown: Symbol = report.ledger.symbol(contact.moment)
-    return [Couple(size(shown), at, -moment if link == contact.link else moment)]
+    symbol: Symbol = report.ledger.symbol(contact.moment)
+    return [Couple(size(symbol), at, -moment if link == contact.link else moment)]
 
 
 def handed_on(report: ReportContext, polygon: Polygon) -> list[tuple[Contact, int]]:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from reportgen.base.template_access import shown
+from reportgen.base.template_access import template_members
 from reportgen.formula import ids
 from reportgen.machine.loads import Applied, Torque
 from reportgen.report.context import ReportContext
 
 
-@shown("id", "stroke", "line", "ways")
+@template_members("id", "stroke", "line", "ways")
 @dataclass(frozen=True, slots=True)
 class ReadLoad:
     """A load at a position: its id, the id of the stroke that its line names ("" without), and whether it has a line.

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
-from reportgen.base.template_access import shown, view
+from reportgen.base.template_access import template_members, view
 from reportgen.derivation.equation_sides import Scheme, Side, image, sides
 from reportgen.derivation.load_entries import Polygon
 from reportgen.document.template_rendering import NamedPoint
@@ -20,18 +20,18 @@ from reportgen.machine.analysis import Machine, Position
 from reportgen.machine.loads import Applied, Torque
 
 # What knows nothing of words is shown here.
-shown("__str__")(Position)
-shown("applied", "torques", "linkage", "sliders")(Machine)
-shown("inertias")(Linkage)
-shown("link", "centre")(Inertia)
-shown("n", "lower_pairs", "W", "higher_pairs", "passive", "redundant")(Mobility)
-shown("name", "link", "point")(Applied)
-shown("name", "link")(Torque)
+template_members("__str__")(Position)
+template_members("applied", "torques", "linkage", "sliders")(Machine)
+template_members("inertias")(Linkage)
+template_members("link", "centre")(Inertia)
+template_members("n", "lower_pairs", "W", "higher_pairs", "passive", "redundant")(Mobility)
+template_members("name", "link", "point")(Applied)
+template_members("name", "link")(Torque)
 view("turns", "way", "state", "guided", "relative", "rod", "known", "omega", "part", "pair", "velocity")(Side)
-shown("carried")(Polygon)
+template_members("carried")(Polygon)
 
 
-@shown("__str__", "name", "link")
+@template_members("__str__", "name", "link")
 @dataclass(frozen=True, slots=True)
 class PointView:
     """A named point on a link, e.g. a mass centre."""
@@ -48,7 +48,7 @@ def points_on(linkage: Linkage, link: int) -> tuple[PointView, ...]:
     return tuple(PointView(NamedPoint(place.name), link) for place in linkage.points if place.link == link)
 
 
-@shown(
+@template_members(
     *("centre", "pin", "others", "names", "arm", "kind", "rate", "drawn", "velocity"),
     *("velocity_segment", "acceleration_segment", "round_velocity", "round_acceleration"),
     *("velocity_lines", "acceleration_lines", "scale_lines"),
@@ -148,7 +148,7 @@ class Contact:
         return [*self.moments, self.place]
 
 
-@shown(
+@template_members(
     *("__str__", "kind", "form", "i", "j", "P", "Q", "T", "M", "one", "two", "sides", "relative", "rod", "drawn"),
     *("carrier", "outer", "inner", "guide", "across", "name", "scale", "offset", "points_i", "points_j", "points"),
     *("unknowns", "normal_by_segments", "moving", "under", "turning", "normals", "velocity_lines"),
@@ -459,7 +459,7 @@ class BodyView:
         return ids.inertia_couple(self.link)
 
 
-@shown(
+@template_members(
     *("__str__", "link", "rod", "group", "base", "point", "omega", "velocities", "rates"),
     *("distances", "angles", "projections"),
 )
@@ -493,8 +493,8 @@ def displaced_inertia(linkage: Linkage, groups: Iterable[GroupView], ledger: Led
         starts[DRIVER] = NamedPoint(linkage.driver.centre)
     bodies = []
     for body in linkage.inertias:
-        shown = ledger.known((ids.inertia_offset(body.link), ids.percussion(body.centre, body.link)))
-        if len(shown) == 2:
+        known = ledger.known((ids.inertia_offset(body.link), ids.percussion(body.centre, body.link)))
+        if len(known) == 2:
             start = starts[body.link]
-            bodies.append(BodyView(body.link, NamedPoint(body.centre), start, shown, start in linkage.ground))
+            bodies.append(BodyView(body.link, NamedPoint(body.centre), start, known, start in linkage.ground))
     return tuple(bodies)

@@ -86,8 +86,8 @@ def short(number: Number) -> Number:
 
 def line_styles(report: ReportContext) -> FigureScenes:
     """The legend of the lines of the report: of forces, paths and instant centres only where it shows any."""
-    shown = {"path": bool(report.machine.paths), "normal": "centres" in report.sections, "reaction": report.has_forces}
-    words = {name: text for name, text in report.words["line_styles"].items() if shown.get(name, True)}
+    drawn = {"path": bool(report.machine.paths), "normal": "centres" in report.sections, "reaction": report.has_forces}
+    words = {name: text for name, text in report.words["line_styles"].items() if drawn.get(name, True)}
     return FigureScenes((scheme_figure.line_styles(words),))
 
 
@@ -295,9 +295,9 @@ def _free_side(machine: Machine) -> complex:
     return right if sum(way.real for way in ways) <= SAME_ANGLE else -right
 
 
-def _in_line(first: Piston, other: Piston) -> bool:
+def _in_line(first: Piston, piston: Piston) -> bool:
     """Return True if a piston moves on the line of the first one, where its positions are projected from."""
-    return abs(((other.top - first.top) / first.inward).imag) + abs((other.inward / first.inward).imag) < SAME_ANGLE
+    return abs(((piston.top - first.top) / first.inward).imag) + abs((piston.inward / first.inward).imag) < SAME_ANGLE
 
 
 # --- Coriolis acceleration

@@ -63,16 +63,16 @@ def figure(report: ReportContext, name: str, *arguments: Any, words: str = "") -
     key, draw = _drawn(report, name)
     at = ""
     if arguments and isinstance(arguments[0], str):
-        key, caption, *shown = arguments
+        key, caption, *passed = arguments
     else:
-        shown = list(arguments)
-        group = next((one for one in shown if isinstance(one, GroupView)), None)
-        position = next((one for one in shown if isinstance(one, Position)), None)
+        passed = list(arguments)
+        group = next((argument for argument in passed if isinstance(argument, GroupView)), None)
+        position = next((argument for argument in passed if isinstance(argument, Position)), None)
         key = ".".join(str(part) for part in (key, group, position) if part is not None)
         at = "" if position is None else str(position)
         links = {"i": group.i, "j": group.j} if group else None
         caption = report.words["captions"][words or name].format(k=position, g=links)
-    drawn = draw(report, *shown)
+    drawn = draw(report, *passed)
     if drawn.paper is None and not drawn.turned and not report.parts("usual-type"):
         drawn = replace(drawn, scenes=tuple(map(close, drawn.scenes)))
     inlines = report.prose.inlines(caption)

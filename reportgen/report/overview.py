@@ -89,9 +89,9 @@ def extreme_place(report: ReportContext, id: str) -> Inlines:
 def symbols(report: ReportContext) -> Iterator[Sequence[object]]:
     """The kinds of quantities that this report has: some of their symbols, the meaning, the unit."""
     for name, alike in symbol_kinds(report).items():
-        shown = tuple(dict.fromkeys(report.ledger.symbol(id) for id in alike))
+        listed_symbols = tuple(dict.fromkeys(report.ledger.symbol(id) for id in alike))
         units = dict.fromkeys(_unit(report, id) for id in alike)
-        yield _some(shown), name, ", ".join(unit or "–" for unit in units)
+        yield _some(listed_symbols), name, ", ".join(unit or "–" for unit in units)
 
 
 def _unit(report: ReportContext, id: str) -> str:
@@ -99,9 +99,9 @@ def _unit(report: ReportContext, id: str) -> str:
     return report.ledger.units.get(unit, unit)
 
 
-def _some(shown: Sequence[Symbol]) -> Inlines:
-    first: list[Inline] = [InlineMath(one) for one in shown[:EXAMPLES]]
-    return listed([*first, Text("…")] if len(shown) > EXAMPLES else first)
+def _some(symbols: Sequence[Symbol]) -> Inlines:
+    first: list[Inline] = [InlineMath(one) for one in symbols[:EXAMPLES]]
+    return listed([*first, Text("…")] if len(symbols) > EXAMPLES else first)
 
 
 def symbol_kinds(report: ReportContext) -> Mapping[str, list[str]]:

@@ -123,8 +123,8 @@ def driven(report: ReportContext) -> Mapping[str, Inlines]:
     words = _set(report, "driven", report.driver.kind, report.driver, report)
     if not report.accelerated:
         return words
-    way = "faster" if report.machine.acceleration > 0 else "slower"
-    return {**words, **_set(report, "accelerated", f"{report.driver.kind}-{way}", report.driver, report)}
+    change = "faster" if report.machine.acceleration > 0 else "slower"
+    return {**words, **_set(report, "accelerated", f"{report.driver.kind}-{change}", report.driver, report)}
 
 
 def at_positions(report: ReportContext) -> Inlines:
@@ -269,16 +269,16 @@ def first_position(report: ReportContext) -> Inlines:
     start, first = report.assignment.positions.start, machine.position(1)
     if report.instants:
         at, unit = report.assignment.positions.at or (), "mm" if machine.span else "°"
-        sizes = [one.si * MM if machine.span else degrees(one.si) for one in at]
-        shown = [Value(Number(_plain(one), unit=unit)) for one in sizes]
-        places = [part for one in shown for part in (Text(", "), one)][1:]
+        sizes = [value.si * MM if machine.span else degrees(value.si) for value in at]
+        printed = [Value(Number(_plain(value), unit=unit)) for value in sizes]
+        places = [part for value in printed for part in (Text(", "), value)][1:]
         labels = ", ".join(map(str, report.positions))
         pin = NamedPoint(report.driver.pin)
-        told = words["ways" if machine.span else "instants"][len(at) > 1]
+        phrase = words["ways" if machine.span else "instants"][len(at) > 1]
         # Tables of loads count the way of a slide from where it starts, which is none of the instants.
         begun = Number(_plain(machine.start * MM), unit="mm")
         moving = say(report, words["onwards" if machine.turn > 0 else "backwards"], first=begun)
-        return say(report, told, labels=labels, places=tuple(places), pin=pin, moving=moving)
+        return say(report, phrase, labels=labels, places=tuple(places), pin=pin, moving=moving)
     if machine.span:
         place_on_guide = Number(_plain(machine.start * MM), unit="mm")
         place: dict[str, Any] = {"label": first.label, "pin": NamedPoint(report.driver.pin), "place": place_on_guide}

@@ -231,9 +231,9 @@ class PlanSeries:
         """The plans, a share as large as the worked ones."""
         word = self.report.words["table"]["position"]
         for k in self.positions:
-            shown = replace(self.drawing(self.report, k).lettered, scale=None, lines=()).scaled(share)
+            drawing = replace(self.drawing(self.report, k).lettered, scale=None, lines=()).scaled(share)
             at = str(self.report.machine.position(k))
-            yield replace(plan(shown, title=f"{word} {at}", enlarged=False, margin=CLOSE_MARGIN), at=at)
+            yield replace(plan(drawing, title=f"{word} {at}", enlarged=False, margin=CLOSE_MARGIN), at=at)
 
 
 class _Sketch:
@@ -368,8 +368,8 @@ class ForcePlans:
         μ = nice_up(own.shown * extent / (times * LARGEST_OF_FORCES))
         while True:
             note = Chain((report.ledger.symbol(scale), replace(own, value=μ, decimals=None)))
-            shown = replace(drawing.scaled(own.shown / μ), scale=note)
-            scene = plan(shown, title=title, enlarged=False, margin=CLOSE_MARGIN)
+            scaled = replace(drawing.scaled(own.shown / μ), scale=note)
+            scene = plan(scaled, title=title, enlarged=False, margin=CLOSE_MARGIN)
             coarser = nice_up(μ * (1 + FINER))
             if scene.width <= room or extent * own.shown / coarser < LEAST_OF_FORCES:
                 return scene

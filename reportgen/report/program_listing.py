@@ -57,7 +57,7 @@ def program(report: ReportContext) -> Listing:
         except (AssertionError, KeyError):
             data += assigned(name, given_values(family.values, report.machine.count), note)
     table = textwrap.wrap(", ".join(f"{names[id]}={names[id]}" for id in changing_lines), LONGEST - 4)
-    title, given, worked, shown, drawn = report.words["listing"]
+    title, given, worked, tabulated, drawn = report.words["listing"]
     return Listing(
         (
             comment(title.format(machine=report.case.title, id=report.assignment.id)),
@@ -68,7 +68,7 @@ def program(report: ReportContext) -> Listing:
             *data,
             comment(worked),
             *formulas,
-            comment(shown),
+            comment(tabulated),
             "table = dict(",
             *(f"    {line}" for line in table),
             ")",

@@ -69,13 +69,13 @@ def tables(
     """
     at, columns = list(positions), []
     zeros = [id for id in quantities if all(report.is_zero(id, k) for k in at)]
-    shown = [id for id in quantities if id not in zeros] or list(quantities)
-    for id in shown:
+    printed = [id for id in quantities if id not in zeros] or list(quantities)
+    for id in printed:
         unit = report.ledger.printed_unit(report.ledger[id].how.unit)
         columns.append([head_symbol(report, id), unit, *(bare(report, id, k) for k in at)])
     titles = [report.words["table"]["position"], "", *map(str, at)]
     room = TEXT_WIDTH - FIRST_COLUMN
-    widths = [] if report.parts("usual-type") else [column_width(report, id, at) for id in shown]
+    widths = [] if report.parts("usual-type") else [column_width(report, id, at) for id in printed]
     fitting = bool(widths) and sum(widths) <= room
     parts = side_by_side(
         report.prose,
@@ -84,11 +84,11 @@ def tables(
         Column(FIRST_COLUMN),
         titles=titles,
         columns=columns,
-        most=len(shown) if fitting else MOST_COLUMNS - 1,
+        most=len(printed) if fitting else MOST_COLUMNS - 1,
         heads=2,
         widths=[min(width + (room - sum(widths)) / len(widths), WIDEST_COLUMN) for width in widths] if fitting else (),
     )
-    if not zeros or shown == list(quantities):
+    if not zeros or printed == list(quantities):
         return parts
     equations = listed(InlineMath(Chain((report.ledger.symbol(id), Number(0.0)))) for id in zeros)
     return *parts, Paragraph((Text(f"{report.words['table']['zero']} "), *equations, Text(".")))
@@ -97,8 +97,8 @@ def tables(
 def column_width(report: ReportContext, id: str, at: Iterable[int | None]) -> float:
     """Return the width (mm) of a quantity's numbers and symbol, with the white space beside them."""
     numbers = (replace(report.ledger.number(id, k), unit="") for k in at)
-    shown = (head_symbol(report, id), *(number for number in numbers if math.isfinite(number.value)))
-    return max(box(one, TABLE_SIZE).width for one in shown) + PADDING
+    expressions = (head_symbol(report, id), *(number for number in numbers if math.isfinite(number.value)))
+    return max(box(expression, TABLE_SIZE).width for expression in expressions) + PADDING
 
 
 # --- given data
@@ -148,8 +148,8 @@ def _as_typed(report: ReportContext, id: str) -> Inlines:
     number = report.ledger.number(id)
     if typed is None or typed.unit not in (*PRINTED, *OTHER):
         return (Value(number),)
-    shown = Value(replace(typed, unit=report.ledger.printed_unit(typed.unit)))
-    return (shown,) if typed.unit in PRINTED else (shown, Text(" = "), Value(number))
+    value = Value(replace(typed, unit=report.ledger.printed_unit(typed.unit)))
+    return (value,) if typed.unit in PRINTED else (value, Text(" = "), Value(number))
 
 
 def indicator(report: ReportContext, key: str, caption: str, head: Sequence[str]) -> Table:
@@ -163,7 +163,7 @@ def indicator(report: ReportContext, key: str, caption: str, head: Sequence[str]
 def working_force(report: ReportContext, key: str, caption: str, head: Sequence[str]) -> Table:
     """The working force as given (N): a row for each of the strokes of the head, or against the crank angle."""
     force = report.machine.applied[0]
-    return _law_table(report, force.name, force.law, key, caption, head, shown=Symbol("P"))
+    return _law_table(report, force.name, force.law, key, caption, head, symbol=Symbol("P"))
 
 
 def gas_law(report: ReportContext, key: str, caption: str, head: Sequence[str], name: str) -> Table:
@@ -187,12 +187,12 @@ def _law_table(
     key: str,
     caption: str,
     names: Sequence[str],
-    shown: Symbol | None = None,
+    symbol: Symbol | None = None,
     heights: Sequence[float] = (),
 ) -> Table:
     """The table that the law of the load `name` is given by: one row, or those of the strokes that have `names`.
 
-    `shown` takes the place of the load's symbol; `heights` (mm) are those it was read from, if it was read from a
+    `symbol` takes the place of the load's symbol; `heights` (mm) are those it was read from, if it was read from a
     drawing.
     """
     given = law.tabled
@@ -206,7 +206,7 @@ def _law_table(
     columns: list[tuple[Expression, Sequence[float]]] = [
         (given.over, [node / KINDS[given.kind].scale for node in given.nodes]),
         *(((Symbol("y"), heights),) if heights else ()),
-        (law.symbol or shown or report.ledger.symbol(name), rows[0]),
+        (law.symbol or symbol or report.ledger.symbol(name), rows[0]),
     ]
     return folded(report.prose, key, caption, columns)
 
@@ -250,9 +250,9 @@ class QuantityTable:
         self, report: ReportContext, key: str, caption: str, head: Sequence[str], ids: Sequence[str] | None = None
     ) -> tuple[Table | Paragraph, ...]:
         quantities, positions = self.ids(report) if ids is None else ids, getattr(report, self.at)
-        shown = [id for id in quantities if not all(report.is_zero(id, k) for k in positions)]
+        nonzero = [id for id in quantities if not all(report.is_zero(id, k) for k in positions)]
         words = report.words["tables"][key.removeprefix("tab.")]
-        further = [words[name] for name, of in self.groups.items() if any(id.startswith(tuple(of)) for id in shown)]
+        further = [words[name] for name, of in self.groups.items() if any(id.startswith(tuple(of)) for id in nonzero)]
         return tables(report, key, "".join((caption, *further)), quantities, positions)
 
 

@@ -50,10 +50,10 @@ def at_ends(report: ReportContext, digits: str, link: int, k: int) -> list[tuple
     if link not in wide_sliders_of(report) or not tilts(report, digits, k):
         return []
     along = complex(report.analysis.motion.slides[carriers(report.machine.linkage)[link], link].direction[k - 1])
-    found = []
+    forces = []
     for number, place in enumerate(ends_of(report, link, k), 1):
         id = ids.face_reaction(digits, number)
         size = float(np.real(report.ledger[id].at(k)))
-        shown = vocabulary.vector(report.ledger.symbol(id))
-        found.append((shown, place, size * 1j * along, id))
-    return found
+        vector = vocabulary.vector(report.ledger.symbol(id))
+        forces.append((vector, place, size * 1j * along, id))
+    return forces

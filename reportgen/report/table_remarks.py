@@ -68,7 +68,7 @@ def reactions_at(report: ReportContext) -> str | Inlines:
     return everywhere if report.parts("reactions") else worked_at(report)
 
 
-def shown(report: ReportContext, id: str, positions: Iterable[int]) -> np.ndarray:
+def printed_values(report: ReportContext, id: str, positions: Iterable[int]) -> np.ndarray:
     """The values of a quantity as printed [N], nan where it does not exist."""
     return np.array([report.ledger.number(id, k).shown for k in positions])
 
@@ -96,7 +96,7 @@ def where(report: ReportContext, positions: Sequence[int]) -> str:
 
 def peak(report: ReportContext, id: str, positions: Sequence[int]) -> Peak | None:
     """Return the peak and the zeros of a quantity over positions; None if it is zero at all of them."""
-    values = shown(report, id, positions)
+    values = printed_values(report, id, positions)
     sizes = np.abs(values)
     if not np.nanmax(sizes, initial=0.0) > 0:
         return None
@@ -141,10 +141,10 @@ def each_peak(report: ReportContext, quantities: Iterable[str], positions: Seque
 def _joined(report: ReportContext, alike: Sequence[Peak]) -> Peak:
     """Peaks that are alike as one, with the symbols of all."""
     symbols = [one.symbols[0] for one in alike]
-    shown: Inlines = listed(symbols[:-1])
-    if shown:
-        shown = (*shown, Text(f" {report.words['and']} "))
-    return replace(alike[0], ids=tuple(id for one in alike for id in one.ids), symbols=(*shown, symbols[-1]))
+    names: Inlines = listed(symbols[:-1])
+    if names:
+        names = (*names, Text(f" {report.words['and']} "))
+    return replace(alike[0], ids=tuple(id for one in alike for id in one.ids), symbols=(*names, symbols[-1]))
 
 
 # --- motion
@@ -197,7 +197,7 @@ def _reverses(report: ReportContext, link: int) -> bool:
 def at_rest(report: ReportContext, rate: Peak) -> bool:
     """Return True if the point with this acceleration is at rest wherever the acceleration is greatest."""
     velocities = [ids.velocity(found["point"]) for id in rate.ids if (found := ids.acceleration.read(id))]
-    return all(bool(np.all(shown(report, id, rate.places) == 0)) for id in velocities)
+    return all(bool(np.all(printed_values(report, id, rate.places) == 0)) for id in velocities)
 
 
 # --- loads and forces
@@ -259,7 +259,7 @@ class TorqueSigns:
 def balance_course(report: ReportContext) -> TorqueSigns:
     """The senses of the balancing torque, or force, at all positions."""
     with_motion = report.machine.turn if not report.machine.span else np.sign(report.machine.speed)
-    values = shown(report, "M.eq", report.all_positions) * with_motion
+    values = printed_values(report, "M.eq", report.all_positions) * with_motion
     mean = float(report.ledger.number("M.mean").value) * with_motion if report.cyclic else 0.0
     every = np.array(report.all_positions)
     along, against, none = (tuple(map(int, every[chosen])) for chosen in (values > 0, values < 0, values == 0))

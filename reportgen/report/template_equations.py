@@ -148,7 +148,7 @@ def stroke_name(report: ReportContext, link: int, position: int) -> str:
 def force_list(report: ReportContext, group: GroupView, position: int) -> Inlines:
     """The known edges of a force plan with their drawn lengths: ef = 40.30 mm for P_qt5, h ≡ i for what is nothing."""
     assert group.polygon is not None
-    shown: list[Inline] = []
+    inlines: list[Inline] = []
     for edge in group.polygon.edges:
         if not edge.unknown:
             drawn = ids.force_segment(group.name, edge.name)
@@ -157,8 +157,8 @@ def force_list(report: ReportContext, group: GroupView, position: int) -> Inline
             if report.is_zero(drawn, position):
                 length = InlineMath(Symbol(edge.start)), Text(" ≡ "), InlineMath(Symbol(edge.end))
                 force += (Text(" = 0"),)
-            shown += [*((Text(", "),) if shown else ()), *length, Text(" ("), *force, Text(")")]
-    return tuple(shown)
+            inlines += [*((Text(", "),) if inlines else ()), *length, Text(" ("), *force, Text(")")]
+    return tuple(inlines)
 
 
 # --- the sense of forces
@@ -172,23 +172,23 @@ def by_moments(report: ReportContext, group: GroupView, position: int) -> Inline
 
 def senses(report: ReportContext, joints: Iterable[str], position: int) -> Inlines:
     """Return the directions of the reactions of some joints, in words and as angles; zero reactions are left out."""
-    shown: list[Inline] = []
+    inlines: list[Inline] = []
     for digits in joints:
         if not report.is_zero(ids.reaction(digits), position):
             force = ids.reaction_force(digits)
             vector, angle = report.force_vector(force), report.ledger.number(ids.force_direction(force), position)
-            shown += [*((Text("; "),) if shown else ()), InlineMath(vector), *_pointing(report, angle)]
-    return tuple(shown)
+            inlines += [*((Text("; "),) if inlines else ()), InlineMath(vector), *_pointing(report, angle)]
+    return tuple(inlines)
 
 
 def slider_ways(report: ReportContext) -> Inlines:
     """In which direction the velocity and the acceleration of each slider are positive, with its angle from +x."""
-    shown: list[Inline] = []
-    for pin, way in report.slider_senses.items():
-        degrees = round(float(np.degrees(np.angle(way))), 2) % 360.0
+    inlines: list[Inline] = []
+    for pin, along in report.slider_senses.items():
+        degrees = round(float(np.degrees(np.angle(along))), 2) % 360.0
         symbols = InlineMath(Symbol("v", pin)), Text(", "), InlineMath(Symbol("a", pin))
-        shown += [*((Text("; "),) if shown else ()), *symbols, *_pointing(report, Number(degrees, unit="°"))]
-    return tuple(shown)
+        inlines += [*((Text("; "),) if inlines else ()), *symbols, *_pointing(report, Number(degrees, unit="°"))]
+    return tuple(inlines)
 
 
 def _pointing(report: ReportContext, angle: Number) -> Inlines:
@@ -256,7 +256,7 @@ def _worked(report: ReportContext, id: str, position: int | None, note: str) -> 
 def equations(report: ReportContext, name: str, position: int | None = None) -> Equation:
     """Equations of the machine's own; quantities that they name by their symbols, or at a position by their numbers."""
 
-    def shown(ref: Ref) -> Expression:
+    def printed(ref: Ref) -> Expression:
         if position is None:
             return report.ledger.symbol(ref.id)
         number = report.ledger.number(ref.id, position)
@@ -265,7 +265,7 @@ def equations(report: ReportContext, name: str, position: int | None = None) -> 
     def in_words(node: Expression) -> Expression:
         return report.named(node) if isinstance(node, Symbol) else rebuild(node, in_words)
 
-    return Equation(tuple(in_words(substitute(row, shown)) for row in report.machine.closed_formulas.equations[name]))
+    return Equation(tuple(in_words(substitute(row, printed)) for row in report.machine.closed_formulas.equations[name]))
 
 
 ω, ε = Symbol("ω"), Symbol("ε")
@@ -305,7 +305,7 @@ def theory(report: ReportContext, name: str) -> Equation:
 def functions(report: ReportContext, quantities: Sequence[str]) -> Equation:
     """Quantities as functions of the driver's place: what is constant by its number, what changes by its symbol."""
 
-    def shown(ref: Ref) -> Expression:
+    def printed(ref: Ref) -> Expression:
         family = report.ledger[ref.id]
         if len(family.values) > 1:
             return family.symbol
@@ -314,7 +314,7 @@ def functions(report: ReportContext, quantities: Sequence[str]) -> Equation:
 
     lines = ((id, report.ledger[id].definition) for id in quantities)
     return Equation(
-        tuple(Chain((report.ledger.symbol(id), substitute(formula, shown))) for id, formula in lines if formula)
+        tuple(Chain((report.ledger.symbol(id), substitute(formula, printed))) for id, formula in lines if formula)
     )
 
 

@@ -7,7 +7,7 @@ from functools import partial
 from operator import attrgetter
 from typing import Any
 
-from reportgen.base.template_access import shown
+from reportgen.base.template_access import template_members
 from reportgen.report import (
     chapter_functions,
     guide_couples,
@@ -77,7 +77,7 @@ PROPERTIES = (
     "weighed",
 )
 """Properties of the `ReportContext`."""
-shown(*PROPERTIES)(ReportContext)
+template_members(*PROPERTIES)(ReportContext)
 
 VALUES: Mapping[str, Callable[[ReportContext], Any]] = {
     # the assignment, in words

@@ -46,8 +46,8 @@ VIEWS = HookModule("views", ViewHooks)
 
 def passages(report: ReportContext, place: str) -> list[str]:
     """Return the sections of words that the topics of a machine put at a place of a shared chapter."""
-    found = (hooks.passages[place](report) for hooks in VIEWS.among(report.machine.topics) if place in hooks.passages)
-    return [section for sections in found for section in sections]
+    named = (hooks.passages[place](report) for hooks in VIEWS.among(report.machine.topics) if place in hooks.passages)
+    return [section for sections in named for section in sections]
 
 
 def merged(report: ReportContext, part: Callable[[ViewHooks], Mapping[str, Any]]) -> dict[str, Any]:

@@ -75,8 +75,8 @@ def _direction(report: ReportContext, side: Side) -> str:
 
 def _slide(report: ReportContext, how: str, side: Side) -> str:
     """Return the words for "along" or "across" the slide of a side; of two guides each has the number of its slider."""
-    way = str(report.words["vector"][f"{how}_{side.way}"])
-    return f"{way} {side.slide}" if side.alike else way
+    phrase = str(report.words["vector"][f"{how}_{side.way}"])
+    return f"{phrase} {side.slide}" if side.alike else phrase
 
 
 def _relative(report: ReportContext, side: Side) -> tuple[Term, ...]:
@@ -85,9 +85,9 @@ def _relative(report: ReportContext, side: Side) -> tuple[Term, ...]:
     sought = _unknown(report, "a", side.pair, "τ" if side.turns else "r", side)
     if side.turns:
         size = ledger.symbol(side.velocity) ** 2 / ledger.symbol(ids.length(side.rod))
-        way = f"{subscripted(side.point)} → {subscripted(side.base)}"
+        inwards = f"{subscripted(side.point)} → {subscripted(side.base)}"
         direction = f"∥ {subscripted(side.rod)}"
-        return _term(report, "a", side.pair, "n", direction=direction, sense=way, size=size), sought
+        return _term(report, "a", side.pair, "n", direction=direction, sense=inwards, size=size), sought
     if not side.turning:
         return (sought,)
     twice = 2 * ledger.symbol(side.omega) * ledger.symbol(side.velocity)
@@ -113,8 +113,8 @@ def _base(report: ReportContext, side: Side, what: str) -> Term:
         direction, sense = f"⊥ {subscripted(arm)}", words["with_crank"]
         return _term(report, "v", side.shown, "", direction=direction, sense=sense, size=omega * length)
     size = omega**2 * length
-    way = subscripted(f"{side.base} → {report.driver.centre}")
-    return _term(report, "a", side.shown, "", direction=f"∥ {subscripted(arm)}", sense=way, size=size)
+    inwards = subscripted(f"{side.base} → {report.driver.centre}")
+    return _term(report, "a", side.shown, "", direction=f"∥ {subscripted(arm)}", sense=inwards, size=size)
 
 
 def _on_crank(report: ReportContext, name: str) -> bool:
@@ -169,15 +169,15 @@ def driver_equation(report: ReportContext) -> Equation:
 def _force(report: ReportContext, group: GroupView, edge: Edge) -> Term:
     """A force of a group's plan with what is known of it."""
     words = report.words["vector"]
-    way = group.one if edge.link == group.i else group.two
-    shown = report.force_vector(edge.name)
-    if edge.part and way.turns:
+    side = group.one if edge.link == group.i else group.two
+    vector = report.force_vector(edge.name)
+    if edge.part and side.turns:
         normal = edge.part == "n"
-        along = f"{'∥' if normal else '⊥'} {subscripted(way.rod)}"
-        return Term(shown, (along, None if normal else words["computed"]))
+        along = f"{'∥' if normal else '⊥'} {subscripted(side.rod)}"
+        return Term(vector, (along, None if normal else words["computed"]))
     if edge.unknown:
-        return Term(shown, (_slide(report, "across", way) if way.guided else None, None))
-    return Term(shown, (words["given"], words["given"]))
+        return Term(vector, (_slide(report, "across", side) if side.guided else None, None))
+    return Term(vector, (words["given"], words["given"]))
 
 
 def _balance(report: ReportContext, terms: Sequence[Term], key: str = "") -> Equation:
