@@ -53,6 +53,7 @@ fuzz: $(VENV)/.developing
 pictures: $(VENV)/.developing
 	$(BIN)/python docs/pictures.py
 	$(BIN)/python docs/keys.py
+	$(BIN)/python docs/options.py
 
 clean:
 	rm -rf $(VENV) .pytest_cache .mypy_cache .ruff_cache .hypothesis .import_linter_cache

@@ -66,10 +66,7 @@ class _Spoken:
         """Write the arguments, then the options."""
         frame = _helps()["frame"]
         for kind, head in (("argument", "arguments"), ("option", "options")):
-            records = [each.get_help_record(ctx) for each in self.get_params(ctx) if each.param_type_name == kind]
-            # typer appends the Python type to an argument, which is meaningless to a user.
-            rows = [(_PYTHON_TYPE.sub("", names), _record(text)) for names, text in filter(None, records)]
-            if rows:
+            if rows := described(self, ctx, kind):
                 with formatter.section(frame[head]):
                     formatter.write_dl(rows)
 
@@ -127,6 +124,13 @@ def translated(text: str) -> str:
             if "{names}" in english and (found := re.fullmatch(rf"({_NAME}(?:, {_NAME})*)".join(around), plain)):
                 return str(own).replace("{names}", found[1].replace(", ", _helps()["frame"]["comma"]))
     return str(texts.get(plain, plain))
+
+
+def described(command: Any, ctx: Any, kind: str) -> list[tuple[str, str]]:
+    """Return the names and the help of each parameter of a kind, `argument` or `option`, in the current language."""
+    records = [each.get_help_record(ctx) for each in command.get_params(ctx) if each.param_type_name == kind]
+    # typer appends the Python type to an argument, which is meaningless to a user.
+    return [(_PYTHON_TYPE.sub("", names), _record(text)) for names, text in filter(None, records)]
 
 
 def _record(text: str) -> str:
