@@ -4,7 +4,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 SAMPLE := assignments/engine-twin-05.yaml
 
-.PHONY: setup report reports test quick proof hour lint bench fuzz pictures clean
+.PHONY: setup report reports test quick proof hour lint bench fuzz pictures docs clean
 
 setup: $(VENV)/.installed
 
@@ -36,6 +36,10 @@ lint: $(VENV)/.developing
 	$(BIN)/mypy
 	$(BIN)/lint-imports
 	$(BIN)/python -m tests.house
+
+# The site of the documentation, into out/site; a link that leads nowhere is an error.
+docs: $(VENV)/.developing
+	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --quiet --strict
 
 bench: $(VENV)/.developing
 	$(BIN)/python -m tests.bench

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 import typer
 
-from reportgen.base.documentation import as_html, heading, pages
+from reportgen.base.documentation import heading, pages
 from reportgen.base.template_folders import languages
 from reportgen.base.units import Language
 from reportgen.base.words import SPOKEN, helps
@@ -81,15 +81,6 @@ def test_the_first_page_is_in_the_language_and_the_others_are_all_there() -> Non
         "reportgen",
     ]
     assert {"class", "assignment", "commands", "machines"} <= set(pages("vi"))
-
-
-def test_a_page_for_the_browser_has_its_tables_and_the_places_that_links_name() -> None:
-    made = as_html(pages("en")["grading"])
-    text = made.read_text(encoding="utf-8")
-    made.unlink()
-    assert '<h2 id="corrections">' in text
-    assert "<table>" in text
-    assert "<base href=" in text
 
 
 @pytest.mark.parametrize("name", ["build", "grade", "variants", "batch"])
