@@ -13,15 +13,26 @@ from reportgen.base.output_formats import chosen, names, usual
 from reportgen.base.units import Language
 from reportgen.base.words import word
 from reportgen.case import Case
+from reportgen.case.quantity_wording import phrase
 from reportgen.cases import open_case, opened
 from reportgen.document.named_figures import NamedFigure, safe
-from reportgen.export import curves, figures
+from reportgen.export import curves, figures, quantities
 from reportgen.export.curves import Over
 from reportgen.export.figures import FORMATS as FIGURE_FORMATS
 from reportgen.export.figures import MOVING, MovingFigure
+from reportgen.formula.plain_text import formula
 from reportgen.writers import matplotlib_figures
 
-__all__ = ["FIGURE_FORMATS", "MOVING", "PLOT_FORMATS", "figure_files", "figure_list", "plot_files", "worked_at"]
+__all__ = [
+    "FIGURE_FORMATS",
+    "MOVING",
+    "PLOT_FORMATS",
+    "figure_files",
+    "figure_list",
+    "plot_files",
+    "plot_list",
+    "worked_at",
+]
 
 PLOT_FORMATS = names("plots")
 """Formats of a plot."""
@@ -52,6 +63,21 @@ def figure_files(
     case, labels = worked_at(case.assignment, at) if at else (case, ())
     query = figures.FigureQuery(names, labels, formats, dpi, tuple(layers))
     return figures.figure_files(case, query)
+
+
+def plot_list(path: Path | str, language: Language | None = None) -> tuple[tuple[str, str, str], ...]:
+    """Return the id, the symbol with its unit, and the name in words of each quantity that can be plotted."""
+    case = open_case(path, language)
+    spoken = case.assignment.language
+    listed = [quantities.quantity(case, id) for id in quantities.shown(case)]
+    return tuple(
+        (
+            one.id,
+            f"{formula(one.family.symbol, spoken)} ({one.case.ledger.printed_unit(one.family.how.unit)})",
+            phrase(one.id, one.case.ledger, one.case.words),
+        )
+        for one in listed
+    )
 
 
 def plot_files(

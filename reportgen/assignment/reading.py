@@ -18,6 +18,7 @@ from reportgen.assignment.checks import instants, school_of, worked_positions
 from reportgen.assignment.common import PARTS, Assignment, Draft, Drawing, Kind, Positions, sections
 from reportgen.assignment.fields import RESERVED
 from reportgen.assignment.schema import keys_at
+from reportgen.assignment.suggestions import with_suggestions
 from reportgen.base.errors import Fault, Finding, Location, Where
 from reportgen.base.files import contents, leads_out
 from reportgen.base.template_folders import school_files
@@ -209,6 +210,8 @@ def _sections(raw: dict[str, Any], kind: Kind | None) -> tuple[list[Finding], Dr
             findings.append(Finding("missing-key", (key,), {"key": key}))
         else:
             valid[key] = default
+    if kind is not None and findings:
+        findings = with_suggestions(findings, kind, raw)
     return findings, Draft(raw, {key: value for key, value in valid.items() if value is not None})
 
 

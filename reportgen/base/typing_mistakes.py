@@ -21,6 +21,10 @@ _QUOTES = {"“": "”", "”": "”", "„": "“”", "«": "»", "‘": "’"
 """Typographic quotation marks with their closing marks."""
 
 
+_OPEN_QUOTE = re.compile(r"""\s*(?:- )?(?:[\w.-]+:)?\s+(?P<mark>["'])(?:(?!(?P=mark)).)*$""")
+"""Pattern of a line with a value that begins with a quotation mark and has no second one."""
+
+
 def in_quotes(text: str) -> str | None:
     """Return the text inside typographic quotation marks, None for a text without them."""
     inner = text.strip()
@@ -53,6 +57,14 @@ def slips_above(lines: list[str], line: int, file: str) -> list[Fault]:
             break
         faults[:0] = slips
     return faults
+
+
+def open_quote(lines: list[str], file: str) -> Location | None:
+    """Return the location of the first quotation mark that begins a value and is not closed in its line."""
+    for number, line in enumerate(lines, 1):
+        if match := _OPEN_QUOTE.match(line):
+            return Location(file, number, match.start("mark") + 1)
+    return None
 
 
 def misplaced(lines: list[str], location: Location) -> Location:

@@ -89,12 +89,26 @@ SPELLED: Mapping[str, str] = {
 }
 """Units as people write them, by names that pint knows."""
 
+MEANT: Mapping[str, str] = {
+    **dict.fromkeys(("niutơn", "niu-tơn", "niuton", "newton", "newtơn"), "N"),
+    **dict.fromkeys(("vòng/giây", "vòng/s", "vg/s", "r/s"), "rps"),
+    **dict.fromkeys(("mét", "met"), "m"),
+    **dict.fromkeys(("milimét", "milimet", "mi-li-mét"), "mm"),
+    **dict.fromkeys(("ki-lô-gam", "kilôgam", "kilogam", "kí", "ký"), "kg"),
+    "giây": "s",
+    **dict.fromkeys(("об/мин", "обмин"), "rpm"),
+}
+"""Units in words and in letters that are not accepted, by the unit that is meant."""
+
 NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?"
 _KNOWN = "|".join(re.escape(spelling) for spelling in SPELLED if not spelling.isascii())
 _LETTER = "A-Za-zµμ°Ω\u0400-\u04ff\u4e00-\u9fff"
 UNIT = rf"(?:{_KNOWN}|[{_LETTER}º][{_LETTER}0-9²³⁴⁻¹ */^()·⋅.+-]*)"
 
-_QUANTITY = re.compile(rf"({NUMBER})\s*({UNIT})?")
+_ANY_UNIT = UNIT.replace(_LETTER, f"{_LETTER}À-ÖØ-öø-ɏḀ-ỿ-")
+"""Pattern of a unit that may also have letters with accents, which no known unit has but `SPELLED`."""
+
+_QUANTITY = re.compile(rf"({NUMBER})\s*({_ANY_UNIT})?")
 _RATIO = re.compile(rf"({NUMBER})\s*(?:/\s*({NUMBER}))?")
 _MARKED = re.compile(r"([+-]?)([0-9]+(?:[.,][0-9]+)+)(?![.,0-9])(.*)", re.DOTALL)
 _THOUSANDS = re.compile(r"[1-9][0-9]{0,2}[.,][0-9]{2}0")
@@ -158,7 +172,12 @@ def read_quantity(text: str, unit: str) -> Given:
         ways = two_readings(f"{cleaned} {unit}")
         hint = {"hint": "thousands", "fixed": ways[0], "other": ways[1]} if ways else {}
         raise QuantityFault("missing-unit", text=text, unit=unit, **hint)
-    value, factor = float(match[1]), read_unit(match[2], unit)
+    try:
+        value, factor = float(match[1]), read_unit(match[2], unit)
+    except QuantityFault as fault:
+        if close := meant_unit(match[2], unit):
+            fault.arguments |= {"hint": "unit-spelling", "fixed": f"{match[1]} {close}"}
+        raise
     if not math.isfinite(value * factor):
         raise QuantityFault("not-finite", text=text)
     return Given(value * factor, value, match[2], text)
@@ -212,6 +231,16 @@ def measures(unit: str, like: str) -> bool:
         return read_unit(unit, like) > 0
     except QuantityFault:
         return False
+
+
+def meant_unit(text: str, like: str) -> str:
+    """Return the unit of the dimension of `like` that an unknown unit stands for, written with other letters or in
+    words; "" if there is none or more than one.
+    """
+    plain = text.strip().casefold()
+    known = {MEANT[plain]} if plain in MEANT else {unit for unit in (*PLAIN, "MN", "kPa") if unit.casefold() == plain}
+    close = [unit for unit in known if measures(unit, like)]
+    return close[0] if len(close) == 1 else ""
 
 
 def read_unit(text: str, unit: str) -> float:

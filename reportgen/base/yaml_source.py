@@ -22,10 +22,21 @@ import yaml
 from reportgen.base import chinese, cyrillic
 from reportgen.base.errors import Fault, Location
 from reportgen.base.files import cause, contents
-from reportgen.base.typing_mistakes import misplaced, slips_above
+from reportgen.base.typing_mistakes import misplaced, open_quote, slips_above
 
 ENCODINGS = {codecs.BOM_UTF8: "utf-8", codecs.BOM_UTF16_LE: "utf-16-le", codecs.BOM_UTF16_BE: "utf-16-be"}
 """Byte-order marks and the encodings that they indicate."""
+FILE_STARTS = {
+    b"PK\x03\x04": "ZIP",
+    b"%PDF": "PDF",
+    b"\x89PNG": "PNG",
+    b"\xff\xd8\xff": "JPEG",
+    b"GIF8": "GIF",
+    b"\xd0\xcf\x11\xe0": "Word/Excel 97",
+}
+"""First bytes of files that are often given in place of an assignment, and the names of their formats."""
+PACKAGES = {b"word/": "Word (.docx)", b"xl/": "Excel (.xlsx)", b"content.xml": "OpenDocument"}
+"""Names inside a zip package by which its format is recognised."""
 LARGEST = 400_000
 """Bytes of a file."""
 MOST_TOKENS = 30_000
@@ -39,6 +50,8 @@ _MAY_BE_MORE = re.compile(r"(?m)(?:^|[\s\[{,])[&*!]\S")
 STRANGE = re.compile(r"[\x00-\x1f\x7f-\x9f\u2028\u2029\ud800-\uf8ff\ufdd0-\ufdef\ufffe\uffff\U000f0000-\U0010ffff]")
 """Characters not allowed in a line of text: control and private characters, line ends, unassigned code points."""
 _NULL = {"", "~", "null", "Null", "NULL"}
+_OPENED = frozenset({"syntax-bracket", "syntax-quote"})
+"""Hints about signs that open something, which are reported where it opens."""
 _SYNTAX = (
     ("mapping values are not allowed", "syntax-colon"),
     ("expected ',' or", "syntax-bracket"),
@@ -144,6 +157,9 @@ def text_in(path: Path) -> str | Fault:
         return Fault("unreadable", Location(file), about)
     except OSError as error:
         return Fault("unreadable", Location(file), {"reason": cause(error)})
+    if kind := next((name for start, name in FILE_STARTS.items() if data.startswith(start)), ""):
+        named = next((name for part, name in PACKAGES.items() if part in data), kind) if kind == "ZIP" else kind
+        return Fault("not-yaml", Location(file), {"text": named})
     return decoded(data, file)
 
 
@@ -193,7 +209,8 @@ def read_text(text: str, file: str = "") -> Source:
     except _StoppedError:
         return Source(file, text, faults=tuple(loader.faults))
     except yaml.MarkedYAMLError as fault:
-        error, lines = _syntax(fault, file), _lines(text)
+        lines = _lines(text)
+        error = _syntax(fault, file, lines)
         if error.arguments.get("hint") == "syntax-indent":
             error = replace(error, location=misplaced(lines, error.location))
         return Source(file, text, faults=(*loader.faults, *(slips_above(lines, error.location.line, file) or [error])))
@@ -383,13 +400,18 @@ def _lines(text: str) -> list[str]:
     return re.split(r"\r\n|\r|\n", text)
 
 
-def _syntax(fault: yaml.MarkedYAMLError, file: str) -> Fault:
+def _syntax(fault: yaml.MarkedYAMLError, file: str, lines: list[str]) -> Fault:
+    """Return the fault of a text that is not YAML, where a quote or bracket opens if that is left open."""
     place = fault.problem_mark or fault.context_mark
     location = _location(place, file) if place else Location(file)
     problem = f"{fault.context or ''} {fault.problem or ''}"
     if "'\\t'" in problem:
         return Fault("tab", location)
     hint = next((key for words, key in _SYNTAX if words in problem), "syntax")
+    if (quote := open_quote(lines[: location.line], file)) is not None:
+        return Fault("syntax", quote, {"hint": "syntax-quote"})
+    if hint in _OPENED and fault.context_mark is not None:
+        location = _location(fault.context_mark, file)
     return Fault("syntax", location, {"hint": hint})
 
 

@@ -91,8 +91,13 @@ def _use_templates(folder: Path | None) -> Path | None:
 def begin(
     context: typer.Context,
     version: Annotated[bool, typer.Option("--version", help="Print the version.", is_eager=True)] = False,
+    lang: LangOption = None,
 ) -> None:
     """Coursework reports in the Theory of Machines from one assignment file."""
+    if lang is not None:
+        assert isinstance(context.command, TyperGroup), "only a group has commands"
+        # A command that has an option of this name takes it from here unless its own is given.
+        context.default_map = {name: {"lang": lang} for name in context.command.commands}
     if version:
         print("reportgen", own_version())
     elif context.invoked_subcommand is None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated, Literal
 
@@ -73,7 +74,9 @@ def figure(
 
 def plot(
     files: Files,
-    of: Annotated[str, typer.Option("--of", metavar="IDS", help="Quantities, parted by commas.", show_default=False)],
+    of: Annotated[
+        str, typer.Option("--of", metavar="IDS", help="Quantities, parted by commas.", show_default=False)
+    ] = "",
     over: Annotated[
         Literal["phi", "time"], typer.Option("--over", help="The driver's angle, or its way, or time.")
     ] = "phi",
@@ -87,6 +90,8 @@ def plot(
 ) -> None:
     """Plot quantities of each FILE as curves, a chart a unit. They go to DIR/<id of the first>/plots/ID.svg, ….
 
+    Without --of, list the quantities of the first FILE.
+
     Ids are those of answer sheets and keys, v.E. A TABLE is headed by ids with their units, v.E (m/s); its first column
     is phi (deg) from position 1, or t (s).
     """
@@ -98,6 +103,9 @@ def plot(
     formats = listed(format, figures.PLOT_FORMATS, "--format", "no_format", lang)
     ids = tuple(dict.fromkeys(name.strip() for name in of.split(",") if name.strip()))
     with ending(lang):
+        if not ids:
+            _print_rows(figures.plot_list(files[0], lang))
+            return
         folder = out / files[0].stem / PLOTS
         refuse_inputs(standing(folder, "plots"), [*files, measured], lang)
         with reported(), scratch(out):
@@ -111,8 +119,14 @@ def _print_list(file: Path, lang: LangOption) -> None:
     from reportgen.api import figures
 
     still, moving = figures.figure_list(file, lang)
-    rows = [(one.name, one.number, one.caption, ", ".join(one.positions)) for one in still]
-    rows += [(one.name, "/".join(figures.MOVING), one.pane.title, "") for one in moving]
-    widths = [max(len(row[column]) for row in rows) for column in (0, 1)] if rows else [0, 0]
-    for name, number, caption, positions in rows:
-        print(f"{name:{widths[0]}}  {number:{widths[1]}}  {caption}{f' ({positions})' * bool(positions)}")
+    rows = [
+        (one.name, one.number, one.caption + f" ({', '.join(one.positions)})" * bool(one.positions)) for one in still
+    ]
+    _print_rows([*rows, *((one.name, "/".join(figures.MOVING), one.pane.title) for one in moving)])
+
+
+def _print_rows(rows: Sequence[tuple[str, str, str]]) -> None:
+    """Print rows of three texts with aligned columns."""
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    for first, second, last in rows:
+        print(f"{first:{widths[0]}}  {second:{widths[1]}}  {last}")
