@@ -37,12 +37,19 @@ def test_the_readme_begins_with_the_two_commands_and_a_page() -> None:
     assert places == sorted(places)
 
 
-def test_the_readme_is_read_in_five_minutes() -> None:
-    """It has 900 to 1200 words and three pictures; the table of speed has the measured values, in six rows."""
+def test_the_readme_is_short_and_leads_to_the_form_first() -> None:
     text = text_of("README.md")
-    assert 900 <= len(text.split()) <= 1200
-    assert text.count("![") == 3
-    assert len(re.findall(r"^\| .+ \|$", section(text, "## Speed"), re.MULTILINE)) == 2 + 6
+    assert len(text.splitlines()) <= 120
+    assert text.count("![") == 1
+    assert text.index("reportgen edit") < text.index("reportgen new")
+    for reader in ("Students", "Instructors", "Engineers", "Developers"):
+        assert f"- **{reader}:** " in section(text, "## Where to go from here")
+
+
+def test_the_vietnamese_readme_is_short_and_leads_to_the_form_first() -> None:
+    text = text_of("README.vi.md")
+    assert len(text.splitlines()) <= 120
+    assert text.index("reportgen edit") < text.index("reportgen new")
 
 
 def test_every_command_is_explained_and_leads_to_its_options() -> None:
