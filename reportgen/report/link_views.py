@@ -59,10 +59,9 @@ class DriverView:
     """The driver for templates: its centre O1 and pin A, its `arm` O1A, and further points on it.
 
     `kind` is "crank" or "slide"; a slide has neither centre nor arm.  `rate` is the symbol of its speed, `rate2` that
-    of its acceleration if it is `accelerated`.  `scale_lines` begin the velocity plan of a sliding driver;
-    `component_lines` are the two components of the crank pin's acceleration.  `drawn` is the id of the arm's drawn
-    length.  `round_velocity` and `round_acceleration` are True if the scale of a plan was chosen from the series of
-    round scales.
+    of its acceleration if it is `accelerated`.  `component_lines` are the two components of the crank pin's
+    acceleration.  `round_velocity` and `round_acceleration` are True if the scale of a plan was chosen from the series
+    of round scales.
     """
 
     def __init__(self, linkage: Linkage, ledger: Ledger) -> None:
@@ -305,7 +304,7 @@ class GroupView:
         return points
 
     def similar(self, what: str) -> list[str]:
-        """Return the ids of a link's segment ab and of those that similarity gives: as₂, and be if E is beside AB."""
+        """Return the ids of a link's segment ab and of those that similarity gives: as₂, be."""
         segments: list[str] = []
         for place in self.points:
             for side in self.sides:
@@ -406,7 +405,7 @@ class GroupView:
 
     @property
     def across_by_moments(self) -> bool:
-        """Return True if moments give the whole force between the links, which the plan then treats as a load."""
+        """Return True if moments give the whole force between the links; the plan then treats it as a load."""
         return ids.reaction(self.across, "s") in self.ledger
 
     @property
@@ -440,9 +439,7 @@ class GroupView:
 @view("force", "couple")
 @dataclass(frozen=True, slots=True)
 class BodyView:
-    """A link with an inertia couple: its number, its mass centre, the pin from which it is measured, the ids to
-    show.
-    """
+    """A link with an inertia couple: its number, mass centre, the pin from which it is measured, the ids to show."""
 
     link: int
     centre: NamedPoint
