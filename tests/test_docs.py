@@ -52,6 +52,15 @@ def test_the_vietnamese_readme_is_short_and_leads_to_the_form_first() -> None:
     assert text.index("reportgen edit") < text.index("reportgen new")
 
 
+def test_a_release_has_at_most_eight_lines_about_what_users_can_do() -> None:
+    releases = re.split(r"^## \[.+$", text_of("CHANGELOG.md"), flags=re.MULTILINE)[1:]
+    assert releases
+    for release in releases:
+        lines = [line for line in release.splitlines() if line.strip()]
+        assert len(lines) <= 8
+        assert all(re.match(r"- \*\*[A-Z][^*]+:\*\* ", line) for line in lines)
+
+
 def test_every_command_is_explained_and_leads_to_its_options() -> None:
     rows = text_of("docs/reference/commands.md").splitlines()
     for name in vars(typer.main.get_command(app))["commands"]:
