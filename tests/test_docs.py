@@ -13,6 +13,7 @@ import typer
 import yaml
 
 from reportgen import api, catalogue
+from reportgen.base import documentation
 from reportgen.base.kinds import kinds
 from reportgen.base.template_folders import search_path
 from reportgen.base.words import load_words
@@ -130,11 +131,14 @@ def test_every_page_is_two_clicks_from_the_readme() -> None:
 
 def test_every_page_is_in_the_index_once_and_its_name_is_unique() -> None:
     pages = [page for page in PAGES if page.startswith("docs/") and not page.endswith(".vi.md")]
-    listed = [link.partition("#")[0] for link in _LINK.findall(text_of("docs/index.md")) if link.endswith(".md")]
-    assert sorted(f"docs/{link}" for link in listed if not link.startswith("..")) == sorted(
-        {*pages} - {"docs/index.md"}
-    )
+    listed = [f"docs/{entry.link}" for entry in documentation.entries("en")]
+    assert sorted(listed) == sorted({*pages} - {"docs/index.md"})
     assert len({Path(page).stem for page in pages}) == len(pages)
+
+
+def test_the_vietnamese_index_leads_to_every_vietnamese_page() -> None:
+    pages = [page for page in PAGES if page.startswith("docs/") and page.endswith(".vi.md")]
+    assert {*pages} - {"docs/index.vi.md"} <= links_of("docs/index.vi.md")
 
 
 @pytest.mark.parametrize("page", sorted((ROOT / "docs" / "how-to").glob("*.md")), ids=lambda path: path.stem)
