@@ -58,6 +58,7 @@ pictures: $(VENV)/.developing
 	$(BIN)/python docs/pictures.py
 	$(BIN)/python docs/keys.py
 	$(BIN)/python docs/options.py
+	$(BIN)/python docs/quantities.py
 
 clean:
 	rm -rf $(VENV) .pytest_cache .mypy_cache .ruff_cache .hypothesis .import_linter_cache

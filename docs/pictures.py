@@ -7,6 +7,7 @@ by chromium, and left as it is where there is none.
 from __future__ import annotations
 
 import json
+import os
 import shutil
 import signal
 import subprocess
@@ -213,17 +214,49 @@ def tutorials() -> None:
         save(page_with(CAPTION, report), "first-report-page", TUTORIAL_DPI)
 
 
-def word_page() -> None:
-    """Save a page of the sample's Word file, as LibreOffice lays it out, as `docs/pictures/word.png`."""
+def command(*words: str, cwd: Path) -> None:
+    """Run `reportgen` with these arguments in a folder."""
+    path = {**os.environ, "PYTHONPATH": str(ROOT)}
+    subprocess.run([sys.executable, "-m", "reportgen.cli", *words], cwd=cwd, env=path, check=True, capture_output=True)
+
+
+def hand_in() -> None:
+    """Save the papers that the tutorial of the hand-in shows."""
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        (folder / "roster.csv").write_text("id,name\nS01,Lan Pham\n", encoding="utf-8")
+        command("new", "slider-crank", "-o", "machine.yaml", "--lang", "en", cwd=folder)
+        command("variants", "machine.yaml", "roster.csv", "-o", "given", cwd=folder)
+        command("batch", "roster.csv", "--assignments", "given", "--make", "task", "--out", "tasks", cwd=folder)
+        own = folder / "tasks" / "S01"
+        task = pymupdf.open(own / "task.pdf")
+        save(task[0], "hand-in-task", TUTORIAL_DPI)
+        save(task[-1], "hand-in-sheet", TUTORIAL_DPI, task[-1].rect - (0, 0, 0, task[-1].rect.height / 2))
+        command("sheet", "assignment.yaml", "--format", "pdf", cwd=own)
+        save(pymupdf.open(own / "out" / "assignment" / "sheet-1.pdf")[0], "hand-in-drawing", SHEET_DPI)
+        command("build", "assignment.yaml", "--format", "docx", cwd=own)
+        if (pages := in_word(own / "out" / "assignment" / "report.docx")) is not None:
+            save(page_with(SHOWN_IN_WORD, pages), "hand-in-word", TUTORIAL_DPI)
+
+
+def in_word(file: Path) -> pymupdf.Document | None:
+    """Return the pages of a Word file as LibreOffice lays them out; None, with a message, where it is missing."""
     office = shutil.which("soffice")
     if office is None:
-        print("docs/pictures/word.png is left as it is: LibreOffice Writer is not installed", file=sys.stderr)
-        return
+        print("pages of Word files are left as they are: LibreOffice Writer is not installed", file=sys.stderr)
+        return None
     with tempfile.TemporaryDirectory() as folder:
-        file = api.build(SAMPLE, folder, language="en", formats=["docx"])
-        command = [office, f"-env:UserInstallation=file://{folder}/office", "--headless", "--convert-to", "pdf"]
-        subprocess.run([*command, "--outdir", folder, str(file)], check=True, capture_output=True)
-        save(page_with(SHOWN_IN_WORD, pymupdf.open(f"{folder}/report.pdf")), "word", WORD_DPI)
+        convert = [office, f"-env:UserInstallation=file://{folder}/office", "--headless", "--convert-to", "pdf"]
+        subprocess.run([*convert, "--outdir", folder, str(file)], check=True, capture_output=True)
+        return pymupdf.open(stream=(Path(folder) / file.with_suffix(".pdf").name).read_bytes())
+
+
+def word_page() -> None:
+    """Save a page of the sample's Word file, as LibreOffice lays it out, as `docs/pictures/word.png`."""
+    with tempfile.TemporaryDirectory() as folder:
+        pages = in_word(api.build(SAMPLE, folder, language="en", formats=["docx"]))
+        if pages is not None:
+            save(page_with(SHOWN_IN_WORD, pages), "word", WORD_DPI)
 
 
 def curves() -> None:
@@ -251,6 +284,7 @@ def main() -> None:
     moving()
     form()
     tutorials()
+    hand_in()
     curves()
     for kind in kinds():
         file = SHOWN.get(kind) or min(SAMPLE.parent.glob(f"{kind}-*.yaml"))

@@ -25,7 +25,10 @@ DOCUMENTS = (*PAGES, "CONTRIBUTING.md", "ARCHITECTURE.md", "CHANGELOG.md")
 
 FENCE = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 FILE = re.compile(r"`([\w./-]+\.\w+)`[^`\n]*:\n\n```(?!diff)\w+\n(.*?)^```$", re.MULTILINE | re.DOTALL)
-STEP = re.compile(r"^```(console|diff)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+STEP = re.compile(
+    r"^(?:```(console|diff)\n(.*?)^```$|\| (?:cell|ô) \|[^\n]*\n\|[-| ]+\n((?:\|[^\n]*\n)+))", re.MULTILINE | re.DOTALL
+)
+"""Commands, a change of a text file, or a table of cells of a workbook that are filled in."""
 
 _INDENTED = re.compile(r"^(?P<blanks> +)```\w+\n.*?^(?P=blanks)```$", re.MULTILINE | re.DOTALL)
 """A code block within a step of a list."""
@@ -70,12 +73,13 @@ class Command:
 
 
 def commands(document: str) -> Iterator[Command]:
-    """Yield the commands of a page, and the changes that it shows as `diff` of the file named last before."""
+    """Yield the commands of a page, and its changes of the file that it names last before each of them."""
     text = text_of(document)
     for step in STEP.finditer(text):
-        language, block = step.groups()
-        if language == "diff":
-            yield edit(re.findall(r"`([\w./-]+\.\w+)`", text[: step.start()])[-1], block)
+        language, block, cells = step.groups()
+        if language != "console":
+            file = re.findall(r"`([\w./-]+\.\w+)`", text[: step.start()])[-1]
+            yield fill(file, cells) if cells else edit(file, block)
             continue
         shown = re.split(r"^\$ ", block, flags=re.MULTILINE)
         assert shown[0] == "", f"a console block begins with a command: {block}"
@@ -90,6 +94,17 @@ def edit(file: str, change: str) -> Command:
     code = (
         f"import pathlib; file = pathlib.Path({file!r}); text = file.read_text(encoding='utf-8'); "
         f"assert text.count({old!r}) == 1; file.write_text(text.replace({old!r}, {new!r}), encoding='utf-8')"
+    )
+    return Command(f"python -c {shlex.quote(code)}", ())
+
+
+def fill(file: str, table: str) -> Command:
+    """Return a command that writes the last column of a table into the cells in its first column."""
+    rows = [[cell.strip() for cell in row.split("|")[1:-1]] for row in table.splitlines()]
+    values = {cell: float(value) for cell, *_, value in rows}
+    code = (
+        f"import openpyxl; book = openpyxl.load_workbook({file!r}); sheet = book.worksheets[0]; "
+        f"[sheet.__setitem__(cell, value) for cell, value in {values!r}.items()]; book.save({file!r})"
     )
     return Command(f"python -c {shlex.quote(code)}", ())
 

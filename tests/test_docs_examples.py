@@ -292,7 +292,7 @@ def test_a_school_overrides_one_section(tmp_path: Path) -> None:
 @proof
 def test_the_script_runs(tmp_path: Path) -> None:
     place = copy_of_repository(tmp_path)
-    (script,) = fences("docs/reference/results.md", "python")
+    *_, script = fences("docs/reference/python.md", "python")
     (place / "script.py").write_text(script, encoding="utf-8")
     (torque, report), _ = run(["python script.py"], place)[0]
     assert torque.startswith("-342.07")

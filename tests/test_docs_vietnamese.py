@@ -27,7 +27,8 @@ def shown_commands(page: str) -> Iterator[str]:
     text = text_of(page)
     lines = [line for name, body in FENCE.findall(text) if name in ("sh", "console") for line in body.splitlines()]
     for line in (*(line.removeprefix("$ ") for line in lines), *_INLINE.findall(text)):
-        if line.startswith("reportgen "):
+        # An upper-case word stands for any command.
+        if line.startswith("reportgen ") and not line.split()[1].isupper():
             yield re.split(r" (?:\||\d?>) ", line)[0]
 
 

@@ -8,13 +8,14 @@ from pathlib import Path
 from types import ModuleType
 
 import pymupdf
+import pytest
 
-from tests.documents import ROOT, text_of
+from tests.documents import PAGES, ROOT, text_of
 from tests.lanes import proof
 from tests.page.browser import opened
 
 _BOLD = re.compile(r"\*\*([^*]+)\*\*")
-_PICTURE = re.compile(r"\]\(\.\./pictures/(first-report-[\w-]+)\.png\)")
+_PICTURE = re.compile(r"\]\(\.\./pictures/([\w-]+)\.png\)")
 
 
 def screens() -> ModuleType:
@@ -25,6 +26,12 @@ def screens() -> ModuleType:
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module
+
+
+@pytest.mark.parametrize("page", [page for page in PAGES if page.startswith("docs/tutorials/")])
+def test_every_picture_of_a_tutorial_is_drawn_by_a_script(page: str) -> None:
+    scripts = text_of("docs/pictures.py") + text_of("docs/screens.py")
+    assert [name for name in _PICTURE.findall(text_of(page)) if f'"{name}"' not in scripts] == []
 
 
 @proof

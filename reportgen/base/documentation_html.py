@@ -24,15 +24,16 @@ LOOK = """
 :root { color-scheme: light dark; --line: #8884; --soft: #8881; }
 body { margin: 0; font: 1rem/1.55 system-ui, sans-serif; }
 header { display: flex; gap: 1em; align-items: baseline; padding: .6em 1em; border-bottom: 1px solid var(--line); }
-header a:last-child { margin-left: auto; }
+header a + a { margin-left: auto; }
 .columns { display: flex; max-width: 76rem; margin: 0 auto; }
 nav summary { font-weight: bold; cursor: pointer; }
 nav { flex: 0 0 15rem; padding: 1em; font-size: .9rem; }
+nav a, header a { text-decoration: none; }
 nav ul { list-style: none; margin: .2em 0 1em; padding: 0; }
 nav [aria-current] { font-weight: bold; }
 main { flex: 1; min-width: 0; padding: 0 1em 4em; max-width: 52rem; }
 pre { overflow: auto; background: var(--soft); padding: .6em .8em; }
-code { background: var(--soft); padding: 0 .2em; overflow-wrap: anywhere; }
+code { background: var(--soft); padding: 0 .2em; overflow-wrap: break-word; }
 pre code { background: none; padding: 0; }
 .wide { overflow-x: auto; }
 table { border-collapse: collapse; font-size: .9rem; }

@@ -1,7 +1,7 @@
-"""Cases: an assignment with its solution, as the data that every output is made from.
+"""Cases: an assignment with its solution, the source of every output.
 
-Code that writes files, marks answers or draws variants for a class works with a `Case` and never asks for its kind.
-`reportgen.cases` has the case of a machine; every other kind of work has its case in its package, and a new kind
+Code that writes files, marks answers or draws variants works with a `Case` and never asks for its kind.
+`reportgen.cases` has the case of a machine; every other kind has its case in its own package, so that a new kind
 changes no shared code.
 """
 
@@ -45,15 +45,13 @@ if TYPE_CHECKING:
 class Misconceptions:
     """Common misconceptions about an assignment, which marking looks for.
 
-    `applied` are the given loads by name, `loads` all of them, each of which may be forgotten or reversed.  `readings`
-    give, for a quantity read from a diagram, its values [N] if it is read wrongly, with the mistake's name.  `whole`
+    `applied` are the names of the given loads, `loads` those of all loads, each of which may be forgotten or reversed.
+    `readings` gives, for a quantity read from a diagram, its wrongly read values [N] with the mistake's name.  `whole`
     maps a length from one end of a rod to the length of the whole rod, by ids.  `changed` gives other definitions of a
-    quantity that are often used, with the mistake's name; `ways` other definitions that are equally right, of
-    quantities
-    that do not depend on it.  `approximations` gives definitions that books use in place of the exact one, with their
-    names.  `designs` gives, for a datum that a design determines from other data, the data with another value of it
-    (SI),
-    in each way to continue; empty if there is no design.
+    quantity that students often use, with the mistake's name; `ways` gives equally right definitions of quantities that
+    do not depend on it.  `approximations` gives definitions that books use instead of the exact one, with their names.
+    `designs` gives, for a datum that a design determines, the data that follow from another value of it (SI), one set
+    for each way to continue; empty without a design.
     """
 
     applied: frozenset[str] = frozenset()
@@ -67,9 +65,10 @@ class Misconceptions:
 
 
 def with_another(families: Mapping[str, Family], instead: Mapping[str, Operand]) -> Iterator[tuple[str, Expression]]:
-    """The definitions, by ids, of one who takes something else for a quantity: of all that uses it, and its own.
+    """Yield the definitions, by ids, in which another operand replaces a quantity: those of its dependents, and its
+    own.
 
-    So the mistake is found where its result is used, and where it is written down and used no further.
+    Marking thus finds the mistake where its result is used, and also where it is only written down.
     """
     others = {id: as_expression(other) for id, other in instead.items()}
 
@@ -87,11 +86,10 @@ def with_another(families: Mapping[str, Family], instead: Mapping[str, Operand])
 class DriverMotion:
     """Motion of a driver through the positions of a cycle, at constant speed.
 
-    `gone` is its way since the first of them [N], `whole` its way through the cycle (rad, or m of one that
-    `slides`, which does not begin anew), `called` the name of this way with its unit, in words, `speed` that of its
-    motion
-    (rad/s or m/s), if it has one.  `signed` gives by id the values [N] of the sizes of vectors along a line,
-    counted in the direction of a unit vector.
+    `gone` [N] is its travel since the first position and `whole` its travel in a cycle (rad, or m if it `slides` and
+    does not start anew); `called` is the name of this travel with its unit, `speed` its speed (rad/s or m/s), None if
+    it has none.  `signed` gives, by the ids of sizes of vectors along a line, their signed values [N] and the unit
+    vector of the positive direction.
     """
 
     gone: np.ndarray
@@ -104,28 +102,28 @@ class DriverMotion:
 
 @dataclass(frozen=True)
 class AskedFor:
-    """Questions of a task, as its words name them."""
+    """Questions of a task for its templates."""
 
     answers: tuple[Block, ...]
     """The empty answer sheet."""
     positions: tuple[str, ...]
-    """The labels of the positions at which something is asked for."""
+    """Labels of the positions at which the task asks for something."""
     known: tuple[Block, ...]
     """Given data at each position."""
     scales: bool
     """True if the student chooses scales."""
     by_section: bool = False
-    """True if each section of the sheet begins a page."""
+    """True if each section of the answer sheet begins a page."""
     self_check: bool = True
-    """True if the student has the data to check a sheet."""
+    """True if the student has the data to check an answer sheet."""
 
 
 @dataclass(frozen=True)
 class Case(ABC):
-    """An assignment opened once; each part is computed when it is first asked for.
+    """An opened assignment; each part is computed when it is first used.
 
-    It is data: `key`, `task`, `solve`, `sheet` and marking are functions over it, each in the room that owns it.
-    Making a part raises `TemplateError` for a fault in the words, and `NotOfferedError` for what this kind has not.
+    A case is data: `key`, `task`, `solve`, `sheet` and marking are functions of other packages.  Members raise
+    `TemplateError` for a fault in the templates, and `NotOfferedError` for something that this kind does not have.
     """
 
     assignment: Assignment
@@ -155,7 +153,7 @@ class Case(ABC):
     @property
     @abstractmethod
     def printed(self) -> Ledger:
-        """Every number by its id as it is written down."""
+        """Every number by its id, rounded as it is printed."""
 
     @property
     @abstractmethod
@@ -168,7 +166,7 @@ class Case(ABC):
         return INSTANT
 
     def sense(self, id: str) -> str:
-        """Return the positive sense of a quantity in words; "" for a size or if the general rule applies."""
+        """Return the phrase for the positive sense of a quantity; "" for a size, or if the general rule applies."""
         return ""
 
     @property
@@ -193,32 +191,34 @@ class Case(ABC):
 
     @property
     def shafts(self) -> Sequence[Shaft]:
-        """Its shafts, that which drives it first; none of a work in which nothing turns."""
+        """Its shafts, the driving one first; () if nothing turns."""
         return ()
 
     @property
     def misconceptions(self) -> Misconceptions:
-        """Misconceptions that marking looks for, beside the mistakes possible in any formula."""
+        """Misconceptions that marking looks for, in addition to the mistakes possible in any formula."""
         return Misconceptions()
 
     def fault(self) -> str:
-        """The code of a fault that shows only in the results, "" if they are sound; variants are judged by it."""
+        """Return the code of a fault that only the results show, "" if they are sound.  Variants with a fault are
+        rejected.
+        """
         return ""
 
-    # --- its papers
+    # --- its documents
 
     @abstractmethod
     def document(self) -> Document:
-        """The finished, numbered report."""
+        """Return the finished, numbered report."""
 
     def summary(self) -> Sequence[Block]:
-        """Its main results, for the summary of a coursework that it is a part of."""
+        """Return its main results for the summary of a coursework; () if it has none."""
         return ()
 
     @property
     def used(self) -> Collection[Symbol] | None:
-        """Symbols that its report uses, of quantities, points and general formulas; None if only the report itself
-        shows them.
+        """Symbols that its report uses: of quantities, points and general formulas.  None if they must be read from the
+        report.
         """
         return None
 
@@ -227,47 +227,50 @@ class Case(ABC):
         return ()
 
     def plates(self, sets: Collection[str] = (), every: bool = False) -> Mapping[str, Sequence[DrawingPlate]]:
-        """Return the plates of its drawing sheets, by the names of the sets; `every` plate or those usually handed
-        in.
+        """Return the plates of its drawing sheets, by the names of the sets.
+
+        `every` selects all plates, not only those usually handed in.
         """
         return {}
 
     @property
     def redrawn(self) -> tuple[float, Callable[[float], Case]] | None:
-        """The length (mm) that its crank is drawn with, and the same with another; None where none is drawn."""
+        """The drawn length (mm) of its crank, and a function that returns the case with another one; None if no crank
+        is drawn.
+        """
         return None
 
     def true_sizes(self) -> Sequence[DrawingSheet]:
-        """Return the drawings in true size (1:1), each on a separate sheet without a frame."""
+        """Return the drawings in true size (1:1), each on a separate drawing sheet without a border."""
         return ()
 
     # --- its parts
 
     @property
     def parts(self) -> Mapping[str, Case]:
-        """The cases that a coursework is made of, by name, that of the machine first; none of a work without parts."""
+        """The cases of a coursework by name, that of the machine first; {} if it has no parts."""
         return {}
 
 
 @dataclass(frozen=True)
 class CaseOfParts(Case):
-    """Case made of cases: it joins the outputs of its parts, with ids, letters and titles for each part."""
+    """A case made of cases: it joins the outputs of its parts, with ids, symbols and titles for each part."""
 
     @abstractmethod
     def joined_key(self, keys: Sequence[Key]) -> Key:
-        """The key, from those of its parts."""
+        """Return the answer key, joined from those of the parts."""
 
     @abstractmethod
     def joined_task(self, papers: Sequence[Document]) -> Document:
-        """The task, from those of its parts."""
+        """Return the task, joined from those of the parts."""
 
     @abstractmethod
     def joined_plates(self) -> Mapping[str, Sequence[DrawingPlate]]:
-        """Return the plates of the drawing sheets of the parts that follow its machine."""
+        """Return the plates of the drawing sheets of the parts, without those of the machine."""
 
 
 # --- an assignment opened once with its words -----------------------------------------------------
-# And a machine with all that is computed of it.
+# The case of a machine includes everything that is computed for it.
 
 
 Made = TypeVar("Made")
@@ -301,7 +304,7 @@ class LoadedAssignment(Case):
     """An assignment with its words, as a case of a single work."""
 
     root: Path | None = field(default=None, kw_only=True, compare=False, repr=False)
-    """The folder of its templates; None where it is the program's own."""
+    """The folder of its templates; None for the program's own."""
 
     def bounded(self, make: Callable[[Self], Made]) -> Made:
         """Return the result of `make`, a module-level function, for this case and its words.
@@ -321,17 +324,19 @@ class LoadedAssignment(Case):
 
     @cached_property
     def words(self) -> Mapping[str, Any]:
-        """The short words of `words.yaml`.  Raises `TemplateError`."""
+        """The short words from `words.yaml`.  Raises `TemplateError`."""
         return load_words(self.places)
 
     @property
     def unit_names(self) -> UnitNames:
-        """Units as the report prints them: as the language does, or the school."""
+        """Units as the report prints them, in the spelling of the language or of the school."""
         return UnitNames({**setting_of(self.assignment.language).units, **self.words["units"]})
 
     @property
     def course(self) -> str:
-        """The course as the assignment names it; by its standard name, whatever the language, in the case's own."""
+        """The course that the assignment names.  A standard name, whatever its language, appears in the case's own
+        language.
+        """
         standard: str = self.words["cover"]["course"]
         names = {common_words(language)["cover"]["course"] for language in languages()}
         given = self.assignment.report.course
@@ -339,7 +344,7 @@ class LoadedAssignment(Case):
 
     @property
     def place_and_date(self) -> str:
-        """Place and date as on the cover; dots replace one that is not given."""
+        """Place and date as printed on the cover, with dots for a missing one."""
         labels, report = self.words["cover"], self.assignment.report
         place, day = report.place or "……………………", report.date
         if day is None:
@@ -355,7 +360,7 @@ class LoadedAssignment(Case):
 
     @property
     def cover(self) -> Cover:
-        """The title page; a field without a value is a dotted line to fill in."""
+        """The title page, with a dotted line for each missing field."""
         given, labels = self.assignment.report, self.words["cover"]
         student, variant = given.student, self.assignment.variant
         fields: tuple[tuple[Any, str | None], ...] = (
@@ -385,24 +390,24 @@ class LoadedAssignment(Case):
 
     @abstractmethod
     def question(self, asked: AskedFor) -> tuple[Sequence[Block], Sequence[Block]]:
-        """Return the task from the given data to the empty answer sheet: the title, and the blocks below it."""
+        """Return the title of the task, and its blocks from the given data to the empty answer sheet."""
 
     @property
     def variant_line(self) -> str:
-        """The variant as headers name it."""
+        """The variant as page headers print it; "" without a variant."""
         variant = self.assignment.variant
         return str(self.words["variant"].format(variant=variant)) if variant else ""
 
 
 @dataclass(frozen=True)
 class MachineAnalysis(LoadedAssignment):
-    """A machine: its assignment with all that is computed of it."""
+    """A machine's assignment with everything that is computed for it."""
 
     @cached_property
     def analysis(self) -> Analysis:
-        """Everything computed, as arrays over the positions.
+        """All computed values, as arrays over the positions.
 
-        Raises `NotOfferedError` for a kind that is no machine.
+        Raises `NotOfferedError` for a kind that is not a machine.
         """
         from reportgen.machine.analysis import analyse
 
@@ -414,7 +419,7 @@ class MachineAnalysis(LoadedAssignment):
 
     @cached_property
     def written(self) -> PlannedLedger:
-        """Every number with the force plans, in the symbols and units of the assignment's language."""
+        """The ledger with the force plans, in the symbols and units of the assignment's language."""
         from reportgen.derivation import write_ledger
 
         written = write_ledger(self.analysis, self.unit_names, self.assignment.worked_positions)
@@ -427,7 +432,7 @@ class MachineAnalysis(LoadedAssignment):
 
     @cached_property
     def printed(self) -> Ledger:
-        """Every number by its id as it is written down: all that is printed or drawn comes from here."""
+        """Every number by its id, rounded as printed: all texts and drawings take their numbers from here."""
         return printed(self.ledger)
 
     @cached_property
@@ -437,5 +442,5 @@ class MachineAnalysis(LoadedAssignment):
 
     @property
     def polygons(self) -> tuple[Polygon, ...]:
-        """The force plans: one for each group, the driver's last; none without loads."""
+        """The force plans, one for each group, the driver's last; () without loads."""
         return self.written.polygons

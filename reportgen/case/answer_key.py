@@ -1,4 +1,4 @@
-"""The answer key of an assignment as data.
+"""The answer key of an assignment as data: `Key` with its `KeyRow`s.
 
 Its rows come from the ledger, so that key, report and marking agree.
 """
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 @cache
 def headed_chapters() -> tuple[KeyChapter, ...]:
-    """Return the chapters that a key may have: those with a heading in the words."""
+    """Return the chapters that a key may have: those with a heading in `words.yaml`."""
     headings = common_words(REFERENCE)["parts"]
     return tuple(chapter for chapter in KeyChapter if chapter in headings)
 
@@ -43,11 +43,11 @@ class Role(StrEnum):
 class KeyRow:
     """One quantity over the positions, in its printed unit.
 
-    `values` [N] are unrounded, with the sign that is printed, and `printed` [N] what the report prints for them; both
-    are NaN where the quantity does not exist (the direction of a vector of no length).  A `single` quantity has one
-    value for all positions (N = 1).  `drawn` and `computed` [N] are the half widths of the two bands.  `positions` are
-    the numbers (from 1) at which the answer sheet asks for it, empty if it does not; (0,) for a single quantity.
-    `sense` [N] says the direction in words where the value has one, else "".
+    `values` [N] are unrounded, with the sign that is printed, and `printed` [N] are the report's rounded values; both
+    are NaN where the quantity does not exist (the direction of a zero vector).  A `single` quantity has one value for
+    all positions (N = 1).  `drawn` and `computed` [N] are the half widths of the tolerance bands for graphical and
+    calculated answers.  `positions` are the numbers (from 1) at which the answer sheet asks for the quantity, (0,) for
+    a single quantity, () if it does not ask.  `sense` [N] are phrases for the direction, "" for a value without one.
     """
 
     id: str
@@ -76,10 +76,11 @@ class KeyRow:
     by_rule: bool = False
     """True if its bands include the error of the trapezoid rule over the positions, for an integral over the cycle."""
     formula: Expression | None = None
-    """The formula in symbols of what is defined by it alone, as the papers say it: w of w = s′ − e."""
+    """The formula in symbols of a quantity that only its formula defines, such as w of w = s′ − e."""
 
     @property
     def single(self) -> bool:
+        """True if one value holds for all positions."""
         return len(self.values) == 1
 
     @property
@@ -89,7 +90,7 @@ class KeyRow:
 
     @property
     def described(self) -> Inlines:
-        """The same with its formula, if it has one, as printed beside the row."""
+        """The same as `named`, with the formula as printed beside the row, if there is one."""
         if self.formula is None:
             return (Text(self.named),)
         formula = InlineMath(Chain((self.symbol, self.formula)), slashed=True)
@@ -101,15 +102,16 @@ class KeyRow:
         return self.single == (position == 0)
 
     def at(self, position: int) -> int:
-        """The index of a position (from 1, 0 for a single value) in `values`."""
+        """Return the index in `values` of a position (from 1, or 0 for a single value)."""
         return 0 if self.single else position - 1
 
 
 @dataclass(frozen=True)
 class Key:
-    """All rows of an assignment; `labels` [N] are the names of its positions, `students` fields of its student.
+    """The answer key of an assignment: all its rows.
 
-    If there are very many positions, only those in `printed` appear in the document.
+    `labels` [N] are the names of the positions, `student` the fields of its student.  If there are very many positions,
+    the document contains only those in `printed`.
     """
 
     id: str
@@ -129,22 +131,24 @@ class Key:
         return labels[position - 1] if position else ""
 
     def part(self, id: str) -> Key:
-        """The key of the part that a quantity belongs to; of a work without parts itself."""
+        """Return the key of the part to which a quantity belongs; the key itself if it has no parts."""
         return next((part.key for part in self.parts if part.name == self.owner(id)), self)
 
     def owner(self, id: str) -> str:
-        """The name of the part that a quantity belongs to; the first has whatever no other has."""
+        """Return the name of the part to which a quantity belongs: the first one, unless the id begins with another's
+        name.
+        """
         first, *others = self.parts or (None,)
         named = (part.name for part in others if part is not None and id.startswith(f"{part.name}."))
         return next(named, first.name if first else "")
 
     def title_of(self, name: str) -> str:
-        """The title of a part; "" for what is no part."""
+        """Return the title of a part; "" for an unknown name."""
         return next((part.title for part in self.parts if part.name == name), "")
 
     @property
     def pages(self) -> tuple[tuple[str, Key], ...]:
-        """Return the parts by their titles, each with its rows of this key; a key without parts is one without
+        """Return the parts by their titles, each with its rows of this key; a key without parts is one part without a
         title.
         """
         if not self.parts:
@@ -158,11 +162,11 @@ class Key:
         return tuple(pages)
 
     def find(self, id: str) -> KeyRow | None:
-        """The row of a quantity, or of the signed rotation whose size it is; None if there is none."""
+        """Return the row of a quantity, or of the signed rotation with this size; None if there is none."""
         return self._by_id.get(id)
 
     def row(self, id: str) -> KeyRow:
-        """The row of a quantity.  Raises `KeyError` if there is none."""
+        """Return the row of a quantity.  Raises `KeyError` if there is none."""
         return self._by_id[id]
 
     @cached_property
@@ -177,7 +181,7 @@ class Key:
 
 @dataclass(frozen=True, slots=True)
 class PartOfKey:
-    """A part of a coursework: its name in front of its ids in place of the `head` that they have by themselves."""
+    """A part of a coursework: its `name` replaces the `head` at the beginning of its ids."""
 
     name: str
     key: Key
@@ -189,15 +193,16 @@ class PartOfKey:
         return self.head + id.removeprefix(self.name) if self.head and id else id
 
     def full(self, id: str) -> str:
-        """The id in the coursework of a quantity of the part."""
+        """Return the id in the coursework of a quantity of the part."""
         return self.name + id.removeprefix(self.head) if self.head and id else id
 
 
 @dataclass(frozen=True, slots=True)
 class Span:
-    """Positions of a key: those of the cycle by their labels, `count` of them in a turn.
+    """Positions of a key: labels of those of the cycle, `count` in a turn.
 
-    Those in `worked` are written out in full; if there are very many, only those in `printed` appear in the document.
+    Positions in `worked` are calculated in full.  If there are very many positions, the document contains only those in
+    `printed`.
     """
 
     labels: tuple[str, ...]
@@ -207,9 +212,9 @@ class Span:
 
 
 INSTANT = Span(("1",), 1, (1,))
-"""The one position of an exercise."""
+"""The single position of an exercise."""
 
 
 def capitalised(text: str) -> str:
-    """Return a phrase with a capital, as at the head of a row."""
+    """Return a phrase with a capital first letter."""
     return text[:1].upper() + text[1:]

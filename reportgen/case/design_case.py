@@ -1,4 +1,7 @@
-"""Case and report of a design (a cam, a gear pair, a planetary train) with separate sections and words."""
+"""Case and templates of a design (a cam, a gear pair, a planetary train): `DesignCase` and `DesignPage`.
+
+A new kind of design derives from both.
+"""
 
 from __future__ import annotations
 
@@ -43,16 +46,16 @@ Designed = TypeVar("Designed", bound=LoadedAssignment)
 
 @dataclass(frozen=True)
 class DesignCase(LoadedAssignment):
-    """Case of a design: its numbers are one sheet, its papers one page of templates."""
+    """Case of a design: one calculation gives its numbers, one `DesignPage` its documents."""
 
     PAGE: ClassVar[type[DesignPage[Any]]]
     SAME: ClassVar[tuple[tuple[str, ...], ...]] = ()
-    """Ids of what is printed with as many decimals."""
+    """Groups of ids that are printed with equally many decimals."""
 
     @property
     @abstractmethod
     def sheet(self) -> Calculation:
-        """Every quantity with its formula."""
+        """The calculation: every quantity with its formula."""
 
     @cached_property
     def ledger(self) -> Ledger:
@@ -66,12 +69,12 @@ class DesignCase(LoadedAssignment):
 
     @property
     def count(self) -> int:
-        """Its positions."""
+        """Number of its positions."""
         return self.sheet.positions
 
     @property
     def worked(self) -> tuple[int, ...]:
-        """The positions written out in full."""
+        """The positions calculated in full."""
         return (1,)
 
     @property
@@ -103,7 +106,7 @@ class DesignCase(LoadedAssignment):
 
 @dataclass(frozen=True)
 class DesignPage(ABC, Generic[Designed]):
-    """A design as its templates name it."""
+    """A design for its templates: names, tables and figures."""
 
     case: Designed
 
@@ -115,7 +118,7 @@ class DesignPage(ABC, Generic[Designed]):
     """The section with its main results."""
     SECTIONS: ClassVar[Sequence[str]]
     SHORT: ClassVar[frozenset[str]] = frozenset()
-    """The sections that a short report goes without."""
+    """The sections that a short report leaves out."""
 
     @property
     def words(self) -> Mapping[str, Any]:
@@ -127,7 +130,7 @@ class DesignPage(ABC, Generic[Designed]):
         return self.case.assignment.report.extent == "full"
 
     def has(self, section: str) -> bool:
-        """Return True if a design like this has a section."""
+        """Return True if this design has a section."""
         return True
 
     @abstractmethod
@@ -139,7 +142,7 @@ class DesignPage(ABC, Generic[Designed]):
         return {}
 
     def scenes(self, name: str) -> Iterable[Scene]:
-        """The drawings of a figure."""
+        """Return the drawings of a figure.  Raises `KeyError` for an unknown name."""
         raise KeyError(name)
 
     def section(self, name: str, names: Mapping[str, Any]) -> tuple[Block, ...]:
@@ -158,36 +161,36 @@ class DesignPage(ABC, Generic[Designed]):
         return in_language(Symbol(base, sub), self.case.words["symbols"])
 
     def value(self, id: str, k: int | None = None) -> Value:
-        """A result with its unit, at a position (from 1): in text it has the figures of its kind, as in tables."""
+        """Return a result with its unit, at a position (from 1); in text it has as many figures as in tables."""
         return Value(self.case.printed.result(id, k))
 
     def quantity(self, id: str, k: int | None = None) -> Inlines:
-        """A symbol with its number."""
+        """Return a symbol with its number."""
         return InlineMath(self.case.printed.symbol(id)), Text(" = "), self.value(id, k)
 
     def lines(self, quantities: Iterable[str], k: int | None = None) -> tuple[Block, ...]:
-        """Worked lines, in an equation if there are any."""
+        """Return worked lines in one equation; () if there are none."""
         rows = tuple(self.case.printed.chain(id, k) for id in quantities)
         return (Equation(rows),) if rows else ()
 
     # --- tables and figures
 
     def given_rows(self, without: Collection[str] = ()) -> Iterator[tuple[Inlines, Inlines, Inlines]]:
-        """The given data by their names, symbols and values, without those that were found."""
+        """Yield the name, symbol and value of each given quantity, except those in `without`."""
         printed = self.case.printed
         for id, name in self.case.words["given"].items():
             if id in printed and id not in without and printed[id].definition is None:
                 yield (Text(str(name)),), (InlineMath(printed.symbol(id)),), (self.value(id),)
 
     def data_table(self, rows: Iterable[Iterable[Inlines]]) -> Table:
-        """The table of the given data."""
+        """Return the table of the given data."""
         name, *widths = DATA
         heads = tuple((Text(str(self.case.words["table"][key])),) for key in ("quantity", "symbol", "value"))
         return self.table("data", (Column(name, "left"), *map(Column, widths)), (heads,), rows)
 
     @property
     def data(self) -> Table:
-        """The given data."""
+        """The table of all given data."""
         return self.data_table(self.given_rows())
 
     def figure(self, name: str) -> Figure:
@@ -200,19 +203,19 @@ class DesignPage(ABC, Generic[Designed]):
         heads: Iterable[Iterable[Inlines]],
         rows: Iterable[Iterable[Inlines]],
     ) -> Table:
-        """A table of inlines, under the caption of its name."""
+        """Return a table of inlines with the caption of this name."""
         head, body = (tuple(tuple(map(Cell, row)) for row in part) for part in (heads, rows))
         return Table(tuple(columns), head, body, self.caption(name), f"tab.{name}")
 
     @classmethod
     def summary(cls, case: Designed) -> tuple[Block, ...]:
-        """Its main results in a few sentences."""
+        """Return the main results in a few sentences."""
         page = cls(case)
         return page.section(cls.SUMMARY, page.names())
 
     @classmethod
     def report(cls, case: Designed) -> Document:
-        """The finished, numbered report of a design."""
+        """Return the finished, numbered report of a design."""
         page = cls(case)
         names, title = page.names(), case.words["document"]["contents"]
         blocks: list[Block] = []

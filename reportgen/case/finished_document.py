@@ -10,7 +10,8 @@ from reportgen.document.numbering import number
 
 
 def finished(case: LoadedAssignment, blocks: Iterable[Block], close: bool = False, title: str = "") -> Document:
-    """The numbered document of a case with its header and footer, under the title of a report unless another is given.
+    """Return the numbered document of a case with its header and footer; its title is that of a report unless `title`
+    is given.
 
     Raises `DocumentError`.
     """

@@ -1,9 +1,9 @@
-"""Name each quantity in words and say which sense of it is positive, in the rows of task, answer sheet and key.
+"""Name each quantity in words and give its positive sense, for the rows of task, answer sheet and key.
 
 The phrases ("normal acceleration of B about A") are in `words.yaml` under `quantities`, by the families of the
-vocabulary.  A quantity that only one machine has, or that it calls by another name, has a phrase under its own id, or
-among the names of the given data.  Senses are under `positive`, by ids, families and kinds; the most specific entry
-applies.  The words of a machine come before the common ones.
+vocabulary.  A quantity that only one machine has, or that it names differently, has a phrase under its own id, or among
+the names of the given data.  Senses are under `positive`, by ids, families and kinds; the most specific entry applies.
+The words of a machine take precedence over the common ones.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from reportgen.formula import Expression, Symbol, ids, refs, vocabulary
 from reportgen.formula.ledger import Ledger
 
 MAGNITUDE = "magnitude"
-"""Marker in place of a phrase if the sign of a quantity has no meaning."""
+"""Marker used instead of a phrase if the sign of a quantity has no meaning."""
 FORMULA, EITHER_SIGN = "formula", "formula, either sign"
 """Markers for a quantity defined by its formula; with the second, the opposite sign is also allowed."""
 BY_FORMULA, OPEN = frozenset({FORMULA, EITHER_SIGN}), frozenset({MAGNITUDE, EITHER_SIGN})
@@ -39,7 +39,7 @@ def phrase(id: str, ledger: Ledger, words: Mapping[str, Any]) -> str:
 
 
 def _body(link: str, phrases: Mapping[str, str]) -> str:
-    """A link, or the frame, as what acts or is acted on."""
+    """Return the phrase for a link, or for the frame if `link` is "0"."""
     return str(phrases["frame"]) if link == "0" else str(phrases["link"]).format(link=link)
 
 
@@ -67,14 +67,14 @@ def positive_sense(id: str, ledger: Ledger, words: Mapping[str, Any], ways: Mapp
     family = ledger[id]
     known = _points(id, ledger) | _way(id, ways or {})
     for phrase in vocabulary.words_of(words["positive"], id, family.kind, family.symbol):
-        # Another may speak of something that this quantity has not.
+        # A phrase is skipped if it has a placeholder that this quantity cannot fill.
         if gaps(phrase) <= known.keys():
             return phrase.format(**known)
     return ""
 
 
 def _points(id: str, ledger: Ledger) -> dict[str, str]:
-    """Both ends, and the letters, of the rod or slot that a projection or an assumed sense goes by."""
+    """Return the ends and the letters of the rod or slot that defines a projection or an assumed sense."""
     along, component = ids.projection.read(id), ids.reaction.read(id)
     if component and (assumed := ids.assumed(ids.reaction_force.of(component))) in ledger:
         (direction, *_) = refs(definition_of(ledger, assumed))
@@ -86,7 +86,7 @@ def _points(id: str, ledger: Ledger) -> dict[str, str]:
 
 
 def _point(id: str) -> str:
-    """The name of the point whose place it is."""
+    """Return the name of the point whose place has this id."""
     names = ids.place.read(id)
     assert names is not None, f"{id} is no place"
     return names["point"]
@@ -108,7 +108,7 @@ def _way(id: str, ways: Mapping[str, str]) -> dict[str, str]:
 
 
 def sentence(words: str, /, **parts: Inline | str) -> Inlines:
-    """Words with texts and inlines put in where they are named."""
+    """Return a phrase with texts and inlines in place of its placeholders."""
     result: list[Inline] = []
     for text, name, _, _ in Formatter().parse(words):
         result += [Text(text)] if text else []

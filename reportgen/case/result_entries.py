@@ -1,4 +1,4 @@
-"""Results of a case besides its ledger: entries for each position, and entries for all of them, by name."""
+"""Results of a case for `solve`: entries for each position, and entries for all of them, by name."""
 
 from __future__ import annotations
 
@@ -15,7 +15,9 @@ from reportgen.machine.force_analysis import Load
 
 @dataclass(frozen=True)
 class ResultEntries:
-    """The entries of each position, None where it cannot be reached, and those `besides`, which have no position."""
+    """The entries of each position, None for one that the machine cannot reach, and the entries `besides` without a
+    position.
+    """
 
     positions: Sequence[Entries | None]
     besides: Entries = field(default_factory=dict)
@@ -82,7 +84,9 @@ def _position(analysis: Analysis, k: int) -> dict[str, Any] | None:
 
 
 def _applied(analysis: Analysis, k: int) -> Entries:
-    """Forces as vectors; a torque, which has no force, as it is in `weights` and `inertia`."""
+    """Return the applied forces as vectors; a torque, which has no force, has the same form as in `weights` and
+    `inertia`.
+    """
     torques = {torque.name for torque in analysis.machine.torques}
     forces = {load.name: load.force[k] for load in analysis.applied if load.name not in torques}
     return {**forces, **load_entries(tuple(load for load in analysis.applied if load.name in torques), k)}

@@ -7,10 +7,11 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Shaft:
-    """A shaft of a work: what it is called, its speed (rad/s) if it is known, and its sense, 1 or −1.
+    """A shaft: its name, its speed (rad/s) if it is known, and its sense, 1 or −1.
 
-    A `fixed` sense is counted anticlockwise as the machine is drawn, any other one from shaft to shaft of the same
-    work.  `datum` is the key of the parameters that gives its speed; what is chosen may miss the speed by a `share`.
+    A `fixed` sense counts as anticlockwise in the drawing of the machine, any other one only relative to the shafts of
+    the same part.  `datum` is the key of the parameters that gives the speed; a chosen design may miss the speed by a
+    `share`.
     """
 
     name: str

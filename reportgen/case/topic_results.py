@@ -14,7 +14,7 @@ Entries = Mapping[str, Any]
 
 
 def _nothing_at(analysis: Analysis, k: int, entry: dict[str, Any]) -> None:
-    """A topic without results at positions."""
+    """Add nothing: the default for a topic without results at positions."""
 
 
 def _nothing_besides(analysis: Analysis) -> Entries:
@@ -23,7 +23,7 @@ def _nothing_besides(analysis: Analysis) -> Entries:
 
 @dataclass(frozen=True)
 class ResultHooks:
-    """The results of a topic: added to the entry of the position of index k, and those without a position."""
+    """The results of a topic: those added to the entry of the position with index k, and those without a position."""
 
     at_position: Callable[[Analysis, int, dict[str, Any]], None] = _nothing_at
     besides: Callable[[Analysis], Entries] = _nothing_besides

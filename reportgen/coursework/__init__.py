@@ -1,1 +1,1 @@
-"""One coursework of several parts: a machine's case and the parts' cases as one `Case`."""
+"""A coursework of several parts: the case of a machine and the cases of its parts as one `Case`."""

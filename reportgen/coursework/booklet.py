@@ -1,7 +1,7 @@
-"""Join the reports of several cases into one booklet: one cover, task, contents and conclusion, numbered throughout.
+"""Join the reports of several cases into one booklet: one cover, task, contents and conclusion, with common numbering.
 
-Each report is a finished tree.  A section that begins the task, symbols or conclusion is marked
-(`Section.opens`); numbering is a pass over a tree, so the joined one is numbered again.
+Each report is a finished document tree.  A section that begins the task, symbols or conclusion is marked
+(`Section.opens`).  `booklet` joins reports, `handout` joins tasks; both number the result again.
 """
 
 from __future__ import annotations
@@ -36,20 +36,19 @@ from reportgen.document.layout import contents
 from reportgen.document.numbering import Blocks, number
 
 RUN_IN = 4
-"""Level of a run-in heading, which is in its paragraph."""
+"""Level of a run-in heading, which is printed in its paragraph."""
 SYMBOLS = (34.0, 96.0, 30.0)
-"""Widths (mm) of the columns of the parts' symbols."""
+"""Widths (mm) of the columns of the table of the parts' symbols."""
 NAMED = (Section, Equation, Table, Figure, Plate, Reference)
-"""Types that have a key or refer to one."""
+"""Types of nodes that have a key or refer to one."""
 
 
 @dataclass(frozen=True)
 class PartReport:
     """Report of a part: its `name` among the parts, its title, its finished tree.
 
-    `taken` lists the data from the machine, `lettered` the letters with the part's index; `symbols` are rows of those
-    of
-    its quantities that are not explained where they are used: symbols, meaning, unit; `summary` are its main results.
+    `taken` lists the data from the machine, `lettered` the symbols with the part's index.  `symbols` are rows (symbols,
+    meaning, unit) for its quantities that are not explained where they are used; `summary` are its main results.
     """
 
     name: str
@@ -72,14 +71,18 @@ class PartReport:
 
     @property
     def _groups(self) -> Iterator[Blocks]:
-        """The groups of its report behind cover and contents: a level further down, keys in its own name."""
+        """Yield the groups of its report after cover and contents, with headings one level lower and keys that begin
+        with its name.
+        """
         for group in groups(self.document.blocks):
             if isinstance(group[0], Section):
                 yield tuple(map(lowered, renamed(group, self.name)))
 
 
 def booklet(machine: Document, parts: Sequence[PartReport], words: Mapping[str, Any], senses: Blocks = ()) -> Document:
-    """One numbered document; `words` are those of the machine, `senses` say which way the shafts turn."""
+    """Return the joined, numbered document; `words` are those of the machine, `senses` the block on the shafts' senses
+    of rotation.
+    """
     sections = list(groups(machine.blocks))
     # A short report has no summary.
     last_topic = "overview" if any(topic(head) == "overview" for head, *_ in sections) else "conclusion"
@@ -109,12 +112,14 @@ def booklet(machine: Document, parts: Sequence[PartReport], words: Mapping[str, 
 
 
 def handout(machine: Document, parts: Sequence[PartReport]) -> Document:
-    """Return one handout: that of the machine, then those of the parts, each on a new page and without its head."""
+    """Return the joined task: that of the machine, then those of the parts, each on a new page and without its
+    heading.
+    """
     blocks = list(machine.blocks)
     for part in parts:
         head, *below = renamed(part.document.blocks, part.name)
         assert isinstance(head, Section), "a task begins with its title"
-        # Whose it is stands on the first page already.
+        # The first page already names the student.
         own = dropwhile(lambda block: isinstance(block, BlankLine), below[1:])
         blocks += (PageBreak(), heading(part.title, 1), *part.taken, *own)
     return number(replace(machine, blocks=tuple(blocks)))
@@ -138,34 +143,34 @@ def topic(block: Block) -> str:
 
 
 def heading(title: str, level: int) -> Section:
-    """A heading without a number."""
+    """Return a heading without a number."""
     return Section(level, (Text(title),), numbered=False)
 
 
 def with_titles(cover: Cover, parts: Sequence[PartReport]) -> Cover:
-    """The cover with the titles of the parts below that of the machine."""
+    """Return the cover with the titles of the parts below that of the machine."""
     return replace(cover, subtitle=(*cover.subtitle, *(part.title for part in parts)))
 
 
 def lowered(block: Block) -> Block:
-    """A block, a heading a level further down."""
+    """Return a block; a heading is moved one level down."""
     return replace(block, level=min(block.level + 1, RUN_IN)) if isinstance(block, Section) else block
 
 
 def renamed(blocks: Blocks, name: str) -> Blocks:
-    """Blocks whose keys, and the references to them, begin with a part's name."""
+    """Return blocks whose keys, and references to them, begin with a part's name."""
 
     def own(block: Any) -> Any:
         return replace(block, key=f"{name}.{block.key}") if block.key else block
 
-    # References first: they stand inside of what has a key itself.
+    # References are renamed first, because they occur inside nodes that have keys.
     return changed(changed(blocks, Reference, own), tuple(kind for kind in NAMED if kind is not Reference), own)
 
 
 def with_parts_named(
     foreword: Sequence[Block], parts: Sequence[PartReport], words: Mapping[str, Any]
 ) -> Iterator[Block]:
-    """The foreword of the machine with a sentence about the parts, before its last paragraph."""
+    """Yield the foreword of the machine, with a sentence about the parts before its last paragraph."""
     own = words["coursework"]
     titles = [str(own["title"]).format(title=part.title) for part in parts]
     plain = [n for n, block in enumerate(foreword) if isinstance(block, Paragraph) and not block.align]
@@ -177,7 +182,7 @@ def with_parts_named(
 
 
 def symbols(parts: Sequence[PartReport], words: Mapping[str, Any]) -> Iterator[Block]:
-    """The quantities of all parts that have to be explained, in one table."""
+    """Yield the table of the quantities of all parts that need an explanation, with its heading."""
     own, key = words["coursework"], "tab.symbols.parts"
     rows = tuple(tuple(map(Cell, row)) for part in parts for row in part.symbols)
     if rows:

@@ -1,4 +1,4 @@
-"""Coursework as a case: the joint results of a machine's case and its parts' cases."""
+"""A coursework as a case: the joined results of a machine's case and its parts' cases."""
 
 from __future__ import annotations
 
@@ -33,21 +33,21 @@ from reportgen.formula.calculation import Family
 from reportgen.formula.ledger import Ledger
 
 _NUMBER = re.compile(r"\b\d\b")
-"""The number of a wheel in what a quantity is called."""
+"""The number of a wheel in the name of a quantity."""
 MACHINE = "machine"
-"""The name of the part that the others follow."""
+"""The name of the first part, the machine."""
 
 
 @dataclass(frozen=True)
 class PartCase:
-    """Part with its case, unchanged by the coursework."""
+    """A part with its case; the coursework does not change either."""
 
     part: AssignedPart
     case: Case
 
     @cached_property
     def document(self) -> Document:
-        """Report of the part alone."""
+        """The report of the part alone."""
         return self.case.document()
 
     @cached_property
@@ -62,7 +62,7 @@ class PartCase:
 
     @property
     def assigned(self) -> Assignment:
-        """The assignment that its case is of, without the parts that follow it."""
+        """The assignment of its case, without the parts that follow it."""
         return replace(self.case.assignment, parts=())
 
     @property
@@ -75,15 +75,15 @@ class PartCase:
 
     @property
     def index(self) -> str:
-        """Index of its symbols that others also use: the word of its kind, numbered as its name."""
+        """The index of its symbols that others also use: the word for its kind, with the number in its name."""
         return f"{self.case.words['index']}{self.name.removeprefix(self.part.head)}"
 
     def id(self, own: str) -> str:
-        """The id in the coursework of a quantity of the part: cam.s, or cam2.s of the second cam."""
+        """Return the id in the coursework of a quantity of the part: cam.s, or cam2.s for the second cam."""
         return self.name + own.removeprefix(self.part.head)
 
     def whole(self, ledger: Ledger, letters: Letters) -> Mapping[str, Family]:
-        """The families of a ledger of the part under their ids in the coursework."""
+        """Return the families of a ledger of the part under their ids in the coursework."""
 
         def renamed(family: Family) -> Family:
             inner = changed(family, Ref, lambda ref: Ref(self.id(ref.id)))
@@ -103,13 +103,15 @@ class Coursework(CaseOfParts):
 
     @classmethod
     def of(cls, machine: Case, cases: Sequence[Case]) -> Self:
-        """The coursework of a machine with parts, and of the parts' cases."""
+        """Return the coursework of a machine with parts, from the machine's case and the parts' cases."""
         whole = machine.assignment
         members = tuple(PartCase(part, case) for part, case in zip(whole.parts, cases, strict=True))
         return cls(whole, PartCase(AssignedPart(MACHINE, "", "", replace(whole, parts=())), machine), members)
 
     def after(self, earlier: Case | None) -> Coursework:
-        """The same with all that an earlier edition has computed of parts that have not changed."""
+        """Return the same coursework; parts that have not changed since the `earlier` one keep their computed
+        values.
+        """
         known = (earlier.first, *earlier.members) if isinstance(earlier, Coursework) else ()
 
         def kept(member: PartCase) -> PartCase:
@@ -138,7 +140,7 @@ class Coursework(CaseOfParts):
     def parts(self) -> Mapping[str, Case]:
         return {MACHINE: self.machine, **{member.name: member.case for member in self.members}}
 
-    # --- numbers: of the whole to be read, of each part to be worked out again
+    # --- numbers
 
     @cached_property
     def ledger(self) -> Ledger:
@@ -192,9 +194,9 @@ class Coursework(CaseOfParts):
 
     @cached_property
     def letters(self) -> Mapping[str, Letters]:
-        """Return, for each part, the renamed symbols of quantities whose letters have another meaning before.
+        """The renamed symbols of each part: those of quantities whose letters an earlier part uses for something else.
 
-        Keys and answer sheets need them too, and do without the machine's report.
+        Keys and answer sheets need them too, so they do not depend on the machine's report.
         """
         used: set[Symbol] = set()
         letters_of_parts: dict[str, Letters] = {}
@@ -208,7 +210,7 @@ class Coursework(CaseOfParts):
         return letters_of_parts
 
     def _points(self, member: PartCase) -> list[Symbol]:
-        """Return the points of a part whose names an earlier part uses for something else."""
+        """Return the points of a part whose names an earlier part uses for another point."""
         earlier = takewhile(lambda one: one is not member, (self.first, *self.members))
         taken = {one for before in earlier for one in nodes(before.document.blocks, Symbol)}
         own = {one.symbol for one in member.case.printed.families.values() if not one.hidden and not one.is_plane}
@@ -217,7 +219,7 @@ class Coursework(CaseOfParts):
 
     @cached_property
     def documents(self) -> Mapping[str, Document]:
-        """The reports of the parts by themselves."""
+        """The separate reports of the machine and the parts."""
         return {member.name: member.document for member in (self.first, *self.members)}
 
     # --- papers
@@ -254,7 +256,9 @@ class Coursework(CaseOfParts):
         return PartReport(member.name, member.title, document, taken, lettered, symbols=rows, summary=summary)
 
     def _said(self, letters: Letters, member: PartCase) -> Iterator[Paragraph]:
-        """Yield the symbols of a part with its index, and its points that differ from earlier ones of the same name."""
+        """Yield the sentences on the symbols of a part with its index, and on its points that share a name with earlier
+        ones.
+        """
         words = self.words["coursework"]
         for key, symbols in (("letters", list(letters.values())), ("points", self._points(member))):
             if symbols:
@@ -276,7 +280,7 @@ class Coursework(CaseOfParts):
             yield Equation(tuple(chains))
 
     def _taken_symbols(self, member: PartCase, datum: TakenDatum) -> tuple[Symbol, Symbol]:
-        """The symbol that a part has for a datum, and that of the machine."""
+        """Return the part's symbol for a datum, and the machine's."""
         own, of = _datum(member.case, datum.key, member.part.head), _datum(self.machine, datum.of)
         return (
             member.case.printed.symbol(own) if own else Symbol(datum.key),
@@ -284,7 +288,7 @@ class Coursework(CaseOfParts):
         )
 
     def _symbols(self, member: PartCase) -> Iterator[tuple[Inlines, Inlines, Inlines]]:
-        """Yield a row for the symbols of one meaning that the part's report uses without an explanation."""
+        """Yield a row for the symbols of each meaning that the part's report uses without an explanation."""
         ledger, letters = member.case.printed, self.letters[member.name]
         blocks = member.document.blocks
         used, known = used_symbols(blocks), explained(blocks)
@@ -345,7 +349,9 @@ class Coursework(CaseOfParts):
         return self.machine.redrawn
 
     def joined_plates(self) -> Mapping[str, Sequence[DrawingPlate]]:
-        """One set, called by what it shows; of several parts of a kind each plate says which it is of."""
+        """Return one set of plates, named after its contents; with several parts of a kind each plate names its
+        part.
+        """
         titles: list[str] = []
         plates_of_parts: list[DrawingPlate] = []
         for member in self.members:
@@ -379,8 +385,8 @@ def _names_a_point(symbol: Symbol) -> bool:
 def _datum(case: Case, key: str, head: str = "") -> str:
     """Return the id of the quantity that a key of the parameters gives; "" if the ledger has none.
 
-    Most ids are the key with points between its pieces: z1 is gears.z.1, n_in is train.n.in.  A datum with another
-    name, as a length by its points, is identified by its value, if only one datum has it.
+    Most ids are the key with points between its components: z1 is gears.z.1, n_in is train.n.in.  A datum with another
+    name, such as a length named by its points, is identified by its value if only one datum has that value.
     """
     given = {id: one for id, one in case.printed.families.items() if one.definition is None and len(one.values) == 1}
     wanted = f"{head}.{key}" if head else key
@@ -398,7 +404,7 @@ def _letters(name: str) -> str:
 
 
 def _typed(assignment: Assignment, key: str) -> float | None:
-    """The value of a parameter in SI units."""
+    """Return the value of a parameter in SI units; None if it is not a number."""
     parameter: Any = assignment.parameters
     for step in key.split("."):
         parameter = getattr(parameter, step, None)
@@ -407,7 +413,7 @@ def _typed(assignment: Assignment, key: str) -> float | None:
 
 
 def _times(ratio: str, of: Symbol) -> Expression:
-    """A symbol so many times, the ratio as typed."""
+    """Return a symbol multiplied by a ratio as typed."""
     above, _, below = ratio.partition("/")
     factor: Expression = Number(float(above))
     if below:

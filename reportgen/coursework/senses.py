@@ -1,4 +1,4 @@
-"""Senses of rotation of a coursework's shafts: machine, trains, gears and cams, as the machine is drawn."""
+"""Senses of rotation of a coursework's shafts (machine, trains, gears, cams) in the drawing of the machine."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ KEY = "tab.shafts"
 WIDTHS = (76.0, 26.0, 58.0)
 """Widths of the columns (mm)."""
 SAME = 1e-6
-"""Speeds that differ by a smaller share are one."""
+"""Speeds that differ by a smaller share are equal."""
 RPM = 30 / math.pi
 
 
 @dataclass(frozen=True)
 class PartShafts:
-    """The shafts of a part, and which of their data are just the machine's, by key."""
+    """The shafts of a part, and the keys of its data that equal the machine's, with the machine's keys."""
 
     title: str
     shafts: Sequence[Shaft]
@@ -33,9 +33,10 @@ class PartShafts:
 
 @dataclass(frozen=True)
 class TurningShaft:
-    """A shaft with its sense: 1 anticlockwise, −1 clockwise, 0 where it is known against the `first` of its part only.
+    """A shaft with its sense: 1 anticlockwise, −1 clockwise, 0 if it is known only relative to the `first` one of its
+    part.
 
-    `driving` says that it is the driver's own.
+    `driving` is True for the driver's own shaft.
     """
 
     shaft: Shaft
@@ -45,7 +46,9 @@ class TurningShaft:
 
 
 def turning(part: PartShafts, driver: Shaft) -> Iterator[TurningShaft]:
-    """The shafts of a part with their senses: one with the speed of the driver's shaft is taken for the same shaft."""
+    """Yield the shafts of a part with their senses; a shaft with the speed of the driver's is considered the same
+    shaft.
+    """
     first = part.shafts[0]
     driving = next((one for one in part.shafts if _is_driver(one, part.taken, driver)), None)
     for shaft in part.shafts:
@@ -54,7 +57,7 @@ def turning(part: PartShafts, driver: Shaft) -> Iterator[TurningShaft]:
 
 
 def _is_driver(shaft: Shaft, taken: Mapping[str, str], driver: Shaft) -> bool:
-    """Return True if a shaft is the driver's: by the source of its speed, else by that speed."""
+    """Return True if a shaft is the driver's, according to the source of its speed, or else to that speed."""
     if shaft.datum in taken:
         return taken[shaft.datum] == driver.datum
     if shaft.speed is None or driver.speed is None or shaft.fixed:
@@ -65,14 +68,14 @@ def _is_driver(shaft: Shaft, taken: Mapping[str, str], driver: Shaft) -> bool:
 def senses_of_shafts(
     driver: Shaft, parts: Sequence[PartShafts], words: Mapping[str, Any], unit: str
 ) -> Iterator[Block]:
-    """A sentence and a table of all shafts, and why a speed may have another sign in its own part."""
+    """Yield a sentence and a table of all shafts, and a note if a part's own report has a speed with another sign."""
     own = words["coursework"]["shafts"]
     rows: list[tuple[Inlines, Inlines, Inlines]] = [_row(TurningShaft(driver, driver.turn, driver), words)]
     names = Counter(shaft.name for part in parts for shaft in part.shafts)
     signs: list[Block] = []
     for part in parts:
         for turning_shaft in turning(part, driver) if part.shafts else ():
-            # Two cams are told apart by the titles of their parts.
+            # The titles of their parts distinguish two cams.
             rows.append(_row(turning_shaft, words, part.title if names[turning_shaft.shaft.name] > 1 else ""))
             if (
                 turning_shaft.driving

@@ -1,7 +1,7 @@
 """Give each letter one meaning: a symbol of a part that an earlier part uses for something else gets an index.
 
-A part's pages, key, animation and sheets are trees of frozen nouns that use the same type of symbol:
-so one change of symbols serves them all.
+A part's documents, key, animation and drawing sheets are trees of frozen dataclasses that use the same type of symbol,
+so `relettered` works for all of them.
 """
 
 from __future__ import annotations
@@ -20,7 +20,10 @@ Letters = Mapping[Symbol, Symbol]
 
 
 def changed(tree: Tree, kind: type | tuple[type, ...], change: Callable[[Any], Any]) -> Tree:
-    """A tree of dataclasses, tuples and tables with `change` made of each node of a kind; what it leaves is itself."""
+    """Return a tree of dataclasses, tuples and mappings with `change` applied to each node of a kind.
+
+    Subtrees without such a node stay the same objects.
+    """
     renamed: Tree = _changed(tree, kind, change)
     return renamed
 
@@ -31,7 +34,7 @@ def _changed(node: Any, kind: type | tuple[type, ...], change: Callable[[Any], A
     if isinstance(node, (tuple, list)):
         items = [_changed(item, kind, change) for item in node]
         same = all(new is old for new, old in zip(items, node, strict=True))
-        # A tuple with names takes its items one by one.
+        # A named tuple takes its items as separate arguments.
         return node if same else type(node)(*items) if hasattr(node, "_fields") else type(node)(items)
     if isinstance(node, dict):
         table = {key: _changed(value, kind, change) for key, value in node.items()}
@@ -59,7 +62,7 @@ def nodes(tree: Any, kind: type) -> Iterator[Any]:
 
 
 def relettered(tree: Tree, letters: Letters) -> Tree:
-    """A tree with other symbols in place of some; drawings make room for them."""
+    """Return a tree with some symbols replaced; drawings make room for the new ones."""
     if not letters:
         return tree
 
@@ -78,13 +81,15 @@ def relettered(tree: Tree, letters: Letters) -> Tree:
 
 
 def with_index(symbol: Symbol, index: str) -> Symbol:
-    """A symbol with one index more: n → n_cam, Φ_x → Φ_x,cam."""
+    """Return a symbol with one more index: n → n_cam, Φ_x → Φ_x,cam."""
     return replace(symbol, sub=f"{symbol.sub},{index}" if symbol.sub else index)
 
 
 def letters_of(quantities: Collection[Symbol], taken: Collection[Symbol], index: str) -> Letters:
-    """The symbols of a part's quantities that are taken already, with the part's index."""
+    """Return replacements for the symbols of a part's quantities that are `taken`: the same symbols with the part's
+    index.
+    """
     clash = {quantity for quantity in quantities if quantity in taken and quantity.value is None}
-    # With s goes s′, which is its derivative.
+    # s′ is the derivative of s and gets the same index.
     derived = {quantity for quantity in quantities if replace(quantity, base=quantity.base.rstrip("′")) in clash}
     return {quantity: with_index(quantity, index) for quantity in quantities if quantity in clash | derived}

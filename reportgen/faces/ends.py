@@ -14,12 +14,14 @@ from reportgen.machine.slider_faces import Faces
 
 
 def faces_of(machine: Machine) -> Mapping[int, Faces]:
-    """Return the faces of the sliders of a machine, by their links; empty if all sliders are narrow."""
+    """Return the faces of a machine's sliders, by their links; {} if all sliders are narrow."""
     return machine.topic("faces", dict) or {}
 
 
 def at_ends(analysis: Analysis, link: int) -> tuple[str, np.ndarray, np.ndarray, np.ndarray]:
-    """Return of a slider with faces the name of its reaction, whether it tilts [N], N₁ and N₂ (N) [N] where it does."""
+    """Return, for a slider with faces, the name of its reaction, flags where it tilts [N], and N₁ and N₂ (N) [N], nan
+    where it does not.
+    """
     machine = analysis.machine
     faces, carrier = faces_of(machine)[link], carriers(machine.linkage)[link]
     name = reaction_name(carrier, link)

@@ -10,7 +10,7 @@ from reportgen.formula import Expression, Number, call, dot, ids, sign, turned
 
 
 def enter_guide(statics: Statics, digits: str, link: int) -> None:
-    """Enter N and x along the guide of a slider whose face is given, and at positions where it tilts both its ends.
+    """Enter N and x for a slider whose face is given, and the reactions at both ends where it tilts.
 
     The reaction balances M, the moment of all other loads about the pin: x = −M/N.
     """

@@ -10,7 +10,7 @@ from reportgen.machine.analysis import Analysis
 
 
 def at_position(analysis: Analysis, k: int, entry: dict[str, Any]) -> None:
-    """Add to the reactions in guides whether the slider tilts, and the reactions (N) at both ends."""
+    """Add to each reaction in a guide whether the slider tilts, and the reactions (N) at both ends if it does."""
     for link in faces_of(analysis.machine):
         name, tilts, first, last = at_ends(analysis, link)
         entry["reactions_in_guides"][name] |= {"tilts": bool(tilts[k]), "ends": [first[k], last[k]] if tilts[k] else []}

@@ -1,4 +1,4 @@
-"""Wide sliders in a report: the views that templates name, their states, table and reactions in figures."""
+"""Wide sliders in a report: views for templates, states, table and reactions in figures."""
 
 from __future__ import annotations
 
@@ -18,9 +18,10 @@ from reportgen.report.topic_views import ViewHooks, always
 @view("lines", "ends")
 @dataclass(frozen=True, slots=True)
 class WideSlider:
-    """A slider with its face: its reaction's `digits`, its pin, the ids of the given ends of the face.
+    """A slider with its face: its reaction's `digits`, its pin, the ids of the face's given ends.
 
-    `lines` are those of the reaction and of where it acts, `ends` of the reactions at both ends where it tilts.
+    `lines` are the ids of the reaction and of its place, `ends` those of the reactions at both ends of a slider that
+    tilts.
     """
 
     link: int
@@ -55,7 +56,7 @@ def wide_sliders(report: ReportContext) -> tuple[WideSlider, ...]:
 
 
 def face_state(report: ReportContext, slider: WideSlider, k: int) -> str:
-    """Return the key of the words for the state of a slider in its guide."""
+    """Return the key of the phrase for the state of a slider in its guide: "tilts" or "within"."""
     return "tilts" if tilts(report, slider.digits, k) else "within"
 
 

@@ -22,10 +22,10 @@ CONSTANT = 1e-9
 def enter(q: Calculation, analysis: Analysis) -> None:
     """Enter the flywheel of a machine; δ is `unevenness`.
 
-    A value integrated over the cycle is the trapezoid rule over the positions plus the rest of the integral. Ids:
-    `J.r` reduced inertia (only if a moving link has mass), `M.r` reduced torque, `A.excess` excess work, `omega.of`
-    the regulated speed at each position; `M.c` the constant torque, `omega.max`, `omega.min`, `A.upper`, `A.lower`,
-    and `J.d` the flywheel; the scales of the energy–mass diagram, and Mertsalov's `J.I`.
+    A value integrated over the cycle is the trapezoid rule over the positions plus the remainder of the integral. Ids:
+    `J.r` reduced inertia (only if a moving link has mass), `M.r` reduced torque, `A.excess` excess work, `omega.of` the
+    regulated speed at each position; `M.c` the constant torque, `omega.max`, `omega.min`, `A.upper`, `A.lower`, and
+    `J.d` the flywheel; the scales of the energy–mass diagram, and Mertsalov's `J.I`.
     """
     machine, regulated = analysis.machine, regulated_in(analysis)
     at = np.searchsorted(regulated.angle, machine.cycle_angles - 1e-9)

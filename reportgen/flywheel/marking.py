@@ -11,6 +11,9 @@ from reportgen.marking.topic_marking import MarkHooks
 
 
 def errors_of_positions(ledger: Ledger) -> Mapping[str, np.ndarray]:
+    """Return the errors (SI) [N] of the flywheel's quantities, by id, that the trapezoid rule over the positions
+    causes.
+    """
     if "J.d" not in ledger:
         return {}
     torque = ledger["M.r"].values.real
@@ -33,7 +36,7 @@ def errors_of_positions(ledger: Ledger) -> Mapping[str, np.ndarray]:
 
 
 def stands_on(ledger: Ledger, id: str) -> str:
-    """Return the id of the excess work for the regulated speed, which is found from it."""
+    """Return "A.excess" for the regulated speed, which is computed from it; any other id unchanged."""
     return "A.excess" if id == "omega.of" else id
 
 

@@ -24,11 +24,11 @@ from reportgen.report.table_remarks import labels, printed_values
 from reportgen.report.topic_views import ViewHooks, always
 
 THINNED = 4
-"""Every fourth of the samples is enough for a curve of the flywheel."""
+"""Curves of the flywheel use every fourth sample."""
 
 
 ARCS = 16.0, 26.0
-"""Radii of the arcs of ψ_max and ψ_min, mm."""
+"""Radii (mm) of the arcs of ψ_max and ψ_min."""
 
 
 def needs_flywheel(report: ReportContext) -> bool:
@@ -70,7 +70,9 @@ def flywheel_work(report: ReportContext) -> FigureScenes:
 
 
 def wittenbauer(report: ReportContext) -> FigureScenes:
-    """Return a over J_r from the axis J = 0 on, which the tangents of the two bounds of speed meet at a and b."""
+    """Draw A over J_r from the axis J = 0, with the tangents of the two bounds of the speed, which meet the axis at a
+    and b.
+    """
     wheel, ledger = _wheel(report), report.ledger
     ends = np.array([0.0, wheel.inertia.max()])
     bounds = (("max", "A.upper", wheel.upper, wheel.fastest), ("min", "A.lower", wheel.lower, wheel.slowest))
@@ -88,7 +90,7 @@ def wittenbauer(report: ReportContext) -> FigureScenes:
 
 
 def flywheel_speed(report: ReportContext) -> FigureScenes:
-    """Return the deviation of the speed from its mean, in percent, with the flywheel."""
+    """Draw the deviation of the speed from its mean (%), with the flywheel."""
     wheel = _wheel(report)
     mean = (wheel.fastest + wheel.slowest) / 2
     return FigureScenes(
@@ -102,12 +104,12 @@ def energy_bounds(report: ReportContext) -> list[str]:
 
 
 def tangent_lines(report: ReportContext) -> list[str]:
-    """Return the scales of the energy–mass diagram and the inclinations of its tangents."""
+    """Return the ids of the scales of the energy–mass diagram and of the inclinations of its tangents."""
     return report.known(["mu.J", "mu.A", ids.tangent("max"), ids.tangent("min")])
 
 
 def constant_links(report: ReportContext) -> list[str]:
-    """Return the moment of inertia of the links that belong to the flywheel's group in Mertsalov's method."""
+    """Return the id of the moment of inertia of the links in the flywheel's group of Mertsalov's method."""
     return report.known(["J.0"])
 
 
@@ -122,6 +124,7 @@ def stores(report: ReportContext) -> str:
 
 
 def speed_limits(report: ReportContext) -> list[str]:
+    """Return the ids of the bounds of the speed, and of the unevenness if it is computed."""
     uneven = ["unevenness"] if "unevenness" in report.computed else []
     return [*uneven, "omega.max", "omega.min"]
 
@@ -140,7 +143,7 @@ def cycle_table(report: ReportContext, key: str, caption: str, head: Sequence[st
 @view()
 @dataclass(frozen=True, slots=True)
 class Range:
-    """The least and the greatest of a quantity over the cycle with their positions."""
+    """The least and the greatest value of a quantity over the cycle, with their positions."""
 
     least: Value
     low: str
@@ -149,7 +152,7 @@ class Range:
 
 
 def work_range(report: ReportContext) -> Range:
-    """Return the range of the excess work of the flywheel's calculation."""
+    """Return the range of the excess work."""
     positions, values = report.all_positions, printed_values(report, "A.excess", report.all_positions)
 
     def end(value: float) -> tuple[Value, str]:
@@ -160,7 +163,7 @@ def work_range(report: ReportContext) -> Range:
 
 
 def _verdict_here(report: ReportContext) -> bool:
-    """Return True unless another topic, which takes the regulated cycle further, gives the verdict on it."""
+    """Return True unless another topic uses the regulated cycle and gives the verdict on it."""
     return not any(REGULATED_CYCLE in section.uses for section in sections_of(report.machine.topics))
 
 

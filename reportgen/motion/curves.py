@@ -1,4 +1,4 @@
-"""Curves of the true motion of a machine, for its chapter and for the sheet of dynamics."""
+"""Curves of the true motion of a machine, for its chapter and for the drawing sheet on dynamics."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ from reportgen.report.context import ReportContext
 from reportgen.report.cycle_curves import axis
 
 THINNED = 3
-"""Every third of the samples is enough for a curve."""
+"""Curves use every third sample."""
 BEYOND = 1.15
 """End of the drawn characteristic, as a multiple of the speed of the fastest working point."""
 DRAWN = 241
 MOST = 4000
-"""Samples of a long start or stop that its curves are drawn through."""
+"""Largest number of samples in a curve of a long start or stop."""
 SEEN = 0.15
-"""The share of the way from the origin that a loop has to take to be seen with it."""
+"""Smallest share of the distance from the origin that a loop must cover to be visible together with the origin."""
 
 Curve = tuple[Symbol | str, np.ndarray, np.ndarray]
 
@@ -79,7 +79,7 @@ def _steady_curves(report: ReportContext, id: str, values: str) -> list[Curve]:
 
 
 def inertia(report: ReportContext) -> FigureScenes:
-    """Return curves of J_r and its slope over the cycle, if they exist."""
+    """Draw J_r and its slope over the cycle, if they exist."""
     run = motion_of(report).alone.run
     kept = _thinned(run)
     angle, own = np.degrees(run.angle[kept]), motion_of(report).asked.inertia
@@ -119,9 +119,7 @@ def torques(report: ReportContext) -> FigureScenes:
 
 
 def characteristic(report: ReportContext) -> FigureScenes:
-    """Return the torque of the drive over the speed, and the closed loop that the reduced torque of the loads makes
-    there.
-    """
+    """Draw the torque of the drive over the speed, with the closed loop of the reduced torque of the loads."""
     return FigureScenes((characteristic_chart(report).scene,))
 
 
@@ -183,7 +181,7 @@ def stopping(report: ReportContext) -> FigureScenes:
 
 
 def sheet(report: ReportContext) -> Iterator[Scene]:
-    """Yield torques, work, reduced inertia, speed, acceleration one below another on one axis φ; the energy beside
+    """Yield torques, work, reduced inertia, speed and acceleration one below another over φ, and the energy beside
     them.
     """
     motion = motion_of(report)

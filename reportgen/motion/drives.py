@@ -31,7 +31,9 @@ class Motor:
 
 
 class Drive(ABC):
-    """A characteristic M(ω)."""
+    """A characteristic: the torque M(ω) (N·m) [N] on the shaft at speeds ω (rad/s) [N], and its slope dM/dω (N·m·s)
+    [N].
+    """
 
     @abstractmethod
     def torque(self, speed: Floats) -> Floats:
@@ -54,7 +56,7 @@ class Drive(ABC):
 
 @dataclass(frozen=True, slots=True)
 class ConstantDrive(Drive):
-    """The same torque M (N·m) at every speed; a brake if it is negative."""
+    """The same torque M = `size` (N·m) at every speed [N]; a brake if it is negative."""
 
     size: float
 
@@ -71,7 +73,9 @@ class ConstantDrive(Drive):
 
 @dataclass(frozen=True, slots=True)
 class LinearDrive(Drive):
-    """M = M₀ − k ω; a load that grows with the speed where M₀ is 0."""
+    """M = M₀ − k ω (N·m) [N] with M₀ = `start` (N·m) and k = `fall` (N·m·s); with M₀ = 0 a load that grows with the
+    speed.
+    """
 
     start: float
     fall: float
@@ -93,9 +97,9 @@ class LinearDrive(Drive):
 
 @dataclass(frozen=True, slots=True)
 class KlossDrive(Drive):
-    """An induction motor by Kloss: M = 2 M_k/(s/s_k + s_k/s) with the slip s = 1 − ω/ω₀.
+    """An induction motor by Kloss: M = 2 M_k/(s/s_k + s_k/s) (N·m) [N] with the slip s = 1 − ω/ω₀.
 
-    `breakdown` torque M_k (N·m) at the slip `slip` s_k, synchronous speed `synchronous` ω₀ (rad/s).
+    `breakdown` is the torque M_k (N·m) at the slip `slip` s_k, `synchronous` the synchronous speed ω₀ (rad/s).
     """
 
     breakdown: float
@@ -118,7 +122,7 @@ class KlossDrive(Drive):
 
 @dataclass(frozen=True, slots=True)
 class TableDrive(Drive):
-    """Torques (N·m) at speeds (rad/s) that rise from 0, linear between them; extrapolated beyond the last one."""
+    """Torques (N·m) [N] at speeds (rad/s) that rise from 0, linear between them; extrapolated beyond the last one."""
 
     speeds: tuple[float, ...]
     torques: tuple[float, ...]
@@ -147,7 +151,7 @@ class TableDrive(Drive):
 
 @dataclass(frozen=True, slots=True)
 class Geared(Drive):
-    """A drive behind a gear: the crank turns `ratio` times as fast, M = M_motor/i at ω_motor = ω/i."""
+    """A drive behind a gear: the crank turns `ratio` times as fast, M = M_motor/i (N·m) [N] at ω_motor = ω/i."""
 
     motor: Drive
     ratio: float
@@ -171,11 +175,11 @@ class Geared(Drive):
 class MotionAsked:
     """Request for the true motion of a machine.
 
-    `drive` as it acts on the crank, None for the constant torque that balances the mean of the loads; `inertia`
-    (kg·m²) of motor and gear there. Cycle angles (rad): `start_from` where the machine starts from rest,
-    `stop_from` where the motor is switched off and the `brake` (N·m) acts; None if not requested. Start and stop
-    include the flywheel if `wheeled`. `forces` requests the forces at the true speeds and accelerations. One of the
-    `motors` is chosen, behind a gear by which the crank turns `ratio` times as fast.
+    `drive` is the drive reduced to the crank, None for the constant torque that balances the mean of the loads;
+    `inertia` (kg·m²) is that of motor and gear, reduced to the crank. `start_from` and `stop_from` are the cycle angles
+    (rad) where the machine starts from rest and where the motor is switched off and the `brake` (N·m) acts; None if not
+    requested. Start and stop include the flywheel if `wheeled`. `forces` requests the forces at the true speeds and
+    accelerations. One of the `motors` is chosen, behind a gear by which the crank turns `ratio` times as fast.
     """
 
     drive: Drive | None

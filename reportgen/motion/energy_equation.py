@@ -1,10 +1,10 @@
-"""The equation of energy of a machine reduced to its crank, dT/dφ = M, along the way of the crank.
+"""The equation of energy of a machine reduced to its crank, dT/dφ = M, along the crank's path.
 
-With J the moment of inertia reduced to the crank and M = M_r(φ) + M_d(ω) the torque on it, T = ½Jω². The way is
-split where loads jump, and T is a polynomial in each part that fulfils the equation at the places of Gauss and
-Legendre (collocation). Newton's method makes the equation linear about the previous T. Each part then maps T to αT
-+ β, and so does the whole cycle, whose fixed point β/(1 − α) is the steady motion. Near rest T is not a polynomial
-of the angle: there the motion is integrated in time (`machine.time_steps`).
+With J the moment of inertia reduced to the crank and M = M_r(φ) + M_d(ω) the torque on it, T = ½Jω². The path is split
+where loads jump, and T is a polynomial in each part that satisfies the equation at the Gauss–Legendre nodes
+(collocation). Newton's method linearises the equation about the previous T. Each part then maps T to αT + β, and so
+does the whole cycle, whose fixed point β/(1 − α) is the steady motion. Near rest T is not a polynomial of the angle:
+there the motion is integrated in time (`time_integration`).
 """
 
 from __future__ import annotations
@@ -25,13 +25,13 @@ from reportgen.machine.reduction import reduced
 from reportgen.motion.drives import Drive
 
 PARTS = 180
-"""Parts of a turn at least: two degrees each."""
+"""Smallest number of parts of a turn: two degrees each."""
 STAGES = 6
-"""Places in a part; at its end the error is of the order h¹³, within it of h⁷."""
+"""Number of nodes in a part; the error is of the order h¹³ at its end and h⁷ within it."""
 SAME_ANGLE = 1e-9
-"""Angles nearer than this (rad) are one."""
+"""Angles closer than this (rad) are equal."""
 SETTLED = 1e-13
-"""Newton's way ends where T moves by less than this share of itself."""
+"""Newton's method ends when T changes by less than this share of itself."""
 ROUNDING = 1e-9
 """Relative change below which a value that no longer decreases from step to step is rounding."""
 MOST_STEPS = 60
@@ -42,15 +42,15 @@ ACCURATE = 1e-8
 far better.
 """
 FEW = 8
-"""Parts that are tried at once first."""
+"""Number of parts in the first attempt."""
 LEAST_ENERGY = 1e-12
 """Smallest energy, as a share of the greatest, since the torque of a drive is evaluated at a speed."""
 LEFT = 1 / 4
-"""No step of Newton's takes more of the energy at a place than leaves this share of it."""
+"""Every Newton step leaves at least this share of the energy at each node."""
 
 
 def _stages() -> tuple[Floats, Floats, Floats]:
-    """Return the places c and weights b of the rule on 0…1, and its matrix A: ∫₀^{c_j} f = Σ A_jl f_l."""
+    """Return the nodes c and weights b of the rule on 0…1, and its matrix A: ∫₀^{c_j} f = Σ A_jl f_l."""
     places, weights = gauss(np.zeros(1), np.ones(1), STAGES)
     c, b = places[0], weights[0]
     powers = np.arange(STAGES)
@@ -60,11 +60,13 @@ def _stages() -> tuple[Floats, Floats, Floats]:
 
 C, B, A = _stages()
 MODES = np.linalg.inv(np.polynomial.legendre.legvander(2 * C - 1, STAGES - 1))
-"""Coefficients of Legendre's polynomials from the values at the places of a part."""
+"""Matrix from the values at the nodes of a part to the coefficients of Legendre polynomials."""
 
 
 def tail(values: Floats) -> float:
-    """Return the size of the two highest of Legendre's polynomials in values at the places of a part [s]."""
+    """Return the size of the two highest Legendre coefficients, in the unit of the values [s] at the nodes of a
+    part.
+    """
     return float(np.abs(MODES[-2:] @ values).max())
 
 
@@ -73,10 +75,10 @@ def tail(values: Floats) -> float:
 
 @dataclass(frozen=True)
 class ReducedTravel:
-    """Parts of a way between rising cycle angles `edges` [n + 1], and the values at the places in them [n, s].
+    """A path between rising cycle angles `edges` (rad) [n + 1], with values at the nodes in its n parts [n, s].
 
-    `angle` of the places, `measure` dφ/dx times the length of the part, so that dT = M·measure over 0…1; J, J′ and
-    M_r there, and at the edges.
+    `angle` (rad) of the nodes; `measure` (rad), dφ/dx times the length of the part, so that dT = M·measure over 0…1; J,
+    J′ (kg·m²) and M_r (N·m) there, and at the edges.
     """
 
     edges: Floats
@@ -100,9 +102,9 @@ class ReducedTravel:
 
 @dataclass(frozen=True)
 class ReducedMachine:
-    """A machine with further inertia on its crank: `added` moment of inertia (kg·m²) of motor, gear, flywheel.
+    """A machine with additional inertia on its crank: `added` moment of inertia (kg·m²) of motor, gear, flywheel.
 
-    `loss` is the torque that friction takes from its crank, if any joint rubs.
+    `loss` is the torque that friction takes from its crank, if any joint has friction.
     """
 
     machine: Machine
@@ -111,11 +113,11 @@ class ReducedMachine:
 
     @property
     def whole(self) -> float:
-        """The cycle (rad)."""
+        """The length of the cycle (rad)."""
         return self.machine.turns * FULL_TURN
 
     def reduced(self, angle: Floats, sense: int = 1) -> tuple[Floats, Floats, Floats]:
-        """Return J, J′ and M_r at rising cycle angles [N], which may lie beyond the cycle.
+        """Return J, J′ (kg·m²) and M_r (N·m) at rising cycle angles (rad) [N], which may lie beyond the cycle.
 
         Friction acts against the `sense` in which the crank moves.
         """
@@ -130,7 +132,7 @@ class ReducedMachine:
         return not any(load.law.kind in ("opposing", "cutting") for load in self.machine.loads)
 
     def along(self, edges: Floats) -> ReducedTravel:
-        """Return the way with these edges (rad), which rise."""
+        """Return the path with these rising edges (rad) [n + 1]."""
         return self._way(
             edges, edges[:-1, None] + np.diff(edges)[:, None] * C, np.diff(edges)[:, None] * np.ones(STAGES)
         )
@@ -147,11 +149,14 @@ class ReducedMachine:
 
     @cached_property
     def corners(self) -> Floats:
+        """Cycle angles (rad) [N] at which loads jump or bend."""
         own = np.empty(0) if self.loss is None else self.loss.edges[:-1]
         return np.unique(np.concatenate((breaks(self.machine), own)))
 
     def parted(self, start: float, own: Sequence[float] = ()) -> Floats:
-        """Return the edges (rad) of a cycle from `start`: even ones, where loads jump, and `own` ones."""
+        """Return the edges (rad) [n + 1] of a cycle from `start`: evenly spaced ones, angles where loads jump, and the
+        angles in `own`.
+        """
         grid = start + np.linspace(0.0, self.whole, self.machine.turns * PARTS + 1)
         inner = start + np.mod(np.concatenate((self.corners, np.asarray(own, dtype=float))) - start, self.whole)
         edges = np.sort(np.concatenate((grid, inner)))
@@ -166,7 +171,7 @@ class ReducedMachine:
 
 @dataclass(frozen=True)
 class EnergyAlong:
-    """T (J) along a way: at its edges [n + 1] and at the places in its parts [n, s]."""
+    """T (J) along a path: at its edges [n + 1] and at the nodes in its parts [n, s]."""
 
     edges: Floats
     inside: Floats
@@ -177,7 +182,9 @@ class EnergyAlong:
 
 
 def linear(path: ReducedTravel, drive: Drive, energy: Floats) -> tuple[Floats, Floats, Floats, Floats]:
-    """Return the equation made linear about T [n, s]: T = p T₀ + r inside each part, α T₀ + β at its end."""
+    """Return p, r [n, s], α, β [n] of the equation linearised about T (J) [n, s]: T = p T₀ + r inside each part, α T₀ +
+    β at its end.
+    """
     speed = np.sqrt(2 * energy / path.inertia)
     gain = path.measure * drive.slope(speed) / (path.inertia * speed)
     rest = path.measure * (path.torque + drive.torque(speed)) - gain * energy
@@ -188,7 +195,7 @@ def linear(path: ReducedTravel, drive: Drive, energy: Floats) -> tuple[Floats, F
 
 
 def energy_at_edges(first: float, alpha: Floats, beta: Floats) -> Floats:
-    """Return T at the edges [n + 1] from that at the first."""
+    """Return T (J) at the edges [n + 1] from T at the first one: α T + β [n] at the end of each part."""
     at = [first]
     for a, b in zip(alpha.tolist(), beta.tolist(), strict=True):
         at.append(a * at[-1] + b)
@@ -202,10 +209,10 @@ def _first_empty(edges: Floats, inside: Floats) -> int:
 
 
 def follow(path: ReducedTravel, drive: Drive, first: float) -> tuple[EnergyAlong, int]:
-    """Return T along a way from T = `first`, and the number of its parts over which it is accurate.
+    """Return T along a path from T = `first` (J), and the number of parts over which it is accurate.
 
-    It ends before the first part in which T changes too much for a polynomial, is used up, or Newton's method
-    fails. Since no part depends on those behind it, few are tried first, then more and more.
+    It ends before the first part in which T changes too much for a polynomial, is used up, or Newton's method fails.
+    Since no part depends on later ones, a few parts are tried first, then more and more.
     """
     edges, inside = [np.array([first])], []
     done, size, start = 0, min(FEW, path.size), first
@@ -229,7 +236,7 @@ def follow(path: ReducedTravel, drive: Drive, first: float) -> tuple[EnergyAlong
 
 
 def smooth(path: ReducedTravel, drive: Drive, energy: EnergyAlong) -> NDArray[np.bool_]:
-    """Return flags [n] of parts in which polynomials are accurate: T changes little, their highest terms are
+    """Return flags [n] of the parts in which polynomials are accurate: T (J) changes little, and the highest terms are
     negligible.
     """
     every = np.column_stack((energy.edges[:-1], energy.inside, energy.edges[1:]))
@@ -245,7 +252,7 @@ def smooth(path: ReducedTravel, drive: Drive, energy: EnergyAlong) -> NDArray[np
 
 
 def _newton(path: ReducedTravel, drive: Drive, first: float, energy: Floats) -> tuple[EnergyAlong, int]:
-    """Return T along a way by Newton's method from a guess [n, s], and the number of its parts that are certain."""
+    """Return T along a path by Newton's method from a guess [n, s], and the number of its parts that have converged."""
     scale = first + float(np.abs(path.measure * path.torque).sum())
     for _ in range(MOST_STEPS):
         energy = np.maximum(energy, LEAST_ENERGY * scale)
@@ -262,9 +269,10 @@ def _newton(path: ReducedTravel, drive: Drive, first: float, energy: Floats) -> 
 
 
 def closed(path: ReducedTravel, drive: Drive, guess: Floats) -> tuple[EnergyAlong, float] | None:
-    """Return T along a cycle that ends as it began, from a guess [n, s], and the factor α of a deviation in a cycle.
+    """Return T along a cycle that ends as it began, from a guess (J) [n, s], and the factor α of a deviation in a
+    cycle.
 
-    Return None if Newton's method finds none, or only one without energy.
+    Return None if Newton's method does not converge, or converges to a motion without energy.
     """
     energy, before = guess, np.inf
     for _ in range(MOST_STEPS):

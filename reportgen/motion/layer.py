@@ -14,11 +14,11 @@ from reportgen.page.topic_layers import LayerHooks
 from reportgen.report.context import ReportContext
 
 MOST = 1500
-"""So many samples of a run go to the page; between them its angle is drawn along straight lines of time."""
+"""Largest number of samples of a run on the page; its angle is interpolated linearly in time between them."""
 
 
 def timed_runs(report: ReportContext) -> tuple[TimedRun, ...]:
-    """Return the motions that a page plays in time: that with the flywheel where start and stop have it."""
+    """Return the motions that a page plays in time; steady running includes the flywheel if start and stop do."""
     motion = motion_in(report.analysis)
     runs = {"steady": motion.states[motion.main_state].run}
     if motion.started is not None:
@@ -36,7 +36,7 @@ def _timed(key: str, run: MotionRun) -> TimedRun:
 
 
 def working_point(report: ReportContext) -> Iterator[Chart]:
-    """Yield the characteristic, on which the working point of the drive moves; nothing for a constant torque."""
+    """Yield the characteristic with the moving working point of the drive; nothing for a constant torque."""
     motion = motion_in(report.analysis)
     if motion.drive.governs:
         symbol = report.ledger.symbol("run.Md")

@@ -1,7 +1,7 @@
 """Ledger entries for the true motion of a machine.
 
-A value integrated over the cycle is the trapezoid rule over the positions plus the rest of the integral; the torque
-of the drive is read from its characteristic at the speed found.
+A value integrated over the cycle is the trapezoid rule over the positions plus the remainder of the integral; the
+torque of the drive is read from its characteristic at the computed speed.
 """
 
 from __future__ import annotations
@@ -30,12 +30,12 @@ GIVEN = ("M0", "k", "Mk", "sk", "n0", "i", "J0", "brake")
 def enter(q: Calculation, analysis: Analysis) -> None:
     """Enter the true motion; torque and inertia reduced to the crank are used again if they have been entered.
 
-    Ids: `run.a.S2`, `run.dJ` the slope of the reduced inertia; of the machine alone, and with `.wheel` behind them with
-    its flywheel, `run.Md` the torque of the drive, `run.Mc` the same by its formula, `run.A` its work and that of the
-    loads, `run.T`, `run.omega`, `run.eps`, `run.t`; the bounds `run.max`, `run.min` of the speed, `run.mean`,
-    `run.delta`, `run.period`, `run.work`, `run.power`; `run.step`, `run.apart` by steps.  Of start and stop
-    `run.t.start`, `run.t.stop`, `run.phi.start`, `run.phi.stop`; of the choice of a motor `run.Mmean`, `run.Meff`,
-    `run.Mmost`, `run.Mres`.
+    Ids: `run.a.S2`, the slope of the reduced inertia `run.dJ`; for the machine alone, and with the suffix `.wheel` for
+    the machine with its flywheel, `run.Md` the torque of the drive, `run.Mc` the same by its formula, `run.A` its work
+    and that of the loads, `run.T`, `run.omega`, `run.eps`, `run.t`; the bounds `run.max`, `run.min` of the speed,
+    `run.mean`, `run.delta`, `run.period`, `run.work`, `run.power`; `run.step`, `run.apart` by steps.  For start and
+    stop `run.t.start`, `run.t.stop`, `run.phi.start`, `run.phi.stop`; for the choice of a motor `run.Mmean`,
+    `run.Meff`, `run.Mmost`, `run.Mres`.
     """
     motion = motion_in(analysis)
     at = at_positions(analysis.machine, motion.alone)
@@ -110,7 +110,7 @@ class _Steady:
         return run_ids.in_state(quantity, self.state)
 
     def symbol(self, letter: str, *index: str, sup: str = "") -> Symbol:
-        """Return a letter with its indices, behind them that of the flywheel."""
+        """Return a letter with its indices, the last of them for the flywheel if there is one."""
         return Symbol(letter, ",".join((*index, *(("d",) if self.state else ()))), sup)
 
     def enter(self, slope: Expression) -> None:
@@ -219,7 +219,7 @@ class _Steady:
 
 
 def _start_and_stop(q: Calculation, motion: TrueMotion) -> None:
-    """Enter the time and the angle that the machine takes from rest to the steady motion and down to rest."""
+    """Enter the time and the angle from rest to the steady motion, and from there to rest."""
     if motion.started is not None:
         run = motion.started.run
         q.give("run.t.start", motion.started.time, Symbol("t", "md"), "time", exact=False)

@@ -18,9 +18,10 @@ OF_CURVE = frozenset({"max", "min", "mean", "delta"})
 
 
 def errors_of_positions(ledger: Ledger) -> Mapping[str, np.ndarray]:
-    """Return the errors of values that depend on integrals of the true motion, if the rule over the positions is used.
+    """Return the errors (SI) [N], by id, of values that use integrals of the true motion by the trapezoid rule over the
+    positions.
 
-    The bounds of the speed are those of its curve, wherever the positions lie.
+    The bounds of the speed are those of its curve, independently of the positions.
     """
     rests = [id for id in ledger.families if (names := ids.rest.read(id)) and names["id"].startswith(TRUE_MOTION)]
     if not rests:
@@ -45,7 +46,7 @@ def errors_of_positions(ledger: Ledger) -> Mapping[str, np.ndarray]:
 
 
 def stands_on(ledger: Ledger, id: str) -> str:
-    """Return the id of the work of all torques for a value computed from it."""
+    """Return the id of the work of all torques for a value that is computed from it; any other id unchanged."""
     if not id.startswith(TRUE_MOTION) or ledger[id].definition is None or id not in errors_of_positions(ledger):
         return id
     return f"{TRUE_MOTION}A{id[id.rindex('.') :]}" if id.count(".") > 1 else f"{TRUE_MOTION}A"

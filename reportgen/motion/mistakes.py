@@ -12,7 +12,7 @@ from reportgen.motion import run_ids
 
 
 def mistakes(ledger: Ledger, machine: Machine) -> Changed:
-    """Return other definitions of quantities of `run`, by id, with the names of the mistakes that they are."""
+    """Return mistaken definitions of quantities of `run`, by id, with the names of the mistakes."""
     turns = machine.turns
     changed: dict[str, list[tuple[str, Expression]]] = {}
     for state in ((), (run_ids.WHEEL,)):

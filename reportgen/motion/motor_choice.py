@@ -37,7 +37,7 @@ def chosen_motor(report: ReportContext) -> Inlines:
 
 
 def motor_list(report: ReportContext) -> Inlines:
-    """Return the motors to choose from, with all that is given of them."""
+    """Return the motors to choose from, with all their given data."""
     motion, words = motion_in(report.analysis), report.words["motors"]
     parts: list[Inline] = []
     for motor in motion.asked.motors:
@@ -59,7 +59,7 @@ def demand_lines(report: ReportContext) -> list[str]:
 
 
 def motors_table(report: ReportContext, key: str, caption: str, head: Sequence[str]) -> Table:
-    """Return each motor with its torques at the crank, and whether they suffice."""
+    """Return a table of each motor with its torques at the crank and the result of each check."""
     return list_table(report.prose, key, caption, head, _rows(report), WIDTHS)
 
 
@@ -81,7 +81,7 @@ def _rows(report: ReportContext) -> Iterator[Sequence[object]]:
 
 
 def _typed(power: float, unit: str = "") -> Number:
-    """Return a power (W) in kW, as it was given."""
+    """Return a power (W) in kW, as it was typed."""
     return Number(float(f"{power / 1e3:.9g}"), None, unit)
 
 

@@ -15,8 +15,8 @@ from reportgen.motion.steady_running import SteadyMotion
 class DriveDemand:
     """Requirements of a steady motion for its drive, at the crank (N·m).
 
-    `mean` over the angle and `effective`, the root of the mean square over time, of the torque of the drive; `most` of
-    it, and the greatest `resistance` of the loads, against which the machine is to start.
+    `mean` is the mean torque of the drive over the angle, `effective` its root mean square over time, `most` its
+    greatest value; `resistance` is the greatest torque of the loads, against which the machine must start.
     """
 
     mean: float
@@ -26,7 +26,7 @@ class DriveDemand:
 
     @classmethod
     def of(cls, steady: SteadyMotion, whole: float) -> DriveDemand:
-        """Return the requirements of a steady motion over a cycle of so many radians."""
+        """Return the requirements of a steady motion over a cycle of `whole` (rad)."""
         run = steady.run
         square = np.diff(run.time) @ (run.drive[1:] ** 2 + run.drive[:-1] ** 2) / 2
         return cls(

@@ -15,7 +15,7 @@ quantity = Name("run.{quantity}[.{state}]")  # quantity of the machine without, 
 
 
 def in_state(name: str, state: str) -> str:
-    """Return the id of a quantity of the machine without, or with its flywheel."""
+    """Return the id of a quantity of the machine without its flywheel (state ""), or with it ("wheel")."""
     return quantity(name, *([state] if state else []))
 
 

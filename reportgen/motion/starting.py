@@ -22,7 +22,7 @@ from reportgen.motion.steady_running import (
 from reportgen.motion.time_integration import TimeStepper
 
 NEAR_STEADY = 0.01
-"""A start is over at the end of the first cycle whose last speed is as near to the steady one."""
+"""A start ends with the first cycle whose last speed differs from the steady one by less than this share."""
 STALLS = "start-stalls"
 NEAR_ENOUGH = np.radians(1.0)
 """Accuracy (rad) of the limits of the angles from which a machine starts."""
@@ -33,7 +33,7 @@ MOST_SWINGS = 50
 class StartFromRest:
     """A start from rest: its run, and the indices of the ends of its cycles among the samples.
 
-    Where the loads are stronger than the drive and push the crank back, `turns_back` are the cycle angles (rad) there.
+    `turns_back` are the cycle angles (rad) at which loads stronger than the drive push the crank back.
     """
 
     run: MotionRun
@@ -48,7 +48,8 @@ class StartFromRest:
 def starting_ranges(body: ReducedMachine, drive: Drive) -> list[tuple[float, float]]:
     """Return the ranges of cycle angles (rad) from which a machine at rest starts and completes a cycle.
 
-    The farther it starts before a place where the loads are too strong, the more energy it has there.
+    The farther it starts before a place where the loads are too strong, the more energy it has when it reaches that
+    place.
     """
     angle = np.linspace(0.0, body.whole, body.machine.turns * 2 * PARTS + 1)
     moves = body.reduced(angle)[2] + drive.torque(np.zeros_like(angle)) > 0
@@ -84,7 +85,7 @@ def start(
 ) -> StartFromRest:
     """Run from rest at a cycle angle (rad) until the steady motion is practically reached.
 
-    Raises `NoMotionError` if the machine does not start, or stalls on the way.
+    Raises `NoMotionError` if the machine does not start, or stalls.
     """
     edges = body.parted(angle, own)
     torque = float(body.reduced(edges[:1])[2][0] + drive.torque(np.zeros(1))[0])
@@ -107,11 +108,11 @@ def start(
 
 
 def _first_cycle(body: ReducedMachine, drive: Drive, edges: Floats) -> tuple[MotionRun, tuple[float, ...]]:
-    """Run from rest to the last of the edges (rad), swinging back where the loads push; also return where it turns
-    back.
+    """Run from rest to the last of the edges (rad), swinging back where the loads push; also return the angles where it
+    turns back.
 
-    A crank that swings back less far than to its last start gets less far at every further swing, since no path of
-    speed over angle crosses itself: it stalls.
+    A crank that swings back less far than its last start gets less far at every further swing, since curves of speed
+    over angle do not cross: it stalls.
     """
     turns_back: list[float] = []
     run, arrives = passage(body, edges, drive, 0.0)
@@ -137,7 +138,7 @@ def _moves(body: ReducedMachine, drive: Drive, angle: float) -> bool:
 
 
 def _swing(body: ReducedMachine, drive: Drive, at: float) -> MotionRun | None:
-    """Return the run backwards from rest at an angle (rad) to the next rest; None if that is a cycle behind."""
+    """Return the backward run from rest at an angle (rad) to the next rest; None if that is a full cycle back."""
     stepper, speed, runs = TimeStepper(body, drive, sense=-1), 0.0, list[MotionRun]()
     end = at - body.whole
     corners = np.concatenate([body.corners + turn * body.whole for turn in (-1, 0)])
@@ -151,9 +152,9 @@ def _swing(body: ReducedMachine, drive: Drive, at: float) -> MotionRun | None:
 
 
 def stop(body: ReducedMachine, brake: Drive, speed: float, angle: float = 0.0, own: Sequence[float] = ()) -> MotionRun:
-    """Return the run-down from a speed (rad/s) at a cycle angle (rad), the motor off, under a brake, to rest.
+    """Return the run-down to rest from a speed (rad/s) at a cycle angle (rad), with the motor off and a brake on.
 
-    Raises `NoMotionError` where the loads keep the machine going.
+    Raises `NoMotionError` if the loads keep the machine moving.
     """
     edges = body.parted(angle, own)
     path = body.along(edges)

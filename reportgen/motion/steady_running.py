@@ -1,7 +1,7 @@
-"""The steady motion of a machine under a drive, and its run over any way: ω(φ), ε(φ), t(φ).
+"""The steady motion of a machine under a drive, and its run along any path: ω(φ), ε(φ), t(φ).
 
-With J reduced to the crank and M = M_r(φ) + M_d(ω) the torque on it, T = ½Jω² grows by dT/dφ = M
-(`machine.energy`); then ω = √(2T/J),  ε = (M − ½ω²J′)/J,  dt = dφ/ω.
+With J reduced to the crank and M = M_r(φ) + M_d(ω) the torque on it, T = ½Jω² grows by dT/dφ = M (`energy_equation`);
+then ω = √(2T/J),  ε = (M − ½ω²J′)/J,  dt = dφ/ω.
 """
 
 from __future__ import annotations
@@ -37,27 +37,30 @@ from reportgen.motion.energy_equation import (
 from reportgen.motion.time_integration import TimeStepper, UnsettledError, times
 
 BALANCED = 1e-9
-"""A mean torque below this share of the mean of its size is zero."""
+"""A mean torque below this share of the mean of its absolute value is zero."""
 MOST_CYCLES = 400
 """Largest number of cycles of a start; a longer start is reported instead."""
 MOST_REFINED = 12
 """Largest number of halvings of a part of the cycle in which T changes too much."""
 HEAVIER = 4.0
-"""Factor by which the inertia grows until a steady motion is found, from which that of the machine itself follows."""
+"""Factor by which the inertia is increased until a steady motion is found; it is the start value for the machine
+itself.
+"""
 MOST_HEAVIER = 12
 HARDLY = 1e-3
-"""A reduced moment of inertia below this share of its greatest is so small that T may not settle the speed there."""
+"""A reduced moment of inertia below this share of its greatest value is so small that T may not determine the speed
+there.
+"""
 NEAREST = 1.01
-"""Inertias nearer than by this factor are not tried between."""
+"""Inertias that differ by less than this factor are not tried."""
 
 
 class NoMotionError(Exception):
     """A requested motion is impossible.
 
     `code` is "stalls", "start-stalls", "does-not-start", "starts-nowhere", "starts-too-slowly", "does-not-stop",
-    "runs-away", "runs-down", "no-inertia" or "no-steady-motion"; `angle` (rad) is the cycle angle there, `missing`
-    the torque (N·m) that is missing, `ranges` the angles (rad) from which the machine would start, `speed` (rad/s)
-    the speed in question.
+    "runs-away", "runs-down", "no-inertia" or "no-steady-motion"; `angle` (rad) is the cycle angle, `missing` (N·m) the
+    missing torque, `ranges` (rad) the angles from which the machine would start, `speed` (rad/s) the speed in question.
     """
 
     def __init__(
@@ -77,7 +80,7 @@ class NoMotionError(Exception):
 
 @dataclass(frozen=True)
 class MotionRun:
-    """A run of a machine over samples [K]: the edges of its way and the places between.
+    """A run of a machine over samples [K]: the edges of its path and the nodes between them.
 
     `angle` φ (rad), J and J′ (kg·m²), M_r and M_d (N·m), T (J), ω (rad/s), ε (rad/s²) and the time t (s) from its
     beginning.  `at` are the indices of the edges among the samples [n + 1].
@@ -95,7 +98,7 @@ class MotionRun:
     at: NDArray[np.int64]
 
     def place(self, angle: float) -> int:
-        """Return the index of the edge at an angle (rad)."""
+        """Return the index among the samples of the edge at an angle (rad)."""
         edges = self.angle[self.at]
         return int(self.at[int(np.abs(edges - angle).argmin())])
 
@@ -118,12 +121,12 @@ class MotionRun:
         )
 
     def shifted(self, angle: float) -> MotionRun:
-        """Return the same further on by an angle (rad)."""
+        """Return the same run, starting later by an angle (rad)."""
         return replace(self, angle=self.angle + angle)
 
 
 def run_along(path: ReducedTravel, drive: Drive, energy: EnergyAlong) -> MotionRun:
-    """Return the run along a way with the energy found."""
+    """Return the run along a path with a known energy."""
     n = path.size
 
     def woven(edges: Floats, inside: Floats) -> Floats:
@@ -153,9 +156,9 @@ def run_along(path: ReducedTravel, drive: Drive, energy: EnergyAlong) -> MotionR
 
 
 def run_in_time(stepper: TimeStepper, angle: float, speed: float, edge: float) -> tuple[MotionRun, bool]:
-    """Return the run from an angle (rad) to an edge, integrated in time, and whether the crank rests before it.
+    """Return the run from an angle (rad) to an edge, integrated in time, and True if the crank stops before the edge.
 
-    Raises `NoMotionError` where the machine creeps towards a place without ever coming there.
+    `speed` is in rad/s.  Raises `NoMotionError` if the machine approaches a place without ever reaching it.
     """
     try:
         leg = stepper.leg(angle, speed, edge)
@@ -184,11 +187,11 @@ def run_in_time(stepper: TimeStepper, angle: float, speed: float, edge: float) -
 def passage(
     body: ReducedMachine, edges: Floats, drive: Drive, speed: float, known: ReducedTravel | None = None
 ) -> tuple[MotionRun, bool]:
-    """Return the run forward between edges (rad), along their way if it is `known`, and True if it reaches the last
-    one.
+    """Return the forward run between edges (rad) [n + 1], along their path if it is `known`, and True if it reaches the
+    last one.
 
-    The speed at the first may be 0; then the torque there is positive. The equation of energy is used as long as T
-    is close to a polynomial of the angle, time steps for the rest. Raises `NoMotionError`.
+    The `speed` at the first edge (rad/s) may be 0; then the torque there is positive. The equation of energy is used
+    while T is close to a polynomial of the angle, time steps for the rest. Raises `NoMotionError`.
     """
     path = known or body.along(edges)
     runs, at, stepper = list[MotionRun](), 0, TimeStepper(body, drive)
@@ -223,9 +226,9 @@ class ExtremeSpeed:
 class SteadyMotion:
     """The steady motion over one cycle.
 
-    `fastest` and `slowest` by the polynomials of the parts, `mean` = (ω_max + ω_min)/2, `unevenness` δ =
+    `fastest` and `slowest` come from the polynomials of the parts; `mean` = (ω_max + ω_min)/2 (rad/s), `unevenness` δ =
     (ω_max − ω_min)/mean, `period` (s), `work` of the drive in a cycle (J) and its mean `power` (W); `settles` is the
-    factor by which a deviation of T grows in a cycle, 1 where no torque depends on the speed.
+    factor by which a deviation of T grows in a cycle, 1 if no torque depends on the speed.
     """
 
     run: MotionRun
@@ -255,8 +258,8 @@ SHARES = np.linspace(0.0, 1.0, 201)
 
 
 def _extreme(run: MotionRun, sense: int) -> ExtremeSpeed:
-    """Return the greatest (+1) or least (−1) speed: of the samples, and of the polynomials of the parts beside the
-    best.
+    """Return the greatest (+1) or least (−1) speed, from the samples and the polynomials of the parts next to the best
+    one.
     """
     best = int((sense * run.speed).argmax())
     candidates = [ExtremeSpeed(float(run.speed[best]), float(run.angle[best]))]
@@ -281,7 +284,7 @@ def _described(path: ReducedTravel, drive: Drive, energy: EnergyAlong, settles: 
 
 
 def mean_torque(body: ReducedMachine, path: ReducedTravel) -> tuple[float, float]:
-    """Return the mean of M_r over a cycle and that of its size (N·m)."""
+    """Return the mean of M_r over a cycle and the mean of |M_r| (N·m)."""
     return (
         float((path.measure * path.torque * B).sum()) / body.whole,
         float((path.measure * np.abs(path.torque) * B).sum()) / body.whole,
@@ -289,9 +292,10 @@ def mean_torque(body: ReducedMachine, path: ReducedTravel) -> tuple[float, float
 
 
 def levels(drive: Drive, mean: float, speed: float) -> list[float]:
-    """Return the speeds (rad/s) at which a drive balances a mean torque of the loads stably, the highest first.
+    """Return the speeds (rad/s) at which a drive stably balances a `mean` torque of the loads (N·m), the highest first.
 
-    Between the corners of a characteristic its torque rises or falls throughout, and beyond the last it continues.
+    Between the corners of a characteristic its torque rises or falls throughout, and it continues beyond the last
+    corner.
     """
 
     def rest(at: float) -> float:
@@ -313,11 +317,10 @@ def levels(drive: Drive, mean: float, speed: float) -> list[float]:
 
 
 def steady(body: ReducedMachine, drive: Drive, speed: float, own: Sequence[float] = ()) -> SteadyMotion:
-    """Return the steady motion of a machine under a drive; the edges of its parts have the `own` angles (rad) among
-    them.
+    """Return the steady motion of a machine under a drive; the edges of its parts include the angles in `own` (rad).
 
-    Where no torque depends on the speed there is one only if the mean torque is 0, and its level is set by
-    (ω_max + ω_min)/2 = `speed`.  Raises `NoMotionError`.
+    If no torque depends on the speed, a steady motion exists only if the mean torque is 0, and (ω_max + ω_min)/2 =
+    `speed` (rad/s) determines its level.  Raises `NoMotionError`.
     """
     path = body.along(body.parted(0.0, own))
     mean, size = mean_torque(body, path)
@@ -336,8 +339,8 @@ def steady(body: ReducedMachine, drive: Drive, speed: float, own: Sequence[float
 
 
 def _light(path: ReducedTravel) -> NoMotionError | None:
-    """Return an error if a machine has hardly any inertia at some angle, where T does not determine a speed;
-    else None.
+    """Return an error if the machine has so little inertia at some angle that T does not determine a speed there; else
+    None.
     """
     inside = path.inertia.ravel()
     if inside.min() > HARDLY * inside.max():
@@ -346,9 +349,9 @@ def _light(path: ReducedTravel) -> NoMotionError | None:
 
 
 def _cycle(path: ReducedTravel, drive: Drive, speed: float) -> tuple[EnergyAlong, float] | None:
-    """Return T along a steady cycle about a speed (rad/s), and the rest of a deviation; None if no cycle is found.
+    """Return T along a steady cycle about a speed (rad/s), and the factor of a deviation; None if no cycle is found.
 
-    If Newton's method does not find it directly, that of a machine with more inertia leads to it.
+    If Newton's method does not converge directly, the motion of a machine with more inertia is the start value.
     """
 
     def of(extra: float, squared: Floats) -> tuple[EnergyAlong, float] | None:
@@ -378,7 +381,7 @@ def _cycle(path: ReducedTravel, drive: Drive, speed: float) -> tuple[EnergyAlong
 def _refined(
     body: ReducedMachine, path: ReducedTravel, drive: Drive, energy: EnergyAlong, settles: float
 ) -> SteadyMotion:
-    """Return the steady motion, with parts halved as often as T changes too much in them."""
+    """Return the steady motion, with parts halved while T changes too much in them."""
     for _ in range(MOST_REFINED):
         rough = np.flatnonzero(~smooth(path, drive, energy))
         if not rough.size:
@@ -408,7 +411,7 @@ def _simulated(body: ReducedMachine, path: ReducedTravel, drive: Drive, speed: f
 
 
 def stalled(body: ReducedMachine, run: MotionRun, code: str = "stalls") -> NoMotionError:
-    """Return the error of a machine that comes to rest at the end of a run."""
+    """Return the error for a machine that comes to rest at the end of a run."""
     missing = -float(run.torque[-1] + run.drive[-1])
     return NoMotionError(code, angle=float(np.mod(run.angle[-1], body.whole)), missing=missing)
 
@@ -416,7 +419,7 @@ def stalled(body: ReducedMachine, run: MotionRun, code: str = "stalls") -> NoMot
 def _level(
     body: ReducedMachine, path: ReducedTravel, drive: Drive, speed: float, mean: float, size: float
 ) -> SteadyMotion:
-    """Return the steady motion without a torque that depends on the speed, its mean set to `speed`."""
+    """Return the steady motion without a torque that depends on the speed, with its mean set to `speed` (rad/s)."""
     torque = float(drive.torque(np.zeros(1))[0])
     if abs(mean + torque) > BALANCED * max(size, abs(torque)):
         raise NoMotionError("runs-away" if mean + torque > 0 else "runs-down", missing=-(mean + torque))

@@ -1,9 +1,9 @@
 """The motion of a machine integrated in time: near rest, and wherever the speed changes within a degree.
 
-With J reduced to the crank and M = M_r(φ) + M_d(ω) the torque on it,  dφ/dt = ω,  dω/dt = ε = (M − ½ω²J′)/J. In
-each step ω is a polynomial of time that fulfils the equation at the places of Gauss and Legendre (collocation). So
-a drive that settles within microseconds needs no shorter steps than the speed itself. A step ends when its time is
-over, at an angle, or where the crank comes to rest.
+With J reduced to the crank and M = M_r(φ) + M_d(ω) the torque on it,  dφ/dt = ω,  dω/dt = ε = (M − ½ω²J′)/J. In each
+step ω is a polynomial of time that satisfies the equation at the Gauss–Legendre nodes (collocation), so a drive that
+settles within microseconds needs no shorter steps than the speed itself. A step ends after its time, at an angle, or
+where the crank comes to rest.
 """
 
 from __future__ import annotations
@@ -18,23 +18,23 @@ from reportgen.motion.drives import Drive
 from reportgen.motion.energy_equation import STAGES, A, B, C, ReducedMachine, tail
 
 SETTLED = 1e-13
-"""The rounds of a step end where ω moves by less than this share of its greatest value in the step."""
+"""The iterations of a step end when ω changes by less than this share of its greatest value in the step."""
 MOST_ROUNDS = 30
 ACCURATE = 1e-9
 """Largest contribution of the highest polynomials in a step to ω, as a share of it; the end of the step is far better.
 """
 LONGEST = 0.05
-"""The way of the first step (rad)."""
+"""The travel of the first step (rad)."""
 GROWS, SHRINKS = 4.0, 0.1
 """Largest and smallest length of a step, as multiples of the step before it."""
 MOST_STEPS = 3000
 CREEPS = 1e-9
-"""A crank slower than this share of its greatest speed on the way is at rest."""
+"""A crank slower than this share of its greatest speed so far is at rest."""
 SPACING = 4 * float(np.finfo(float).eps)
 
 
 class UnsettledError(Exception):
-    """So many steps do not lead to an edge or to rest; `angle` (rad) where they end."""
+    """The largest number of steps does not lead to an edge or to rest; they end at `angle` (rad)."""
 
     def __init__(self, angle: float) -> None:
         super().__init__(angle)
@@ -43,7 +43,7 @@ class UnsettledError(Exception):
 
 @dataclass(frozen=True)
 class TimeStep:
-    """A step: its `duration` (s), φ (rad) and ω (rad/s) at its places [s] and its end, and the `error` of ω there."""
+    """A step: its `duration` (s), φ (rad) and ω (rad/s) at its nodes [s] and at its end, and the `error` of ω there."""
 
     duration: float
     angle: Floats
@@ -55,7 +55,7 @@ class TimeStep:
 
 @dataclass(frozen=True)
 class Leg:
-    """The steps to the next edge, or to where the crank `rests` before it."""
+    """The steps to the next edge, or to the place before it where the crank `rests`."""
 
     steps: tuple[TimeStep, ...]
     rests: bool
@@ -63,21 +63,21 @@ class Leg:
 
 @dataclass(frozen=True)
 class TimeStepper:
-    """A machine under a drive; its `sense` is +1 while the crank goes forward, −1 while it goes back."""
+    """A machine under a drive; `sense` is +1 while the crank moves forward, −1 while it moves back."""
 
     body: ReducedMachine
     drive: Drive
     sense: int = 1
 
     def reduced(self, angle: Floats) -> tuple[Floats, Floats, Floats]:
-        """Return J, J′ and M_r at angles [N], in the order in which the crank reaches them."""
+        """Return J, J′ (kg·m²) and M_r (N·m) at angles (rad) [N], in the order in which the crank reaches them."""
         if self.sense > 0:
             return self.body.reduced(angle)
         inertia, slope, torque = (values[::-1] for values in self.body.reduced(angle[::-1], -1))
         return inertia, slope, torque
 
     def leg(self, angle: float, speed: float, edge: float) -> Leg:
-        """Run from an angle and a speed until the crank is at an edge (rad), or at rest.
+        """Run from an angle (rad) and a speed (rad/s) until the crank is at an edge (rad), or at rest.
 
         Raises `UnsettledError`.
         """
@@ -100,7 +100,7 @@ class TimeStepper:
         raise UnsettledError(angle)
 
     def _first(self, angle: float, speed: float) -> float:
-        """Return a length for the first step (s): the way is short, and the drive hardly changes."""
+        """Return a length (s) for the first step: its travel is short, and the drive hardly changes."""
         (J,), (slope,), (torque,) = self.reduced(np.array([angle]))
         ω = np.array([speed])
         ε = abs(float(torque + self.drive.torque(ω)[0] - speed**2 * slope / 2) / J)
@@ -110,7 +110,7 @@ class TimeStepper:
         return float(min(lengths))
 
     def _towards(self, angle: float, speed: float, length: float, edge: float) -> TimeStep | None:
-        """Return a step of this length (s), or of less to the edge or to rest, whichever comes first."""
+        """Return a step of this length (s), or a shorter one to the edge or to rest, whichever comes first."""
         step = self._step(angle, speed, length)
         if step is None:
             return None
@@ -126,7 +126,7 @@ class TimeStepper:
     def _step(
         self, angle: float, speed: float, length: float, edge: float | None = None, *, to_rest: bool = False
     ) -> TimeStep | None:
-        """Return a step by Newton's method for ω, the angles following it; None where it does not settle."""
+        """Return a step by Newton's method for ω, from which the angles follow; None if it does not converge."""
         ω, h = np.full(STAGES, speed), length
         path = h * speed * C
         before = np.inf
@@ -162,13 +162,13 @@ class TimeStepper:
         return None
 
     def _beside(self, angle: float) -> tuple[Floats, Floats, Floats]:
-        """Return J, J′ and M_r just behind an angle, for all places of a step that starts from rest."""
+        """Return J, J′ and M_r just after an angle, for all nodes of a step that starts from rest."""
         J, slope, torque = self.reduced(np.full(STAGES, angle + self.sense * SPACING * max(abs(angle), 1.0)))
         return J, slope, torque
 
 
 def times(steps: Sequence[TimeStep]) -> Floats:
-    """Return the times (s) at the beginning of the first step and at the places and the end of each [(s + 1) n + 1]."""
+    """Return the times (s) at the start of the first step and at the nodes and the end of each step [(s + 1) n + 1]."""
     ends = np.cumsum([step.duration for step in steps])
     within = [np.append(end - step.duration * (1 - C), end) for step, end in zip(steps, ends, strict=True)]
     return np.concatenate(([0.0], *within))

@@ -140,7 +140,7 @@ class DriveSection(Part):
 
     @property
     def on_crank(self) -> Drive | None:
-        """The same as it acts on the crank."""
+        """The characteristic reduced to the crank; None if a constant torque is to be found."""
         motor = self.motor
         if motor is None or self.ratio is None:
             return motor
@@ -150,22 +150,22 @@ class DriveSection(Part):
 
 
 class StartSection(Part):
-    """From which turn of the crank behind the first position the machine starts from rest."""
+    """The crank angle from the first position at which the machine starts from rest."""
 
     from_: CycleAngle = Field(default=START, alias="from")
 
 
 class StopSection(Part):
-    """The torque of the brake on the crank, and where the motor is switched off."""
+    """The torque of the brake on the crank, and the crank angle at which the motor is switched off."""
 
     brake: PositiveTorque
     from_: CycleAngle = Field(default=START, alias="from")
 
 
 class MotionSection(Part):
-    """Request for the true motion: always the steady one; start and stop if they are named.
+    """Request for the true motion: always steady running, start and stop if they are named.
 
-    Start and stop include the `flywheel` if it is requested; `forces` requests those at the true speeds.
+    Start and stop include the `flywheel` if it is requested; `forces` requests the forces at the true speeds.
     """
 
     drive: DriveSection
@@ -227,7 +227,9 @@ FORMS = ("M0", "kloss", "table", "constant")
 
 
 def check(draft: Draft) -> Iterator[Finding]:
-    """Yield faults unless a drive has one characteristic, the linear one both of its values; a table rises from 0."""
+    """Yield faults unless a drive has exactly one characteristic, a linear one both of its values, and a table rises
+    from 0.
+    """
     drive, where = draft.at("parameters", "motion", "drive"), ("parameters", "motion", "drive")
     if not isinstance(drive, dict):
         return
@@ -268,7 +270,7 @@ def failures(machine: Machine, worked: Sequence[int]) -> Iterator[Finding]:
 
 
 def warnings(machine: Machine) -> Iterator[Finding]:
-    """Find a drive under which the machine runs at another speed than the one that it is calculated for."""
+    """Warn about a drive under which the machine runs at another speed than that of its calculation."""
     motion = true_motion_of(machine)
     if motion is not None and motion.off_speed(machine) > OFF_SPEED:
         words = {"speed": f"{motion.states[motion.main_state].mean:.4g}", "planned": f"{machine.speed:.4g}"}

@@ -33,8 +33,8 @@ def forces_table(report: ReportContext, key: str, caption: str, head: Sequence[s
 
 
 def _rows(report: ReportContext, true: Analysis, k: Position) -> Iterator[Sequence[object]]:
-    """Yield rows for the quantities of points, links, inertia and joints that the report has at constant speed, as
-    printed there.
+    """Yield rows for the quantities of points, links, inertia and joints, as the report prints them for
+    constant speed.
     """
     values = {id: course for id, course in _courses(report, true) if id in report.ledger}
     greatest: dict[str, float] = {}
@@ -47,7 +47,7 @@ def _rows(report: ReportContext, true: Analysis, k: Position) -> Iterator[Sequen
 
 
 def _courses(report: ReportContext, true: Analysis) -> Iterator[tuple[str, np.ndarray]]:
-    """Yield the ids of all that depends on the acceleration, with the true values (SI) [N]."""
+    """Yield the ids of all quantities that depend on the acceleration, with the true values (SI) [N]."""
     for name, point in true.motion.points.items():
         yield ids.acceleration(name), np.abs(point.a)
     for number, link in true.motion.links.items():
@@ -64,9 +64,9 @@ def _courses(report: ReportContext, true: Analysis) -> Iterator[tuple[str, np.nd
 
 
 def _row(report: ReportContext, id: str, true: np.ndarray, k: Position) -> tuple[object, ...]:
-    """Return a quantity with its value at constant speed and the true one of [N], in the decimals of the report.
+    """Return a quantity with its value at constant speed and the true one of [N], with the decimals of the report.
 
-    A value that is negligible at constant speed has the figures of its kind.
+    A value that is negligible at constant speed has the significant figures of its kind.
     """
     ledger = report.ledger
     how, signed = ledger[id].how, ledger[id].is_signed_rotation

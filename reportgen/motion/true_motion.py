@@ -1,4 +1,7 @@
-"""All requested parts of the true motion of a machine: steady with and without its flywheel, start and stop."""
+"""The requested true motion of a machine: steady with and without its flywheel, start and stop.
+
+`motion_in(analysis)` returns it, computed once.
+"""
 
 from __future__ import annotations
 
@@ -22,9 +25,9 @@ from reportgen.motion.steady_running import MotionRun, NoMotionError, SteadyMoti
 NO_INERTIA = 1e-12
 """A reduced moment of inertia below this share of its greatest is zero."""
 LOW, FINER, CLOSER = 1e-2, 16, 7
-"""Minima below this share of the greatest are refined, over so many places on either side, so many times."""
+"""Minima below this share of the greatest are refined: `FINER` angles on either side, `CLOSER` times."""
 OFF_SPEED = 0.1
-"""A machine that runs faster or slower than planned by more than this share is another one: the user is warned."""
+"""The user is warned if a machine runs faster or slower than planned by more than this share."""
 WheelState = Literal["", "wheel"]
 """Without the flywheel, and with it."""
 
@@ -33,8 +36,8 @@ WheelState = Literal["", "wheel"]
 class TrueMotion:
     """The true motion of a machine: its steady motion `alone`, and `wheeled` with the flywheel if it has one.
 
-    `drive` as it acts on the crank, `mean` of the reduced torque (N·m), `wheel` J_d (kg·m²); `started`, `stopped`
-    if they are requested.
+    `drive` is reduced to the crank, `mean` is the mean of the reduced torque (N·m), `wheel` J_d (kg·m²); `started` and
+    `stopped` are None unless requested.
     """
 
     asked: MotionAsked
@@ -48,15 +51,19 @@ class TrueMotion:
 
     @property
     def states(self) -> dict[WheelState, SteadyMotion]:
-        """The steady motions, that without flywheel first."""
+        """The steady motions, the one without the flywheel first."""
         return {"": self.alone} if self.wheeled is None else {"": self.alone, "wheel": self.wheeled}
 
     def off_speed(self, machine: Machine) -> float:
-        """Return the relative difference of the mean speed of the motion that starts and stops from the planned one."""
+        """Return the difference of the mean speed from the planned one, as a share of it, for the motion that starts
+        and stops.
+        """
         return abs(self.states[self.main_state].mean / machine.speed - 1)
 
     def added(self, state: WheelState) -> float:
-        """Return the inertia that turns with the crank besides the links (kg·m²): motor and gear, the flywheel."""
+        """Return the inertia that turns with the crank in addition to the links (kg·m²): motor and gear, the
+        flywheel.
+        """
         return self.asked.inertia + (self.wheel if state else 0.0)
 
     def demand(self, machine: Machine) -> DriveDemand:
@@ -71,7 +78,7 @@ class TrueMotion:
 
     @property
     def main_state(self) -> WheelState:
-        """State of the machine that starts and stops: "wheel" with the flywheel, else ""."""
+        """The state that starts and stops: "wheel" with the flywheel, else ""."""
         return "wheel" if self.asked.wheeled and self.wheeled is not None else ""
 
 
@@ -125,10 +132,10 @@ def _motion(analysis: Analysis) -> TrueMotion:
 
 
 def least_inertia(body: ReducedMachine, path: ReducedTravel) -> tuple[float, float]:
-    """Return the cycle angle (rad) where the reduced moment of inertia is least, and that value (kg·m²).
+    """Return the cycle angle (rad) of the least reduced moment of inertia, and that value (kg·m²).
 
-    It is also searched for between the samples of the way: if all masses are at rest, it touches 0 at a single
-    angle.
+    The search also covers angles between the samples of the path: if all masses are at rest at once, it touches 0 at a
+    single angle.
     """
     angles = np.concatenate((path.angle.ravel(), path.edges[:-1]))
     order = np.argsort(angles)
@@ -152,9 +159,7 @@ def at_positions(machine: Machine, motion: SteadyMotion) -> np.ndarray:
 
 
 def at_true_speeds(analysis: Analysis, steady: SteadyMotion) -> Analysis:
-    """Return the same positions with the angular velocity and acceleration that the crank has there in steady
-    motion.
-    """
+    """Return the analysis of the same positions with the crank's angular velocity and acceleration in steady motion."""
     machine, at = analysis.machine, at_positions(analysis.machine, steady)
     rate, acceleration = machine.turn * steady.run.speed[at], machine.turn * steady.run.acceleration[at]
     motion = solve_motion(machine.linkage, machine.angles(analysis.cycle_angle), rate, acceleration)

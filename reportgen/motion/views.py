@@ -25,9 +25,9 @@ from reportgen.report.quantity_tables import tables
 from reportgen.report.topic_views import ViewHooks, always
 
 RPM = 30 / math.pi
-"""Revolutions a minute of a radian a second."""
+"""Revolutions per minute of one radian per second."""
 MOST_CYCLES = 12
-"""Ends of the cycles of a start that its table shows, the last among them."""
+"""Largest number of ends of cycles in the table of a start, the last one included."""
 
 
 # --- values for templates -----------------------------------------------------------------------------
@@ -51,7 +51,7 @@ def governed(report: ReportContext) -> bool:
 
 
 def inertia_slopes(report: ReportContext) -> list[str]:
-    """Return the components of accelerations along the velocities, the shares of links in J′, and J′."""
+    """Return the ids of the accelerations' components along the velocities, of the links' shares in J′, and of J′."""
     points = (run_ids.along_velocity(body.centre) for body in report.machine.linkage.inertias)
     shares = (run_ids.slope(link) for link in report.machine.linkage.links)
     return report.known([*points, *shares, run_ids.slope()])
@@ -68,7 +68,7 @@ def steady_lines(report: ReportContext, k: int | None = None) -> list[str]:
 
 
 def bound_lines(report: ReportContext, state: str = "") -> list[str]:
-    """Return the ids of the results of the cycle: the mean of the bounds of the speed, their distance, the power."""
+    """Return the ids of the results of the cycle: mean speed, unevenness, period, work, power."""
     names = ("mean", "delta", "period", "work", "power")
     return report.known(run_ids.quantity(name, *([state] if state else [])) for name in names)
 
@@ -78,7 +78,7 @@ def has_wheeled(report: ReportContext) -> bool:
 
 
 def _permitted(report: ReportContext) -> float | None:
-    """Return the permitted unevenness, None if the file does not name any."""
+    """Return the permitted unevenness; None if the file does not give one."""
     regulated = REGULATED_CYCLE.of(report.machine)
     return None if regulated is None else regulated.unevenness
 
@@ -91,9 +91,7 @@ def verdict(report: ReportContext) -> str:
 
 
 def _excess(report: ReportContext) -> float:
-    """Return the share by which the true unevenness exceeds the permitted one, both as printed; negative if it
-    is less.
-    """
+    """Return the share by which the printed true unevenness exceeds the permitted one; negative if it is less."""
     motion, permitted = motion_in(report.analysis), _permitted(report)
     assert permitted is not None, "a verdict names what is permitted"
     printed = report.ledger.number(run_ids.in_state("delta", list(motion.states)[-1]))
@@ -130,9 +128,7 @@ def stops(report: ReportContext) -> bool:
 
 
 def drive_takes(report: ReportContext) -> bool:
-    """Return True if the machine drives the machine coupled to its shaft, as an engine does, rather than being
-    driven.
-    """
+    """Return True if the machine drives the machine on its shaft, as an engine does."""
     return motion_in(report.analysis).alone.work < 0
 
 
@@ -157,10 +153,12 @@ def cycles(report: ReportContext) -> str:
 
 
 def start_angle(report: ReportContext) -> Inlines:
+    """Return the crank angle at which the machine starts; () without a start."""
     return _angle_of(motion_in(report.analysis).asked.start_from)
 
 
 def stop_angle(report: ReportContext) -> Inlines:
+    """Return the crank angle at which the motor is switched off; () without a stop."""
     return _angle_of(motion_in(report.analysis).asked.stop_from)
 
 
@@ -173,7 +171,7 @@ def _degrees(angle: float) -> Number:
 
 
 def extreme_places(report: ReportContext, state: str = "") -> Mapping[str, Inlines]:
-    """Return the angles at which the crank is fastest and slowest: its turn from the first position."""
+    """Return the crank angles from the first position at which the crank is fastest and slowest."""
     motion = motion_of(report)
     steady = motion.states["wheel" if state else ""]
     return {"fastest": _angle_of(steady.fastest.angle), "slowest": _angle_of(steady.slowest.angle)}
@@ -197,7 +195,7 @@ def motion_equations(report: ReportContext) -> Equation:
 
 
 def drive_equations(report: ReportContext) -> Equation:
-    """Return the characteristic of the drive in symbols, as it acts on the crank."""
+    """Return the characteristic of the drive, reduced to the crank, in symbols."""
     ledger = report.ledger
     M, ω = ledger.symbol("run.Md"), Symbol("ω")
     i = ledger.symbol("run.i") if "run.i" in ledger else None
@@ -211,7 +209,7 @@ def drive_equations(report: ReportContext) -> Equation:
 
 
 def drive_formula(report: ReportContext) -> Inlines:
-    """Return the same within a sentence; () for a drive without a formula."""
+    """Return the characteristic for use in a sentence; () for a drive without a formula."""
     if drive_form(report) not in ("linear", "load", "kloss"):
         return ()
     chains = (InlineMath(chain, slashed=True) for chain in drive_equations(report).rows if isinstance(chain, Chain))
@@ -219,7 +217,7 @@ def drive_formula(report: ReportContext) -> Inlines:
 
 
 def drive_points(report: ReportContext) -> Inlines:
-    """Return the torques of a characteristic that is a table, at its speeds; () for another one."""
+    """Return the torques and speeds of a tabled characteristic; () for any other one."""
     motion = motion_in(report.analysis)
     drive = motion.drive
     motor = drive.motor if isinstance(drive, Geared) else drive
@@ -250,26 +248,24 @@ def step_equation(report: ReportContext) -> Equation:
 
 
 def inertia_apart(report: ReportContext) -> bool:
-    """Return True if the reduced moment of inertia has not been worked out in a chapter before."""
+    """Return True if no earlier chapter has calculated the reduced moment of inertia."""
     return report.has_reduced_inertia and reduced_here(report)
 
 
 def reduced_here(report: ReportContext) -> bool:
-    """Return True unless a chapter before has reduced torque and inertia to the crank."""
+    """Return True unless an earlier chapter has reduced torque and inertia to the crank."""
     return REGULATED_CYCLE.of(report.machine) is None
 
 
 def inertia_form(report: ReportContext) -> str:
-    """Return the form of the reduced moment of inertia: it "varies", is "even", or there is only the motor's,
-    "none".
-    """
+    """Return the form of the reduced moment of inertia: it "varies", is "even", or there is "none" but the motor's."""
     if not report.has_reduced_inertia:
         return "none"
     return "varies" if inertia_slopes(report) else "even"
 
 
 def residuals(report: ReportContext) -> dict[str, float]:
-    """Return the deviations of the drive from its characteristic, and of a steady cycle from its beginning, as
+    """Return the differences of the drive from its characteristic, and of a steady cycle's end from its start, as
     shares.
     """
     motion, families = motion_in(report.analysis), report.case.ledger.families
@@ -284,7 +280,9 @@ def residuals(report: ReportContext) -> dict[str, float]:
 
 
 def _of_shown(name: str) -> Callable[[ReportContext], str]:
-    """Return the id of a quantity of the motion that starts, stops and has its forces shown."""
+    """Return a function that returns the id of a quantity in the state that starts and stops, whose forces the report
+    has.
+    """
 
     def of(report: ReportContext) -> str:
         motion = motion_in(report.analysis)
@@ -336,7 +334,7 @@ Head = Sequence[str]
 
 
 def steady_table(report: ReportContext, key: str, caption: str, head: Head) -> tuple[Table | Paragraph, ...]:
-    """Return the steady motion at the positions."""
+    """Return a table of the steady motion at the positions."""
     shared = ["J.r", "run.dJ", "M.r"]
     own = [run_ids.in_state(name, "") for name in ("Md", "T", "omega", "eps", "t")]
     varying = [id for id in report.known([*shared, *own]) if len(report.ledger[id].values) > 1]
@@ -344,18 +342,18 @@ def steady_table(report: ReportContext, key: str, caption: str, head: Head) -> t
 
 
 def wheel_table(report: ReportContext, key: str, caption: str, head: Head) -> tuple[Table | Paragraph, ...]:
-    """Return the same with the flywheel."""
+    """Return a table of the steady motion with the flywheel at the positions."""
     own = report.known(run_ids.in_state(name, "wheel") for name in ("Md", "T", "omega", "eps", "t"))
     return tables(report, key, caption, own, report.all_positions)
 
 
 def steps_table(report: ReportContext, key: str, caption: str, head: Head) -> tuple[Table | Paragraph, ...]:
-    """Return the speed by steps beside the true one."""
+    """Return a table of the speed computed in steps and the true speed."""
     return tables(report, key, caption, ["run.omega", "run.step"], report.all_positions)
 
 
 def start_table(report: ReportContext, key: str, caption: str, head: Head) -> Table:
-    """Return the start at the positions of its first cycle and at the ends of the others."""
+    """Return a table of the start: positions of its first cycle, and the ends of the other cycles."""
     started = motion_of(report).started
     assert started is not None, "a start has a table where it is asked for"
     run, begin = started.run, float(started.run.angle[0])
@@ -375,7 +373,7 @@ def _last_at(run: MotionRun, angle: float, end: int) -> int:
 
 
 def stop_table(report: ReportContext, key: str, caption: str, head: Head) -> Table:
-    """Return the run-down at the positions that it passes, and its end."""
+    """Return a table of the run-down: the positions that it passes, and its end."""
     run = motion_of(report).stopped
     assert run is not None, "a stop has a table where it is asked for"
     whole = report.machine.turns * 2 * math.pi

@@ -1,4 +1,8 @@
-"""Functions that single chapters of a report name: their worked lines, and the keys of the matching words."""
+"""Functions for the templates of single chapters: the ids of the worked lines to print, and the keys of the matching
+phrases.
+
+Each takes the `ReportContext`; `template_names` registers it under its name.
+"""
 
 from __future__ import annotations
 
@@ -15,13 +19,13 @@ UNIFORM = Number(12.0)
 
 
 def variant_words(report: ReportContext) -> str:
-    """The variant in a sentence, with words for one that is not numbered."""
+    """Return the phrase for the variant in a sentence, also for a variant without a number."""
     numbered, assigned = report.words["variant_words"]
     return str(numbered).format(variant=report.variant) if report.variant else str(assigned)
 
 
 def attached(report: ReportContext) -> str:
-    """A further sentence on the drawing sheets that are handed in with the report, if there are any."""
+    """Return a sentence on the drawing sheets that are handed in with the report, or "" if there are none."""
     size = report.assignment.report.sheets
     return f" {report.words['attached'].format(size=size)}" if size else ""
 
@@ -33,54 +37,58 @@ def signature(report: ReportContext) -> tuple[Block, ...]:
 
 
 def started(report: ReportContext) -> str:
-    """The key of the words for where position 1 is: the kind's own place, or a given angle of the crank."""
+    """Return the key of the phrase for position 1: "natural" for the kind's usual place, "given" for a given angle of
+    the crank.
+    """
     return "natural" if report.assignment.positions.start is None else "given"
 
 
 def begins_at(report: ReportContext) -> str:
-    """Return where the first position is: "dead_centre" (of the first slider) or "given"."""
+    """Return the first position's place: "dead_centre" (of the first slider) or "given"."""
     return "dead_centre" if report.machine.sliders and report.machine.sliders[0].phase == 0 else "given"
 
 
 def has_chosen_scale(report: ReportContext) -> bool:
-    """Return True if the length scale is chosen, rather than a drawn length."""
+    """Return True if the length scale is chosen, False if it follows from a drawn length."""
     return "scale" in report.ledger
 
 
 def tabled_forces(report: ReportContext) -> tuple[Applied, ...]:
-    """The working forces that are given by a table."""
+    """Return the kind's working forces that a table gives; none if the force is constant."""
     forces = (force for force in report.machine.applied if force.name not in report.further)
     return () if "P.given" in report.ledger else tuple(forces)
 
 
 def diagram_words(report: ReportContext) -> str:
-    """The key of the words for the indicator diagram, which may be given by measured heights."""
+    """Return the key of the phrases for the indicator diagram: "ordinates" if measured heights give it, else
+    "indicator".
+    """
     return "ordinates" if isinstance(report.assignment.indicator, ByOrdinates) else "indicator"
 
 
 def gas_forces(report: ReportContext) -> list[str]:
-    """The pressure on each piston and the force of the gas."""
+    """Return the ids of the pressure on each piston and of the gas force."""
     return report.known(id for piston in report.pistons for id in (ids.pressure(piston.link), piston.name))
 
 
 def without_mass(report: ReportContext) -> list[str]:
-    """The links whose mass is not given."""
+    """Return the numbers of the links without a given mass."""
     links = sorted({1, *(link for group in report.groups for link in (group.i, group.j))})
     return [str(link) for link in links if ids.mass(link) not in report.mass_lines]
 
 
 def further_loads(report: ReportContext) -> list[str]:
-    """The loads that are declared beside those of the kind."""
+    """Return the ids of the loads that the file declares in addition to those of the kind."""
     return report.known(row.id for row in report.own["declared"])
 
 
 def topic_loads(report: ReportContext) -> list[str]:
-    """Return the loads that topics bring."""
+    """Return the ids of the loads that topics add."""
     return report.known(report.machine.beside)
 
 
 def uniform_rods(report: ReportContext) -> list[str]:
-    """The links whose moment of inertia is that of a uniform rod, J = m l²/12, for want of a given one."""
+    """Return the links whose moment of inertia is not given and so is that of a uniform rod, J = m l²/12."""
     moments = {
         link: report.ledger[id].definition for link in report.bodies if (id := ids.inertia(link)) in report.ledger
     }
@@ -88,25 +96,29 @@ def uniform_rods(report: ReportContext) -> list[str]:
 
 
 def driver_joints(report: ReportContext) -> list[str]:
-    """The digits of what is read from the driver's force plan: a reaction, of a sliding one its balance too."""
+    """Return the digits of the reactions read from the driver's force plan; a sliding driver adds its balancing force
+    "cb".
+    """
     return ["01", "cb"] if report.machine.span else ["01"]
 
 
 def driver_reactions(report: ReportContext) -> list[str]:
+    """Return the ids of the reactions read from the driver's force plan."""
     return [ids.reaction(digits) for digits in driver_joints(report)]
 
 
 def mean_lines(report: ReportContext) -> list[str]:
-    """The balance over the cycle: its mean, its ends, the power."""
+    """Return the ids of the balancing torque's mean and extremes over the cycle, and of the power."""
     return ["M.mean", "M.least", "M.greatest", "power"]
 
 
 def work_lines(report: ReportContext) -> list[str]:
-    """The work of the loads over the cycle, and the mean that gives it back."""
+    """Return the ids of the loads' work over the cycle and of the mean torque that does the same work."""
     return ["W", "M.energy"]
 
 
 def crank_lines(report: ReportContext) -> list[str]:
+    """Return the ids of the arms about the crank's centre and of the balancing torque."""
     return [*report.crank_arms, "M.eq"]
 
 
@@ -121,18 +133,18 @@ def lever_couples(report: ReportContext) -> list[str]:
 
 
 def inertia_parts(report: ReportContext) -> list[str]:
-    """The shares of the links in the reduced moment of inertia, and their sum."""
+    """Return the ids of the links' shares in the reduced moment of inertia, and of their sum."""
     return report.known([*(ids.reduced_inertia(link) for link in report.machine.linkage.links), "J.r"])
 
 
 def images(report: ReportContext) -> Inlines:
-    """The images of the crank pin on the plans, for the conventions: a and a′."""
+    """Return the images of the crank pin on the two plans, a and a′, for the conventions."""
     pin = report.driver.pin
     return listed([InlineMath(on_plan(pin)), InlineMath(on_plan(pin, prime=True))])
 
 
 def theory_of(report: ReportContext, what: str) -> list[str]:
-    """Return the parts of the theory that this report's plans of velocities ("v") or accelerations ("a") use."""
+    """Return the theory sections that this report's plans of velocities ("v") or accelerations ("a") use."""
     points = [place for place in report.machine.linkage.points if place.link != DRIVER]
     if what == "v":
         return report.parts("theory-two-equations") if any(abs(place.local.imag) > 0 for place in points) else []

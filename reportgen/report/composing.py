@@ -19,13 +19,13 @@ from reportgen.report.named_tables import table
 from reportgen.report.template_names import names
 
 LISTING = "symbols"
-"""The section of what all others use."""
+"""The section that lists the symbols of all other sections."""
 OWN_LETTERS = "structure"
-"""Section of the formula of mobility, whose letters are explained below it: its W is not the work."""
+"""The section of the mobility formula.  It explains its letters itself: its W is not the work."""
 
 
 def compose(case: MachineAnalysis) -> Document:
-    """The finished, numbered report of a machine; raises `TemplateError` for a fault in its words."""
+    """Return the finished, numbered report of a machine.  Raises `TemplateError` for a fault in its templates."""
     report = ReportContext(case)
     words, named = report.words, names(report)
     written: dict[str, Sequence[Block]] = {}
@@ -47,6 +47,6 @@ def compose(case: MachineAnalysis) -> Document:
 
 
 def _plate_is_last(report: ReportContext, plate: Plate) -> Paragraph:
-    """Return the sentence that refers the reader to a plate."""
+    """Return the sentence that refers the reader to a plate at the end of the report."""
     paper = PAPERS.get(min(plate.paper), "")
     return Paragraph(phrases.say(report, report.words["plate"], figure=(Reference(plate.key),), paper=paper))

@@ -1,6 +1,6 @@
-"""One report: the data that its templates, tables and figures share.
+"""`ReportContext`: the data that all templates, tables and figures of one report share.
 
-The namespace lists the members that templates may name, with the functions, tables and figures made of them.
+`template_names.names` lists the members that templates may name.
 """
 
 from __future__ import annotations
@@ -32,26 +32,27 @@ from reportgen.report.link_views import BodyView, DriverView, GroupView, PlaneLi
 from reportgen.report.report_extents import LEFT_OUT, OF_A_TURN, OPENING
 
 PLATES_UP_TO = 24
-"""Above this many positions of a turn, plates are drawn for worked ones only, and not all are shown."""
+"""Above this many positions of a turn, plates show the worked positions only, and tables leave out some positions."""
 DENSE = 361
-"""Samples of a turn from which curves are drawn."""
+"""Number of samples of a turn from which curves are drawn."""
 
 
 @dataclass(frozen=True)
 class ReportContext:
-    """A case with its prose.
+    """A case together with the data and phrases that its report needs.
 
-    Its figures are drawn so much smaller than their scales say as they are `enlarged` afterwards, with their letters,
-    on a drawing sheet.  Curves are drawn from `samples` of the cycle if they are given.
+    `enlarged` is the factor by which figures are later enlarged for a drawing sheet, with their letters; until then
+    they are drawn smaller than their scales by this factor.  Curves are drawn from `samples` of the cycle if they are
+    given.
     """
 
     case: MachineAnalysis
     enlarged: float = 1.0
     samples: Analysis | None = None
     used_symbols: frozenset[Symbol] | None = None
-    """The symbols that its text uses, once it is written."""
+    """The symbols that the text uses; None until the text is written."""
 
-    # --- what it is made of
+    # --- its parts
 
     @cached_property
     def prose(self) -> Prose:
@@ -75,7 +76,7 @@ class ReportContext:
 
     @property
     def ledger(self) -> Ledger:
-        """Every number as it is written down."""
+        """The quantities with every number as the report prints it."""
         return self.case.printed
 
     @cached_property
@@ -91,12 +92,12 @@ class ReportContext:
 
     @property
     def area(self) -> Area | None:
-        """The room that curves have on a drawing sheet, where their scales are round and printed."""
+        """The room for curves on a drawing sheet, where their scales are round and printed; None in the report."""
         return None if self.enlarged == 1.0 else Area(enlarged=self.enlarged, mm=self.ledger.printed_unit("mm"))
 
     @cached_property
     def dense_cycle(self) -> Analysis:
-        """The whole analysis over the cycle, finely, the numbered positions among the samples."""
+        """The analysis at closely spaced angles of the cycle; the numbered positions are among them."""
         if self.samples is not None:
             return self.samples
         own = self.machine.cycle_angles
@@ -105,15 +106,15 @@ class ReportContext:
         between = np.abs(grid[:, None] - own).min(axis=1) > SAME_ANGLE
         return analyse(self.machine, np.sort(np.concatenate((grid[between], own))))
 
-    # --- how much it contains
+    # --- its extent
 
     def parts(self, *names: str) -> list[str]:
-        """Return the given sections or parts of sections that a report of this extent has, in order."""
+        """Return those of the given sections and parts of sections that a report of this extent contains, in order."""
         return [name for name in names if name not in self._left_out]
 
     @cached_property
     def _left_out(self) -> frozenset[str]:
-        """The sections and parts that a report of this extent goes without."""
+        """The sections and parts that a report of this extent leaves out."""
         topics = tuple(sections_of(self.machine.topics))
         extent = self.assignment.report.extent
         left_out = LEFT_OUT[extent]
@@ -130,7 +131,7 @@ class ReportContext:
         return self.parts(*dict.fromkeys([*opening, *every]))
 
     def _outline(self) -> Iterator[str]:
-        """The machine's outline, the section on instant centres behind the velocities if any link has one."""
+        """Yield the machine's outline, with the section on instant centres after the velocities if a link has one."""
         for section in self.machine.outline:
             yield section
             if self.plane_links and section == "velocity":
@@ -140,7 +141,7 @@ class ReportContext:
 
     @property
     def extent_words(self) -> str:
-        """Name of the requested extent, in a sentence."""
+        """Name of the requested extent, for use in a sentence."""
         return str(self.words["extents"][self.assignment.report.extent])
 
     # --- the assignment in words
@@ -156,11 +157,11 @@ class ReportContext:
 
     @property
     def turn_words(self) -> str:
-        """The sense of the driver's rotation."""
+        """The phrase for the sense of the driver's rotation."""
         return self.sense(self.machine.turn)
 
     def sense(self, value: float) -> str:
-        """The sense of a rotation (rad/s, or any other unit); a dash where there is none."""
+        """Return the phrase for the sense of a rotation (of any unit): anticlockwise if positive, a dash for 0."""
         words = self.words["sense"]
         return str(words["none"] if value == 0 else words["anticlockwise"] if value > 0 else words["clockwise"])
 
@@ -187,12 +188,12 @@ class ReportContext:
 
     @property
     def weighed(self) -> bool:
-        """Return True if weights act; False in a horizontal plane."""
+        """Return True if weights act, False in a horizontal plane."""
         return self.machine.linkage.gravity != 0
 
     @property
     def count(self) -> int:
-        """Positions of one turn."""
+        """Number of positions of one turn."""
         return self.machine.count
 
     @property
@@ -201,17 +202,17 @@ class ReportContext:
 
     @property
     def even_count(self) -> int:
-        """Evenly spaced positions of one turn."""
+        """Number of evenly spaced positions of one turn."""
         return self.assignment.positions.number
 
     @property
     def even_cycle_count(self) -> int:
-        """Evenly spaced positions of the cycle."""
+        """Number of evenly spaced positions of the cycle."""
         return int(self.machine.even.sum())
 
     @property
     def thinned(self) -> int:
-        """Tables and drawings show one position in so many, and the worked ones; 0 where they show all."""
+        """Tables and drawings show every n-th evenly spaced position and the worked ones: n, or 0 if they show all."""
         step = -(-self.even_count // PLATES_UP_TO)
         return step if step > 1 else 0
 
@@ -228,51 +229,51 @@ class ReportContext:
 
     @property
     def load_positions(self) -> tuple[Position, ...]:
-        """The positions at which the loads are given: those of the cycle that are shown, or the worked ones."""
+        """The positions at which the loads are given: all that are shown, or only the worked ones in a short report."""
         return self.all_positions if self.parts("loads-everywhere") else self.worked_forces
 
     @property
     def worked(self) -> tuple[Position, ...]:
-        """The positions of one turn whose motion is worked out in full."""
+        """The positions of one turn whose motion is calculated in full."""
         count = self.machine.count
         return self.machine.numbered(dict.fromkeys((k - 1) % count + 1 for k in self.assignment.worked_positions))
 
     @property
     def worked_forces(self) -> tuple[Position, ...]:
-        """The positions of the cycle whose forces are worked out in full."""
+        """The positions of the cycle whose forces are calculated in full."""
         return self.machine.numbered(self.assignment.worked_positions)
 
     @property
     def plates(self) -> tuple[int, ...]:
-        """Positions whose plans are drawn: all of the cycle, or the worked ones in a short report or of very many."""
+        """The positions whose plans are drawn: all, or the worked ones if the report is short or they are many."""
         if self.assignment.positions.number <= PLATES_UP_TO and self.parts("velocity-plates"):
             return tuple(range(1, self.assignment.cycle_positions + 1))
         return self.assignment.worked_positions
 
     def first_turn(self, k: Position) -> Position | None:
-        """The position of the first turn that one of a later turn repeats in its motion; None in the first turn."""
+        """Return the position of the first turn that a position of a later turn repeats; None in the first turn."""
         return self.machine.position((k - 1) % self.count + 1) if k > self.count else None
 
     # --- the machine
 
     @property
     def own(self) -> Mapping[str, Any]:
-        """Names that only the words of this kind of machine use."""
+        """Values that only the templates of this kind of machine use."""
         return self.machine.facts
 
     @cached_property
     def sheet(self) -> Mapping[str, list[str]]:
-        """Ids of the lines that the machine's sheet sets out together, by name: `lines(sheet.velocity, k)`."""
+        """Ids of the lines that the calculation prints together, by name: `lines(sheet.velocity, k)`."""
         return {name: self.known(lines) for name, lines in self.ledger.lines.items()}
 
     @property
     def given_names(self) -> Mapping[str, str]:
-        """Given quantities, in words, by id; a declared linkage names its quantities itself."""
+        """Descriptions of the given quantities by their ids.  A declared linkage describes its own quantities."""
         if "quantities" not in self.own:
             names = dict(self.words.get("given", {}))
             beside = {**self.words["given_of_crank"], **self.words["given_of_topics"]}
             further = {id: name for id, name in beside.items() if id not in names}
-            # The acceleration of the crank is told behind its speed.
+            # The acceleration of the crank follows its speed in the list.
             places = [*names].index("omega.1") + 1 if "omega.1" in names else len(names)
             ordered = list(names.items())
             return dict((*ordered[:places], *further.items(), *ordered[places:]))
@@ -289,7 +290,7 @@ class ReportContext:
 
     @property
     def lengths(self) -> list[str]:
-        """The true lengths that have a drawn one, in the machine's own order if it has one; then mass centres."""
+        """Ids of the true lengths that have a drawn one, in the kind's order if it has one; then the mass centres."""
         own, places = (self.sheet.get(name, ()) for name in ("lengths", "places"))
         single = [id for id, family in self.ledger.families.items() if len(family.values) == 1]
         drawn = [id for id in single if (found := ids.length.read(id)) and ids.drawn.of(found) in single]
@@ -297,12 +298,12 @@ class ReportContext:
 
     @property
     def drawn_lines(self) -> list[str]:
-        """Names of the lines that have those lengths, by their ends."""
+        """Names of the lines with those lengths, by their end points."""
         return [found["line"] for id in self.lengths if (found := ids.length.read(id))]
 
     @property
     def drawn_crank(self) -> float | None:
-        """The length of the crank on paper (mm); None where the driver slides."""
+        """The length of the crank on paper (mm); None if the driver slides."""
         driver = self.machine.linkage.driver
         return driver.length / float(self.ledger["mu.l"].values[0]) * MM if isinstance(driver, Crank) else None
 
@@ -312,7 +313,7 @@ class ReportContext:
 
     @property
     def turn_sense(self) -> str:
-        """The key of the words for the sense of the driver's rotation."""
+        """The key of the phrase for the sense of the driver's rotation."""
         return "anticlockwise" if self.machine.turn > 0 else "clockwise"
 
     @property
@@ -327,12 +328,12 @@ class ReportContext:
 
     @property
     def has_gas(self) -> bool:
-        """Return True if the pressure in any cylinder differs from that of the outside air."""
+        """Return True if the pressure in any cylinder differs from the ambient pressure."""
         return any(piston.name not in self.machine.idle for piston in self.pistons)
 
     @property
     def all_zero(self) -> bool:
-        """Return True if masses or loads are given, but are all zero."""
+        """Return True if masses or loads are given but all of them are zero."""
         given = any(id in ids.weight or id in ids.mass for id in self.ledger.families)
         return not self.has_forces and (bool(self.machine.idle) or given)
 
@@ -349,22 +350,22 @@ class ReportContext:
 
     @property
     def further(self) -> frozenset[str]:
-        """The loads that the file gives beside those of its kind: declared ones, those of topics."""
+        """Ids of the loads that the file or a topic adds to those of the kind."""
         return frozenset((*(row.id for row in self.own.get("declared", ())), *self.machine.beside))
 
     @property
     def has_own_load(self) -> bool:
-        """Return True if a force or a torque specific to this kind acts, beside which others are further ones."""
+        """Return True if a force or torque of the kind itself acts, so that others are further ones."""
         return any(load.name not in self.further for load in self.loads)
 
     @property
     def has_force(self) -> bool:
-        """Return True if a working force specific to this kind acts, constant or not."""
+        """Return True if a working force of the kind itself acts, constant or not."""
         return any(force.name not in self.further for force in self.machine.applied)
 
     @property
     def has_forces(self) -> bool:
-        """Return True if anything loads the machine, weights and inertia included."""
+        """Return True if any load acts, weights and inertia included, so that there is a force analysis."""
         return "M.eq" in self.ledger
 
     @property
@@ -379,22 +380,22 @@ class ReportContext:
 
     @cached_property
     def computed(self) -> frozenset[str]:
-        """The ids of what has a formula."""
+        """Ids of the quantities that a formula gives."""
         return frozenset(id for id, family in self.ledger.families.items() if family.definition is not None)
 
     # --- motion
 
     def place(self, point: str, k: int) -> complex:
-        """Return the place of a point at a position (m)."""
+        """Return the place of a point at position `k` (m, as x + iy)."""
         return complex(self.ledger[ids.place(point)].at(k))
 
     def known(self, quantities: Iterable[str]) -> list[str]:
-        """Return the given ids that the ledger knows, each once."""
+        """Return those of the given ids that the ledger contains, each once."""
         return self.ledger.known(quantities)
 
     @cached_property
     def plane_links(self) -> tuple[PlaneLink, ...]:
-        """The links that turn about no fixed point and are no mere sliders, in the order of assembly."""
+        """The links in plane motion, in assembly order: they neither turn about a fixed point nor only slide."""
         owner = {link: group.name for group in self.groups for link in (group.i, group.j)}
         turns = links_in_plane_motion(scheme(self.machine.linkage))
         return tuple(PlaneLink(turn, owner[turn.link]) for turn in turns)
@@ -407,7 +408,7 @@ class ReportContext:
 
     @property
     def slider_senses(self) -> Mapping[str, complex]:
-        """The unit vectors along which the motion of sliders on the ground counts as positive, by their pins."""
+        """Unit vectors along which the motion of sliders on the frame counts as positive, by the sliders' pins."""
         guides = {group.Q: complex(self.ledger[ids.guide(group.j)].values[0]) for group in self.sliding}
         return {pin: self.machine.positive.get(pin, along) for pin, along in guides.items()}
 
@@ -415,7 +416,7 @@ class ReportContext:
 
     @property
     def bodies(self) -> list[str]:
-        """The links that have mass."""
+        """Numbers of the links that have mass."""
         return [str(body.link) for body in self.machine.linkage.inertias]
 
     @property
@@ -428,12 +429,12 @@ class ReportContext:
 
     @cached_property
     def couples(self) -> tuple[BodyView, ...]:
-        """Links whose inertia is a force and a couple, replaced by one force off the mass centre."""
+        """The links whose inertia is a force and a couple, replaced by a single force off the mass centre."""
         return displaced_inertia(self.machine.linkage, self.groups, self.ledger)
 
     @property
     def displaced_reactions(self) -> bool:
-        """Return True if the reaction of any slide may act beside its pin."""
+        """Return True if the reaction of any slide may act at a distance from its pin."""
         joints = [joint for group in self.groups for joint in (group.outer, group.inner, group.guide)]
         return any(ids.reaction_couple(joint) in self.computed for joint in joints)
 
@@ -447,49 +448,52 @@ class ReportContext:
 
     @property
     def on_crank(self) -> frozenset[str]:
-        """The forces of the driver's force plan."""
+        """Names of the forces in the driver's force plan."""
         return frozenset(edge.name for edge in self.driver_polygon.edges) if self.driver_polygon else frozenset()
 
     @property
     def joined(self) -> list[GroupView]:
-        """The groups that hang on the driver."""
+        """The groups that are joined to the driver."""
         return [group for group in self.groups if group.carrier == 1]
 
     def arms_about(self, point: str) -> list[str]:
+        """Return the ids of the arms of forces about a point."""
         return [id for id, family in self.ledger.families.items() if family.arm and family.about == point]
 
     @property
     def crank_arms(self) -> list[str]:
-        """Arms of the forces on the driver about its centre."""
+        """Ids of the arms of the forces on the driver about its centre."""
         return self.arms_about(self.driver.centre)
 
     @property
     def crank_pins(self) -> list[str]:
-        """The crank's pin, and further points of the crank that a group hangs on."""
+        """Names of the crank's pin and of further points of the crank to which groups are joined."""
         hung = {pin for group in self.groups for pin in (group.P, group.T)}
         return [self.driver.pin, *(place.name for place in self.driver.others if place.name in hung)]
 
     @property
     def has_reduced_inertia(self) -> bool:
-        """Return True if moving links have mass, which the flywheel's calculation reduces to the crank."""
+        """Return True if moving links have mass, so that the ledger has the reduced moment of inertia."""
         return "J.r" in self.ledger
 
     # --- quantities and points by name
 
     def force_symbol(self, name: str) -> Symbol:
-        """The symbol of a force of a plan: of a load, or of a reaction R12, R12.t."""
+        """Return the symbol of a force of a plan: a load, or a reaction such as R12 or its component R12.t."""
         return self.ledger.symbol(self.ledger[ids.force_vector(name)].of)
 
     def force_vector(self, name: str) -> Symbol:
+        """Return the symbol of a force of a plan with an arrow."""
         return vocabulary.vector(self.force_symbol(name))
 
     def balance_symbol(self) -> Symbol:
-        """M_cb or P_cb, whichever of the two ways it is reached by."""
+        """Return M_cb or P_cb, without the index of the method that gives it."""
         return replace(self.ledger.symbol("M.eq"), sup="")
 
     def named(self, symbol: Symbol) -> Symbol:
-        """A symbol that is no quantity's, with its indices in the report's language."""
+        """Return a symbol that does not belong to a quantity, with its indices in the report's language."""
         return vocabulary.in_language(symbol, self.words["symbols"])
 
     def is_zero(self, id: str, k: int | None = None) -> bool:
+        """Return True if a quantity, as printed, is zero at position `k`, or at all if it is constant."""
         return bool(self.ledger.number(id, k).value == 0)

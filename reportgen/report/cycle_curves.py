@@ -1,4 +1,7 @@
-"""Curves over the cycle: motion, torque, load of the crank pins, and the diagrams of the flywheel."""
+"""Figures of quantities over the cycle: motion, balancing torque, and the load of each crank pin as a polar diagram.
+
+`axis`, `over_a_turn` and `over_the_cycle` are shared with the topics.
+"""
 
 from __future__ import annotations
 
@@ -28,17 +31,17 @@ from reportgen.report.template_equations import heading_words
 
 
 def axis(report: ReportContext, symbol: Symbol, kind: str) -> Chain:
-    """Return the label of an axis: the symbol that the text uses, and its unit in parentheses."""
+    """Return the label of an axis: the symbol that the text uses, with the unit of the quantity kind in parentheses."""
     return Chain((symbol,), report.ledger.printed_unit(KINDS[kind].unit))
 
 
 def axis_of(report: ReportContext, id: str) -> Chain:
-    """The axis of a quantity."""
+    """Return the axis label of a quantity of the ledger."""
     return axis(report, report.ledger.symbol(id), report.ledger[id].kind)
 
 
 def driver_axis(report: ReportContext, angle: str = "cycle_angle") -> Chain:
-    """The axis along which the driver moves: its angle, of a sliding driver its way."""
+    """Return the axis label of the driver's motion: its angle, or the travel of a sliding driver."""
     words, slides = report.words["figure"], bool(report.machine.span)
     return Chain((Symbol("s"),), words["way"]) if slides else Chain((Symbol("φ"),), words[angle])
 
@@ -47,11 +50,11 @@ def driver_axis(report: ReportContext, angle: str = "cycle_angle") -> Chain:
 
 
 ShownCurve = tuple[Symbol, np.ndarray]
-"""A curve: its symbol and its values in the unit of its axis."""
+"""A curve: its symbol and its values [N] in the unit of its axis."""
 
 
 def motion(report: ReportContext) -> FigureScenes:
-    """Displacement, velocity and acceleration of what slides on the ground, ω and ε of what turns, over one turn."""
+    """Draw displacement, velocity and acceleration of the sliders, and ω and ε of the turning links, over one turn."""
     charted = curves_of_motion(report)
     return FigureScenes(
         tuple(over_a_turn(report, curves, title, half=len(charted) > 1).scene for curves, title in charted)
@@ -59,7 +62,9 @@ def motion(report: ReportContext) -> FigureScenes:
 
 
 def curves_of_motion(report: ReportContext) -> list[tuple[list[ShownCurve], Chain]]:
-    """The curves of each chart of the motion, with the name of its axis."""
+    """Return the curves of each chart of the motion, with the label of its axis; charts without a curve are
+    left out.
+    """
     moved = report.dense_cycle.motion
     along = report.slider_senses
     spins = scheme(report.machine.linkage).spins
@@ -86,18 +91,20 @@ def curves_of_motion(report: ReportContext) -> list[tuple[list[ShownCurve], Chai
 
 
 def headings(report: ReportContext, ways: Iterable[complex]) -> list[str]:
-    """Directions [N] of any length in words, each once."""
+    """Return the directions of vectors (x + iy, of any length and unit) in words, each once."""
     return list(dict.fromkeys(heading_words(report, math.degrees(cmath.phase(way))) for way in ways))
 
 
 def _positive(report: ReportContext, title: Chain, sense: str) -> Chain:
-    """The title of an axis with the sense in which its quantity is positive; plain where curves differ in it."""
+    """Return an axis label with the sense in which its quantity is positive, or unchanged if `sense` is ""."""
     note = str(report.words["figure"]["positive"]).format(title=title.note, sense=sense)
     return replace(title, note=note) if sense else title
 
 
 def _displacements(report: ReportContext) -> list[ShownCurve]:
-    """Return the distance (mm) of each slider from its first dead centre, or else from the far end of its guide."""
+    """Return the distance (mm) [N] of each slider from its first dead centre, or from the far end of its guide if it
+    has none.
+    """
     courses = {course.link: course for course in report.machine.sliders}
     moved, curves = report.dense_cycle.motion, []
     for slider in sliders(report):
@@ -109,14 +116,14 @@ def _displacements(report: ReportContext) -> list[ShownCurve]:
 
 
 def _marks(report: ReportContext) -> tuple[int, ...]:
-    """Return the indices of the samples of the dense cycle that are the positions shown."""
+    """Return the indices of the samples of the dense cycle at which numbered positions are marked."""
     angles = report.machine.cycle_angles[[k - 1 for k in report.all_positions]]
     places = np.searchsorted(report.dense_cycle.cycle_angle, angles)
     return tuple(map(int, places))
 
 
 def _across(report: ReportContext) -> np.ndarray:
-    """Return the abscissae of the samples: the angle turned (degrees), or the way of a sliding driver (mm)."""
+    """Return the abscissae of the samples [N]: the angle turned (°), or the travel of a sliding driver (mm)."""
     angle, span = report.dense_cycle.cycle_angle, report.machine.span
     return angle * (span * MM / FULL_TURN) if span else np.degrees(angle)
 
@@ -124,7 +131,7 @@ def _across(report: ReportContext) -> np.ndarray:
 def over_a_turn(
     report: ReportContext, curves: Sequence[ShownCurve], title: Chain, half: bool = False
 ) -> charts.Plotted:
-    """Curves over one turn of the driver, the numbered positions marked."""
+    """Plot curves over one turn of the driver, with marks at the numbered positions."""
     count = int(np.searchsorted(report.dense_cycle.cycle_angle, FULL_TURN + SAME_ANGLE))
     slides = bool(report.machine.span)
     x, marks = _across(report)[:count], _marks(report)[: len(report.positions)]
@@ -136,7 +143,7 @@ def over_a_turn(
 def over_the_cycle(
     report: ReportContext, curves: Sequence[ShownCurve], title: Chain, half: bool = False
 ) -> charts.Plotted:
-    """Curves over the whole cycle, the numbered positions marked."""
+    """Plot curves over the whole cycle, with marks at the numbered positions."""
     series = tuple(PlottedCurve(shown, _across(report), values, _marks(report)) for shown, values in curves)
     diagram = Diagram(series, driver_axis(report), title, turn=not report.machine.span)
     return charts.plotted(diagram, half=half, area=report.area)
@@ -146,12 +153,12 @@ def over_the_cycle(
 
 
 def torque(report: ReportContext) -> FigureScenes:
-    """Draw the balancing load: a torque over the angle of a crank, or a force over the way of a slider."""
+    """Draw the balancing torque over the crank angle, or the balancing force over the travel of a slider."""
     return FigureScenes((torque_chart(report).scene,))
 
 
 def torque_chart(report: ReportContext, half: bool = False) -> charts.Plotted:
-    """The curve of what balances the driver, with its mean."""
+    """Plot the balancing torque or force over the cycle, with its mean."""
     ledger, slides = report.ledger, bool(report.machine.span)
     curve = PlottedCurve(report.balance_symbol(), _across(report), report.dense_cycle.torque, _marks(report))
     levels = ((ledger.number("M.mean").value, ledger.symbol("M.mean")),) if report.cyclic else ()
@@ -165,9 +172,9 @@ def torque_chart(report: ReportContext, half: bool = False) -> charts.Plotted:
 
 
 def polar(report: ReportContext) -> FigureScenes:
-    """The load of each crank pin in axes that turn with the crank, its radius upwards.
+    """Draw the load of each crank pin in axes that turn with the crank, with the crank's radius upwards.
 
-    Where several links hang on one pin, each of their reactions has its diagram, and their resultant.
+    If several links share a pin, each of their reactions has its own diagram, and so has their resultant.
     """
     fine, names = report.dense_cycle, report.words["figure"]
     numbers = tuple(map(str, report.all_positions))

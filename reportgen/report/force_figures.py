@@ -1,4 +1,7 @@
-"""Figures of forces: separated links, the driver, Zhukovsky's lever."""
+"""Figures of forces on the mechanism: separated links, the driver, Zhukovsky's lever.
+
+The force plans are in `plan_figures`.
+"""
 
 from __future__ import annotations
 
@@ -32,7 +35,7 @@ from reportgen.report.slider_faces import at_ends, face, wide_sliders_of
 
 @dataclass(frozen=True, slots=True)
 class _Bodies:
-    """Links of a machine at a position, to a share of μ_l, with what acts on them."""
+    """Links of a machine at a position, drawn to a `share` of μ_l, with the forces on them."""
 
     report: ReportContext
     k: int
@@ -41,7 +44,7 @@ class _Bodies:
 
     @property
     def scale(self) -> float:
-        """mm of paper for a metre."""
+        """mm of paper per metre."""
         return drawing_scale(self.report) * self.share
 
     def at(self, name: str) -> complex:
@@ -49,6 +52,7 @@ class _Bodies:
         return self.report.place(name, self.k) * self.scale
 
     def scene(self, forces: Sequence[Force], extra: Canvas | None = None, **more: Any) -> Scene:
+        """Draw the links with some forces."""
         report, look = self.report, looks(self.report, self.scale, self.share)
         machine, motion = report.machine.linkage, report.analysis.motion
         drawn = self.wide_sliders() + (extra or Canvas())
@@ -57,14 +61,14 @@ class _Bodies:
         )
 
     def wide_sliders(self) -> Canvas:
-        """The faces of the links that are sliders as wide as is given, each with what holds it at its pin."""
+        """Return the faces of the wide sliders among the links, each with the arm to its pin."""
         items: list[Item] = []
         for link in (link for link in self.links if link in wide_sliders_of(self.report)):
             items += face(self.report, link, self.k, self.scale)
         return Canvas(tuple(items))
 
     def loads(self) -> list[Force]:
-        """Loads on the links; a force with a couple acts at the one point where it alone does both."""
+        """Return the loads on the links.  A force with a couple acts at the one point where it replaces both."""
         return [
             Force(
                 self.report.force_vector(load.name),
@@ -78,7 +82,7 @@ class _Bodies:
         ]
 
     def couples(self) -> list[Couple]:
-        """Torques, and couples whose force is zero."""
+        """Return the torques on the links, and the couples without a force."""
         report, index, result = self.report, self.k - 1, []
         for load in report.analysis.loads:
             if load.link not in self.links or load.couple[index] == 0:
@@ -91,7 +95,10 @@ class _Bodies:
         return result
 
     def of_guides(self, group: GroupView) -> list[Couple]:
-        """Couples of guides without a force, on the links of a group; the one between both links on a link alone."""
+        """Return the couples of guides without a force on the links of a group.
+
+        The couple between both links is included only if a single link is drawn.
+        """
         report, k = self.report, self.k
         return [
             couple
@@ -103,7 +110,7 @@ class _Bodies:
         ]
 
     def couples_found_before(self, polygon: Polygon) -> list[Couple]:
-        """Couples of guides without a force that other groups leave on the links of a force plan."""
+        """Return the couples of guides without a force that groups solved before exert on the links."""
         report, k = self.report, self.k
         return [
             couple
@@ -113,18 +120,18 @@ class _Bodies:
         ]
 
     def arms(self, known: Sequence[str], pin: str) -> list[ArmOf]:
-        """The arms about a pin that are not zero."""
+        """Return those arms of forces about a pin that are not zero."""
         return [arm_of(self.report, id, self.k, self.at(pin)) for id in known if not self.report.is_zero(id, self.k)]
 
     # --- reactions
 
     def reaction(self, name: str, at: complex) -> Force:
-        """A reaction R12, or a component R12.t of one, in its true sense at a place (mm)."""
+        """Return a reaction R12, or its component R12.t, in its true sense at a place (mm)."""
         direction = true_sense(self.report, name, self.k)
         return Force(self.report.force_vector(name), at, direction, "reaction", name)
 
     def found_before(self, polygon: Polygon) -> list[Force]:
-        """Reactions of other groups on the links of a force plan, found before."""
+        """Return the reactions that groups solved before exert on the links of a force plan."""
         reactions = []
         for edge in polygon.carried:
             if edge.link in self.links:
@@ -134,7 +141,7 @@ class _Bodies:
         return reactions
 
     def outer(self, group: GroupView, link: int) -> list[Force]:
-        """The reaction in the outer joint of a group's link, by components where moments gave one of them."""
+        """Return the reaction in the outer joint of a group's link, by components if moments gave one of them."""
         first = link == group.i
         digits = group.outer if first else group.guide
         pin = group.P if first else group.T or group.Q
@@ -145,8 +152,8 @@ class _Bodies:
         return [self.reaction(name, self.at(pin)) for name in (parts if by_parts else [whole])]
 
     def inner(self, group: GroupView, link: int) -> Force:
-        """The reaction in the inner joint on one link of the group."""
-        # Of an RPP the inner joint is the slide of the block, which stands at its pin.
+        """Return the reaction in the inner joint on one link of the group."""
+        # The inner joint of an RPP is the slide of its block, which is drawn at the pin of the block.
         at, on_i = self.at(group.P if group.kind == "RPP" else group.Q), link == group.i
         sense = true_sense(self.report, ids.reaction_force(group.inner), self.k) * (1 if on_i else -1)
         digits = group.inner if on_i else group.across
@@ -154,13 +161,13 @@ class _Bodies:
 
 
 def arm_of(report: ReportContext, id: str, k: int, about: complex) -> ArmOf:
-    """An arm as it is printed, its foot `about` a point of the paper (mm)."""
+    """Return an arm with its printed length; its foot is `about`, a point of the paper (mm)."""
     length = report.ledger.number(id, k, size=True).value / report.enlarged
     return ArmOf(report.ledger.symbol(id), about, report.ledger[id].of, length)
 
 
 def true_sense(report: ReportContext, name: str, k: int) -> complex:
-    """Return the direction (length 1) in which a reaction is drawn on a separated link; 0 if the reaction is zero."""
+    """Return the unit vector of a reaction on a separated link, as it is drawn; 0 if the reaction is zero."""
     vector = report.ledger[ids.force_vector(name)]
     return 0j if report.is_zero(vector.of, k) else complex(vector.at(k))
 
@@ -171,13 +178,13 @@ def true_sense(report: ReportContext, name: str, k: int) -> complex:
 def bodies(report: ReportContext, k: int, group: GroupView) -> FigureScenes:
     """Draw the group with all its forces at half size, then each link whose moments are taken, with the arms.
 
-    A group whose links are both drawn separately is drawn as a whole only if the report shows everything twice.
+    If both links are drawn separately, the whole group is drawn only if the report has room for both.
     """
     return beside_one_another(*separated(report, k, group))
 
 
 def separated(report: ReportContext, k: int, group: GroupView) -> list[Scene]:
-    """The scenes of a group's separated links."""
+    """Return the scenes of a group's separated links."""
     assert group.polygon is not None
     both = _Bodies(report, k, (group.i, group.j), share=0.5)
     forces = [
@@ -210,7 +217,7 @@ def separated(report: ReportContext, k: int, group: GroupView) -> list[Scene]:
 
 
 def _moments(report: ReportContext, group: GroupView, k: int) -> tuple[tuple[int, str], ...]:
-    """The links of a group that the force analysis takes moments of, with the pin it takes them about."""
+    """Return the links of a group for which the force analysis takes moments, each with the pin about which it does."""
     solved: dict[str, tuple[tuple[int, str], ...]] = {
         "RRR": ((group.i, group.Q), (group.j, group.Q)),
         "RPR": ((group.j, group.T),),
@@ -226,14 +233,16 @@ def _moments(report: ReportContext, group: GroupView, k: int) -> tuple[tuple[int
 
 
 def driver(report: ReportContext, k: int) -> FigureScenes:
-    """The driver with the reactions on it and what balances it, of a crank with arms about its centre; their plan."""
+    """Draw the driver with its reactions and its balancing load, with arms about the centre of a crank; beside it, the
+    force plan.
+    """
     polygon = report.driver_polygon
     assert polygon is not None
     return beside_one_another(separated_driver(report, k), plan(force_plan(report, polygon, k)))
 
 
 def separated_driver(report: ReportContext, k: int) -> Scene:
-    """The driver with all that acts on it."""
+    """Draw the driver with all forces and torques on it."""
     polygon, centre, body = report.driver_polygon, report.driver.centre, _Bodies(report, k, (DRIVER,))
     assert polygon is not None
     pin = body.at(centre or report.driver.pin)
@@ -252,7 +261,9 @@ def separated_driver(report: ReportContext, k: int) -> Scene:
 
 
 def _of_arc(torque: Symbol, value: float) -> Expression:
-    """Return the label at the arc of a torque: the arc shows the true sense, so a negative torque shows its size."""
+    """Return the label at the arc of a torque.  The arc shows the true sense, so the label of a negative torque is its
+    size.
+    """
     return size(torque) if value < 0 else torque
 
 
@@ -266,7 +277,7 @@ def _is_torque(report: ReportContext, load: Load) -> bool:
 
 
 def _acts_at(report: ReportContext, load: Load, k: int) -> complex:
-    """Return the place where a load is drawn: the constructed point Q for an inertia force, else its own line of
+    """Return the place (m) where a load is drawn: the constructed point Q for an inertia force, else its point of
     action.
     """
     for body in report.couples:
@@ -277,7 +288,9 @@ def _acts_at(report: ReportContext, load: Load, k: int) -> complex:
 
 
 def _foot(report: ReportContext, group: GroupView, link: int, k: int) -> Canvas:
-    """On a slotted link beside its pin T the foot H of T on the slot's line, from which the block is measured."""
+    """Draw H on a slotted link whose slot passes beside its pin T: the foot of T on the slot's line, from which the
+    block is measured.
+    """
     if not (group.offset and link == group.j):
         return Canvas()
     scale, ledger = drawing_scale(report), report.ledger
@@ -292,7 +305,9 @@ def _foot(report: ReportContext, group: GroupView, link: int, k: int) -> Canvas:
 
 
 def lever(report: ReportContext, k: int) -> FigureScenes:
-    """The velocity plan turned by 90° against ω1, every load at its image, arms about the pole."""
+    """Draw Zhukovsky's lever: the velocity plan turned by 90° against ω1, with each load at its image and arms about
+    the pole.
+    """
     ledger, machine, motion, index = report.ledger, report.machine, report.analysis.motion, k - 1
     per = -1j * machine.turn * MM / float(ledger["mu.v"].values[0]) / report.enlarged
     forces, arms = [], []

@@ -1,4 +1,4 @@
-"""Worked lines from given data: loads interpolated in a table, and lengths from coordinates of points."""
+"""Worked lines that start from given data: loads interpolated in a table, and lengths from coordinates of points."""
 
 from __future__ import annotations
 
@@ -13,20 +13,21 @@ from reportgen.report.context import ReportContext
 @template_members("id", "stroke", "line", "ways")
 @dataclass(frozen=True, slots=True)
 class ReadLoad:
-    """A load at a position: its id, the id of the stroke that its line names ("" without), and whether it has a line.
+    """A load at a position: its id, the id of the stroke whose fractions its table uses ("" without one), and `line`.
 
-    It has none where both neighbouring points of the table have one value, or the position is at a point.
+    `line` is True if an interpolation is printed.  It is False at a point of the table, and where both neighbouring
+    points have the same value.
     """
 
     id: str
     stroke: str
     line: bool
     ways: tuple[str, ...]
-    """The id of the displacement over which the load is tabled, if it is."""
+    """The id of the displacement over which the load is tabled, if any."""
 
 
 def loads_read(report: ReportContext, k: int) -> list[ReadLoad]:
-    """Return the loads that are read from tables with further values, at position `k`."""
+    """Return the loads that position `k` reads from tables."""
     machine, ledger = report.machine, report.ledger
     loads: tuple[Applied | Torque, ...] = (*machine.applied, *machine.torques)
     return [
@@ -37,7 +38,7 @@ def loads_read(report: ReportContext, k: int) -> list[ReadLoad]:
 
 
 def _stroke(report: ReportContext, load: Applied | Torque) -> str:
-    """The id of the stroke by whose shares a load is tabled, of what is not given; "" for any other load."""
+    """Return the id of the stroke over whose fractions a load is tabled, if the report computes it; else ""."""
     course = load.law.read_along
     id = "" if course is None else ids.stroke(course.link)
     return id if id in report.ledger else ""
@@ -54,6 +55,6 @@ def _interpolated(report: ReportContext, load: Applied | Torque, k: int) -> bool
 
 
 def coordinate_lengths(report: ReportContext) -> list[str]:
-    """The lengths that follow from coordinates of points of a link."""
+    """Return the ids of the lengths that follow from coordinates of points of a link."""
     lengths = (id for id, family in report.case.ledger.families.items() if id in ids.length and family.written)
     return [id for id in lengths if report.ledger[id].definition is None]

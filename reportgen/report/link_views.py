@@ -1,4 +1,4 @@
-"""Views of a machine's moving parts for templates, tables and figures, with the ids of their quantities.
+"""Views of a machine's driver, groups, links and points for templates and figures, with the ids of their quantities.
 
 Names of points are `NamedPoint`s, which templates print as symbols.
 """
@@ -19,7 +19,7 @@ from reportgen.machine import DRIVER, Crank, Dyad, Guide, Inertia, Linkage, Mobi
 from reportgen.machine.analysis import Machine, Position
 from reportgen.machine.loads import Applied, Torque
 
-# What knows nothing of words is shown here.
+# These classes belong to packages without templates, so their members are registered here.
 template_members("__str__")(Position)
 template_members("applied", "torques", "linkage", "sliders")(Machine)
 template_members("inertias")(Linkage)
@@ -34,7 +34,7 @@ template_members("carried")(Polygon)
 @template_members("__str__", "name", "link")
 @dataclass(frozen=True, slots=True)
 class PointView:
-    """A named point on a link, e.g. a mass centre."""
+    """A named point on a link, such as a mass centre."""
 
     name: NamedPoint
     link: int
@@ -44,7 +44,7 @@ class PointView:
 
 
 def points_on(linkage: Linkage, link: int) -> tuple[PointView, ...]:
-    """The named points of a link."""
+    """Return the named points of a link."""
     return tuple(PointView(NamedPoint(place.name), link) for place in linkage.points if place.link == link)
 
 
@@ -56,15 +56,12 @@ def points_on(linkage: Linkage, link: int) -> tuple[PointView, ...]:
     *("component_scale_lines", "acceleration_scale_lines"),
 )
 class DriverView:
-    """The driver as templates name it: its centre O1 and pin A, its `arm` O1A, further points on it.
+    """The driver for templates: its centre O1 and pin A, its `arm` O1A, and further points on it.
 
-    Of its `kind`, "crank" or "slide", a slide has neither centre nor arm; `rate` is the symbol of what is constant.
-    `velocity_lines` and `acceleration_lines` are those of its
-    points, `scale_lines` what the velocity plan of a sliding driver begins with; `drawn`, `velocity`,
-    `velocity_segment` and `acceleration_segment` the ids of the arm's drawn length, of the pin's velocity and of
-    the segments that stand for the pin's velocity and acceleration; `round_velocity` and `round_acceleration` say
-    that the scale of a plan was chosen from the series.  Of a driver that is `accelerated`, `rate2` is the symbol of
-    its acceleration; `component_lines` are the two components of the crank pin's, with their segments.
+    `kind` is "crank" or "slide"; a slide has neither centre nor arm.  `rate` is the symbol of its speed, `rate2` that
+    of its acceleration if it is `accelerated`.  `component_lines` are the two components of the crank pin's
+    acceleration.  `round_velocity` and `round_acceleration` are True if the scale of a plan was chosen from the series
+    of round scales.
     """
 
     def __init__(self, linkage: Linkage, ledger: Ledger) -> None:
@@ -96,10 +93,10 @@ class DriverView:
 @view("base", "omega", "epsilon")
 @dataclass(frozen=True, slots=True)
 class CarriedPoint:
-    """Point of a link that turns about `origin`; the point has no segment of its own on the plan.
+    """A point of a link that turns about `origin`, without a separate segment on the plan.
 
-    `relative` is its name with the origin's, e.g. S2B; `still` says whether the origin is fixed to the
-    frame, `swings` whether the link has an angular acceleration.
+    `relative` is its name with that of the origin, e.g. S2B.  `still` is True if the origin is fixed to the frame,
+    `swings` if the link has an angular acceleration.
     """
 
     name: NamedPoint
@@ -125,8 +122,10 @@ class CarriedPoint:
 @view("reaction", "lines")
 @dataclass(frozen=True, slots=True)
 class Contact:
-    """The reaction `digits` of a slide on `link`: `moment` and `place` are the ids of its moment about the
-    pin and of its distance from the pin, `moments` the lines that give this moment.
+    """The reaction `digits` of a slide on `link`.
+
+    `moment` and `place` are the ids of the reaction's moment about the pin and of its distance from the pin; `moments`
+    are the lines that give this moment.
     """
 
     digits: str
@@ -144,7 +143,7 @@ class Contact:
 
     @property
     def lines(self) -> list[str]:
-        """Ids of the worked lines for the moment and for the place."""
+        """Ids of the worked lines for the moment and the place."""
         return [*self.moments, self.place]
 
 
@@ -157,13 +156,12 @@ class Contact:
     *("pulls_across", "components", "last_known", "last_of_j", "opposite"),
 )
 class GroupView:
-    """An Assur group as templates name it.
+    """An Assur group for templates.
 
-    `i`, `j` are its links; `P`, `Q` the outer and the inner pin (A, B), `T` the outer pin of j ("" on a guide),
-    `M` the point whose motion is written in two ways; `one` and `two` those ways; `relative` is MP as in v_BA
-    and `rod` PQ; `outer`, `inner`, `guide` the joints' digits as in R12, R32, R03, `across` those of R23 and `opposite`
-    its size, if a line needs it; `points_i` and `points_j` the named points of links i and j; `carrier` is the link
-    that i hangs on, and `scale` the scale of the force plan.
+    `i`, `j` are its links; `P`, `Q` the outer and the inner pin (A, B), `T` the outer pin of j ("" on a guide); `M` is
+    the point whose motion the `Side`s `one` and `two` express; `relative` is MP as in v_BA and `rod` PQ; `outer`,
+    `inner`, `guide` are the joints' digits as in R12, R32, R03, `across` those of R23 and `opposite` its size, if a
+    line needs it; `carrier` is the link to which i is joined, `scale` the id of the scale of the force plan.
     """
 
     def __init__(self, dyad: Dyad, plan: Scheme, driver: DriverView, polygons: Iterable[Polygon], ledger: Ledger):
@@ -193,12 +191,12 @@ class GroupView:
 
     @property
     def form(self) -> str:
-        """Kind of the group in the words for its plans: "RRP-moving" for an RRP whose guide moves."""
+        """Key of the phrases for its plans: its kind, or "RRP-moving" for an RRP with a moving guide."""
         return "RRP-moving" if self.kind == "RRP" and not self.two.still else self.kind
 
     @property
     def unknowns(self) -> tuple[str | Side, str | Side]:
-        """The velocities whose magnitudes the vector equation leaves unknown: points, relative velocities, sides."""
+        """The two velocities of unknown magnitude in the vector equation: points, relative velocities, sides."""
         first, second = (self.M if side.still else side.relative for side in self.sides)
         if self.kind == "RPR":
             return self.one, second
@@ -209,33 +207,33 @@ class GroupView:
 
     @property
     def normal_by_segments(self) -> bool:
-        """Return True if the plans' scales, those of a crank, let segments give the normal acceleration of an RRP."""
+        """Return True if plans at the crank's scales give the normal acceleration of an RRP by segments."""
         return self.by_crank and not self.one.still
 
     @property
     def moving(self) -> tuple[Side, ...]:
-        """The ways whose base moves."""
+        """The sides with a moving base."""
         return tuple(side for side in self.sides if not side.still)
 
     @property
     def under(self) -> tuple[Side, ...]:
-        """The ways over a moving guide: their base is the guide's point under M."""
+        """The sides over a moving guide: their base is the guide's point under M."""
         return tuple(side for side in self.moving if side.guided)
 
     @property
     def turning(self) -> tuple[Side, ...]:
-        """The ways with a Coriolis acceleration."""
+        """The sides with a Coriolis acceleration."""
         return tuple(side for side in self.sides if side.turning)
 
     @property
     def normals(self) -> list[str]:
-        """The known relative accelerations and their segments, to be worked out before the plan."""
+        """Ids of the known relative accelerations and their segments, which are calculated before the plan."""
         known = [side for side in self.sides if side.part]
         return [id for side in known for id in (ids.acceleration(side.relative, side.part), side.known)]
 
     @property
     def velocity_lines(self) -> list[str]:
-        """Ids of the lines worked out from the velocity plan: points, relative velocities, rotations."""
+        """Ids of the lines that the velocity plan gives: points, relative velocities, rotations."""
         return self._in_order(
             *(ids.velocity(side.base) for side in self.under),
             ids.velocity(self.M),
@@ -249,7 +247,7 @@ class GroupView:
 
     @property
     def acceleration_lines(self) -> list[str]:
-        """Ids of the lines worked out from the acceleration plan."""
+        """Ids of the lines that the acceleration plan gives."""
         return self._in_order(
             *(ids.acceleration(side.base) for side in self.under),
             ids.acceleration(self.M),
@@ -261,7 +259,7 @@ class GroupView:
         )
 
     def _in_order(self, *quantities: str) -> list[str]:
-        """The ids that exist, but before each what it is worked out from."""
+        """Return the ids that exist, each after those that its definition refers to."""
         known = self.ledger.known(quantities)
         ordered: dict[str, None] = {}
 
@@ -285,17 +283,17 @@ class GroupView:
             yield rate(place.name)
 
     def _measured(self) -> list[str]:
-        """Lengths that change and are measured on the position drawing."""
+        """Return the ids of the lengths that change and are measured on the position plan."""
         rods = [side.rod for side in self.sides if side.measured]
         return [name(rod) for rod in rods for name in (ids.drawn, ids.length)]
 
     def _origin(self, link: int) -> NamedPoint:
-        """The joint that a link's points are measured from."""
+        """Return the joint from which the points of a link are measured."""
         return self.P if link == self.i else self.T or self.Q
 
     @property
     def carried(self) -> list[CarriedPoint]:
-        """Points that similarity does not give, as on a block: they turn about a joint at the link's rate."""
+        """Points without similarity, as on a block: they turn about a joint with the link."""
         points = []
         for place in self.points:
             origin = self._origin(place.link)
@@ -306,7 +304,7 @@ class GroupView:
         return points
 
     def similar(self, what: str) -> list[str]:
-        """A link's segment ab and what the similarity theorem gives: as₂, and be where E is off the line of joints."""
+        """Return the ids of a link's segment ab and of those that similarity gives: as₂, be."""
         segments: list[str] = []
         for place in self.points:
             for side in self.sides:
@@ -316,7 +314,7 @@ class GroupView:
         return self.ledger.known(segments)
 
     def base(self, what: str, side: Side, k: int) -> str:
-        """Return how the end of a base's vector gets onto the plan: at the "pole", "drawn" before, or "new"."""
+        """Return the place of a base's vector on the plan: at the "pole", "drawn" before, or "new"."""
         if self.ledger.number(self.base_segment(what, side), k).value == 0:
             return "pole"
         return "new" if side.guided or side.base in self.on_driver else "drawn"
@@ -327,7 +325,7 @@ class GroupView:
 
     @property
     def drawn(self) -> str:
-        """The drawn length of the rod."""
+        """Id of the drawn length of the rod."""
         return ids.drawn(self.rod)
 
     @property
@@ -338,7 +336,7 @@ class GroupView:
     # --- forces
 
     def arms(self, about: str, link: int) -> list[str]:
-        """Arms about a point of the known loads on a link of the group."""
+        """Return the ids of the arms about a point for the known loads on a link of the group."""
         if self.polygon is None:
             return []
         known = [(edge.name, edge.link) for edge in self.polygon.edges if not edge.unknown]
@@ -347,24 +345,24 @@ class GroupView:
 
     @property
     def outer_lines(self) -> list[str]:
-        """Moments on link i about the inner pin, which give the component across the link in its outer joint."""
+        """Ids of the moments on link i about the inner pin, and of the component that they give in its outer joint."""
         return [*self.arms(self.Q, self.i), ids.reaction(self.outer, "t")]
 
     @property
     def guide_lines(self) -> list[str]:
-        """Moments on link j about the inner pin, which give the component across the link in its outer joint."""
+        """Ids of the moments on link j about the inner pin, and of the component that they give in its outer joint."""
         return [*self.arms(self.Q, self.j), ids.reaction(self.guide, "t")]
 
     @property
     def slot_lines(self) -> list[str]:
-        """Moments on a slotted link about its outer pin, which give the reaction of the block."""
+        """Ids of the moments on a slotted link about its outer pin, and of the block's reaction that they give."""
         H = f"H{self.j}"
         foot = [ids.drawn(H, self.Q), ids.length(H, self.Q)] if self.offset else []
         return [*self.arms(self.T, self.j), *foot, ids.reaction(self.across, "s")]
 
     @property
     def reactions(self) -> list[str]:
-        """Ids of the reactions measured on the force plan, in the order of the construction."""
+        """Ids of the reactions measured on the force plan, in the order of construction."""
         joints = {
             "RRR": ((self.outer, "n"), (self.guide, "n"), (self.outer,), (self.guide,), (self.inner,)),
             "RRP": ((self.outer, "n"), (self.guide,), (self.outer,), (self.inner,)),
@@ -376,12 +374,12 @@ class GroupView:
 
     @property
     def joints(self) -> tuple[str, str, str]:
-        """The digits of the reactions in the two outer joints and the inner one."""
+        """The digits of the reactions in the two outer joints and in the inner one."""
         return self.outer, self.guide, self.inner
 
     @property
     def contacts(self) -> list[Contact]:
-        """The reactions of slides, whose place on the slide is to be found."""
+        """The reactions of slides, whose place on the slide is unknown."""
         first, last = (self.inner, self.P, self.i), (self.guide, self.Q, self.j)
         slides = {"RRP": [last], "RPR": [first], "PRP": [(self.outer, self.Q, self.i), last], "RPP": [first, last]}
         return [self._contact(*slide) for slide in slides.get(self.kind, [])]
@@ -402,26 +400,26 @@ class GroupView:
 
     @property
     def by_moments(self) -> list[str]:
-        """Ids of the signed components that moments give: each one's moment balances those of the other forces."""
+        """Ids of the signed components that equilibrium of moments gives."""
         return [*self.tangential, *self.ledger.known([ids.reaction(self.across, "s")])]
 
     @property
     def across_by_moments(self) -> bool:
-        """Return True if moments give the whole force between the links, which is then laid off like a load."""
+        """Return True if moments give the whole force between the links; the plan then treats it as a load."""
         return ids.reaction(self.across, "s") in self.ledger
 
     @property
     def tangential(self) -> list[str]:
-        """The components across links that moments give."""
+        """Ids of the components across links that moments give."""
         return self.ledger.known((ids.reaction(self.outer, "t"), ids.reaction(self.guide, "t")))
 
     @property
     def pulls_across(self) -> bool:
-        """Return True if a tangential component is not zero at some position, and so has a column."""
+        """Return True if a tangential component is not zero at some position, so that tables have a column for it."""
         return any(self.ledger[id].values.any() for id in self.tangential)
 
     def components(self, k: int) -> list[str]:
-        """Return the components that moments give before the plan; an empty list if all of them are zero."""
+        """Return the ids of the components that moments give before the plan; [] if all of them are zero."""
         components = self.by_moments
         return components if any(self.ledger.number(id, k).value != 0 for id in components) else []
 
@@ -441,7 +439,7 @@ class GroupView:
 @view("force", "couple")
 @dataclass(frozen=True, slots=True)
 class BodyView:
-    """A link with an inertia couple: its number, mass centre, the pin it is measured from, the ids to show."""
+    """A link with an inertia couple: its number, mass centre, the pin from which it is measured, the ids to show."""
 
     link: int
     centre: NamedPoint
@@ -464,9 +462,9 @@ class BodyView:
     *("distances", "angles", "projections"),
 )
 class PlaneLink:
-    """A link in plane motion: its number, two points with drawn velocities, their `rod` and their `group`.
+    """A link in plane motion: its number, two points with drawn velocities, their `rod`, and its `group`.
 
-    The other members are the ids that the section on instant centres works out for it.
+    The other members are ids of the quantities in the section on instant centres.
     """
 
     def __init__(self, turn: Side, group: str) -> None:
@@ -485,7 +483,7 @@ class PlaneLink:
 
 
 def displaced_inertia(linkage: Linkage, groups: Iterable[GroupView], ledger: Ledger) -> tuple[BodyView, ...]:
-    """Links whose inertia is a force and a couple, which one force off the mass centre replaces."""
+    """Return the links whose inertia is a force and a couple, which a single force off the mass centre replaces."""
     # A block turns about no base of a plan: the pin it sits on is its first joint.
     starts = {group.i: group.P for group in groups}
     starts |= {side.link: NamedPoint(side.base) for group in groups for side in group.sides if side.turns}

@@ -1,7 +1,8 @@
-"""Figures of the mechanism, and the scale and looks of all figures.
+"""Figures of the mechanism: scheme, groups, positions, the gas beside the cylinder, the Coriolis acceleration, instant
+centres.
 
-A figure is a function of a report and of what it shows; the namespace gives its name in templates.  The figures
-here are the scheme, groups and positions, the gas beside the cylinder, and the Coriolis acceleration.
+A figure is a function of a report and of what it draws; `named_figures` gives its name in templates.  `drawing_scale`
+and `looks` are the scale and the style of all drawings of the mechanism.
 """
 
 from __future__ import annotations
@@ -46,30 +47,36 @@ from reportgen.report.context import DENSE, ReportContext
 from reportgen.report.link_views import GroupView, PlaneLink
 
 SCHEME_BOX = (120.0, 75.0)
+"""Width and height (mm) in which a scheme must fit."""
 HALF_PAGE = 100.0
-"""The height (mm) up to which a figure leaves about half a page to the text."""
+"""The height (mm) up to which a figure leaves about half a page for the text."""
 REDUCTIONS = tuple(1.0 / step for step in (1, 2, 2.5, 4, 5, 6, 10, 20, 25, 40, 50, 100, 1000))
 SMALLER = (1.0, 2.0, 2.5, 4.0, 5.0)
-"""Factors by which a plan may be smaller than to the scales of the text."""
+"""Factors by which a plan may be reduced from the scales of the text."""
 LEGIBLE = 0.4
 """Smallest size of drawn groups, as a share of the scheme's size; smaller ones would be hard to read."""
 SHOWN_AT = 1
-"""The position (from 0) at which schemes are drawn: the first one away from the start."""
+"""The index of the position at which schemes are drawn: the first one after the start."""
 
 
 def drawing_scale(report: ReportContext) -> float:
-    """mm of paper for a metre, of drawings to μ_l."""
+    """Return the mm of paper per metre for drawings at the scale μ_l."""
     return MM / float(report.ledger["mu.l"].values[0]) / report.enlarged
 
 
 def scale_note(report: ReportContext, id: str, factor: float = 1.0, k: int | None = None) -> Chain:
-    """A scale as printed below a figure; a figure drawn smaller by `factor` has a scale that much larger."""
+    """Return a scale as printed below a figure; a figure reduced by `factor` < 1 has a scale that is larger by
+    1/`factor`.
+    """
     number = report.ledger.number(id, k)
     return Chain((report.ledger.symbol(id), short(replace(number, value=number.shown / factor))))
 
 
 def looks(report: ReportContext, scale: float, factor: float = 1.0) -> Looks:
-    """Pistons with their bore, mass centres, the figure's scale by a factor of enlargement, springs."""
+    """Return the style of a drawing: pistons with their bore, mass centres, its scale note, springs.
+
+    `scale` is in mm of paper per metre; `factor` is the enlargement relative to μ_l.
+    """
     blocks = {
         piston.link: (min(0.6 * piston.bore * scale, 24.0), min(piston.bore * scale, 40.0) * 0.5)
         for piston in report.machine.pistons
@@ -80,12 +87,12 @@ def looks(report: ReportContext, scale: float, factor: float = 1.0) -> Looks:
 
 
 def short(number: Number) -> Number:
-    """The number as it is, to six digits at most."""
+    """Return a number rounded to six significant digits and printed without trailing zeros."""
     return replace(number, value=float(f"{number.value:.6g}"), decimals=None)
 
 
 def line_styles(report: ReportContext) -> FigureScenes:
-    """The legend of the lines of the report: of forces, paths and instant centres only where it shows any."""
+    """Draw the legend of line styles, with forces, paths and instant centres only if the report has any."""
     drawn = {"path": bool(report.machine.paths), "normal": "centres" in report.sections, "reaction": report.has_forces}
     words = {name: text for name, text in report.words["line_styles"].items() if drawn.get(name, True)}
     return FigureScenes((scheme_figure.line_styles(words),))
@@ -95,11 +102,12 @@ def line_styles(report: ReportContext) -> FigureScenes:
 
 
 def scheme(report: ReportContext) -> FigureScenes:
+    """Draw the kinematic scheme at the reduction that fits its box."""
     return FigureScenes((scheme_scene(report, reduction(report)),))
 
 
 def scheme_scene(report: ReportContext, factor: float) -> Scene:
-    """The kinematic scheme, by a factor of enlargement."""
+    """Return the kinematic scheme, enlarged by `factor` relative to μ_l."""
     scale = drawing_scale(report) * factor
     look = looks(report, scale, factor)
     return scheme_figure.scheme(report.machine.linkage, report.analysis.motion, shown_at(report), scale, look)
@@ -121,12 +129,12 @@ def _groups(report: ReportContext, factor: float) -> tuple[Scene, ...]:
 
 
 def shown_at(report: ReportContext) -> int:
-    """The index of the position that schemes show: the only one where there is but one."""
+    """Return the index of the position that schemes show: the second, or the first if there is only one."""
     return min(SHOWN_AT, report.count - 1)
 
 
 def reduction(report: ReportContext) -> float:
-    """The ratio 1, 1/2, 1/2.5, … at which the mechanism at μ_l fits the box of a scheme."""
+    """Return the factor 1, 1/2, 1/2.5, … at which the mechanism at μ_l fits the box of a scheme."""
     index, motion = shown_at(report), report.analysis.motion
     hung = [place[index] for coil in report.machine.coils for place in coil.at(motion)]
     points = np.array([*(report.place(name, index + 1) for name in motion.points), *hung])
@@ -136,14 +144,15 @@ def reduction(report: ReportContext) -> float:
 
 
 def positions(report: ReportContext) -> FigureScenes:
+    """Draw the position plan of one turn."""
     return as_large_as_asked(report, partial(positions_scene, report))
 
 
 def as_large_as_asked(report: ReportContext, draw: Callable[[float], Scene]) -> FigureScenes:
-    """Return a drawing true to μ_l, by which it is measured, or at the first reduction that fits half a page.
+    """Draw at the scale μ_l if the report needs the true size; else at the first reduction that fits half a page.
 
-    If no reduction fits into the text, the drawing is turned and as large as the page allows.  If labels need more
-    room, the next larger size is used.
+    If no reduction fits the text, the drawing is turned and made as large as the page allows.  If labels are crowded,
+    the next larger size is used.
     """
     if report.parts("true-size"):
         return on_paper(draw(1.0))
@@ -160,12 +169,14 @@ def as_large_as_asked(report: ReportContext, draw: Callable[[float], Scene]) -> 
 
 
 def plan_in_text(report: ReportContext) -> bool:
-    """Return True if the position plan is in the text, not on a separate page."""
+    """Return True if the position plan is in the text, False if it has a separate page."""
     return positions(report).paper is None
 
 
 def positions_scene(report: ReportContext, factor: float = 1.0, beside: Canvas | None = None) -> Scene:
-    """The numbered positions of one turn by a factor of enlargement, alone with paths or beside another drawing."""
+    """Return the numbered positions of one turn, enlarged by `factor`; paths are drawn unless the plan is `beside`
+    another drawing.
+    """
     machine = report.machine
     shows = PositionPlan(
         _numbered(report),
@@ -179,7 +190,9 @@ def positions_scene(report: ReportContext, factor: float = 1.0, beside: Canvas |
 
 
 def extremes(report: ReportContext) -> FigureScenes:
-    """The mechanism where its first slider turns back (I, II: its stroke begins and ends), as large as the scheme."""
+    """Draw the mechanism where its first slider reverses (I and II: its stroke begins and ends), as large as the
+    scheme.
+    """
     course = report.machine.sliders[0]
     motion = motion_at(report.machine, course.dead_centres[:2] - course.phase)
     shows = PositionPlan(_numbered(report), report.machine.paths, labels=("I", "II"))
@@ -188,7 +201,7 @@ def extremes(report: ReportContext) -> FigureScenes:
 
 
 def swing(report: ReportContext) -> FigureScenes:
-    """Both extreme positions of the rocker of the first group, with the arcs by which they are found."""
+    """Draw both extreme positions of the first group's rocker, with the arcs that construct them."""
     machine, ledger = report.machine, report.ledger
     linkage, first = machine.linkage, machine.linkage.dyads[0]
     assert isinstance(linkage.driver, Crank)
@@ -231,7 +244,9 @@ def _motion(machine: Machine, cycle_angle: np.ndarray) -> Motion:
 
 
 def _numbered(report: ReportContext) -> tuple[str, ...]:
-    """Points that carry the positions' numbers: pins of the crank, joints, of a slotted lever its end."""
+    """Return the points that carry the positions' numbers: pins of the crank, joints, and the end of a slotted
+    lever.
+    """
     centres = {body.centre for body in report.machine.linkage.inertias}
     names = [*report.crank_pins]
     for group in report.groups:
@@ -244,7 +259,7 @@ def _numbered(report: ReportContext) -> tuple[str, ...]:
 
 
 def indicator(report: ReportContext) -> FigureScenes:
-    """The diagram in line with the first piston's stroke, every piston's positions read from it."""
+    """Draw the indicator diagram in line with the first piston's stroke, with the readings of every piston."""
     return as_large_as_asked(report, partial(_indicator, report))
 
 
@@ -256,7 +271,7 @@ def _indicator(report: ReportContext, factor: float) -> Scene:
     read = [float(pressure) for gas in gases.values() for pressure in gas.pressure]
     read += [float(pressure) for row in first.indicator.rows for pressure in row]
     lowest, highest = min(read) / unit, max(read) / unit
-    # What lies below zero stands between diagram and cylinder, where there is half the room.
+    # Values below zero are drawn between diagram and cylinder, where there is half the room.
     highest = max(highest, -2 * lowest)
     side = _free_side(machine)
     start, end, mu = indicator_figure.beside(top, bottom, side, highest, report.enlarged)
@@ -288,7 +303,9 @@ def _indicator(report: ReportContext, factor: float) -> Scene:
 
 
 def _free_side(machine: Machine) -> complex:
-    """The side of the first cylinder that is free for its diagram: away from other cylinders, else to its right."""
+    """Return the direction (a unit vector) of the first cylinder's side that is free for its diagram: away from other
+    cylinders, else to its right.
+    """
     first = machine.pistons[0]
     right = 1j * first.inward
     ways = [((one.top + one.bottom) / 2 - first.bottom) / right for one in machine.pistons]
@@ -296,7 +313,7 @@ def _free_side(machine: Machine) -> complex:
 
 
 def _in_line(first: Piston, piston: Piston) -> bool:
-    """Return True if a piston moves on the line of the first one, where its positions are projected from."""
+    """Return True if a piston moves on the line of the `first` one, from which its positions are projected."""
     return abs(((piston.top - first.top) / first.inward).imag) + abs((piston.inward / first.inward).imag) < SAME_ANGLE
 
 
@@ -304,7 +321,7 @@ def _in_line(first: Piston, piston: Piston) -> bool:
 
 
 def coriolis(report: ReportContext, k: int, group: GroupView, side: Side) -> FigureScenes:
-    """The relative velocity in a turning guide, turned by 90° in the sense of its ω."""
+    """Draw the relative velocity in a turning guide and that velocity turned by 90° in the sense of the guide's ω."""
     ledger, points = report.ledger, report.analysis.motion.points
     omega = float(ledger[ids.signed("omega", side.turning)].at(k).real)
     relative = complex(points[side.point].v[k - 1]) - complex(points[side.base].v[k - 1])
@@ -318,17 +335,17 @@ def coriolis(report: ReportContext, k: int, group: GroupView, side: Side) -> Fig
 
 
 def inclination(report: ReportContext) -> FigureScenes:
-    """The angle of an acceleration with the line to the centre."""
+    """Draw the angle between an acceleration and the line to the centre."""
     return FigureScenes((inclination_figure(),))
 
 
 def two_equations(report: ReportContext) -> FigureScenes:
-    """A link and the velocities of its points."""
+    """Draw a link and the velocities of its points, for the theory."""
     return FigureScenes(link_and_plan("v"))
 
 
 def similarity(report: ReportContext) -> FigureScenes:
-    """A link and the accelerations of its points."""
+    """Draw a link and the accelerations of its points, for the theory."""
     return FigureScenes(link_and_plan("a"))
 
 
@@ -337,8 +354,8 @@ def similarity(report: ReportContext) -> FigureScenes:
 
 
 def centre_state(report: ReportContext, link: PlaneLink, k: int) -> str:
-    """Return where a link's centre is: "found", "shift" (no turning), "rest" (at its base), "near" its base, or
-    "far".
+    """Return the location of a link's instant centre: "found", "shift" (the link does not turn), "rest" (at its base),
+    "near" its base, or "far".
     """
     ledger = report.ledger
     if ledger[link.omega].at(k) == 0:
@@ -357,9 +374,10 @@ def _place(report: ReportContext, link: PlaneLink, k: int) -> complex:
 
 
 def centres(report: ReportContext, k: int) -> FigureScenes:
-    """Draw the mechanism at a position, true to μ_l: normals that meet in the centres, velocities and their angles.
+    """Draw the mechanism at a position at the scale μ_l: normals that meet in the instant centres, velocities and their
+    angles.
 
-    Centres share a sheet as far as there is room.
+    As many centres share a sheet as there is room for.
     """
     linkage, scale, motion = report.machine.linkage, drawing_scale(report), report.analysis.motion
     angles = [_plane_motion(report, link, k) for link in report.plane_links]
@@ -385,7 +403,7 @@ def _has_a_sheet(scene: Scene) -> bool:
 
 
 def _plane_motion(report: ReportContext, link: PlaneLink, k: int) -> PlaneMotion:
-    """The velocities of a link's two points and their angles with the line between them."""
+    """Return the velocities of a link's two points and their angles with the line between the points."""
     ledger, points = report.ledger, report.analysis.motion.points
     ends = (link.base, link.point)
     moving = [not report.is_zero(ids.velocity(name), k) for name in ends]

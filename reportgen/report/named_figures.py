@@ -1,4 +1,4 @@
-"""Registry of the figures of reports by their names in templates."""
+"""Registry of the figures of reports by their names in templates; `figure(report, name, …)` draws one."""
 
 from __future__ import annotations
 
@@ -54,11 +54,11 @@ FIGURES: Mapping[str, tuple[str, Callable[..., FigureScenes]]] = {
 
 
 def figure(report: ReportContext, name: str, *arguments: Any, words: str = "") -> tuple[Figure | Plate, ...]:
-    """Return a figure by its name: `figure(name, …)`, or `figure(name, key, caption, …)` with its own words;
-    `words` names other ones of `words.yaml`.
+    """Return a figure by its name: `figure(name, …)`, or `figure(name, key, caption, …)` with a separate key and
+    caption.
 
-    A figure on plates is a block for each plate; the first has key and caption.  Raises `KeyError` for an
-    unknown name.
+    `words` selects another caption of `words.yaml`.  A figure on plates is a block for each plate; the first has key
+    and caption.  Raises `KeyError` for an unknown name.
     """
     key, draw = _drawn(report, name)
     at = ""
@@ -87,10 +87,10 @@ def figure(report: ReportContext, name: str, *arguments: Any, words: str = "") -
 
 
 def _drawn(report: ReportContext, name: str) -> DrawnFigure:
-    """Return the key of a figure, and the function that draws it.  Raises `KeyError` for a name that is not known."""
+    """Return the key of a figure and the function that draws it.  Raises `KeyError` for an unknown name."""
     return FIGURES[name] if name in FIGURES else topic_views.merged(report, attrgetter("figures"))[name]
 
 
 def smaller(report: ReportContext, name: str) -> Inlines:
-    """Return the remark of the text on a named figure that is smaller than to the scales of the text."""
+    """Return the remark on a named figure that is drawn smaller than the scales of the text say; empty if it is not."""
     return phrases.shown_smaller(report, _drawn(report, name)[1](report).smaller, name)

@@ -1,4 +1,4 @@
-"""Registry of the tables of reports by their names in templates."""
+"""Registry of the tables of reports by their names in templates; `table(report, name, …)` makes one."""
 
 from __future__ import annotations
 
@@ -52,15 +52,16 @@ TABLES: Mapping[str, Callable[..., Any]] = {
     "M": QuantityTable(result_tables.balance, "all_positions"),
     "checks": RowTable(result_tables.checks, (110.0, 40.0)),
 }
-"""Function that makes each table; its key is `tab.` and its name, its caption and head are in `words.yaml`:
+"""Function that makes each table.  Its key is `tab.` and its name; caption and head are in `words.yaml` under
 `tables`.
 """
 
 
 def table(report: ReportContext, name: str, *arguments: Any, words: str = "") -> Any:
-    """A table with its words, or with others of `words.yaml`; one of a position k has k in its key and its caption.
+    """Return a table by its name, with its caption and head in `words.yaml` or with those under `words`.
 
-    A name that is not in `TABLES` is a table of the loads whose ids are given, or of other quantities at positions.
+    A name that is not in `TABLES` belongs to a table of the quantities whose ids are given.  A table of a position k
+    has k in its key and caption.
     """
     texts = report.words["tables"][words or name]
     position = next((k for k in arguments if isinstance(k, Position)), None)

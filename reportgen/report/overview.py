@@ -1,4 +1,4 @@
-"""Page of results at the front of a report, and its list of symbols."""
+"""Tables of the page of results at the front of a report, and of the list of symbols."""
 
 from __future__ import annotations
 
@@ -16,17 +16,19 @@ from reportgen.report.table_remarks import Peak, each_peak, reaction_ids, slider
 BESIDE = 2
 """Sets of columns side by side."""
 SET = (24.0, 34.0, 22.0)
-"""Columns of one set (mm): the quantity, its greatest value, the positions."""
+"""Widths of the columns of one set (mm): the quantity, its greatest value, the positions."""
 EXAMPLES = 3
 """Largest number of symbols shown as examples of one kind."""
 MOST_PLACES = 12
-"""Letters that a list of positions may have in its column."""
+"""Largest number of letters that fit a column of positions."""
 
 # --- the page of results
 
 
 def extremes(report: ReportContext, key: str, caption: str, head: Sequence[str]) -> Table:
-    """The greatest sizes of velocities, accelerations and reactions with their positions, in sets side by side."""
+    """Return a table of the greatest velocities, accelerations and reactions with their positions, in sets of columns
+    side by side.
+    """
     peaks = list(_extremes(report))
     height = -(-len(peaks) // BESIDE)
     cells = [tuple(Cell(part) for part in _row(peak)) for peak in peaks]
@@ -37,9 +39,7 @@ def extremes(report: ReportContext, key: str, caption: str, head: Sequence[str])
 
 
 def _extremes(report: ReportContext) -> Iterator[Peak]:
-    """Yield the peaks of points in translation, or else of all that a plan determines; then of links, then of
-    joints.
-    """
+    """Yield the peaks of sliding points, or else of all that a plan gives; then those of links, then of joints."""
     for what, rotation in (("v", "omega"), ("a", "eps")):
         points = slider_rates(report, what) or report.known(ids.POINT_RATE[what](group.M) for group in report.groups)
         yield from each_peak(report, [*points, *turning_rates(report, rotation)], report.positions)
@@ -53,14 +53,18 @@ def _row(top: Peak) -> tuple[Inlines, Inlines, Inlines]:
 
 
 def main_figures(report: ReportContext) -> Iterator[Sequence[object]]:
-    """The scales, how far the balancing torque goes, its mean and power, the flywheel: words, symbol, value, place."""
+    """Yield rows of words, symbol, value and place: the scales, the extremes of the balancing torque, its mean and
+    power, the flywheel.
+    """
     for figure, name in report.words["main_figures"].items():
         if id := of_kind(report, figure):
             yield *_figure(report, id, name), extreme_place(report, id)
 
 
 def _figure(report: ReportContext, id: str, name: str | Mapping[str, str]) -> tuple[str, Expression, Value]:
-    """Words, symbol and value; an extreme of the balance is called by its sense, and its size is shown."""
+    """Return words, symbol and value of a main figure; an extreme of the balance is named by its sense and printed as a
+    size.
+    """
     symbol, sense = report.ledger.symbol(id), sign(report, id)
     if isinstance(name, str):
         return name, symbol, Value(report.ledger.number(id))
@@ -68,12 +72,16 @@ def _figure(report: ReportContext, id: str, name: str | Mapping[str, str]) -> tu
 
 
 def of_kind(report: ReportContext, name: str) -> str:
-    """The id of a quantity that is named so, or with its kind as in `M.eq:torque`; "" for one that is not there."""
+    """Return the id of the quantity with this name, which may have its kind as in `M.eq:torque`; "" if the report has
+    none.
+    """
     return next((id for id, one in report.ledger.families.items() if name in (id, f"{id}:{one.kind}")), "")
 
 
 def extreme_place(report: ReportContext, id: str) -> Inlines:
-    """Return where `M.least` or `M.greatest` is: the turn from position 1, or the way of a sliding driver."""
+    """Return the place of `M.least` or `M.greatest`: the crank angle from position 1, or the travel of a sliding
+    driver.
+    """
     if id not in ("M.least", "M.greatest"):
         return ()
     (low, _), (high, _) = report.analysis.summary.extremes
@@ -87,7 +95,7 @@ def extreme_place(report: ReportContext, id: str) -> Inlines:
 
 
 def symbols(report: ReportContext) -> Iterator[Sequence[object]]:
-    """The kinds of quantities that this report has: some of their symbols, the meaning, the unit."""
+    """Yield a row for each kind of quantity in this report: some of its symbols, its meaning, its unit."""
     for name, alike in symbol_kinds(report).items():
         listed_symbols = tuple(dict.fromkeys(report.ledger.symbol(id) for id in alike))
         units = dict.fromkeys(_unit(report, id) for id in alike)
@@ -107,7 +115,7 @@ def _some(symbols: Sequence[Symbol]) -> Inlines:
 def symbol_kinds(report: ReportContext) -> Mapping[str, list[str]]:
     """Return the ids of the report's quantities by the meaning that `words.yaml` gives to their kind.
 
-    A quantity that fits no kind is explained where it is used.
+    Quantities of no listed kind are left out: the report explains them where it uses them.
     """
     meanings: Mapping[str, str] = report.words["meanings"]
     kinds: dict[str, list[str]] = {name: [] for name in meanings.values()}

@@ -1,5 +1,5 @@
-"""The single force equivalent to a link's inertia: its centre of percussion K, the point Q, and the line's
-construction.
+"""The single force that replaces a link's inertia force and couple: its centre of percussion K, the point Q, and its
+line.
 
 The construction depends on the position: Q needs two lines that meet on the sheet.
 """
@@ -27,12 +27,12 @@ PercussionCase = Literal["none", "couple", "still", "pivot", "meet", "parallel",
 
 @dataclass(frozen=True, slots=True)
 class Percussion:
-    """Construction of the line of a link's single inertia force at a position; points in m.
+    """Construction of the line of a link's single inertia force at a position; points in m (x + iy).
 
-    The `state` "none" means no couple, so that the force acts at S; "couple" means no force; "still" a fixed pin;
-    "pivot"
-    a pin without acceleration, so that the force passes through `K`.  Else the lines through S and K "meet" in
-    `at`, are "parallel" or meet too "far" away; then `at` is the foot of S on the line, at the computed distance.
+    `state`: "none" if there is no couple, so that the force acts at S; "couple" if there is no force; "still" if the
+    pin is fixed, "pivot" if it has no acceleration, so that the force passes through `K`.  Otherwise the lines through
+    S and K "meet" in `at`, are "parallel", or meet too "far" away; then `at` is the foot of S on the line, at the
+    computed distance.
     """
 
     state: PercussionCase
@@ -41,7 +41,7 @@ class Percussion:
 
 
 def percussion(report: ReportContext, body: BodyView, k: int) -> Percussion:
-    """Return how the one inertia force of a link is found at position `k`."""
+    """Return the construction of the single inertia force of a link at position `k`."""
     motion, index = report.analysis.motion, k - 1
     start, centre = (motion.points[name] for name in (body.start, body.centre))
     l_sk = float(report.ledger[ids.percussion(body.centre, body.link)].values[0])
@@ -62,12 +62,12 @@ def percussion(report: ReportContext, body: BodyView, k: int) -> Percussion:
 
 
 def percussion_state(report: ReportContext, body: BodyView, k: int) -> PercussionCase:
-    """Return the key of the words for how the line of a link's inertia force is found."""
+    """Return the key of the phrase for this construction, which is its `state`."""
     return percussion(report, body, k).state
 
 
 def drawn(report: ReportContext, link: int, k: int, scale: float) -> Canvas:
-    """Return K on a link, and the lines that meet in Q or the distance of S from the line, at `scale` (mm/m)."""
+    """Draw K on a link, with the lines that meet in Q or the distance of S from the line, at `scale` (mm/m)."""
     body = next((body for body in report.couples if body.link == link), None)
     if body is None:
         return Canvas()

@@ -1,7 +1,7 @@
-"""Phrases that depend on a count, a sign or a kind: `words.yaml` has them, a template names them.
+"""Phrases that depend on a count, a sign or a kind: `words.yaml` contains them, a template selects them by name.
 
 `{{ driven.balance }}` is the balancing load of the report's driver, `{{ counted("each_group", groups) }}` a phrase on
-one group or on several.  Gaps in braces are filled with members of the objects passed with the phrase.
+one group or on several.  Placeholders in braces are filled with members of the objects passed with the phrase.
 """
 
 from __future__ import annotations
@@ -33,9 +33,10 @@ if TYPE_CHECKING:
 
 
 def say(report: ReportContext, phrase: str, *about: Any, **gaps: Any) -> Inlines:
-    """A phrase of `words.yaml` whose gaps are filled by name, or with shown members of what it is about.
+    """Return a phrase of `words.yaml` with its placeholders filled by name, or from readable members of the objects
+    `about`.
 
-    Raises `TemplateError`, or `ValueError` for a phrase of a template, where nothing fills a gap.
+    Raises `TemplateError`, or `ValueError` for a phrase of a template, if nothing fills a placeholder.
     """
     said: list[Inline] = []
     try:
@@ -50,7 +51,7 @@ def say(report: ReportContext, phrase: str, *about: Any, **gaps: Any) -> Inlines
 
 
 def _gap(report: ReportContext, name: str, how: str, about: Sequence[Any], gaps: Mapping[str, Any]) -> Inlines:
-    """Return the inlines for a gap: the given value, a member, a reference `@tab.dead`, else a quantity.
+    """Return the inlines for a placeholder: the given value, a member, a reference `@tab.dead`, else a quantity.
 
     A quantity is named as between dollar signs in a template: `{e}` is its symbol, `{e:value}` its number and
     `{e:quantity}` both.
@@ -68,11 +69,10 @@ def _gap(report: ReportContext, name: str, how: str, about: Sequence[Any], gaps:
 
 
 def counted(report: ReportContext, name: str, things: Collection[Any], **gaps: Any) -> Inlines:
-    """A phrase about so many things, by its words for one and for many, or by one for both; nothing for none.
+    """Return the phrase about some things in the form for their number; () for none.
 
-    Of three forms the second is that of 2, 3 and 4, as Slavic languages have it.
-
-    The words may have gaps for their `count`, and for the `list` of them.
+    `words.yaml` has one form for all numbers, two (one, many), or three (Slavic languages: 1; 2 to 4; 5 and more, see
+    `form_of`).  The placeholders `count` and `list` stand for the number of things and their names.
     """
     if not len(things):
         return ()
@@ -84,7 +84,9 @@ def counted(report: ReportContext, name: str, things: Collection[Any], **gaps: A
 
 
 def form_of(count: int, forms: int) -> int:
-    """Return the index of the word form, of two or three, for a number: 1, 21; 2, 3, 4, 22; 5, 11, 20."""
+    """Return the index of the word form, of two or three, for a number: 0 for 1, 21; 1 for 2, 3, 4, 22; 2 for 5, 11,
+    20.
+    """
     if forms < 3:
         return int(count > 1)
     last, teen = count % 10, count // 10 % 10 == 1
@@ -92,7 +94,7 @@ def form_of(count: int, forms: int) -> int:
 
 
 def shown_smaller(report: ReportContext, times: float, name: str) -> Inlines:
-    """Return the remark on a figure smaller than to μ_l by a factor; empty if the factor is 1."""
+    """Return the remark on a figure that is smaller than μ_l by the factor `times`; () if the factor is 1."""
     if times == 1.0:
         return ()
     scale = Chain((report.ledger.symbol("mu.l"), report.ledger.number("mu.l")))
@@ -100,7 +102,7 @@ def shown_smaller(report: ReportContext, times: float, name: str) -> Inlines:
 
 
 def sign(report: ReportContext, id: str, position: int | None = None) -> str:
-    """The key of the words for a quantity's sign as it is printed."""
+    """Return the key of the phrase for a quantity's printed sign: "zero", "negative" or "positive"."""
     number = report.ledger.number(id, position).value
     return "zero" if number == 0 else "negative" if number < 0 else "positive"
 
@@ -110,16 +112,16 @@ def stop(report: ReportContext, loop: Mapping[str, Any], *further: Sized) -> str
     return "." if loop["last"] and not any(map(len, further)) else ";"
 
 
-# --- words by what the report has
+# --- phrases by the contents of the report
 
 
 def _set(report: ReportContext, name: str, key: str, *about: Any, **gaps: Any) -> Mapping[str, Inlines]:
-    """The phrases that `words.yaml` has under a name and a key, with their gaps filled."""
+    """Return the phrases that `words.yaml` has under a name and a key, with their placeholders filled."""
     return {one: say(report, phrase, *about, **gaps) for one, phrase in report.words[name][key].items()}
 
 
 def driven(report: ReportContext) -> Mapping[str, Inlines]:
-    """Words for the driver, a crank or a slide, which may run faster or slower, and for what balances it."""
+    """Return the phrases for the driver, a crank or a slide, which may be accelerated, and for its balancing load."""
     words = _set(report, "driven", report.driver.kind, report.driver, report)
     if not report.accelerated:
         return words
@@ -128,13 +130,15 @@ def driven(report: ReportContext) -> Mapping[str, Inlines]:
 
 
 def at_positions(report: ReportContext) -> Inlines:
-    """At which positions a task asks for the motion: at so many of a turn, or at the instants given."""
+    """Return the phrase for the positions at which a task asks for the motion: the positions of a turn, or the given
+    instants.
+    """
     words = report.words["at_positions"]
     return say(report, words["instants"][report.count > 1] if report.instants else words["turn"], report)
 
 
 def no_cycle(report: ReportContext) -> Inlines:
-    """Why nothing is said of the cycle as a whole; nothing where it is."""
+    """Return the reason why the report says nothing about the cycle as a whole; () if it does."""
     if report.cyclic:
         return ()
     key = "accelerated" if report.accelerated else "instants"
@@ -142,12 +146,12 @@ def no_cycle(report: ReportContext) -> Inlines:
 
 
 def acting(report: ReportContext) -> str:
-    """Return the words for the loads of a machine on which nothing else acts."""
+    """Return the phrase for the loads of a machine without applied loads: its weights, or its inertia alone."""
     return str(report.words["acting"]["weights" if report.weighed else "inertia"])
 
 
 def scope(report: ReportContext) -> Mapping[str, Inlines]:
-    """Words for what the report goes into: forces, or motion alone."""
+    """Return the phrases for the extent of the analysis: forces, or motion alone."""
     return _set(report, "scope", scope_key(report), report.words["driven"][report.driver.kind])
 
 
@@ -156,17 +160,19 @@ def scope_key(report: ReportContext) -> str:
 
 
 def study(report: ReportContext) -> Mapping[str, Inlines]:
-    """Words for what is done: an analysis, perhaps with a synthesis before it."""
+    """Return the phrases for the method: an analysis, or a synthesis and an analysis."""
     return _set(report, "study", "synthesis" if report.synthesised else "analysis")
 
 
 def turning(report: ReportContext) -> Mapping[str, Inlines]:
-    """Return the phrases on links that turn; those for "none" if no link turns."""
+    """Return the phrases about links that turn, or those for "none" if no link turns."""
     return _set(report, "turning", "links" if report.has_turning_links else "none")
 
 
 def lever(report: ReportContext) -> Mapping[str, Inlines]:
-    """Return words for the lever of a crank: its velocity plan has a separate round scale, or the crank's."""
+    """Return the phrases for Zhukovsky's lever: its velocity plan has a separate round scale, or the crank's.  {}
+    without a crank.
+    """
     if not report.driver.centre:
         return {}
     symbols = {name: report.ledger.symbol(id) for name, id in (("ω", "omega.1"), ("μ_v", "mu.v"), ("μ_l", "mu.l"))}
@@ -174,51 +180,51 @@ def lever(report: ReportContext) -> Mapping[str, Inlines]:
 
 
 def form(report: ReportContext) -> Mapping[str, Inlines]:
-    """Words for the form of a machine that comes in several: a slider-crank in line or offset, …."""
+    """Return the phrases for the form of a machine that has several, such as an in-line or offset slider-crank."""
     return _set(report, "form", report.own["form"], report) if "form" in report.own else {}
 
 
 def coupler(report: ReportContext) -> Mapping[str, Inlines]:
-    """Words for the points that a coupler carries."""
+    """Return the phrases for the points that a coupler carries."""
     return _set(report, "coupler", report.own["coupler"], report) if "coupler" in report.own else {}
 
 
 def load_key(report: ReportContext) -> str:
-    """The key of the words for the loads that the machine sets out, of those it may have: M3-P3."""
+    """Return the key of the phrases for the loads that the calculation prints together, such as "M3-P3"."""
     return "-".join(report.sheet.get("loads", ()))
 
 
 def driver_loads(report: ReportContext) -> Inlines:
-    """The driver's own inertia force and weight with their symbols, each followed by a comma."""
+    """Return the driver's own inertia force and weight with their symbols, each followed by a comma."""
     words, loads = report.words["driver_loads"], [id for id in ("Pqt1", "G1") if id in report.on_crank]
     return tuple(part for id in loads for part in say(report, words[id], force=report.ledger.symbol(id)))
 
 
 def opposite_words(report: ReportContext) -> str:
-    """The sense of rotation opposite to the driver's."""
+    """Return the phrase for the sense of rotation opposite to the driver's."""
     return report.sense(-report.machine.turn)
 
 
 def medium(report: ReportContext) -> str:
-    """The key of the words for what loads the machine: the gas in its cylinders, or anything else."""
+    """Return the key of the phrases for the load: "gas" for the gas in the cylinders, else "other"."""
     return "gas" if report.has_gas else "other"
 
 
 def slider_convention(report: ReportContext) -> Inlines:
-    """A further sentence on the positive directions of sliders, if there are any."""
+    """Return a sentence on the positive directions of sliders; () without sliders."""
     ways = slider_ways(report)
     return say(report, f" {report.words['conventions']['sliders']} {{ways}}.", ways=ways) if ways else ()
 
 
 def balance_sign(report: ReportContext, position: int) -> Inlines:
-    """Return the meaning of the sign of the balancing torque or force."""
+    """Return the meaning of the balancing load's sign at a position."""
     words = report.words["balance_signs"][report.driver.kind]
     sense = report.sense(report.ledger.number("M.eq", position).value)
     return say(report, words[sign(report, "M.eq", position)], M=report.ledger.symbol("M.eq"), sense=sense)
 
 
 def slide_reactions(report: ReportContext) -> Inlines:
-    """Return where the reactions of slides act, if there are any."""
+    """Return the phrase that says where the reactions of slides act."""
     key = "none" if not report.has_slides else "displaced" if report.displaced_reactions else "at_pin"
     names = report.words["names"]
     parts = {"guide": names["guide"], "wall": names["wall"], "pin": names["pin"]}
@@ -226,7 +232,7 @@ def slide_reactions(report: ReportContext) -> Inlines:
 
 
 def energy_key(report: ReportContext) -> str:
-    """Return the key of the words on the balance of energy: gas, a stroke, a turn (idle or not), or none."""
+    """Return the key of the phrase on the balance of energy: gas, a stroke, a turn (idle or not), or none."""
     if not (report.has_forces and report.cyclic):
         return "none"
     if report.has_gas or not report.driver.centre:
@@ -235,7 +241,7 @@ def energy_key(report: ReportContext) -> str:
 
 
 def no_mean(report: ReportContext) -> Inlines:
-    """Why the mean of what balances the driver is nothing; nothing where it is something."""
+    """Return the reason why the mean of the balancing load is zero; () if it is not."""
     if not (report.has_forces and report.cyclic) or not report.is_zero("M.mean"):
         return ()
     laws = [load.law for load in report.loads]
@@ -244,7 +250,7 @@ def no_mean(report: ReportContext) -> Inlines:
 
 
 def has_moments_of_inertia(report: ReportContext) -> bool:
-    """Return True if the mass of any moving link is spread out."""
+    """Return True if any moving link has a moment of inertia."""
     return any(id in ids.inertia for id in report.mass_lines)
 
 
@@ -254,7 +260,7 @@ def has_moment_components(report: ReportContext) -> bool:
 
 
 def constant_force(report: ReportContext) -> Inlines:
-    """In which stroke a constant working force acts, and whether with the motion; nothing for any other force."""
+    """Return the phrase for the stroke on which a constant working force acts and its sense; () for any other force."""
     if "P.given" not in report.ledger or "stroke" not in report.own:
         return ()
     senses = report.words["constant_force"][report.own["stroke"]]
@@ -262,9 +268,7 @@ def constant_force(report: ReportContext) -> Inlines:
 
 
 def first_position(report: ReportContext) -> Inlines:
-    """Return where the driver is in the first position: at its natural place, at an angle, or at a way along its
-    guide.
-    """
+    """Return the phrase for the driver's first position: its usual place, an angle, or a distance along its guide."""
     words, machine = report.words["first_position"], report.machine
     start, first = report.assignment.positions.start, machine.position(1)
     if report.instants:
@@ -291,12 +295,12 @@ def first_position(report: ReportContext) -> Inlines:
 
 
 def _plain(value: float) -> float:
-    """A typed number without the dust of its conversion."""
+    """Return a typed number without the rounding error of its conversion to SI."""
     return float(f"{value:.10g}") + 0.0
 
 
 def strokes_at_start(report: ReportContext) -> Inlines:
-    """Return the stroke on which each piston leaves the first position, which identifies its turn.
+    """Return the stroke that each piston begins at the first position, which identifies the turn of the cycle.
 
     With single instants, return the stroke of each piston at each of them.
     """
@@ -316,7 +320,7 @@ def strokes_at_start(report: ReportContext) -> Inlines:
 
 
 def lettered(report: ReportContext) -> bool:
-    """Return True if positions between the equidistant ones are called a, b, …"""
+    """Return True if positions between the evenly spaced ones are called a, b, …"""
     machine = report.machine
     return not report.instants and any(k.label.isalpha() for k in machine.numbered(range(1, machine.count + 1)))
 
@@ -330,7 +334,7 @@ def load_sense(report: ReportContext, name: str) -> Inlines:
 
 
 def drawn_group(report: ReportContext, row: GroupRow) -> Inlines:
-    """Return the words for drawing a group of a declared linkage: its rods, its outer joints, the inner one."""
+    """Return the phrase for drawing a group of a declared linkage: its rods, its outer joints, the inner one."""
     drawn = [value(report, ids.drawn(rod)) for rod, _ in row.lengths]
     rods = dict(zip(("first", "second"), drawn, strict=False))
     first, *others = map(NamedPoint, row.joints)
@@ -340,7 +344,7 @@ def drawn_group(report: ReportContext, row: GroupRow) -> Inlines:
 
 
 # --- the steps in which a plan is drawn, in words -------------------------------------------------
-# Where a line begins, its direction, what it stands for.
+# They say where a line begins, its direction, and its meaning.
 # `what` is "v" for the velocity plan, "a" for the acceleration plan.
 
 
@@ -349,7 +353,9 @@ def _image(report: ReportContext, what: str, name: str) -> Symbol:
 
 
 def start(report: ReportContext, what: str, of: Side | CarriedPoint) -> Inlines:
-    """Return where the vector relative to a base begins on a plan: in the pole, or at the end of the base's vector."""
+    """Return the starting point of the vector relative to a base on a plan: the pole, or the end of the base's
+    vector.
+    """
     words = report.words["plan"]
     if of.still:
         return say(report, words["pole"], pole=math(report, POLES[what]))
@@ -357,19 +363,19 @@ def start(report: ReportContext, what: str, of: Side | CarriedPoint) -> Inlines:
 
 
 def line_start(report: ReportContext, what: str, side: Side) -> Inlines:
-    """Return where the line of the unknown begins: at the end of the known relative acceleration, if there is one."""
+    """Return the starting point of the unknown's line: the end of the known relative acceleration, if there is one."""
     if what == "a" and side.part:
         return say(report, report.words["plan"]["end_of"], vector=a(report, side, side.part))
     return start(report, what, side)
 
 
 def along(report: ReportContext, side: Side) -> Inlines:
-    """The direction of what is sought on a side."""
+    """Return the phrase for the direction of the unknown on a side."""
     return say(report, report.words["plan"]["directions"][side.way], rod=subscripted(side.rod), link=side.slide)
 
 
 def sought(report: ReportContext, what: str, group: GroupView, side: Side) -> Symbol:
-    """The vector that is sought on a side: of the point itself where the side's base is at rest, else the relative."""
+    """Return the unknown vector on a side: the point's own if the side's base is at rest, else the relative one."""
     if what == "v":
         return v(report, group.M if side.still else side)
     if side.turns:
@@ -378,7 +384,7 @@ def sought(report: ReportContext, what: str, group: GroupView, side: Side) -> Sy
 
 
 def base_step(report: ReportContext, what: str, group: GroupView, side: Side, position: int) -> Inlines:
-    """Return the step that brings the vector of a side's base onto the plan."""
+    """Return the step that draws the vector of a side's base on the plan."""
     return say(
         report,
         report.words["plan"]["base"][group.base(what, side, position)],
@@ -390,18 +396,20 @@ def base_step(report: ReportContext, what: str, group: GroupView, side: Side, po
 
 
 def known_sense(report: ReportContext, side: Side) -> Inlines:
-    """The sense of the relative acceleration that velocities give: towards the base, or as Coriolis turned it."""
+    """Return the sense of the relative acceleration that velocities give: towards the base, or that of the Coriolis
+    rotation.
+    """
     ends = {"point": NamedPoint(side.point), "base": NamedPoint(side.base)}
     return say(report, report.words["plan"]["senses"]["centre" if side.turns else "coriolis"], **ends)
 
 
 def base_motion(report: ReportContext, side: Side) -> Inlines:
-    """Return the words for the known motion of a side's base: that it is fixed, or its velocity."""
+    """Return the phrase for the known motion of a side's base: that it is fixed, or its velocity."""
     return say(report, report.words["plan"]["bases"][side.state], base=NamedPoint(side.base))
 
 
 def shows_coriolis(report: ReportContext, group: GroupView, side: Side, position: int) -> bool:
-    """Return True if a figure shows the turn that gives the Coriolis acceleration of a slot its sense."""
+    """Return True if a figure shows how the Coriolis acceleration of a slot gets its sense."""
     moves = not any(report.is_zero(id, position) for id in (side.velocity, side.omega))
     return group.kind == "RPR" and moves and bool(report.parts("coriolis-turn"))
 

@@ -1,6 +1,7 @@
-"""Plans of velocity, acceleration and force: the ledger's points on paper, in the order of construction.
+"""Figures of the plans of velocity, acceleration and force: worked plans, their construction in stages, and plates of
+all positions.
 
-The ledger's plans are metres on paper; `reportgen/drawing/vector_plan.py` draws them.
+The ledger's plans are in metres on paper (x + iy); `reportgen/drawing/vector_plan.py` draws them.
 """
 
 from __future__ import annotations
@@ -45,45 +46,48 @@ SHEET = (385.0, 232.0)
 SCALE_FIGURES = 6
 """Significant figures of the scale of a plan that is drawn smaller."""
 SHARES = (1.0, 0.5, 0.4, 0.25, 0.2, 0.1)
-"""Factors by which the plans of all positions may be smaller than the worked ones: scales stay in their series."""
+"""Factors by which the plans of all positions may be smaller than the worked ones; scales stay in their series."""
 LARGEST = 58.0
-"""Largest extent of these plans without their labels (mm): about three fit side by side."""
+"""Largest extent of these plans without their labels (mm), so that about three fit side by side."""
 ROOM = (78.0, 75.0)
 """Largest width and height of each of them with its labels (mm)."""
 LARGEST_OF_FORCES, LEAST_OF_FORCES = 50.0, 25.0
-"""The longest extent of each force plan without its labels (mm): round scales are at most twofold apart."""
+"""Bounds of the longest extent of each force plan without its labels (mm): round scales are at most twofold apart."""
 ROOM_OF_FORCES = 78.0
-"""The width that each of them may take with its labels (mm)."""
+"""The largest width of each of them with its labels (mm)."""
 NOTHING_DRAWN = 0.5
-"""A plan smaller than this (mm) is that of a position without forces."""
+"""A force plan smaller than this (mm) belongs to a position without forces."""
 FINER = 1e-6
-"""Relative step above a scale at which the search for the next coarser one begins."""
+"""Relative step above a scale at which the search for the next coarser scale starts."""
 PANELS = 160.0, 60.0
-"""Largest width and height (mm) on a page of the panels of a construction's steps, all in one row."""
+"""Largest width and height (mm) of a row of panels that show the steps of a construction."""
 PANEL = 78.0
-"""The width of one panel at most (mm)."""
+"""Largest width of one panel (mm)."""
 CLOSE_MARGIN = 2.0
-"""White around each of many plans (mm)."""
+"""Margin around each of many plans (mm)."""
 
 POLE = "pole"
-"""The corner that a plan of velocities or accelerations begins in; the ids of all others are in the ledger."""
+"""The corner at which a plan of velocities or accelerations begins; all other corners have ids of the ledger."""
 STAGES = 3
-"""Number of stages of a group in a plan of velocity or acceleration: the known vectors, the lines that meet, points."""
+"""Number of stages of a group in a plan of velocity or acceleration: known vectors, the lines that meet, further
+points.
+"""
 
 # --- velocity and acceleration
 
 
 @dataclass(frozen=True, slots=True)
 class MotionFigures:
-    """The figures of the plan of velocities (v) or accelerations (a): the plan, its stages, the plates of one turn."""
+    """Figures of the plan of velocities ("v") or accelerations ("a"): the plan, its stages, the plates of one turn."""
 
     what: What
 
     def whole(self, report: ReportContext, k: int) -> FigureScenes:
+        """Draw the finished plan at position `k`."""
         return on_paper(_worked(report, self._plan(report, k), k))
 
     def in_stages(self, report: ReportContext, k: int, group: GroupView) -> FigureScenes:
-        """The steps of one group's construction, numbered as in the text; what was drawn before is gray."""
+        """Draw the steps of one group's construction, numbered as in the text; earlier steps are gray."""
         begin = STAGES * next(n for n, one in enumerate(report.groups) if one.name == group.name)
         bounds = np.cumsum([0, *_steps(group, self.what)])
         names = report.words["figure"]
@@ -96,10 +100,11 @@ class MotionFigures:
         return _stages(report, until, ids.scale(self.what), titles, begin)
 
     def on_plates(self, report: ReportContext) -> FigureScenes:
+        """Draw the plans of all positions of one turn."""
         return self.series(report).figure
 
     def series(self, report: ReportContext) -> PlanSeries:
-        """The plans of one turn without those that mirror others."""
+        """Return the plans of one turn, without those that mirror others."""
         mirrored_at = positions_mirrored(report, self.what).at
         return PlanSeries(
             report, self._plan, [k for k in one_turn(report) if k not in mirrored_at], ids.scale(self.what)
@@ -110,35 +115,35 @@ class MotionFigures:
 
 
 def one_turn(report: ReportContext) -> list[int]:
-    """The positions of one turn whose plans are drawn."""
+    """Return the positions of one turn whose plans are drawn."""
     return sorted({(k - 1) % report.count + 1 for k in report.plates})
 
 
 def positions_mirrored(report: ReportContext, what: What) -> Mirrored:
-    """The positions whose plans of velocity (v) or acceleration (a) mirror drawn ones."""
+    """Return the positions whose plans of velocity ("v") or acceleration ("a") mirror plans that are drawn."""
     return mirrored({k: motion_plan(report, what, k) for k in one_turn(report)})
 
 
 def mirror_images(report: ReportContext, what: What) -> Inlines:
-    """Return the remark on positions whose plans are not drawn again; empty if all are drawn."""
+    """Return the remark on positions whose plans are mirror images and not drawn; () if all are drawn."""
     mirror = positions_mirrored(report, what)
     drawn = ", ".join(str(report.machine.position(k)) for k in mirror.of)
     return counted(report, "mirrored", [report.machine.position(k) for k in mirror.at], drawn=drawn)
 
 
 def _at(construction: Construction[str], report: ReportContext, k: int) -> Plan:
-    """A construction on paper (mm) as it is at a position."""
+    """Return a construction on paper (mm) at position `k`."""
     scale = MM / report.enlarged
     return construction.placed(lambda id: 0j if id == POLE else settled(complex(report.ledger[id].at(k)) * scale))
 
 
 def motion_plan(report: ReportContext, what: What, k: int) -> Plan:
-    """The plan of velocities (v) or accelerations (a) at a position, in mm."""
+    """Return the plan of velocities ("v") or accelerations ("a") at position `k`, in mm."""
     return _at(motion_construction(report, what), report, k)
 
 
 def motion_construction(report: ReportContext, what: What) -> Construction[str]:
-    """The plan of velocities (v) or accelerations (a), its stages in their order, with the ids of its corners."""
+    """Return the plan of velocities ("v") or accelerations ("a") in stages, with the ids of its corners."""
     sketch = _Sketch(report, what)
     stage = 0
     drawn: set[str] = set()
@@ -156,18 +161,18 @@ def motion_construction(report: ReportContext, what: What) -> Construction[str]:
 
 
 def _worked(report: ReportContext, drawing: Plan, k: int, alone: bool = False) -> Scene:
-    """A worked plan with the mechanism beside it, or `alone`."""
+    """Draw a worked plan with the mechanism beside it, or `alone`."""
     beside = () if alone else (thumbnail(report.machine.linkage, report.analysis.motion, k - 1),)
     return plan(drawing, beside=beside, width=FIGURE_ROOM[0])
 
 
 def _scale(report: ReportContext, id: str, k: int | None = None) -> Chain:
-    """A scale as a figure prints it: μ_v = 0.2189 m/(s·mm)."""
+    """Return a scale as a figure prints it: μ_v = 0.2189 m/(s·mm)."""
     return Chain((report.ledger.symbol(id), report.ledger.number(id, k)))
 
 
 def _steps(group: GroupView, what: What) -> tuple[int, int, int]:
-    """Return how many steps of a group's construction, as the text counts them, each of its stages draws."""
+    """Return the number of steps, as the text counts them, in each stage of a group's construction."""
     bases = 1 if group.kind == "RRP" and group.two.still else len(group.moving)
     known = sum(bool(side.part) for side in group.sides) if what == "a" else 0
     return bases + known, len(group.sides), len(group.carried) + bool(group.similar(what))
@@ -176,7 +181,7 @@ def _steps(group: GroupView, what: What) -> tuple[int, int, int]:
 def _stages(
     report: ReportContext, drawing: Plan, scale: str, titles: Titles = lettered, begin: int = 0, k: int | None = None
 ) -> FigureScenes:
-    """The stages of a plan at half its size or, for large plans, less, with the scale that makes."""
+    """Draw the stages of a plan at half its size, or smaller for a large plan, and note the resulting scale."""
     number = report.ledger.number(scale, k)
     for share in SHARES[1:-1]:
         scenes = stages(drawing, share, titles, begin)
@@ -190,7 +195,7 @@ def _stages(
 
 @dataclass(frozen=True, slots=True)
 class PlanSeries:
-    """Plans of one `scale` in rows; insets are for worked plans."""
+    """Plans of several positions at one `scale`, in rows; without the mechanism beside them."""
 
     report: ReportContext
     drawing: Callable[[ReportContext, int], Plan]
@@ -199,7 +204,7 @@ class PlanSeries:
 
     @property
     def figure(self) -> FigureScenes:
-        """The plans in the text, on A3 sheets if they have no room there."""
+        """The plans in the text, or on A3 sheets if they have no room there."""
         share, scenes = self.fitted()
         note = self.note(share)
         if scenes:
@@ -207,11 +212,11 @@ class PlanSeries:
         return FigureScenes(sheets(tuple(self.scenes(share)), *SHEET, note, trim=0.0), A3_ACROSS)
 
     def note(self, share: float) -> Chain:
-        """Their scale, drawn a share as large as the worked ones."""
+        """Return the scale of the plans when they are drawn a `share` as large as the worked ones."""
         return scale_note(self.report, self.scale, share)
 
     def fitted(self) -> tuple[float, list[Scene]]:
-        """The largest of the shares at which each plan has room in the text block, and the scenes; none if none has."""
+        """Return the largest share at which every plan fits in the text, and the scenes; [] if none fits."""
         largest = max(self.drawing(self.report, k).extent for k in self.positions)
         for share in SHARES:
             last = share == SHARES[-1]
@@ -228,7 +233,7 @@ class PlanSeries:
         return share, []
 
     def scenes(self, share: float) -> Iterator[Scene]:
-        """The plans, a share as large as the worked ones."""
+        """Yield the plans, a `share` as large as the worked ones."""
         word = self.report.words["table"]["position"]
         for k in self.positions:
             drawing = replace(self.drawing(self.report, k).lettered, scale=None, lines=()).scaled(share)
@@ -237,7 +242,7 @@ class PlanSeries:
 
 
 class _Sketch:
-    """A velocity or acceleration plan while its vectors are collected."""
+    """A velocity or acceleration plan during its construction."""
 
     def __init__(self, report: ReportContext, what: What) -> None:
         self.what, self.named = what, report.named
@@ -249,7 +254,7 @@ class _Sketch:
         return ids.plan_point(self.what, name)
 
     def absolute(self, name: str, style: VectorStyle, stage: int) -> None:
-        """Enter the vector of a point's own velocity or acceleration, from the pole, with its end."""
+        """Enter the vector from the pole for a point's velocity or acceleration, with its end."""
         end = self.at(image(name))
         self.vectors.append(PlanVector(name, POLE, end, style, Symbol(self.what, name, over="vector"), stage))
         self.points.append(PlanPoint(vocabulary.on_plan(name, self.what == "a"), end, stage))
@@ -263,12 +268,12 @@ class _Sketch:
         self.points.append(PlanPoint(Symbol("n", pin), corner, stage))
 
     def relative(self, side: Side, part: str, start: str, end: str, stage: int) -> None:
-        """Enter what a side adds to the velocity or acceleration of its base, or a part of it."""
+        """Enter the vector that a side adds to the velocity or acceleration of its base, or one component of it."""
         label = self.named(Symbol(self.what, side.pair, part, "vector"))
         self.vectors.append(PlanVector(part + side.relative, start, end, "relative", label, stage))
 
     def group(self, group: GroupView, stage: int) -> None:
-        """Enter a group's construction in three stages: what is known, the lines that meet, further points."""
+        """Enter a group's construction in three stages: known vectors, the lines that meet, further points."""
         for guide in group.under:
             self.absolute(guide.base, "known", stage)
         end = self.at(image(group.M))
@@ -287,7 +292,7 @@ class _Sketch:
             self.absolute(name, "found", stage + 1)
 
     def _known(self, side: Side, stage: int) -> str:
-        """Enter the relative acceleration that is known; gives where the sought part starts."""
+        """Enter the known relative acceleration and return the corner at which the unknown part starts."""
         start = POLE if side.still else self.at(image(side.base))
         if self.what == "v" or not side.part:
             return start
@@ -301,6 +306,7 @@ class _Sketch:
 
 
 def forces(report: ReportContext, k: int, group: GroupView) -> FigureScenes:
+    """Draw the force plan of a group at position `k`."""
     assert group.polygon is not None
     # The separated links, too, show the directions on the mechanism.
     alone = not report.parts("mechanism-beside-forces")
@@ -308,7 +314,7 @@ def forces(report: ReportContext, k: int, group: GroupView) -> FigureScenes:
 
 
 def force_stages(report: ReportContext, k: int, group: GroupView) -> FigureScenes:
-    """The force plan step by step: loads, what moments have given, closing edges, what is read."""
+    """Draw the force plan step by step: loads, forces that moments gave, closing edges, measured forces."""
     assert group.polygon is not None
     drawing = force_plan(report, group.polygon, k)
     edges, reads = group.polygon.edges, group.polygon.reads
@@ -323,7 +329,7 @@ def force_stages(report: ReportContext, k: int, group: GroupView) -> FigureScene
         return 0 if vector.stage < known else 2 + vector.stage - known
 
     def reached(corner: complex) -> int:
-        """The first step that draws an arrow to or from a corner (mm)."""
+        """Return the first step that draws an arrow to or from a corner (mm)."""
         return min(step(v) for v in drawing.vectors if corner in (v.start, v.end))
 
     steps = replace(
@@ -335,29 +341,30 @@ def force_stages(report: ReportContext, k: int, group: GroupView) -> FigureScene
 
 
 def force_plates(report: ReportContext, group: GroupView) -> FigureScenes:
+    """Draw the force plans of all positions."""
     assert group.polygon is not None
     return FigureScenes(tuple(ForcePlans(report, group.polygon).scenes()))
 
 
 @dataclass(frozen=True, slots=True)
 class ForcePlans:
-    """Force plans of all positions, each to a separate round scale, which is printed below it.
+    """Force plans of all positions, each at a separate round scale, which is printed below it.
 
-    The forces of a cycle differ by orders of magnitude: to one scale some plans would be blots.
+    The forces of a cycle differ by orders of magnitude: at one common scale some plans would be dots.
     """
 
     report: ReportContext
     polygon: Polygon
 
     def scenes(self, times: float = 1.0) -> Iterator[Scene]:
-        """The plans, up to so many times as large as in the text."""
+        """Yield the plans, up to `times` as large as in the text."""
         word = self.report.words["table"]["position"]
         for k in self.report.plates:
             at = str(self.report.machine.position(k))
             yield replace(self._scene(k, f"{word} {at}", times), at=at)
 
     def _scene(self, k: int, title: str, times: float) -> Scene:
-        """One of them, to the next coarser scale where its labels would not have room beside others."""
+        """Draw one plan, at the next coarser scale if its labels would not fit beside other plans."""
         report = self.report
         drawing = replace(force_plan(report, self.polygon, k).lettered, scale=None, lines=())
         extent = drawing.extent * report.enlarged
@@ -377,14 +384,14 @@ class ForcePlans:
 
 
 def force_plan(report: ReportContext, polygon: Polygon, k: int) -> Plan:
-    """A force plan at a position, in mm."""
+    """Return a force plan at position `k`, in mm."""
     return replace(
         _at(force_construction(report, polygon), report, k), scale=_scale(report, ids.force_scale(polygon.name), k)
     )
 
 
 def force_construction(report: ReportContext, polygon: Polygon) -> Construction[str]:
-    """A force plan with the ids of its corners: known edges one by one, what closing it gives, what is read from it."""
+    """Return a force plan with the ids of its corners: known edges in order, the closing edges, the measured forces."""
 
     def corner(letter: str) -> str:
         return ids.force_corner(polygon.name, letter)

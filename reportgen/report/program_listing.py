@@ -1,4 +1,4 @@
-"""The closed formulas of a machine as a standalone program."""
+"""The closed formulas of a machine as a standalone Python program, printed in the report."""
 
 from __future__ import annotations
 
@@ -27,15 +27,14 @@ from reportgen.machine.load_laws import FULL_TURN
 from reportgen.report.context import ReportContext
 
 CURVES = ("s", "v", "a", "M"), ("x", "y", "v", "a", "M"), ("ω", "ε")
-"""Letters of what is drawn: the first of these sets that begins with a letter which the formulas give."""
+"""Letters of the quantities that the program plots: the first of these sets whose first letter the formulas give."""
 
 
 def program(report: ReportContext) -> Listing:
     """Return the closed formulas as a program: given data, the formulas in order, and a table of their results.
 
-    It ends with their curves over the way of the driver.  Its quantities are in SI units and rad, not rounded.
-    A quantity without a formula is given by its values.  Raises `NotOfferedError` for a machine without closed
-    formulas.
+    It ends with curves over the driver's motion.  Its quantities are in SI units and rad, not rounded.  A quantity
+    without a formula is given by its values.  Raises `NotOfferedError` for a machine without closed formulas.
     """
     ledger, kind = report.case.ledger, report.assignment.kind
     changing = [id for id, one in ledger.families.items() if one.chapter is KeyChapter.formulas and len(one.values) > 1]
@@ -81,11 +80,11 @@ def program(report: ReportContext) -> Listing:
 
 
 def _curves(report: ReportContext, names: Mapping[str, str]) -> Iterator[str]:
-    """Yield the lines for the curves of a program: their abscissa, and the curves by unit."""
+    """Yield the lines of the program that plot curves: the abscissa, and the curves by unit."""
     ledger, machine = report.case.ledger, report.machine
     bases = {id: ledger.symbol(id).base for id in names}
     letters = next((one for one in CURVES if one[0] in bases.values()), CURVES[-1])
-    # What slides is told by its displacement; v and a of other points only lead to its own.
+    # A slider is recognised by its displacement; v and a of other points are only intermediate results.
     points = {ledger.symbol(id).sub for id in names if bases[id] == letters[0]}
     own = {letter for letter in letters if any(bases[id] == letter and ledger.symbol(id).sub in points for id in names)}
     by_unit: dict[str, list[str]] = {}

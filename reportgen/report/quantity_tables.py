@@ -1,6 +1,6 @@
 """Tables of given data, and of quantities at positions.
 
-A table is a function of a report, its key, caption and head, and of what it shows; the namespace gives its name in
+A table is a function of a report, its key, caption and head, and of its contents; `named_tables` gives its name in
 templates.
 """
 
@@ -34,19 +34,21 @@ from reportgen.report.context import ReportContext
 
 MOST_COLUMNS = 9
 TITLES = 40.0
-"""The column that says what the rows of lengths are (mm)."""
+"""Width of the column with the names of the rows of lengths (mm)."""
 TABLE_SIZE = 10.0
-"""The size of type in tables, points."""
+"""Type size in tables (pt)."""
 PADDING = 2.2
 """White space beside the contents of a column (mm)."""
 LENGTHS = (ids.length, ids.drawn)
 """The two rows of a table of lengths."""
 
-# --- what tables are made with
+# --- numbers and columns
 
 
 def bare(report: ReportContext, id: str, position: int | None, size: bool = False) -> Inlines:
-    """A number without its unit, a dash for what does not exist; that of an arm, or `size`, without its sign."""
+    """Return a number without its unit, or a dash if it does not exist.  An arm has no sign; neither has any number
+    with `size`.
+    """
     family = report.ledger[id]
     number = report.ledger.number(id, position, size=size or family.arm)
     if math.isnan(number.value) or (family.is_of_vector and report.is_zero(family.of, position)):
@@ -55,7 +57,7 @@ def bare(report: ReportContext, id: str, position: int | None, size: bool = Fals
 
 
 def head_symbol(report: ReportContext, id: str) -> Expression:
-    """Return the symbol over a column: |v| over magnitudes, read from plans, of vectors."""
+    """Return the symbol over a column: |v| for a vector whose magnitude is read from a plan."""
     symbol = report.ledger.symbol(id)
     return size(symbol) if any(id in rate for rate in ids.POINT_RATE.values()) else symbol
 
@@ -63,9 +65,9 @@ def head_symbol(report: ReportContext, id: str) -> Expression:
 def tables(
     report: ReportContext, key: str, caption: str, quantities: Sequence[str], positions: Iterable[int]
 ) -> tuple[Table | Paragraph, ...]:
-    """Quantities at positions: one table, or several below one another where the columns are too many.
+    """Return quantities at positions in one table, or in several below one another if there are too many columns.
 
-    Those that are zero at every position have no column; a sentence says so instead.
+    Quantities that are zero at every position have no column; a sentence says so instead.
     """
     at, columns = list(positions), []
     zeros = [id for id in quantities if all(report.is_zero(id, k) for k in at)]
@@ -95,7 +97,7 @@ def tables(
 
 
 def column_width(report: ReportContext, id: str, at: Iterable[int | None]) -> float:
-    """Return the width (mm) of a quantity's numbers and symbol, with the white space beside them."""
+    """Return the width (mm) of a column for a quantity's numbers and symbol, white space included."""
     numbers = (replace(report.ledger.number(id, k), unit="") for k in at)
     expressions = (head_symbol(report, id), *(number for number in numbers if math.isfinite(number.value)))
     return max(box(expression, TABLE_SIZE).width for expression in expressions) + PADDING
@@ -107,7 +109,7 @@ def column_width(report: ReportContext, id: str, at: Iterable[int | None]) -> fl
 def given_data(
     report: ReportContext, key: str, caption: str, head: Sequence[str], others: Mapping[str, str] | None = None
 ) -> Table:
-    """The given quantities in the words of the machine, some of them in other words."""
+    """Return the table of the given quantities; `others` replaces some of their descriptions."""
     return given_table(report, key, caption, {**report.given_names, **(others or {})})
 
 
@@ -130,15 +132,15 @@ def _is_given(report: ReportContext, id: str) -> bool:
 
 
 PRINTED = ("mm", "cm", "m", "°", "N", "kN", "kg", "kg·m²", "N·m", "MPa", "bar", "m/s", "mm/s", "m/s²", "rad/s", "N/mm")
-"""Units that are printed as they were typed; any other is turned into the one of the report."""
+"""Units that are printed as typed; any other unit is converted to that of the report."""
 
 
 OTHER = ("lb", "in", "inch", "ft", "lbf", "kgf", "gf", "oz", "hp", "psi")
-"""Units that are printed as they were typed, with what the report makes of them."""
+"""Units that are printed as typed and followed by the converted value."""
 
 
 def _as_typed(report: ReportContext, id: str) -> Inlines:
-    """A given number with its unit; a ratio written 1/3.6 stays one."""
+    """Return a given number with its unit; a ratio typed as 1/3.6 stays a ratio."""
     definition = report.ledger[id].definition
     if isinstance(definition, Fraction):
         ends = [part for part in (definition.top, definition.bottom) if isinstance(part, Number)]
@@ -153,7 +155,7 @@ def _as_typed(report: ReportContext, id: str) -> Inlines:
 
 
 def indicator(report: ReportContext, key: str, caption: str, head: Sequence[str]) -> Table:
-    """The indicator diagram as given, in gauge pressure: by stroke, or against the cycle angle."""
+    """Return the table of the indicator diagram as given, in gauge pressure: by stroke, or over the cycle angle."""
     diagram = report.assignment.indicator
     heights = diagram.height if isinstance(diagram, ByOrdinates) else ()
     piston = report.machine.pistons[0]
@@ -161,20 +163,24 @@ def indicator(report: ReportContext, key: str, caption: str, head: Sequence[str]
 
 
 def working_force(report: ReportContext, key: str, caption: str, head: Sequence[str]) -> Table:
-    """The working force as given (N): a row for each of the strokes of the head, or against the crank angle."""
+    """Return the table of the working force as given (N): a row for each stroke of the head, or over the crank
+    angle.
+    """
     force = report.machine.applied[0]
     return _law_table(report, force.name, force.law, key, caption, head, symbol=Symbol("P"))
 
 
 def gas_law(report: ReportContext, key: str, caption: str, head: Sequence[str], name: str) -> Table:
-    """The gauge pressure (N/cm²) on a piston as given: by stroke, or against the cycle angle."""
+    """Return the table of the gauge pressure (N/cm²) on a piston as given: by stroke, or over the cycle angle."""
     gas = next(load for load in report.loads if load.name == name)
     caption = caption.format(link=gas.link)
     return _law_table(report, name, gas.law, key, caption, names=report.words["strokes"])
 
 
 def load_law(report: ReportContext, key: str, caption: str, head: Sequence[str], name: str) -> Table:
-    """The load `name` as given: a row for each of the strokes of the head, or against the driver's turn or way."""
+    """Return the table of the load `name` as given: a row for each stroke of the head, or over the driver's angle or
+    travel.
+    """
     load = next(load for load in report.loads if load.name == name)
     caption = caption.format(link=load.link, unit=report.ledger.printed_unit(report.ledger[name].how.unit))
     return _law_table(report, name, load.law, key, caption, head)
@@ -190,10 +196,9 @@ def _law_table(
     symbol: Symbol | None = None,
     heights: Sequence[float] = (),
 ) -> Table:
-    """The table that the law of the load `name` is given by: one row, or those of the strokes that have `names`.
+    """Return the table that gives the load `name`: one row, or a row for each of the strokes called `names`.
 
-    `symbol` takes the place of the load's symbol; `heights` (mm) are those it was read from, if it was read from a
-    drawing.
+    `symbol` replaces the load's symbol; `heights` (mm) are the ordinates that were measured on a drawing, if any.
     """
     given = law.tabled
     assert given is not None, f"{name} is not given by a table"
@@ -212,14 +217,14 @@ def _law_table(
 
 
 def joints(report: ReportContext) -> Iterator[Sequence[object]]:
-    """Yield all joints: number, place, links, type."""
+    """Yield a row for each joint: number, place, links, type."""
     for number, joint in enumerate(report.mobility.joints, start=1):
         acting, acted_on = joint.links
         yield str(number), vocabulary.point(joint.point), f"{acting} – {acted_on}", report.words["joints"][joint.kind]
 
 
 def lengths(report: ReportContext, key: str, caption: str, head: Sequence[str]) -> tuple[Table, ...]:
-    """Real and drawn lengths, one column a length; more than have room in several tables below one another."""
+    """Return the true and drawn lengths, one column each, in several tables if there are too many columns."""
     columns = [
         (subscripted(line), *(bare(report, name(line), None) for name in LENGTHS)) for line in report.drawn_lines
     ]
@@ -237,9 +242,10 @@ def lengths(report: ReportContext, key: str, caption: str, head: Sequence[str]) 
 
 @dataclass(frozen=True, slots=True)
 class QuantityTable:
-    """A table of the quantities whose ids a function gives, `at` the positions of that name in the report.
+    """A table of the quantities whose ids a function returns, `at` the positions of that name in the report.
 
-    The words of a `group` of quantities, by the beginnings of their ids, follow the caption where it has a column.
+    `groups` maps names of phrases to beginnings of ids: the phrase is added to the caption if such a quantity has a
+    column.
     """
 
     ids: Callable[[ReportContext], Sequence[str]]
@@ -258,7 +264,7 @@ class QuantityTable:
 
 @dataclass(frozen=True, slots=True)
 class RowTable:
-    """A table of the rows that a function gives, in columns of these widths (mm)."""
+    """A table of the rows that a function returns, in columns of these widths (mm)."""
 
     rows: Callable[..., Iterable[Sequence[object]]]
     widths: tuple[float, ...]
@@ -271,13 +277,13 @@ class RowTable:
 
 
 def frame(report: ReportContext) -> Iterable[Sequence[object]]:
-    """The fixed points."""
+    """Return a row for each fixed point."""
     fixed: Iterable[Sequence[object]] = report.own["frame"]
     return fixed
 
 
 def groups(report: ReportContext) -> Iterator[Sequence[object]]:
-    """The groups in the order of assembly, with the way in which each is assembled."""
+    """Yield a row for each group, in the order of assembly, with its assembly mode."""
     choice = report.words["linkage"]["choice"]
     for row in report.own["groups"]:
         joints = listed(InlineMath(vocabulary.point(name)) for name in row.joints)
@@ -285,12 +291,14 @@ def groups(report: ReportContext) -> Iterator[Sequence[object]]:
 
 
 def guides(report: ReportContext) -> Iterator[Sequence[object]]:
-    """The guides: a point of the line and its direction."""
+    """Return a row for each guide: the slider, the carrier, a point of the line and its direction."""
     return ((str(row.slider), str(row.carrier), row.x, row.y, row.angle) for row in report.own["guides"])
 
 
 def further_points(report: ReportContext) -> Iterator[Sequence[object]]:
-    """Further points of the links by their distances, with the joint and the direction that these are measured from."""
+    """Yield a row for each further point of a link: its distances, and the joint and direction from which they are
+    measured.
+    """
     along = report.words["vector"]
     for row in report.own["points"]:
         start = vocabulary.point(row.origin)

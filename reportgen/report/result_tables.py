@@ -1,4 +1,7 @@
-"""Tables of results: motion, forces, and independent checks of the calculation."""
+"""Contents of the tables of results: motion, forces, and independent checks of the calculation.
+
+Functions return ids of columns or yield rows; `named_tables` makes tables of them.  `residuals` computes the checks.
+"""
 
 from __future__ import annotations
 
@@ -23,14 +26,14 @@ from reportgen.report.table_remarks import AT_REST
 from reportgen.report.topic_views import VIEWS
 
 MOST_COORDINATES, MOST_WIDE = 10, 8
-"""Columns of coordinates in one table; fewer where one of them is −100 mm or less."""
+"""Largest number of coordinate columns in one table, and the number if a coordinate is −100 mm or less."""
 WIDE = -0.1
-"""A coordinate (m) that takes the widest column."""
+"""A coordinate (m) that needs the widest column."""
 NARROWEST = 16.0
-"""Columns of words narrower than this (mm) are set as rows instead."""
+"""Columns of words narrower than this (mm) are printed as rows instead."""
 
 AGREED = -9
-"""Two ways to a result agree to ten to this power, of the greatest value; smaller differences are rounding noise."""
+"""Two methods agree to ten to this power of the greatest value; smaller differences are rounding noise."""
 
 # --- motion
 
@@ -38,11 +41,11 @@ AGREED = -9
 def coordinates(report: ReportContext, key: str, caption: str, head: Sequence[str]) -> tuple[Table, ...]:
     """Return x and y of every moving point at the positions of one turn, in mm; several tables if there are many.
 
-    A coordinate that a formula also gives is printed as in the formula's line, any other as it is read from the plan.
+    A coordinate that a formula also gives is printed as in the formula's line, any other as read from the plan.
     """
     linkage, motion = report.machine.linkage, report.analysis.motion
     at = [k - 1 for k in report.positions]
-    # The point of a lever under a block's pin lies where the pin is.
+    # The point of a lever under a block's pin coincides with the pin.
     under = {dyad.middle for dyad in linkage.dyads if dyad.kind == "RPR"}
     names = [name for name in motion.points if name not in {*linkage.ground, *under}]
     courses = [
@@ -62,7 +65,7 @@ def coordinates(report: ReportContext, key: str, caption: str, head: Sequence[st
 
 
 def _as_written(report: ReportContext, point: str, course: np.ndarray) -> list[Number]:
-    """The coordinate (m) of a point at all positions as its numbers in mm."""
+    """Return the coordinate (m) [N] of a point at all positions as printed numbers in mm."""
     values, decimals = course, 5
     for id, family in report.case.ledger.families.items():
         alike = (family.kind, family.symbol.sub, family.values.shape) == ("length", point, course.shape)
@@ -78,7 +81,9 @@ def _two_decimals(value: float) -> Number:
 
 
 def dead_centres(report: ReportContext) -> Iterator[Sequence[object]]:
-    """Yield the dead centres of each slider: crank's turn from position 1, the pin's distance from the crank centre."""
+    """Yield the dead centres of each slider: the crank angle from position 1, and the pin's distance from the crank
+    centre.
+    """
     words = report.words["tables"]["dead"]
     for piston in report.machine.sliders:
         for name, angle, place in (
@@ -91,9 +96,9 @@ def dead_centres(report: ReportContext) -> Iterator[Sequence[object]]:
 
 
 def labels(report: ReportContext) -> Iterator[Sequence[object]]:
-    """The positions of one turn by their labels: the crank's turn, and what the first slider does there.
+    """Yield rows for the positions of one turn: label, crank angle, and the state of the first slider.
 
-    It turns back at its "top" and "bottom", and is "fastest" where a = 0.
+    The slider reverses at its "top" and "bottom", and is "fastest" where a = 0.
     """
     words = report.words["tables"]["labels"]
     machine, motion = report.machine, report.analysis.motion
@@ -107,13 +112,14 @@ def labels(report: ReportContext) -> Iterator[Sequence[object]]:
 
 
 def angular_velocities(report: ReportContext, k: int) -> Iterator[Sequence[object]]:
-    """The angular velocities with their sense in words."""
+    """Yield the angular velocities at position `k`: symbol, size, and sense in words."""
     if report.driver.centre:
         yield report.ledger.symbol("omega.1"), bare(report, "omega.1", k, size=True), report.turn_words
     yield from _rotations(report, "omega", k)
 
 
 def angular_accelerations(report: ReportContext, k: int) -> Iterator[Sequence[object]]:
+    """Yield the angular accelerations at position `k`: symbol, size, and sense in words."""
     return _rotations(report, "eps", k)
 
 
@@ -124,13 +130,14 @@ def _rotations(report: ReportContext, rate: str, k: int) -> Iterator[Sequence[ob
 
 
 def summary(report: ReportContext, k: int) -> Iterator[Sequence[object]]:
-    """Quantities at one position as "symbol = value", in rows of as many as there are heads."""
+    """Yield rows of "symbol = value" for quantities at one position."""
     ledger = report.ledger
     for row in report.own["summary"]:
         yield [Chain((ledger.symbol(id), ledger.number(id, k))) if id else "" for id in row]
 
 
 def velocity_segments(report: ReportContext) -> list[str]:
+    """Return the ids of the segments measured on the velocity plan."""
     columns: list[str] = []
     for group in report.groups:
         columns += [
@@ -142,6 +149,7 @@ def velocity_segments(report: ReportContext) -> list[str]:
 
 
 def velocities(report: ReportContext) -> list[str]:
+    """Return the ids of the velocities and angular velocities that the plan gives."""
     columns: list[str] = []
     for group in report.groups:
         # Relative to a fixed point a velocity is the point's own.
@@ -152,6 +160,7 @@ def velocities(report: ReportContext) -> list[str]:
 
 
 def acceleration_segments(report: ReportContext) -> list[str]:
+    """Return the ids of the segments measured on the acceleration plan."""
     columns: list[str] = []
     for group in report.groups:
         columns.append(ids.segment("a", "p", image(group.M)))
@@ -161,6 +170,7 @@ def acceleration_segments(report: ReportContext) -> list[str]:
 
 
 def accelerations(report: ReportContext) -> list[str]:
+    """Return the ids of the accelerations and angular accelerations that the plan gives."""
     columns: list[str] = []
     for group in report.groups:
         columns.append(ids.acceleration(group.M))
@@ -171,7 +181,7 @@ def accelerations(report: ReportContext) -> list[str]:
 
 
 def _of_links(report: ReportContext, rate: str) -> list[str]:
-    """Signed angular quantities of the links that turn."""
+    """Return the ids of the signed angular quantities of the links that turn."""
     return report.known(ids.signed(rate, link) for link in report.machine.linkage.links)
 
 
@@ -180,7 +190,7 @@ def _images(what: str, group: GroupView) -> list[str]:
 
 
 def _parts(side: Side) -> list[str]:
-    """Suffixes of a side's relative accelerations, the known one first."""
+    """Return the suffixes of a side's relative accelerations, that of the known one first."""
     return [part for part in (side.part, side.sought) if part]
 
 
@@ -188,7 +198,7 @@ def _parts(side: Side) -> list[str]:
 
 
 def strokes(report: ReportContext, key: str, caption: str, head: Sequence[str]) -> Table:
-    """The stroke of every piston between dead centres of any of them; of single instants, at each of them."""
+    """Return the table of every piston's stroke between the dead centres of all pistons, or at each single instant."""
     positions, first = head
     gas, machine = report.analysis.gas, report.machine
     names = report.words["strokes"]
@@ -216,7 +226,7 @@ def strokes(report: ReportContext, key: str, caption: str, head: Sequence[str]) 
 
 
 def gas(report: ReportContext) -> list[str]:
-    """The way of each piston, the pressure on it and its force."""
+    """Return the ids of each piston's displacement, of its pressure and of its gas force."""
     return report.known(
         id
         for piston in report.pistons
@@ -225,10 +235,12 @@ def gas(report: ReportContext) -> list[str]:
 
 
 def inertia(report: ReportContext) -> list[str]:
+    """Return the ids of the inertia forces and couples."""
     return report.inertia_lines
 
 
 def reactions(report: ReportContext) -> list[str]:
+    """Return the ids of the reactions in all joints, and of the moments of guide couples."""
     columns: list[str] = []
     for group in reversed(report.groups):
         columns += [ids.reaction(joint, "t") for joint in (group.outer, group.guide)]
@@ -237,18 +249,22 @@ def reactions(report: ReportContext) -> list[str]:
 
 
 def reaction_angles(report: ReportContext) -> list[str]:
+    """Return the ids of the directions of all reactions."""
     joints = [name for group in reversed(report.groups) for name in (group.outer, group.inner, group.guide)]
     return report.known(ids.force_direction(ids.reaction_force(name)) for name in (*joints, "01"))
 
 
 def lever(report: ReportContext, k: int) -> Iterator[Sequence[object]]:
-    """Loads on the turned velocity plan: size, arm, moment about the pole by μ_l, anticlockwise positive."""
+    """Yield a row for each load on the turned velocity plan: size, arm, and moment about the pole (anticlockwise
+    positive).
+    """
     for id in report.arms_about("p"):
         load = report.ledger[id].of
         yield report.ledger.symbol(load), *(bare(report, one, k) for one in (load, id, ids.lever_moment(load)))
 
 
 def balance(report: ReportContext) -> list[str]:
+    """Return the ids of the balancing torque by both methods and of their difference."""
     return ["M.eq", "M.vw", "M.difference", "M.share"]
 
 
@@ -256,7 +272,7 @@ def balance(report: ReportContext) -> list[str]:
 
 
 def checks(report: ReportContext) -> Iterator[Sequence[object]]:
-    """Each independent check with the power of ten that its residual does not exceed."""
+    """Yield each independent check with the power of ten that bounds its residual."""
     largest = residuals(report)
     for id, name in report.words["tables"]["checks"]["rows"].items():
         if id in largest:
@@ -264,7 +280,9 @@ def checks(report: ReportContext) -> Iterator[Sequence[object]]:
 
 
 def residuals(report: ReportContext) -> dict[str, float]:
-    """The largest residual of each check as a share of the greatest value: closure, formulas, reactions, torques, …"""
+    """Return the largest residual of each check as a share of the greatest value: closure, formulas, reactions,
+    torques, …
+    """
     analysis, values = report.analysis, report.case.ledger.families
     largest = {"closure": _closure(report)}
     for name, chapter in (("formulas", KeyChapter.velocity), ("formulas_a", KeyChapter.acceleration)):
@@ -296,7 +314,7 @@ def residuals(report: ReportContext) -> dict[str, float]:
 
 
 def _share(differences: Iterable[np.ndarray], values: Iterable[np.ndarray]) -> float:
-    """The greatest of differences as a share of the greatest value; 0 where there is none."""
+    """Return the greatest difference as a share of the greatest value; 0 if there are no values."""
     greatest = max((float(np.nanmax(one, initial=0.0)) for one in values), default=0.0)
     off = max((float(np.nanmax(one, initial=0.0)) for one in differences), default=0.0)
     return off / greatest if greatest else 0.0
@@ -323,6 +341,6 @@ def _closure(report: ReportContext) -> float:
 
 
 def _limit(share: float) -> Inlines:
-    """The power of ten that a residual does not exceed: that which all results keep, ≤ 10⁻⁹, or what is needed."""
+    """Return the power of ten that bounds a residual: ≤ 10⁻⁹, which all results keep, or a larger one if needed."""
     exponent = AGREED if share <= 10.0**AGREED else math.ceil(math.log10(share) - 1e-6)
     return Text("≤ "), InlineMath(Power(Number(10), Number(exponent)))

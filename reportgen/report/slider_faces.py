@@ -1,4 +1,4 @@
-"""Wide sliders in the figures of a report: their faces, and the reactions at both ends if they tilt."""
+"""Wide sliders in the figures of a report: their faces, and the reactions at both ends of a slider that tilts."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from reportgen.report.context import ReportContext
 
 
 def wide_sliders_of(report: ReportContext) -> Mapping[int, Faces]:
-    """Return the faces of wide sliders by their links, none if all sliders are narrow."""
+    """Return the faces of wide sliders by their links; {} if all sliders are narrow."""
     return FACES.of(report.machine) or {}
 
 
@@ -28,7 +28,7 @@ def tilts(report: ReportContext, digits: str, k: int) -> bool:
 
 
 def ends_of(report: ReportContext, link: int, k: int) -> tuple[complex, complex]:
-    """Return the places of the two ends of a slider's face (m)."""
+    """Return the places (m, x + iy) of the two ends of a slider's face."""
     wide, motion = wide_sliders_of(report)[link], report.analysis.motion
     along = complex(motion.slides[carriers(report.machine.linkage)[link], link].direction[k - 1])
     first, last = (x - 1j * wide.below for x in (wide.first, wide.last))
@@ -37,7 +37,7 @@ def ends_of(report: ReportContext, link: int, k: int) -> tuple[complex, complex]
 
 
 def face(report: ReportContext, link: int, k: int, scale: float) -> list[Item]:
-    """The face of a slider with what holds it at its pin, in paper millimetres."""
+    """Draw the face of a slider with the arm to its pin, in mm of paper (`scale` in mm/m)."""
     first, last = (place * scale for place in ends_of(report, link, k))
     pin = complex(report.analysis.motion.origins[link].p[k - 1]) * scale
     foot = complex(constructions.foot(pin, first, unit(last - first)))
@@ -46,7 +46,9 @@ def face(report: ReportContext, link: int, k: int, scale: float) -> list[Item]:
 
 
 def at_ends(report: ReportContext, digits: str, link: int, k: int) -> list[tuple[Symbol, complex, complex, str]]:
-    """The reactions at both ends of a slider that tilts: vector, place (m), direction, id."""
+    """Return the reactions at both ends of a slider that tilts: vector symbol, place (m), force (N) as x + iy, id; []
+    if it does not tilt.
+    """
     if link not in wide_sliders_of(report) or not tilts(report, digits, k):
         return []
     along = complex(report.analysis.motion.slides[carriers(report.machine.linkage)[link], link].direction[k - 1])

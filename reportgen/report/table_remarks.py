@@ -1,6 +1,6 @@
-"""Remarks after a table: where a quantity is greatest, where it is zero, and why.
+"""Remarks after a table: positions at which a quantity is greatest or zero, and the reasons.
 
-Everything is read from the numbers as they are printed, so that a sentence and its table cannot disagree.
+Everything is read from the printed numbers, so that a sentence and its table cannot disagree.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from reportgen.report.context import ReportContext
 from reportgen.report.phrases import at_positions, say
 
 RUN = 3
-"""So many positions in a row are written as from – to."""
+"""Number of consecutive positions from which on they are listed as a range, from – to."""
 AT_REST = 1e-9
 """A velocity below this share of its greatest value is zero."""
 
@@ -27,11 +27,11 @@ AT_REST = 1e-9
 @view("place")
 @dataclass(frozen=True, slots=True)
 class Peak:
-    """Quantities that go alike over positions: their greatest size and where that is, where they are zero.
+    """Quantities with equal values over positions: their greatest size, its positions, and the positions of zeros.
 
-    `at` and `zero` are the labels of positions, "" for none; `many` and `zeros` count them, `where` and `zero_where`
-    have the words for them.  `level` says that the size is the same everywhere, `turns` that the sign changes at every
-    position where the quantity is zero.
+    `at` and `zero` are labels of positions, "" if there are none; `many` and `zeros` are their numbers, `where` and
+    `zero_where` phrases for them.  `level` is True if the size is the same everywhere, `turns` if the sign changes at
+    every zero.
     """
 
     ids: tuple[str, ...]
@@ -49,18 +49,20 @@ class Peak:
 
     @property
     def place(self) -> str:
-        """Return where it is greatest, with a space before the words; "" if it is the same everywhere."""
+        """The phrase for the positions of the greatest size, with a leading space; "" if the size is the same
+        everywhere.
+        """
         return "" if self.level else f" {self.where}"
 
 
 def worked_at(report: ReportContext) -> str:
-    """Return the positions that the report works out in full, in words."""
+    """Return the phrase for the positions that the report calculates in full."""
     return where(report, report.assignment.worked_positions)
 
 
 def reactions_at(report: ReportContext) -> str | Inlines:
-    """Return where the report finds the reactions: over the cycle, at its instants, or at the positions worked in
-    full.
+    """Return the phrase for the positions at which the report determines the reactions: the cycle, the instants, or the
+    worked positions.
     """
     if report.instants:
         return at_positions(report)
@@ -69,12 +71,12 @@ def reactions_at(report: ReportContext) -> str | Inlines:
 
 
 def printed_values(report: ReportContext, id: str, positions: Iterable[int]) -> np.ndarray:
-    """The values of a quantity as printed [N], nan where it does not exist."""
+    """Return the values of a quantity as printed [N], nan where it does not exist."""
     return np.array([report.ledger.number(id, k).shown for k in positions])
 
 
 def labels(report: ReportContext, positions: Sequence[int]) -> str:
-    """Positions as a reader lists them: 2, 4 and 6–8."""
+    """Return positions as a sentence lists them: 2, 4 and 6–8."""
     runs: list[list[int]] = []
     for k in positions:
         if runs and k == runs[-1][-1] + 1:
@@ -89,7 +91,7 @@ def labels(report: ReportContext, positions: Sequence[int]) -> str:
 
 
 def where(report: ReportContext, positions: Sequence[int]) -> str:
-    """Positions with the words for one of them or for several: at positions 2, 4 and 6–8."""
+    """Return the phrase for one position or several: at positions 2, 4 and 6–8."""
     single, many = report.words["at"]
     return str(single if len(positions) == 1 else many).format(labels(report, positions))
 
@@ -122,9 +124,7 @@ def peak(report: ReportContext, id: str, positions: Sequence[int]) -> Peak | Non
 
 
 def peaks(report: ReportContext, quantities: Iterable[str], cycle: bool = False) -> list[Peak]:
-    """Return the peaks of quantities over one turn, or over the cycle; equal courses are joined, zero ones are left
-    out.
-    """
+    """Return the peaks of quantities over one turn, or over the cycle; equal ones are joined, zero ones left out."""
     positions = report.all_positions if cycle else report.positions
     alike: dict[tuple[object, ...], list[Peak]] = {}
     for extreme in each_peak(report, quantities, positions):
@@ -139,7 +139,7 @@ def each_peak(report: ReportContext, quantities: Iterable[str], positions: Seque
 
 
 def _joined(report: ReportContext, alike: Sequence[Peak]) -> Peak:
-    """Peaks that are alike as one, with the symbols of all."""
+    """Return equal peaks as one, with the symbols of all."""
     symbols = [one.symbols[0] for one in alike]
     names: Inlines = listed(symbols[:-1])
     if names:
@@ -166,14 +166,14 @@ def sliders(report: ReportContext) -> tuple[GuidedLink, ...]:
 
 
 def slider_rates(report: ReportContext, what: str) -> list[str]:
-    """The ids of the velocities ("v") or accelerations ("a") of what slides along fixed guides."""
+    """Return the ids of the velocities ("v") or accelerations ("a") of the sliders on fixed guides."""
     return report.known(ids.POINT_RATE[what](slider.pin) for slider in sliders(report))
 
 
 def turning_rates(report: ReportContext, what: str) -> list[str]:
-    """The ids of the angular velocities ("omega") or accelerations ("eps") of links, each motion once.
+    """Return the ids of the angular velocities ("omega") or accelerations ("eps") of links, each motion once.
 
-    Of links that turn alike, as a block and the lever it slides on, the last is named.
+    Of links that turn together, such as a block and its lever, the last is named.
     """
     seen: dict[tuple[float, ...], str] = {}
     for link in report.machine.linkage.links:
@@ -195,7 +195,7 @@ def _reverses(report: ReportContext, link: int) -> bool:
 
 
 def at_rest(report: ReportContext, rate: Peak) -> bool:
-    """Return True if the point with this acceleration is at rest wherever the acceleration is greatest."""
+    """Return True if the point with this acceleration is at rest at every position of its greatest acceleration."""
     velocities = [ids.velocity(found["point"]) for id in rate.ids if (found := ids.acceleration.read(id))]
     return all(bool(np.all(printed_values(report, id, rate.places) == 0)) for id in velocities)
 
@@ -204,31 +204,33 @@ def at_rest(report: ReportContext, rate: Peak) -> bool:
 
 
 def load_ids(report: ReportContext) -> list[str]:
-    """The forces and torques applied to the machine, the gas on its pistons among them."""
+    """Return the ids of the forces and torques applied to the machine, gas forces included."""
     return report.known(load.name for load in report.loads)
 
 
 def inertia_forces(report: ReportContext) -> list[str]:
-    """The inertia forces of all links."""
+    """Return the ids of the inertia forces of all links."""
     return report.known(ids.inertia_force(link) for link in report.bodies)
 
 
 def reaction_ids(report: ReportContext) -> list[str]:
-    """The reactions in all joints, each pair once."""
+    """Return the ids of the reactions in all joints, each pair once."""
     names = [name for group in reversed(report.groups) for name in (group.outer, group.inner, group.guide)]
     ends = (ids.face_reaction(name, number) for name in names for number in (1, 2))
     return report.known((*(ids.reaction(name) for name in (*names, "01")), *ends))
 
 
 def greatest(report: ReportContext, quantities: Iterable[str]) -> list[Peak]:
-    """Return the quantities that take the greatest value of all over the cycle, and where."""
+    """Return the peaks of the quantities that reach the greatest value over the cycle."""
     every = peaks(report, quantities, True)
     top = max((one.value.number.shown for one in every), default=0.0)
     return [one for one in every if one.value.number.shown == top]
 
 
 def cause(report: ReportContext, top: Peak) -> Inlines:
-    """The largest force on the links where a reaction is greatest, as far as there is one."""
+    """Return the phrase for the largest force on the links at the positions of the greatest reaction; () if there is
+    none.
+    """
     chief = chief_load(report, top)
     if chief is None:
         return ()
@@ -237,7 +239,7 @@ def cause(report: ReportContext, top: Peak) -> Inlines:
 
 
 def chief_load(report: ReportContext, at: Peak) -> Peak | None:
-    """The largest of all forces on the links, inertia included, where another quantity is greatest."""
+    """Return the peak of the largest force on the links, inertia included, at the positions of another peak."""
     forces = [id for id in load_ids(report) if report.ledger[id].kind == "force"]
     bodies = [name(body) for body in report.bodies for name in (ids.inertia_force, ids.weight)]
     place = at.places[:1]
@@ -247,7 +249,9 @@ def chief_load(report: ReportContext, at: Peak) -> Peak | None:
 
 @dataclass(frozen=True, slots=True)
 class TorqueSigns:
-    """At which positions the balancing torque acts with the motion, against it, and not at all, by their numbers."""
+    """Numbers of the positions at which the balancing torque acts `along` the motion, `against` it, or is zero
+    (`none`).
+    """
 
     along: tuple[int, ...]
     against: tuple[int, ...]
@@ -257,7 +261,7 @@ class TorqueSigns:
 
 
 def balance_course(report: ReportContext) -> TorqueSigns:
-    """The senses of the balancing torque, or force, at all positions."""
+    """Return the senses of the balancing torque or force at all positions."""
     with_motion = report.machine.turn if not report.machine.span else np.sign(report.machine.speed)
     values = printed_values(report, "M.eq", report.all_positions) * with_motion
     mean = float(report.ledger.number("M.mean").value) * with_motion if report.cyclic else 0.0
@@ -267,7 +271,7 @@ def balance_course(report: ReportContext) -> TorqueSigns:
 
 
 def balance_senses(report: ReportContext) -> list[Inlines]:
-    """Return sentences on the effect of the balancing torque on the motion, with the positions of each."""
+    """Return a sentence for each effect of the balancing torque on the motion, with its positions."""
     course, words = balance_course(report), report.words["remarks"]["balance"]
     positions_by_sense = {"against": course.against, "along": course.along, "none": course.none}
     motion = report.words["driven"][report.driver.kind]["motion_of"]
@@ -279,15 +283,15 @@ def balance_senses(report: ReportContext) -> list[Inlines]:
 
 
 def balance_gaps(report: ReportContext, *positions: Position) -> list[Peak]:
-    """Return the largest difference of the two methods for the balancing torque, and where; [] if they agree.
+    """Return the peak of the difference between both methods for the balancing torque; [] if they agree.
 
-    Without `positions` it is that of the whole table.
+    Without `positions` it covers the whole table.
     """
     return each_peak(report, ("M.difference",), positions or report.all_positions)
 
 
 def balance_mean(report: ReportContext) -> Inlines:
-    """Return what the mean of the balancing torque implies for the energy that the machine takes in or gives out."""
+    """Return the conclusion from the mean balancing torque: the machine takes in energy, or gives it out."""
     if not report.cyclic:
         return ()
     words = report.words["remarks"]["mean"]
@@ -301,7 +305,7 @@ def balance_mean(report: ReportContext) -> Inlines:
 @view()
 @dataclass(frozen=True, slots=True)
 class Remark:
-    """A sentence about one quantity or several that go alike: their symbols, how they go, and why."""
+    """A sentence about one quantity or several equal ones: symbols, course, and reason."""
 
     symbols: Inlines
     course: Inlines
@@ -312,7 +316,7 @@ class Remark:
 class Subject:
     """Subject of remarks: ids, over one turn or the whole cycle, with or without a remark on zeros.
 
-    `why` selects the peaks for which the words give a reason.
+    `why` selects the peaks for which the phrases give a reason.
     """
 
     ids: Callable[[ReportContext], Iterable[str]]
@@ -341,7 +345,7 @@ SUBJECTS = {
 
 
 def remarks(report: ReportContext, *subjects: str) -> list[Remark]:
-    """Return remarks on the quantities of some subjects; equal courses are joined, zero ones are left out."""
+    """Return remarks on the quantities of some subjects; equal ones are joined, zero ones left out."""
     return [_remark(report, name, one) for name in subjects for one in _peaks_of(report, SUBJECTS[name])]
 
 
@@ -358,11 +362,11 @@ def _remark(report: ReportContext, name: str, top: Peak) -> Remark:
 
 
 def main_peaks(report: ReportContext) -> list[Peak]:
-    """The greatest velocities and accelerations: of sliders, else of links that turn."""
+    """Return the peaks of the greatest velocities and accelerations: of sliders, or else of links that turn."""
     pairs = ((SUBJECTS["v"], SUBJECTS["omega"]), (SUBJECTS["a"], SUBJECTS["eps"]))
     return [one for first, other in pairs for one in _peaks_of(report, first) or _peaks_of(report, other)]
 
 
 def top_reactions(report: ReportContext) -> list[Peak]:
-    """Return the joint reactions that take the greatest value of all over the cycle, and where."""
+    """Return the peaks of the joint reactions that reach the greatest value over the cycle."""
     return greatest(report, reaction_ids(report))

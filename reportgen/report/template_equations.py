@@ -1,6 +1,6 @@
-"""Symbols, values and worked lines for templates.
+"""Functions for templates that print symbols, values and worked lines.
 
-Templates call all functions here under their own names; the functions take everything from the ledger.
+Templates call all functions here by their own names, without `report`; the values come from the ledger.
 """
 
 from __future__ import annotations
@@ -43,14 +43,14 @@ from reportgen.report.link_views import Contact, GroupView
 
 
 def symbol(report: ReportContext, id: str) -> Symbol:
-    """The symbol of a quantity."""
+    """Return the symbol of a quantity."""
     return report.ledger.symbol(id)
 
 
 def math(report: ReportContext, text: str) -> Symbol:
-    """Return the symbol that a template writes as `$…$`: a quantity's by its id, else letters with their index.
+    """Return the symbol that a template writes as `$…$`: that of a quantity by its id, else letters with their index.
 
-    Raises `LookupError` if the text does not begin with a letter: a formula has no base for an index.
+    Raises `LookupError` if the text does not begin with a letter, since then it has no base for an index.
     """
     if text in report.ledger:
         return report.ledger.symbol(text)
@@ -61,18 +61,18 @@ def math(report: ReportContext, text: str) -> Symbol:
 
 
 def value(report: ReportContext, id: str, position: int | None = None, size: bool = False) -> Value:
-    """A quantity's number with its unit; `size` leaves its sign away."""
+    """Return a quantity's number with its unit; `size` removes its sign."""
     return Value(report.ledger.number(id, position, size=size))
 
 
 def typed(report: ReportContext, id: str) -> Inline:
-    """A datum as its file has it: a ratio 1/30 as such."""
+    """Return a datum as its file has it; a ratio such as 1/30 stays a ratio."""
     ratio = report.ledger[id].definition
     return value(report, id) if ratio is None else InlineMath(ratio, slashed=True)
 
 
 def quantity(report: ReportContext, id: str, position: int | None = None) -> Inlines:
-    """A quantity as "symbol = number" in running text."""
+    """Return a quantity as "symbol = number" for running text."""
     return InlineMath(symbol(report, id)), Text(" = "), value(report, id, position)
 
 
@@ -87,66 +87,69 @@ def directions(report: ReportContext, what: What, position: int) -> Inlines:
 
 
 def known(report: ReportContext, id: str) -> bool:
-    """Return True if the report has a quantity."""
+    """Return True if the ledger has a quantity."""
     return id in report.ledger
 
 
 def point(report: ReportContext, name: str) -> Symbol:
-    """The symbol of a point, e.g. S with a lowered 2."""
+    """Return the symbol of a point, e.g. S with a subscript 2."""
     return vocabulary.point(name)
 
 
 def points(report: ReportContext, names: Iterable[object]) -> Inlines:
-    """Symbols of points, side by side with commas."""
+    """Return the symbols of points, separated by commas."""
     return listed(InlineMath(vocabulary.point(str(name))) for name in names)
 
 
 def image(report: ReportContext, name: str, prime: bool = False) -> Symbol:
-    """The image of a point on a plan."""
+    """Return the symbol of a point's image on a plan."""
     return vocabulary.on_plan(name, prime)
 
 
 def letters(report: ReportContext, base: str, sub: str | int = "", sup: str = "") -> Symbol:
-    """Any symbol."""
+    """Return a symbol of any letters."""
     return Symbol(base, str(sub), sup)
 
 
 def vector(report: ReportContext, base: str, sub: str | int = "", sup: str = "") -> Symbol:
-    """Any symbol under an arrow."""
+    """Return a symbol of any letters with an arrow."""
     return report.named(Symbol(base, str(sub), sup, "vector"))
 
 
 def v(report: ReportContext, of: str | Side) -> Symbol:
-    """The velocity of a point as a vector; of a side, the relative one."""
+    """Return the velocity vector of a point; of a side, the relative one."""
     return Symbol("v", of if isinstance(of, str) else of.pair, over="vector")
 
 
 def a(report: ReportContext, of: str | Side, part: str = "") -> Symbol:
-    """The acceleration of a point, or a part of it, as a vector; of a side, the relative one."""
+    """Return the acceleration vector of a point, or a component of it; of a side, the relative one."""
     return report.named(Symbol("a", of if isinstance(of, str) else of.pair, part, "vector"))
 
 
 def R(report: ReportContext, digits: str, part: str = "") -> Symbol:
-    """The reaction in a joint, or a part of it, as a vector."""
+    """Return the reaction vector in a joint, or a component of it."""
     return Symbol("R", digits, part, "vector")
 
 
 def lowered(report: ReportContext, text: str) -> str:
-    """Digits of point names as lowered digits: O1A → O₁A."""
+    """Return point names with their digits as subscripts: O1A → O₁A."""
     return subscripted(text)
 
 
 def group_kind(report: ReportContext, group: GroupView) -> str:
+    """Return the name of a group's kind."""
     return str(report.words["groups"][group.kind])
 
 
 def stroke_name(report: ReportContext, link: int, position: int) -> str:
-    """The stroke that a piston is on."""
+    """Return the name of the stroke that a piston is on at a position."""
     return str(report.words["strokes"][int(report.analysis.gas[ids.applied_force(link)].stroke[position - 1])])
 
 
 def force_list(report: ReportContext, group: GroupView, position: int) -> Inlines:
-    """The known edges of a force plan with their drawn lengths: ef = 40.30 mm for P_qt5, h ≡ i for what is nothing."""
+    """Return the known edges of a force plan with their drawn lengths: ef = 40.30 mm for P_qt5, h ≡ i for a
+    zero force.
+    """
     assert group.polygon is not None
     inlines: list[Inline] = []
     for edge in group.polygon.edges:
@@ -165,7 +168,7 @@ def force_list(report: ReportContext, group: GroupView, position: int) -> Inline
 
 
 def by_moments(report: ReportContext, group: GroupView, position: int) -> Inlines:
-    """The reactions of a group that moments give, with their signs."""
+    """Return the symbols of the reactions of a group that moments give; zero ones are left out."""
     sought = (id for id in group.by_moments if not report.is_zero(id, position))
     return listed(InlineMath(report.ledger.symbol(id)) for id in sought)
 
@@ -182,7 +185,7 @@ def senses(report: ReportContext, joints: Iterable[str], position: int) -> Inlin
 
 
 def slider_ways(report: ReportContext) -> Inlines:
-    """In which direction the velocity and the acceleration of each slider are positive, with its angle from +x."""
+    """Return the positive direction of each slider's velocity and acceleration, in words and with its angle from +x."""
     inlines: list[Inline] = []
     for pin, along in report.slider_senses.items():
         degrees = round(float(np.degrees(np.angle(along))), 2) % 360.0
@@ -199,18 +202,20 @@ def _pointing(report: ReportContext, angle: Number) -> Inlines:
 
 
 def heading_words(report: ReportContext, degrees: float) -> str:
-    """The axis or quadrant of an angle (degrees) from +x, in words: to the right, to the right and up, …."""
+    """Return the direction of an angle (degrees from +x) in words: to the right, to the right and up, …."""
     return heading_of(report.words, degrees)
 
 
 def heading_of(words: Mapping[str, Any], degrees: float) -> str:
-    """As `heading_words`, of the short words alone."""
+    """Return the same as `heading_words` for an angle (degrees from +x), from the short words alone."""
     quadrant, within = divmod(round(degrees, 2) % 360.0, 90.0)
     return str(words["headings"][int(2 * quadrant) + (within > 0)])
 
 
 def opposites(report: ReportContext, polygon: Polygon, position: int) -> Equation:
-    """The reactions on a plan's links that other groups have left there: R42 = −R24 as vectors, then their size."""
+    """Return the reactions that groups solved before exert on a plan's links: R42 = −R24 as vectors, then their
+    sizes.
+    """
     rows: list[Expression] = []
     for edge in polygon.carried:
         size = report.force_symbol(edge.name)
@@ -221,7 +226,7 @@ def opposites(report: ReportContext, polygon: Polygon, position: int) -> Equatio
 
 
 def through_pin(report: ReportContext, contact: Contact, position: int) -> Equation:
-    """ΣM about the pin of a slide that nothing tends to turn: R x = 0, hence x = 0."""
+    """Return ΣM about the pin of a slide without any other moment: R x = 0, hence x = 0."""
     reaction, place = report.ledger.symbol(contact.reaction), report.ledger.symbol(contact.place)
     moments = Chain((Symbol("ΣM", str(contact.pin)), reaction * place, Number(0.0)))
     return Equation((moments, Chain((place, Number(0.0)))))
@@ -231,14 +236,14 @@ def through_pin(report: ReportContext, contact: Contact, position: int) -> Equat
 
 
 def line(report: ReportContext, id: str, position: int | None = None, note: str = "", key: str = "") -> Equation:
-    """One worked line: symbol = formula = numbers = result."""
+    """Return one worked line: symbol = formula = numbers = result."""
     return lines(report, [id], position, note, key)
 
 
 def lines(
     report: ReportContext, quantities: Sequence[str], position: int | None = None, note: str = "", key: str = ""
 ) -> Equation:
-    """Several worked lines, aligned."""
+    """Return several worked lines, aligned."""
     return Equation(tuple(_worked(report, id, position, note) for id in quantities), key)
 
 
@@ -254,7 +259,7 @@ def _worked(report: ReportContext, id: str, position: int | None, note: str) -> 
 
 
 def equations(report: ReportContext, name: str, position: int | None = None) -> Equation:
-    """Equations of the machine's own; quantities that they name by their symbols, or at a position by their numbers."""
+    """Return equations of the machine's kind; quantities are printed by symbols, or at a position by numbers."""
 
     def printed(ref: Ref) -> Expression:
         if position is None:
@@ -294,16 +299,18 @@ THEORY: Mapping[str, tuple[Expression, ...]] = {
         ),
     ),
 }
-"""Equations of no machine that the words for the plans show."""
+"""General equations that the chapters on the plans print."""
 
 
 def theory(report: ReportContext, name: str) -> Equation:
-    """Return an equation on which the plans are based."""
+    """Return a general equation on which the plans are based."""
     return Equation(tuple(report.named(row) if isinstance(row, Symbol) else row for row in THEORY[name]))
 
 
 def functions(report: ReportContext, quantities: Sequence[str]) -> Equation:
-    """Quantities as functions of the driver's place: what is constant by its number, what changes by its symbol."""
+    """Return quantities as functions of the driver's position: constants by their numbers, variables by their
+    symbols.
+    """
 
     def printed(ref: Ref) -> Expression:
         family = report.ledger[ref.id]
@@ -319,7 +326,7 @@ def functions(report: ReportContext, quantities: Sequence[str]) -> Equation:
 
 
 def mobility_line(report: ReportContext) -> Equation:
-    """W = 3n − (2t + c) + r − s, or as the language writes it, with the numbers put in."""
+    """Return W = 3n − (2t + c) + r − s, or the form of the language, with the numbers inserted."""
     counted = mobility(report.machine.linkage)
     sizes = counted.n, counted.lower_pairs, counted.higher_pairs, counted.passive, counted.redundant
 

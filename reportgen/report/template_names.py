@@ -1,4 +1,7 @@
-"""Registry of the names in templates of a report: properties, values without parentheses, functions with them."""
+"""Registry of the names that templates of a report may use: properties, values without parentheses, and functions.
+
+Register a new one here; `names(report)` makes the namespace.
+"""
 
 from __future__ import annotations
 
@@ -76,7 +79,7 @@ PROPERTIES = (
     "speed_in_rpm",
     "weighed",
 )
-"""Properties of the `ReportContext`."""
+"""Names of properties of the `ReportContext`."""
 template_members(*PROPERTIES)(ReportContext)
 
 VALUES: Mapping[str, Callable[[ReportContext], Any]] = {
@@ -88,7 +91,7 @@ VALUES: Mapping[str, Callable[[ReportContext], Any]] = {
     "started": chapter_functions.started,
     "variant_words": chapter_functions.variant_words,
     "worked_at": table_remarks.worked_at,
-    # words that follow from what the report has
+    # words that depend on the contents of the report
     "constant_force": phrases.constant_force,
     "coupler": phrases.coupler,
     "diagram_words": chapter_functions.diagram_words,
@@ -136,7 +139,7 @@ VALUES: Mapping[str, Callable[[ReportContext], Any]] = {
     "plan_in_text": mechanism_figures.plan_in_text,
     "shares_pins": chapter_functions.shares_pins,
 }
-"""Values that functions compute from a report."""
+"""Functions of the report alone, whose results templates use as values."""
 
 FUNCTIONS: Mapping[str, Callable[..., Any]] = {
     "figure": named_figures.figure,
@@ -220,11 +223,11 @@ FUNCTIONS: Mapping[str, Callable[..., Any]] = {
     "slider_rates": table_remarks.slider_rates,
     "top_reactions": table_remarks.top_reactions,
 }
-"""Functions of a report and of what a template puts between the parentheses."""
+"""Functions of the report and of the arguments that a template passes."""
 
 
 def names(report: ReportContext) -> dict[str, Any]:
-    """Return all that the templates of a report may name."""
+    """Return the namespace of the report's templates, names of its topics included."""
     values = {**VALUES, **topic_views.merged(report, attrgetter("values"))}
     functions = {**FUNCTIONS, **topic_views.merged(report, attrgetter("functions"))}
     return {

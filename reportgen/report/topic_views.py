@@ -1,4 +1,4 @@
-"""Additions of a topic to a machine's report: names for its words, figures, tables, passages in shared chapters."""
+"""Names, figures, tables and passages that topics add to a machine's report (`ViewHooks`)."""
 
 from __future__ import annotations
 
@@ -11,9 +11,11 @@ from reportgen.document.figure_placement import FigureScenes
 from reportgen.report.context import ReportContext
 
 Passages = Callable[[ReportContext], Sequence[str]]
-"""The sections of words that a topic puts at a place of a shared chapter, none if it has nothing to say there."""
+"""Function that returns the template sections a topic inserts at a place of a shared chapter; none if it has nothing to
+say.
+"""
 DrawnFigure = tuple[str, Callable[..., FigureScenes]]
-"""The beginning of the keys of a figure, and the function that draws it."""
+"""The beginning of a figure's keys, and the function that draws it."""
 
 
 def always(*sections: str) -> Passages:
@@ -27,7 +29,7 @@ def _no_residuals(report: ReportContext) -> Mapping[str, float]:
 
 @dataclass(frozen=True)
 class ViewHooks:
-    """Names that a topic adds to templates, by kind."""
+    """Names that a topic adds to the templates of a machine's report, by kind of name."""
 
     values: Mapping[str, Callable[[ReportContext], object]] = field(default_factory=dict)
     functions: Mapping[str, Callable[..., object]] = field(default_factory=dict)
@@ -36,22 +38,22 @@ class ViewHooks:
     passages: Mapping[str, Passages] = field(default_factory=dict)
     """Passages that the topic adds to shared chapters, by the names of the places there."""
     residuals: Callable[[ReportContext], Mapping[str, float]] = _no_residuals
-    """Independent checks with the largest residual of each as a share of the greatest value."""
+    """Function that returns the largest residual of each independent check as a share of the greatest value."""
     letters: str = ""
-    """Letters of diagrams that denote nothing of the machine."""
+    """Letters in diagrams that do not denote a quantity of the machine."""
 
 
 VIEWS = HookModule("views", ViewHooks)
 
 
 def passages(report: ReportContext, place: str) -> list[str]:
-    """Return the sections of words that the topics of a machine put at a place of a shared chapter."""
+    """Return the template sections that the topics of a machine insert at a place of a shared chapter."""
     named = (hooks.passages[place](report) for hooks in VIEWS.among(report.machine.topics) if place in hooks.passages)
     return [section for sections in named for section in sections]
 
 
 def merged(report: ReportContext, part: Callable[[ViewHooks], Mapping[str, Any]]) -> dict[str, Any]:
-    """Return a part of the hooks of all topics of a machine as one table."""
+    """Return one part of the hooks of all topics of a machine, merged into one table."""
     return _united(part(hooks) for hooks in VIEWS.among(report.machine.topics))
 
 

@@ -1,6 +1,6 @@
-"""Vector equations for templates: of motion and of equilibrium, with the known facts about each vector.
+"""Vector equations of motion and of equilibrium for templates, with the known facts printed below each vector.
 
-Templates call the functions under their own names; the functions take everything from the ledger.
+Templates call the public functions by their own names; the values come from the ledger.
 """
 
 from __future__ import annotations
@@ -20,7 +20,9 @@ from reportgen.report.template_equations import R
 
 
 def velocity_equation(report: ReportContext, group: GroupView, position: int) -> Equation:
-    """v_M = v_P + v_MP = v_T + v_MT with what is known of each vector; a fixed base leaves v_M's direction."""
+    """Return v_M = v_P + v_MP = v_T + v_MT with the known facts of each vector; with a fixed base only v_M's direction
+    remains.
+    """
     still = next((side for side in group.sides if side.still), None)
     sides: list[tuple[Term, ...]] = [(_unknown(report, "v", group.M, "", still),)]
     for side in group.moving:
@@ -30,7 +32,7 @@ def velocity_equation(report: ReportContext, group: GroupView, position: int) ->
 
 
 def acceleration_equation(report: ReportContext, group: GroupView, position: int) -> Equation:
-    """a_M = a_P + aⁿ_MP + aᵗ_MP = a_G + aᵏ_MG + aʳ_MG with what is known of each vector."""
+    """Return a_M = a_P + aⁿ_MP + aᵗ_MP = a_G + aᵏ_MG + aʳ_MG with the known facts of each vector."""
     fixed = next((side for side in group.sides if not side.sought), None)
     sides: list[tuple[Term, ...]] = [(_unknown(report, "a", group.M, "", fixed),)]
     for side in group.sides:
@@ -62,25 +64,27 @@ def _term(
 
 
 def _unknown(report: ReportContext, base: str, sub: str, sup: str, side: Side | None) -> Term:
-    """A vector of which only the direction is known, that of what is sought on a side."""
+    """Return the unknown vector on a side, of which only the direction is known."""
     return _term(report, base, sub, sup, direction=None if side is None else _direction(report, side))
 
 
 def _direction(report: ReportContext, side: Side) -> str:
-    """The direction of what is sought on a side."""
+    """Return the direction of the unknown on a side."""
     if side.turns:
         return f"⊥ {subscripted(side.rod)}"
     return _slide(report, "along", side)
 
 
 def _slide(report: ReportContext, how: str, side: Side) -> str:
-    """Return the words for "along" or "across" the slide of a side; of two guides each has the number of its slider."""
+    """Return the phrase for "along" or "across" the slide of a side; with two guides it includes the slider's
+    number.
+    """
     phrase = str(report.words["vector"][f"{how}_{side.way}"])
     return f"{phrase} {side.slide}" if side.alike else phrase
 
 
 def _relative(report: ReportContext, side: Side) -> tuple[Term, ...]:
-    """aⁿ and aᵗ of a turning side, aᵏ and aʳ of a sliding one."""
+    """Return aⁿ and aᵗ of a turning side, aᵏ and aʳ of a sliding one."""
     words, ledger = report.words["vector"], report.ledger
     sought = _unknown(report, "a", side.pair, "τ" if side.turns else "r", side)
     if side.turns:
@@ -98,7 +102,7 @@ def _relative(report: ReportContext, side: Side) -> tuple[Term, ...]:
 
 
 def _base(report: ReportContext, side: Side, what: str) -> Term:
-    """The vector of a side's base: on the crank with its direction and size, else known from before."""
+    """Return the vector of a side's base: with direction and size if it is on the crank, else as known from before."""
     words, ledger = report.words["vector"], report.ledger
     arm = f"{report.driver.centre}{side.base}"
     if not report.driver.centre or ids.length(arm) not in ledger or not _on_crank(report, side.base):
@@ -127,16 +131,16 @@ def _on_crank(report: ReportContext, name: str) -> bool:
 
 
 def force_equation(report: ReportContext, group: GroupView, position: int) -> Equation:
-    """The equilibrium of a group's two links; only the two reactions that close the plan are unknown."""
+    """Return the equilibrium of a group's two links; only the two reactions that close the plan are unknown."""
     assert group.polygon is not None
     terms = [_force(report, group, edge) for edge in group.polygon.edges]
     return _balance(report, terms, f"eq.R.{group}.{position}")
 
 
 def link_equation(report: ReportContext, group: GroupView, link: int, position: int | None = None) -> Equation:
-    """The equilibrium of one link of a group with a slide between its links, R_ij or R_ji included.
+    """Return the equilibrium of one link of a group with a slide between its links, including R_ij or R_ji.
 
-    Only an equation with a position has a number to refer to.
+    The equation has a number for references only if `position` is given.
     """
     assert group.polygon is not None
     words = report.words["vector"]
@@ -151,7 +155,7 @@ def link_equation(report: ReportContext, group: GroupView, link: int, position: 
 
 
 def driver_equation(report: ReportContext) -> Equation:
-    """The equilibrium of forces on the driver; of a sliding one the directions by its guide are known."""
+    """Return the equilibrium of forces on the driver; a sliding driver has the known directions of its guide."""
     assert report.driver_polygon is not None
     words = report.words["vector"]
     slides = "Rcb" in report.on_crank
@@ -167,7 +171,7 @@ def driver_equation(report: ReportContext) -> Equation:
 
 
 def _force(report: ReportContext, group: GroupView, edge: Edge) -> Term:
-    """A force of a group's plan with what is known of it."""
+    """Return a force of a group's plan with the known facts of it."""
     words = report.words["vector"]
     side = group.one if edge.link == group.i else group.two
     vector = report.force_vector(edge.name)

@@ -9,7 +9,7 @@ from reportgen.machine.analysis import Machine
 
 
 def mistakes(ledger: Ledger, machine: Machine) -> Changed:
-    """Return c·l in place of c(l − l₀) for the force of each spring."""
+    """Return, by id, c·l as a mistaken definition of each spring's force c(l − l₀)."""
     return {
         id: [("no-free-length", substitute(definition, lambda ref: Number(0.0) if ref.id in ids.spring_free else ref))]
         for id, family in ledger.families.items()

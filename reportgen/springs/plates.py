@@ -11,7 +11,7 @@ from reportgen.springs.views import loads_over_cycle, spring_lines
 
 
 def _springs(sources: Sources) -> Iterator[Drawn]:
-    """Yield the machine with its springs, their loads over the cycle, and their lengths at the positions."""
+    """Yield the machine with its springs, their loads over the cycle, and a table of their lengths."""
     if sources.report.machine.coils:
         over_cycle = loads_over_cycle(sources.small).scenes if sources.report.parts("spring-curves") else ()
         lengths = grids(sources.report, (spring_lines,), cycle=True)

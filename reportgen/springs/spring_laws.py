@@ -17,7 +17,7 @@ from reportgen.machine.loads import Direction
 from reportgen.machine.spring_geometry import Anchor, Coil
 
 Size = TypeVar("Size", Floats, Expression)
-"""An array over positions, or a quantity on a sheet."""
+"""An array over positions, or an expression of a calculation."""
 
 
 def pull(c: Size, length: Size, free: Size) -> Size:
@@ -27,7 +27,7 @@ def pull(c: Size, length: Size, free: Size) -> Size:
 
 @dataclass(frozen=True)
 class SpringLaw(Law):
-    """A spring of stiffness c (N/m) and free length l₀ (m) between two ends; the force on either of them."""
+    """A spring of stiffness c (N/m) and free length l₀ (m) between two ends; the law of the force (N) on either end."""
 
     number: int
     ends: tuple[Anchor, Anchor]
@@ -44,7 +44,7 @@ class SpringLaw(Law):
         return np.asarray(self.c * (np.abs(self.along(motion)) - self.free) ** 2 / 2)
 
     def towards(self, end: int) -> Direction:
-        """Return the direction in which the spring pulls at one of its ends, 0 or 1: towards the other."""
+        """Return the direction of the pull at one of its ends, 0 or 1: towards the other end."""
         sense = -1.0 if end else 1.0
 
         def direction(motion: Motion) -> Complexes:
@@ -56,6 +56,7 @@ class SpringLaw(Law):
         return direction
 
     def value(self, angle: Floats, motion: Motion) -> Floats:
+        """Return F = c(l − l₀) (N) [N]."""
         length = np.abs(self.along(motion))
         return pull(np.full_like(length, self.c), length, np.full_like(length, self.free))
 
@@ -71,7 +72,7 @@ class SpringLaw(Law):
         return Coil(self.number, self.ends)
 
     def formula(self, q: Calculation, link: int) -> Expression:
-        """Return F = c(l − l₀) with l measured on the drawing."""
+        """Return F = c(l − l₀) as an expression, with l measured on the drawing."""
         number, first = self.number, self.ends[0].on(q, self.number)
         if ids.spring_length(number) not in q:
             apart = abs(self.ends[1].on(q, number) - first)
@@ -90,8 +91,8 @@ def within_half_a_turn(angle: Floats | float) -> Floats:
 class TorsionLaw(Law):
     """A torsion spring of c (N·m/rad) on a link about a pin: M = −c(φ − φ₀), φ the link's angle, φ₀ = `free` (rad).
 
-    The deflection φ − φ₀ lies within half a turn of `wound` (rad), which is 0 of a spring that is never wound by more.
-    The angle is that of the line from the pin to `point`, of a slotted link that of its slot.
+    The deflection φ − φ₀ lies within half a turn of `wound` (rad), which is 0 for a spring that is never wound further.
+    The angle is that of the line from the pin to `point`, or for a slotted link that of its slot.
     """
 
     number: int
@@ -112,6 +113,7 @@ class TorsionLaw(Law):
         return np.asarray(self.c * self.deflection(motion) ** 2 / 2)
 
     def value(self, angle: Floats, motion: Motion) -> Floats:
+        """Return M = −c(φ − φ₀) (N·m) [N]."""
         return -self.c * self.deflection(motion)
 
     def breaks(self, motion_at: MotionAt) -> Iterable[float]:
@@ -126,7 +128,7 @@ class TorsionLaw(Law):
         return Coil(self.number, (Anchor(self.pin), Anchor(self.point)), wound=True)
 
     def formula(self, q: Calculation, link: int) -> Expression:
-        """Return M = −c θ, θ = φ − φ₀ measured on the drawing in degrees."""
+        """Return M = −c θ as an expression, with θ = φ − φ₀ measured on the drawing in degrees."""
         free, slot = q[ids.spring_free(self.number)], q.find(ids.slot(link))
         line = slot if slot is not None else q[ids.place(self.point)] - q[ids.place(self.pin)]
         turned: Expression = arg(quotient(line, cis(free + self.wound if self.wound else free)))

@@ -91,7 +91,7 @@ class Spring(Part):
 @view("phrase")
 @dataclass(frozen=True, slots=True)
 class SpringRow:
-    """A spring as templates see it: its number, its ends, its stiffness and free size, the ids of its loads."""
+    """A spring for templates: its number, its ends, its stiffness and free size, the ids of its loads."""
 
     number: int
     link: int
@@ -112,7 +112,7 @@ class SpringRow:
 
     @property
     def phrase(self) -> str:
-        """Key of the phrase that describes it."""
+        """Key of the phrase for this spring."""
         return "torsion" if self.twists else "links" if self.other else "point" if self.to else "place"
 
 
@@ -120,11 +120,11 @@ class SpringRow:
 
 
 LOOKED_AT = 720
-"""Angles of a turn at which the length of a spring is looked at first."""
+"""Number of angles of a turn at which the length of a spring is computed first."""
 CLOSER = 12
-"""Rounds in which its least length is found, each eight times as near."""
+"""Number of refinements in the search for its least length, each by a factor of eight."""
 MEET = 1e-3
-"""Ends nearer than this share of the greatest length of a spring meet: no coil is as short."""
+"""Ends closer than this share of a spring's greatest length meet: no coil is that short."""
 
 
 def faults(parameters: TopicParameters, machine: Machine) -> Iterator[Finding]:
@@ -142,9 +142,10 @@ def misplaced_ends(springs: Sequence[Spring], linkage: Linkage) -> Iterator[Find
 
 
 def failures(machine: Machine, worked: Sequence[int]) -> Iterator[Finding]:
-    """Report a spring whose ends meet on the way: its force would have no direction there, and jump to the other side.
+    """Report a spring whose ends meet on the way: its force would have no direction there, and would jump to the other
+    side.
 
-    A spring without a free length pulls with c times the vector between its ends, which is zero there.
+    A spring without a free length is allowed: it pulls with c times the vector between its ends, which is zero there.
     """
     laws = {load.law.number: load.law for load in machine.loads if isinstance(load.law, SpringLaw)}
     if not laws:
@@ -228,7 +229,7 @@ def _other_point(linkage: Linkage, spring: Spring) -> str | None:
 
 
 def swing(link: int, motion_at: MotionAt) -> tuple[float, float]:
-    """Return the middle and the range (rad) of the angles that a link takes on while the driver goes all its way."""
+    """Return the middle and the range (rad) of a link's angles over the whole travel of the driver."""
     angle = motion_at(np.linspace(0.0, FULL_TURN, STEPS + 1)).links[link].angle
     low, high = (float(extreme(angle)) for extreme in (np.nanmin, np.nanmax))
     return (low + high) / 2, high - low

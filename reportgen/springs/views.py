@@ -27,13 +27,13 @@ def rows_of(report: ReportContext) -> tuple[SpringRow, ...]:
 
 
 def spring_lines(report: ReportContext) -> list[str]:
-    """Return the lengths of springs, or the angles that they are turned by, with their loads."""
+    """Return the ids of the lengths of springs, or of their angles of twist, and of their loads."""
     return report.known(id for row in rows_of(report) for id in (*row.lines, *row.loads))
 
 
 def spring_works(report: ReportContext) -> Inlines:
-    """Return the works of the springs (J) over the way of a sliding driver, in the order of their numbers; () for
-    a crank.
+    """Return the work of each spring (J) over the travel of a sliding driver, in the order of their numbers; () for a
+    crank.
     """
     machine = report.machine
     if not machine.span:
@@ -49,22 +49,22 @@ def spring_works(report: ReportContext) -> Inlines:
 
 
 def linear_springs(report: ReportContext) -> list[str]:
-    """Return the loads of springs between two points."""
+    """Return the ids of the loads of springs between two points."""
     return report.known(id for row in rows_of(report) if not row.twists for id in row.loads)
 
 
 def torsion_springs(report: ReportContext) -> list[str]:
-    """Return the loads of torsion springs."""
+    """Return the ids of the loads of torsion springs."""
     return report.known(id for row in rows_of(report) if row.twists for id in row.loads)
 
 
 def spring_loads(report: ReportContext) -> list[str]:
-    """Return the loads of springs."""
+    """Return the ids of the loads of all springs."""
     return report.known(id for row in rows_of(report) for id in row.loads)
 
 
 def loads_over_cycle(report: ReportContext) -> FigureScenes:
-    """Return the forces of springs over the cycle; torsion springs get a separate diagram."""
+    """Draw the forces of springs over the cycle; torsion springs have a separate diagram."""
     by_kind: dict[str, list[ShownCurve]] = {}
     analysed = {load.name: load.law for load in report.loads}
     cycle = report.dense_cycle

@@ -6,6 +6,7 @@ import re
 import sys
 import webbrowser
 from pathlib import Path
+from urllib.parse import unquote
 
 import pytest
 
@@ -117,7 +118,7 @@ def test_the_pages_for_a_browser_link_to_each_other_and_to_their_pictures(folder
         text = page.read_text(encoding="utf-8")
         for address in re.findall(r'(?:href|src)="([^"]+)"', text):
             if not re.match(r"https?:", address):
-                name, _, anchor = address.partition("#")
+                name, _, anchor = unquote(address).partition("#")
                 target = folder / name if name else page
                 assert target.is_file(), (page.name, address)
                 if anchor:
