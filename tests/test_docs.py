@@ -149,7 +149,7 @@ def test_a_task_has_numbered_steps_and_fits_a_screen(page: Path) -> None:
 
 
 def test_the_one_command_that_installs_tex_is_given() -> None:
-    assert fences("docs/reference/commands.md", "sh") == [f"{pdflatex.INSTALL}\n"]
+    assert fences("docs/how-to/typeset-with-latex.md", "sh") == [f"{pdflatex.INSTALL}\n"]
 
 
 @pytest.mark.parametrize("document", DOCUMENTS)

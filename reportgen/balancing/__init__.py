@@ -1,3 +1,3 @@
-"""Topic: balancing of machines by counterweights, of rotors by correction masses, of engines by orders and stars
-of cranks.
+"""Topic: balancing of machines by counterweights; also the kinds of rotors (correction masses) and engines by
+orders.
 """

@@ -16,7 +16,7 @@ from reportgen.machine import GROUND, Linkage
 from reportgen.machine.kinematics import Motion
 
 LARGEST, LEAST = 5.0, 2.0
-"""Radii of discs (mm): of the heaviest, and at least; areas are as the masses."""
+"""Radii of discs (mm): of the heaviest counterweight, and the smallest one; areas are proportional to masses."""
 ARM = 1.0
 """Half the width of an arm (mm)."""
 
@@ -34,7 +34,7 @@ class CounterweightDisc:
 def with_discs(
     linkage: Linkage, motion: Motion, index: int, scale: float, looks: Looks, discs: Sequence[CounterweightDisc]
 ) -> Scene:
-    """Return the scheme at position `index`, `scale` mm of paper per m, with counterweights."""
+    """Draw the scheme at position `index` with counterweights; `scale` is in mm of paper per m."""
     bones = skeleton(linkage, motion, index, scale)
     heaviest = max(disc.mass for disc in discs)
     items: list[Item] = []

@@ -22,10 +22,10 @@ CounterweightRule = Literal["rms", "max", "rotating", "share"]
 
 @dataclass(frozen=True, slots=True)
 class Balancing:
-    """Balancing in a report: only the shaking force, or a counterweight on the crank by the first of the `rules`,
-    compared with the others, or counterweights on the `links` that balance all force.
+    """Balancing in a report: the shaking force alone, a counterweight on the crank, or counterweights on the `links`.
 
-    `share` is the share of the reciprocating masses that the rule of that name balances, `radius` r_c (m).
+    A counterweight on the crank follows the first of the `rules`, and is compared with the others; those on the `links`
+    balance all force. `share` is the share of the reciprocating masses for the rule of that name, `radius` r_c (m).
     """
 
     rules: tuple[CounterweightRule, ...] = ()
@@ -63,10 +63,10 @@ def balanced(linkage: Linkage, weights: Iterable[Counterweight]) -> Linkage:
 
 @dataclass(frozen=True, slots=True)
 class CrankRod:
-    """A slider's rod on the crank as two point masses: m_A turns with the pin, m_B goes to and fro with the slider's.
+    """A slider's rod on the crank as two point masses: m_A turns with the pin, m_B reciprocates with the slider.
 
     m_A = m (1 − s), m_B = m s with s = l_AS/l give the same force, though not the same moment.  The rod lies between
-    `crank_pin` and `end`, its mass centre is called `centre`, "" of one without mass; `pin` is the pin's place on the
+    `crank_pin` and `end`; `centre` is the name of its mass centre, "" without mass.  `pin` is the pin's place on the
     crank (m), `turning` m_A and `reciprocating` m_B with the slider's mass (kg).
     """
 
@@ -81,9 +81,11 @@ class CrankRod:
 
 
 def crank_rods(linkage: Linkage) -> tuple[CrankRod, ...]:
-    """Return the rods of all sliders; () unless every group is a rod from the crank to a slider on the frame,
-    straight and
-    with its mass centre on it."""
+    """Return the rods of all sliders.
+
+    It is () unless every group is a straight rod from the crank to a slider on the frame, with its mass centre on the
+    rod.
+    """
     driver = linkage.driver
     if not isinstance(driver, Crank):
         return ()
@@ -135,9 +137,7 @@ def place_on_link(linkage: Linkage, link: int, name: str) -> complex:
 
 
 def turning_part(linkage: Linkage) -> complex:
-    """Return the product of the masses that turn with the crank, Σ m_A r and its own m₁ r_S1 (kg·m), in the
-    crank's frame.
-    """
+    """Return Σ m_A r and the crank's own m₁ r_S1 (kg·m), the product of the masses that turn with it, in its frame."""
     own = sum(
         body.mass * place_on_link(linkage, DRIVER, body.centre) for body in linkage.inertias if body.link == DRIVER
     )
@@ -153,8 +153,8 @@ def reciprocating_part(linkage: Linkage) -> complex:
 
 
 def four_bar(linkage: Linkage) -> Dyad | None:
-    """Return the coupler and rocker, if the linkage is a four-bar: one group of rods between the crank and a fixed
-    point.
+    """Return the coupler and rocker if the linkage is a four-bar (one group of rods between crank and a fixed point),
+    else None.
     """
     if not isinstance(linkage.driver, Crank) or len(linkage.dyads) != 1:
         return None
@@ -164,12 +164,12 @@ def four_bar(linkage: Linkage) -> Dyad | None:
 
 
 def force_balance(linkage: Linkage) -> Mapping[int, complex]:
-    """Return U (kg·m) of the counterweights on crank and rocker with which a four-bar's mass centre rests, in
-    their frames.
+    """Return U (kg·m) of the counterweights on crank and rocker that keep a four-bar's mass centre at rest, in their
+    frames.
 
-    With u the complex place of a link's mass centre in its frame and a, b, c the lengths of crank, coupler, rocker:
-    U₁ = −(m₁u₁ + m₂a(1 − u₂/b)), U₃ = −(m₃u₃ + m₂c u₂/b)   (Berkof and Lowen 1969).
-    Raises `ValueError` for another linkage.
+    With u the complex place of a link's mass centre in its frame and a, b, c the lengths of crank, coupler, rocker: U₁
+    = −(m₁u₁ + m₂a(1 − u₂/b)), U₃ = −(m₃u₃ + m₂c u₂/b)   (Berkof and Lowen 1969). Raises `ValueError` for another
+    linkage.
     """
     dyad = four_bar(linkage)
     if dyad is None:

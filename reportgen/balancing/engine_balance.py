@@ -31,7 +31,7 @@ def case(assignment: Assignment) -> EngineCase:
 
 
 def table_rows(position: Mapping[str, Any]) -> dict[str, dict[str, float]]:
-    """Return the rows that `solve` prints of the results: forces (N) and couples (N·m) by orders, the counterweight
+    """Return the rows of results that `solve` prints: forces (N) and couples (N·m) by orders, the counterweight
     (kg·m).
     """
     orders, counterweight = position["orders"].items(), position["counterweight"]
@@ -43,7 +43,9 @@ def table_rows(position: Mapping[str, Any]) -> dict[str, dict[str, float]]:
 
 
 def check(given: Parameters) -> Iterator[Finding]:
-    """Require a rod that is long enough, its mass with the place of its mass centre, no two cylinders in one place."""
+    """Require a sufficiently long rod, its mass with the place of its mass centre, and different places for all
+    cylinders.
+    """
     if given.l.si < SHORTEST * given.r.si:
         least = f"{SHORTEST * given.r.si * 1e3:g}"
         yield Finding("rod-too-short", (*TOP, "l"), {"l": given.l.text, "r": given.r.text, "least": least})

@@ -1,12 +1,11 @@
-"""The sheet of an engine by orders: factors of the piston's acceleration, stars of cranks, forces, couples.
+"""The calculation of an engine by orders: factors of the piston's acceleration, stars of cranks, forces, couples.
 
 The piston of a cylinder with its crank at θ and its bank at ψ pulls on the frame, in order n, with
 
     m r ω² Aₙ cos n(φ + θ − ψ) e^{iψ} = ½ m r ω² Aₙ (e^{i(nφ + γ)} + e^{−i(nφ + γ′)})
 
-γ = nθ − (n − 1)ψ, γ′ = nθ − (n + 1)ψ: two vectors that turn with the crank and against it. The vectors of all
-cylinders add up to the stars f and g, and with their arms along the shaft to p and q. Source: the identity of
-Euler.
+γ = nθ − (n − 1)ψ, γ′ = nθ − (n + 1)ψ: two vectors that turn with the crank and against it. The vectors of all cylinders
+add up to the stars f and g, and with their arms along the shaft to p and q. Source: Euler's identity.
 """
 
 from __future__ import annotations
@@ -26,17 +25,17 @@ from reportgen.formula.calculation import Calculation
 from reportgen.formula.vocabulary import KeyChapter
 
 ORDERS = (1, 2, 4)
-"""Orders in the report; higher ones are too small to be felt."""
+"""Orders in the report; higher ones are negligible."""
 FACTORS = (2, 4, 6)
-"""The orders of the piston's acceleration; the first is 1, odd ones are not there."""
+"""Further orders of the piston's acceleration besides the first; odd ones are zero."""
 FORCES, COUPLES = "fg", "pq"
-"""The stars, the one that turns with the crank first."""
+"""Letters of the stars; the first of each pair turns with the crank."""
 STAR = 46.0
-"""The width or height that the largest star of a kind has on a page at most (mm)."""
+"""Largest width or height of the largest star of a kind on a page (mm)."""
 
 
 class EngineCalculation:
-    """The sheet of an engine while it is written."""
+    """The calculation of an engine during its construction; `written()` returns it."""
 
     def __init__(self, given: Parameters) -> None:
         self.given, self.q = given, Calculation()
@@ -99,7 +98,7 @@ class EngineCalculation:
         q.set_out("amplitude", q.define("orders.K", m_rec * q["orders.r"] * ω**2))
 
     def _enter_arms(self) -> None:
-        """Enter the arms of the cylinders, from the middle between the first and the last one."""
+        """Enter the arms of the cylinders, from the middle between the first and the last cylinder."""
         q, given = self.q, self.given
         if not given.has_length:
             return
@@ -113,7 +112,7 @@ class EngineCalculation:
     # --- stars
 
     def _enter_stars(self, stars: str) -> None:
-        """Enter the stars of forces, or of couples: all at one scale."""
+        """Enter the stars of forces, or of couples, at one common scale."""
         q = self.q
         weights: dict[str, Expression] = dict.fromkeys(self.cylinders, Number(1.0))
         if stars[0] in COUPLES:
@@ -132,7 +131,9 @@ class EngineCalculation:
             q.set_out(f"star_{star}", result)
 
     def _enter_angles(self, star: str, order: int) -> Mapping[str, Ref]:
-        """Return γ = nθ − (n − 1)ψ of a star that turns with the crank, nθ − (n + 1)ψ of one that turns against it."""
+        """Return γ = nθ − (n − 1)ψ for a star that turns with the crank, nθ − (n + 1)ψ for one that turns
+        against it.
+        """
         q, with_crank = self.q, star in (FORCES[0], COUPLES[0])
         times = order - 1 if with_crank else order + 1
         angles = {}
@@ -172,8 +173,8 @@ class EngineCalculation:
                 q.set_out(line, q.define(family(order), abs_of(order, size), scale=of_all))
 
     def _enter_counterweight(self) -> None:
-        """Enter the counterweight (m_A + ½ m_rec) r f₁ against the star f₁, which balances all force turning with
-        the crank.
+        """Enter the counterweight (m_A + ½ m_rec) r f₁ opposite to the star f₁, which balances all force that turns
+        with the crank.
         """
         q = self.q
         f = q[names.resultant("f", 1)]
@@ -193,8 +194,8 @@ class EngineCalculation:
             self._enter_couple_of_counterweights(turning)
 
     def _enter_couple_of_counterweights(self, turning: Expression) -> None:
-        """Enter the couple m_A r ω² p₁ of the rotating masses, and the effect of counterweights with a couple
-        against p₁.
+        """Enter the couple m_A r ω² p₁ of the rotating masses, and the effect of counterweights with a couple opposite
+        to p₁.
 
         (m_A + ½ m_rec) r p₁ balances everything that turns with the crank: all of the first order if the star q₁ is
         closed.
@@ -214,9 +215,10 @@ class EngineCalculation:
 
 
 def times_direction(weight: Expression, direction: Expression) -> Expression:
+    """Return a vector of this weight in a direction."""
     return cis(direction) if isinstance(weight, Number) else weight * cis(direction)
 
 
 def abs_of(order: int, of: Expression) -> Expression:
-    """Return the size of a force of an order: the factor of the fourth is negative."""
+    """Return the size of a force of an order; the factor of the fourth order is negative."""
     return size(of) if order == ORDERS[-1] else of

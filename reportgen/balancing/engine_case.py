@@ -1,4 +1,4 @@
-"""An engine by its orders as a case: its report and its task with their tables, its key, its results, its sheet."""
+"""An engine by its orders as a case: report and task with their tables, key, results, drawing sheet."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from reportgen.sheets.plates import drawn
 
 @dataclass(frozen=True)
 class EnginePage(PlacesPage[SolvedEngine]):
-    """An engine as templates name it."""
+    """An engine for its templates."""
 
     NAME, TASK, SUMMARY = "orders", "orders-task", "orders-summary"
     SECTIONS = (
@@ -69,14 +69,14 @@ class EnginePage(PlacesPage[SolvedEngine]):
 
     @property
     def layout(self) -> Table:
-        """Table of the arrangement of the cylinders."""
+        """The table of the arrangement of the cylinders."""
         columns = [orders_ids.crank, orders_ids.bank]
         columns += [orders_ids.station] if self.case.given.has_length else []
         return self.by_place("layout", columns, self.case.cylinders)
 
     @property
     def factors(self) -> Table:
-        """The factors of the piston's acceleration, exact and by the first terms of their series."""
+        """The table of the factors of the piston's acceleration, exact and by the first terms of their series."""
         printed, heads = self.case.printed, self.words["factors"]
         columns = orders_ids.factor, orders_ids.series, orders_ids.off
         rows = [
@@ -87,7 +87,7 @@ class EnginePage(PlacesPage[SolvedEngine]):
 
     @property
     def angles(self) -> Table:
-        """The angles of the vectors in all stars."""
+        """The table of the angles of the vectors in all stars."""
         case = self.case
         columns = [(letter, order) for letter in case.stars["forces"] for order in ORDERS]
         heads = [(Symbol("γ", f"{letter}{order}"), "°") for letter, order in columns]
@@ -107,7 +107,7 @@ class EnginePage(PlacesPage[SolvedEngine]):
 
     @property
     def result(self) -> Table:
-        """Resultants of the stars, forces and couples by orders."""
+        """The table of the stars' resultants, and of forces and couples by orders."""
         case, printed = self.case, self.case.printed
         families: list[Any] = []
         for what, letters in case.stars.items():

@@ -1,4 +1,4 @@
-"""Drawings of an engine to scale: its cranks and banks, its shaft, the stars of all orders, the drawing sheet."""
+"""Drawings of an engine to scale: cranks and banks, shaft, the stars of all orders, the drawing sheet."""
 
 from __future__ import annotations
 
@@ -32,11 +32,11 @@ LONG, SIDE, HIGH = 130.0, 50.0, 84.0
 WEB = 0.16
 """Half the width of a throw, as a share of the least distance of two cylinders."""
 APART, OUT = 6.0, 7.0
-"""White between both views, and how far axes reach beyond (mm)."""
+"""Space between both views, and the length of axes beyond them (mm)."""
 
 
 def piston_at(case: SolvedEngine, place: str, φ: float = 0.0) -> complex:
-    """Return the pin of a piston (m), x + iy, with the crank at φ."""
+    """Return the place of a piston's pin (m, x + iy) with the crank at φ (rad)."""
     given = case.given
     cylinder = given.cylinders[int(place) - 1]
     turned = φ + cylinder.crank.si - cylinder.bank.si
@@ -45,17 +45,17 @@ def piston_at(case: SolvedEngine, place: str, φ: float = 0.0) -> complex:
 
 
 def crank_at(case: SolvedEngine, place: str, φ: float = 0.0) -> complex:
-    """Return the pin of a crank (m), x + iy, with the crank at φ."""
+    """Return the place of a crank's pin (m, x + iy) with the crank at φ (rad)."""
     return cmath.rect(case.given.r.si, φ + case.given.cylinders[int(place) - 1].crank.si)
 
 
 def banks(case: SolvedEngine) -> dict[float, str]:
-    """Return the first cylinder of each bank, by its angle."""
+    """Return the first cylinder of each bank, by the bank's angle (rad)."""
     return {one.bank.si: place for place, one in reversed([*zip(case.cylinders, case.given.cylinders, strict=True)])}
 
 
 def extent_of(case: SolvedEngine) -> tuple[float, float]:
-    """Return the width and height (m) of cranks and pistons seen from the end of the shaft."""
+    """Return the width and height (m) of cranks and pistons in the end view."""
     r = case.given.r.si
     ends = [*(UP * piston_at(case, place) for place in banks(case).values()), complex(-r, -r), complex(r, r)]
     low, high = corners_of(ends)
@@ -66,7 +66,9 @@ def extent_of(case: SolvedEngine) -> tuple[float, float]:
 
 
 def scheme(case: SolvedEngine, size: FigureSize = IN_REPORT) -> Scene:
-    """Return the engine from the end of its shaft and, if its cylinders are at several places along it, the shaft."""
+    """Draw the engine from the end of its shaft and, if its cylinders are at several places along the shaft, from the
+    side.
+    """
     front, μ_r = _from_the_end(case, size)
     if not case.given.has_length:
         return finish(front, notes=(μ_r,))
@@ -77,7 +79,9 @@ def scheme(case: SolvedEngine, size: FigureSize = IN_REPORT) -> Scene:
 
 
 def _from_the_end(case: SolvedEngine, size: FigureSize) -> tuple[Canvas, Chain]:
-    """Draw the cranks with the numbers of their cylinders, the axes of the banks, a rod and a piston of each."""
+    """Draw the cranks with the numbers of their cylinders, the axes of the banks, and a rod and a piston for
+    each bank.
+    """
     given = case.given
     usual = nice_up(max(extent_of(case)) * MM / HIGH)
     per = MM * size.per_unit(usual)
@@ -105,7 +109,7 @@ def _from_the_end(case: SolvedEngine, size: FigureSize) -> tuple[Canvas, Chain]:
 
 
 def _pins(case: SolvedEngine) -> dict[float, list[Content]]:
-    """Return the numbers of the cylinders on each pin, by its angle within a turn."""
+    """Return the numbers of the cylinders on each pin, by the pin's angle within a turn (rad)."""
     pins: dict[float, list[Content]] = {}
     for place, cylinder in zip(case.cylinders, case.given.cylinders, strict=True):
         pins.setdefault(round(cylinder.crank.si % math.tau, 9) % math.tau, []).append(place)
@@ -113,7 +117,7 @@ def _pins(case: SolvedEngine) -> dict[float, list[Content]]:
 
 
 def _shaft(case: SolvedEngine, size: FigureSize) -> tuple[Canvas, Chain]:
-    """Return the crankshaft from the side, z to the right, with its throws at their actual heights."""
+    """Draw the crankshaft from the side, z to the right, with its throws at their actual heights."""
     places = {place: one.at.si for place, one in zip(case.cylinders, case.given.cylinders, strict=True)}
     start, span = min(places.values()), max(places.values()) - min(places.values())
     usual = nice_up(max(span / LONG, 2 * case.given.r.si / SIDE) * MM)
@@ -142,7 +146,7 @@ def _shaft(case: SolvedEngine, size: FigureSize) -> tuple[Canvas, Chain]:
 
 
 def star(case: SolvedEngine, letter: str, order: int, size: FigureSize = IN_REPORT) -> Scene:
-    """Return the vectors of all cylinders one after another with the crank at 0, and the vector that closes them."""
+    """Draw the vectors of all cylinders one after another with the crank at 0, and the vector that closes them."""
     ledger = case.printed
     scale = orders_ids.scale(letter)
     μ = ledger.number(scale)
@@ -164,7 +168,7 @@ def star(case: SolvedEngine, letter: str, order: int, size: FigureSize = IN_REPO
 
 
 def stars(case: SolvedEngine, letters: str, size: FigureSize = IN_REPORT) -> tuple[Scene, ...]:
-    """Return the stars of all orders, those that turn with the crank first."""
+    """Draw the stars of all orders, those that turn with the crank first."""
     return tuple(star(case, letter, order, size) for letter in letters for order in ORDERS)
 
 
@@ -174,7 +178,7 @@ FIGURES: Mapping[str, tuple[str, DrawEngine]] = {
     "forces": ("plans", lambda case, size: stars(case, case.stars["forces"], size)),
     "couples": ("plans", lambda case, size: stars(case, case.stars["couples"], size)),
 }
-"""Layer of each figure on a sheet, and the function that draws it."""
+"""Layer of each figure on a drawing sheet, and the function that draws it."""
 
 
 def plates(case: SolvedEngine) -> Iterator[DrawingPlate]:

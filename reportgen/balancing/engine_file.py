@@ -1,4 +1,4 @@
-"""Model of the file of an engine given without a mechanism: crank, rod, moving masses, arrangement of the cylinders."""
+"""Model of the file of an engine without a mechanism: crank, rod, moving masses, arrangement of the cylinders."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ UPRIGHT = Given(0.0, 0.0, "deg", "0 deg")
 
 
 class CylinderPlace(Part):
-    """The angle of its crank and of its bank from the axis x, its place along the crankshaft."""
+    """The angles of a cylinder's crank and bank from the axis x, and its place along the crankshaft."""
 
     crank: Angle
     at: Coordinate = AT_ORIGIN

@@ -1,4 +1,4 @@
-"""A moving engine for a page: cranks and pistons, force and couple of each order on the frame with their paths."""
+"""A moving engine for the page: cranks and pistons, force and couple of each order on the frame with their paths."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ from reportgen.formula.vocabulary import KINDS
 
 SAMPLES = 360
 HIGH, FORCE = 100.0, 40.0
-"""Sizes (mm) of the room for the engine, and for the greatest force or couple."""
+"""Sizes (mm) of the space for the engine, and of the greatest force or couple."""
 ROTATING = "rot"
 PENS = {
     "1": Pen(0.5, style.RED),
@@ -54,18 +54,19 @@ EngineAngles = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Shaking:
-    """The forces on the frame (N) over a turn, or the couples (N·m), by order and of the rotating masses, as x + iy."""
+    """The forces (N) or couples (N·m) on the frame over a turn [N], as x + iy, by order and for the rotating masses."""
 
     name: str
     letter: str
     kind: str
     parts: dict[str, NDArray[np.complex128]]
-    """By name; without the force or couple that is zero over the whole turn."""
+    """Values [N] by name, without the forces or couples that are zero over the whole turn."""
     least: float
     """Smaller values are rounding errors."""
 
     @property
     def whole(self) -> NDArray[np.complex128]:
+        """Sum of all parts [N]."""
         return np.asarray(sum(self.parts.values()), complex)
 
 
@@ -123,7 +124,7 @@ def _shaking(case: SolvedEngine, φ: EngineAngles) -> Iterator[Shaking]:
 def _kept(
     name: str, by_order: dict[int, NDArray[np.complex128]], rotating: NDArray[np.complex128], natural: float
 ) -> Shaking:
-    """Return the parts that are not negligible compared with all cylinders pulling in one direction."""
+    """Return the parts that are not negligible compared with the sum if all cylinders pulled in one direction."""
     letter, kind = ("F", "force") if name == "forces" else ("M", "torque")
     every = {**{str(order): part for order, part in by_order.items()}, ROTATING: rotating}
     least = ZERO * natural
@@ -131,7 +132,7 @@ def _kept(
 
 
 def _plan(case: SolvedEngine, shaking: Shaking) -> Pane:
-    """Return the vectors of the parts and of their sum, with the path of the sum."""
+    """Return the vectors of the parts and of their sum, with the path of the sum, in N or N·m."""
     parts, letter, whole = shaking.parts, shaking.letter, shaking.whole
     most = max((float(np.abs(one).max()) for one in (*parts.values(), whole)), default=0.0) or FORCE
     per_mm = most / FORCE

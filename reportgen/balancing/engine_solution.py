@@ -1,4 +1,7 @@
-"""An engine by its orders with its ledger, and common mistakes in its quantities."""
+"""An engine by its orders with its ledger, and common mistakes in its quantities.
+
+`SolvedEngine` also computes forces and couples at any crank angle.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +23,7 @@ from reportgen.formula.calculation import Calculation
 from reportgen.formula.ledger import MistakenValues
 
 FIRST_TERM = "orders-first-term"
-"""The name of a factor that was taken as the first term of its series: A₂ = λ."""
+"""Name of the approximation of a factor by the first term of its series: A₂ = λ."""
 
 
 @dataclass(frozen=True)
@@ -34,7 +37,7 @@ class SolvedEngine(DesignCase):
 
     @cached_property
     def entered(self) -> EngineCalculation:
-        """The sheet together with the object that wrote it."""
+        """The object that made the calculation."""
         sheet = EngineCalculation(self.given)
         sheet.written()
         return sheet
@@ -49,7 +52,7 @@ class SolvedEngine(DesignCase):
 
     @property
     def stars(self) -> Mapping[str, str]:
-        """The letters of the stars of forces, and of couples if there are any."""
+        """The letters of the stars: under "forces", and under "couples" if the cylinders are at several places."""
         return self.entered.stars
 
     @property
@@ -58,23 +61,25 @@ class SolvedEngine(DesignCase):
         return self.given.n.si
 
     def forces(self, φ: ArrayLike) -> dict[int, NDArray[np.complex128]]:
-        """Return the force on the frame (N) of each order with the crank at φ, x + iy: Σ K Aₙ cos n(φ + θ − ψ)
-        e^{iψ}.
+        """Return, by order, the force (N, x + iy) on the frame at crank angles φ (rad), in the shape of φ: Σ K Aₙ cos
+        n(φ + θ − ψ) e^{iψ}.
         """
         return self._by_order(φ, [1.0] * len(self.cylinders))
 
     def couples(self, φ: ArrayLike) -> dict[int, NDArray[np.complex128]]:
-        """Return the couple on the frame (N·m) of each order, in the plane of its forces: each of them times
+        """Return, by order, the couple (N·m) on the frame at crank angles φ (rad), in the shape of φ: each force times
         its arm c.
         """
         return self._by_order(φ, self._arms)
 
     def rotating(self, φ: ArrayLike) -> NDArray[np.complex128]:
-        """Return the force of the rotating masses (N) with the crank at φ: Σ m_A r ω² e^{i(φ + θ)}."""
+        """Return the force of the rotating masses (N) at crank angles φ (rad), in the shape of φ: Σ m_A r ω² e^{i(φ +
+        θ)}.
+        """
         return self._rotating(φ, [1.0] * len(self.cylinders))
 
     def rotating_couple(self, φ: ArrayLike) -> NDArray[np.complex128]:
-        """Return the couple of the rotating masses (N·m), in the plane of its forces."""
+        """Return the couple of the rotating masses (N·m) at crank angles φ (rad), in the shape of φ."""
         return self._rotating(φ, self._arms)
 
     @property
@@ -107,7 +112,9 @@ class SolvedEngine(DesignCase):
 
     @cached_property
     def misconceptions(self) -> Misconceptions:
-        """φ for 2φ, λ upside down, ω for ω², the share taken of the rotating part, degrees for radians."""
+        """Common mistakes: φ for 2φ, λ upside down, ω for ω², the share taken of the rotating part, degrees for
+        radians.
+        """
         changed: dict[str, list[tuple[str, Expression]]] = {}
         for id, name, formula in (*self._of_stars(), *self._of_one_cylinder(), *self._of_counterweight()):
             changed.setdefault(id, []).append((name, formula))

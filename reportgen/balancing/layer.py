@@ -29,7 +29,9 @@ DISC = 2.4
 
 
 def forces(turn: BalancedTurn, motion: Motion) -> list[tuple[str, str, Complexes]]:
-    """Return the layer, id and values (N) [N] of F without counterweights, and of F with the one on the crank."""
+    """Return the layer, id and values (N) [N] of F without counterweights, and of F with the counterweight on the
+    crank.
+    """
     before = shaking_force(turn.machine.linkage, motion)
     layers = [(LAYERS[0], balance_ids.FORCE, before)]
     if turn.products and turn.weights:
@@ -42,10 +44,9 @@ def forces(turn: BalancedTurn, motion: Motion) -> list[tuple[str, str, Complexes
 def shaking_items(
     report: ReportContext, motion: Motion, scale: float, longest: float, chosen: Callable[[str, Callable[[], Any]], Any]
 ) -> tuple[list[MovingItem], list[BarScale]]:
-    """Return the shaking forces and their scale, on a drawing of `scale` mm to a metre; empty if they are not
-    requested.
+    """Return the shaking forces and their scale, on a drawing of `scale` mm per metre; empty if they are not requested.
 
-    The greatest force is an arrow `longest` mm long, to a scale that is `chosen` once.
+    The greatest force is an arrow of `longest` mm, at a scale that is `chosen` once.
     """
     turn = balanced_in(report.analysis)
     greatest = max(float(np.abs(force).max()) for *_, force in forces(turn, motion))
@@ -54,7 +55,7 @@ def shaking_items(
 
 
 def _items(report: ReportContext, turn: BalancedTurn, motion: Motion, scale: float, per: float) -> Iterator[MovingItem]:
-    """Yield the arrows, traces and counterweights, `per` N to a millimetre."""
+    """Yield the arrows, traces and counterweights, at `per` N/mm."""
     centre = motion.points[report.driver.centre].p * scale
     arrows = forces(turn, motion)
     greatest = float(np.abs(arrows[0][2]).max())
@@ -78,7 +79,7 @@ def _place(weight: Counterweight, motion: Motion) -> Complexes:
 def with_room(
     report: ReportContext, motion: Motion, scale: float, box: tuple[complex, complex]
 ) -> tuple[complex, complex]:
-    """Return the corners of a drawing (mm) that also includes the counterweights."""
+    """Return the corners of a drawing (mm) extended by the counterweights."""
     turn = balanced_in(report.analysis)
     places = [_place(weight, motion) * scale for weight in turn.weights]
     if not places:
@@ -94,7 +95,7 @@ def with_room(
 
 
 def values(report: ReportContext, motion: Motion) -> Iterator[tuple[Symbol, str, Floats]]:
-    """Yield the sizes of these forces and the moment on the frame: symbol, kind, values [N]; nothing if not
+    """Yield the sizes of these forces and the moment on the frame: symbol, kind, values (N, N·m) [N]; nothing if not
     requested.
     """
     turn, ledger = balanced_in(report.analysis), report.ledger

@@ -1,8 +1,7 @@
 """Ledger entries for balancing: the shaking force and moment at each position, the counterweights and their effects.
 
-The components of each link's inertia force are taken from its size and the direction of its mass centre's
-acceleration; those of a counterweight from U and its angle ψ, which is counted from its link, anticlockwise
-positive.
+The components of each link's inertia force follow from its size and the direction of its mass centre's acceleration;
+those of a counterweight from U and its angle ψ, which is measured from its link, anticlockwise positive.
 """
 
 from __future__ import annotations
@@ -79,7 +78,7 @@ def enter(q: Calculation, analysis: Analysis) -> None:
 
 @dataclass(frozen=True)
 class _Entry:
-    """The sheet of an analysis while its balancing is entered."""
+    """An analysis with its calculation while its balancing is entered."""
 
     q: Calculation
     analysis: Analysis
@@ -98,17 +97,18 @@ class _Entry:
 
     @property
     def force(self) -> float:
-        """Reference size of a force (N): that unbalance, turning with the crank."""
+        """Reference size of a force (N): this unbalance, turning with the crank."""
         return self.unbalance * self.analysis.machine.speed**2
 
     @property
     def torque(self) -> float:
+        """Reference size of a torque (N·m): this force at the crank's length."""
         return self.force * self.crank.length
 
     # --- at the positions
 
     def shaking(self) -> None:
-        """Enter F and its direction, M, each as the sum of the links' parts."""
+        """Enter F with its direction and M, each as the sum over the links."""
         q = self.q
         across: list[Ref] = []
         up: list[Ref] = []
@@ -134,7 +134,7 @@ class _Entry:
         q.define(balance_ids.MOMENT, total(moments), scale=self.torque)
 
     def _force_of(self, body: Inertia) -> tuple[Ref, Ref]:
-        """Return the components of a link's inertia force, against the acceleration of its mass centre."""
+        """Return the components of a link's inertia force, opposite to the acceleration of its mass centre."""
         q, direction = self.q, ids.direction("a", body.centre)
         if direction not in q:
             q.define(
@@ -151,7 +151,7 @@ class _Entry:
         return along, up
 
     def _arms(self, name: str, arm: Expression) -> tuple[Ref, Ref]:
-        """Return the coordinates of a point from a centre, measured on the drawing of the mechanism."""
+        """Return the coordinates of a point from a centre, as measured on the drawing of the mechanism."""
         x, y = (
             self.q.find(id) or self.q.define(id, call(part, arm), scale=self.crank.length)
             for id, part in (
@@ -178,7 +178,7 @@ class _Entry:
             self._product(rule, LETTERS[rule], enter[rule]())
 
     def _product(self, name: str, letters: str, parts: Sequence[Expression]) -> None:
-        """Enter U with its angle from its components; a single component that is `NOTHING` gets no entry."""
+        """Enter U and its angle from its components; a single component that is `NOTHING` gets no entry."""
         q = self.q
         entered = [
             NOTHING
@@ -200,7 +200,7 @@ class _Entry:
         q.define(balance_ids.rule_angle(name), heading(x + turned(y)), symbol, "angle", scale=1.0, of=U.id)
 
     def _mean(self) -> Sequence[Expression]:
-        """Return minus the mean of F as seen from the crank, nearly that of the positions."""
+        """Return minus the mean of F as seen from the crank: its value from the positions plus a remainder."""
         q, mean = self.q, self.turn.curve.mean
         values = zip(AXES, (mean.real, mean.imag), strict=True)
         means = [
@@ -218,9 +218,9 @@ class _Entry:
         return [-mean for mean in means]
 
     def _circle(self) -> Sequence[Expression]:
-        """Return minus the centre of the circle through the two or three points where it touches the curve.
+        """Return minus the centre of the circle through the two or three points at which it touches the curve.
 
-        Each of them follows the position next to it.
+        Each of these points follows the position next to it.
         """
         q, curve, own = self.q, self.turn.curve, self.analysis.machine.cycle_angles
         points = []
@@ -250,7 +250,7 @@ class _Entry:
         return [-call("re", centre), -call("im", centre)]
 
     def _shares(self, share: Operand) -> Sequence[Expression]:
-        """Return the terms against the masses that turn with the crank, and a share of the reciprocating ones at
+        """Return the terms opposite to the masses that turn with the crank and to a share of the reciprocating ones at
         its pins.
         """
         q = self.q
@@ -275,7 +275,7 @@ class _Entry:
         return [minus(plus(*axis)) for axis in terms]
 
     def _arm(self, link: int, name: str, place: complex) -> tuple[Expression, Expression]:
-        """Return the distance of a point of the crank from its centre, and the angle it is turned by from the pin."""
+        """Return the distance of a point of the crank from its centre, and its angle from the pin."""
         q, length = self.q, ids.length(self.crank.centre, name)
         arm = q.find(length) or q.give(length, abs(place))
         if abs(place.imag) <= ON_ITS_LINK * abs(place) and place.real > 0:
@@ -299,7 +299,7 @@ class _Entry:
     # --- the whole balance of a four-bar
 
     def whole_balance(self) -> None:
-        """Enter U of both counterweights by their components, along their links and across them.
+        """Enter U of both counterweights by their components, along and across their links.
 
         The coupler's mass m₂ is distributed to its pins by the shares 1 − (ξ + iη)/b and (ξ + iη)/b.
         """
@@ -325,7 +325,7 @@ class _Entry:
             self._product(str(link), str(link), [minus(plus(*both)) for both in zip(own, taken, strict=True)])
 
     def _on_link(self, body: Inertia) -> tuple[Expression, Expression]:
-        """Return the place of a mass centre in its link's frame, from its first joint: along the link and across it."""
+        """Return the place of a mass centre in its link's frame, from the first joint: along the link and across it."""
         q, place = self.q, place_on_link(self.analysis.machine.linkage, body.link, body.centre)
         parts: list[Expression] = []
         for axis, value in zip(AXES, (place.real, place.imag), strict=True):
@@ -339,11 +339,11 @@ class _Entry:
 
     @property
     def links(self) -> tuple[int, ...]:
-        """The links that get counterweights."""
+        """The links with counterweights."""
         return tuple(weight.link for weight in self.turn.weights)
 
     def carried_out(self) -> None:
-        """Enter each counterweight's U, mass and weight, and at the positions the remaining force, R₀₁ and M_cb."""
+        """Enter U, mass and weight of each counterweight, and at the positions the remaining force, R₀₁ and M_cb."""
         q, φ = self.q, self.q["phi.1"]
         radius = q[balance_ids.RADIUS]
         heavy = self.unbalance / q.si(radius)
@@ -361,8 +361,8 @@ class _Entry:
         self._torque_after(radius)
 
     def _force_after(self) -> None:
-        """Enter the remaining force with a counterweight on the crank, and R₀₁, the only reaction that takes its
-        force and weight.
+        """Enter the remaining force with a counterweight on the crank, and R₀₁, the only reaction that its force and
+        weight change.
         """
         q, φ, ψ = self.q, self.q["phi.1"], self.q[balance_ids.angle(DRIVER)]
         P = q.define(
@@ -379,8 +379,7 @@ class _Entry:
         q.define(balance_ids.AFTER_REACTION, abs(held if G is None else held + turned(G)), scale=self.force)
 
     def _torque_after(self, radius: Ref) -> None:
-        """Enter M_cb with the counterweights: their weights have moments, and one that does not turn evenly has
-        inertia.
+        """Enter M_cb with the counterweights: their weights have moments, and one that turns unevenly has inertia.
 
         A counterweight on another link needs M_c = m r² ε + G x, which the crank provides by M_c ω/ω₁.
         """
@@ -415,8 +414,8 @@ class _Entry:
     # --- over the turn
 
     def over_the_turn(self) -> None:
-        """Enter the greatest and the mean F of the turn without a counterweight and by each rule, and the other
-        changes.
+        """Enter the greatest and the root mean square F of the turn without a counterweight and by each rule, and the
+        other effects.
         """
         q, curve, ω2 = self.q, self.turn.curve, self.analysis.machine.speed**2
         F = q[balance_ids.component("x")] + turned(q[balance_ids.component("y")])

@@ -1,6 +1,6 @@
-"""Error of a counterweight by the positions alone, compared with that by the whole curve, which the ledger has.
+"""Tolerance for a counterweight that is computed from the positions, compared with the ledger's, from the whole curve.
 
-A student has the force on the frame at the positions, and takes their mean, or the smallest circle round them.
+A student knows the force on the frame at the positions only, and uses their mean, or the smallest circle round them.
 """
 
 from __future__ import annotations
@@ -17,7 +17,9 @@ from reportgen.marking.topic_marking import MarkHooks
 
 
 def errors_of_positions(ledger: Ledger) -> Mapping[str, np.ndarray]:
-    """Return the errors (SI) of U, its angle and their dependent values, for the rules that use the whole curve."""
+    """Return the errors (SI) [1] of U, its angle and their dependent values, by id, for the rules that use the whole
+    curve.
+    """
     along, across = balance_ids.seen("x"), balance_ids.seen("y")
     if along not in ledger:
         return {}
@@ -47,7 +49,7 @@ def _apart(here: complex, there: complex) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _is_first(ledger: Ledger, rule: str) -> bool:
-    """Return True if it is the rule that is applied."""
+    """Return True if a rule is the one that is applied."""
     return balance_ids.rule_product(rule) in ledger.inputs[balance_ids.product(DRIVER)]
 
 

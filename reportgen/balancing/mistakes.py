@@ -12,7 +12,7 @@ AXES = ("x", "y")
 
 
 def mistakes(ledger: Ledger, machine: Machine) -> Changed:
-    """Return other definitions by id: the counterweight on the pin's side, ω not squared, a share of all masses."""
+    """Return mistaken definitions by id: the counterweight on the pin's side, ω not squared, a share of all masses."""
     changed: dict[str, list[tuple[str, Expression]]] = {}
     for id, family in ledger.families.items():
         definition = family.definition
@@ -39,8 +39,8 @@ def mistakes(ledger: Ledger, machine: Machine) -> Changed:
 
 
 def _of_all(ledger: Ledger, definition: Expression) -> Expression:
-    """Return the definition with the mistake that the share includes the rotating masses: κ(m_A + m_B + m) in
-    place of m_A + κ(m_B + m).
+    """Return the definition with the share applied to the rotating masses too: κ(m_A + m_B + m) instead of m_A + κ(m_B
+    + m).
     """
     κ = Ref(balance_ids.SHARE)
     # The mass at the crank's pin depends on the mass at the other end.

@@ -22,8 +22,8 @@ def _engine(report: ReportContext) -> Engine | None:
 
 
 def orders_state(report: ReportContext) -> str:
-    """Return the state of the orders: "none", of a "single" cylinder, of several in a "line" or in a "vee", or of
-    the "whole" force alone.
+    """Return the state of the orders: "none", of a "single" cylinder, of several in a "line" or a "vee", or "whole" for
+    the whole force alone.
     """
     if balance_ids.order_force(1) not in report.ledger:
         return "none"
@@ -36,7 +36,7 @@ def orders_state(report: ReportContext) -> str:
 
 
 def factor_lines(report: ReportContext) -> list[str]:
-    """Return the ids of λ, the orders of a piston's acceleration by the series, and the reciprocating mass."""
+    """Return the ids of λ, of the orders of a piston's acceleration by the series, and of the reciprocating mass."""
     series = (balance_ids.series(order) for order in EXACT)
     masses = [id for id in report.ledger.families if id in balance_ids.point_mass]
     first = masses if masses and not _told_later(report) else []
@@ -49,7 +49,7 @@ def _told_later(report: ReportContext) -> bool:
 
 
 def star_lines(report: ReportContext) -> list[str]:
-    """Return the sums of the cylinders' vectors, order by order, and the couples."""
+    """Return the ids of the sums of the cylinders' vectors, order by order, and of the couples."""
     lines: list[str] = []
     for order in ORDERS:
         for sense in SENSES:
@@ -60,7 +60,7 @@ def star_lines(report: ReportContext) -> list[str]:
 
 
 def order_lines(report: ReportContext) -> list[str]:
-    """Return the greatest force of each order."""
+    """Return the ids of the greatest force of each order."""
     return report.known(balance_ids.order_force(order) for order in OF_ALL)
 
 
@@ -73,7 +73,7 @@ def factors_table(report: ReportContext) -> Iterator[Sequence[object]]:
 
 
 def stars(report: ReportContext) -> FigureScenes:
-    """Return the star of each order that turns forward, and of cylinders at an angle that which turns backward."""
+    """Draw the star of each order that turns forward and, for cylinders at an angle, the star that turns backward."""
     layout = _engine(report)
     assert layout is not None
     senses = ("forward",) if layout.in_line else tuple(SENSES)

@@ -1,9 +1,9 @@
-"""Orders of an engine's inertia forces: those of one piston's acceleration, and their sums over all pistons.
+"""Orders of an engine's inertia forces: of one piston's acceleration, and their sums over all pistons.
 
-A piston on a line through the crank's centre has a = −rω² Σ A_n cos nθ with A₁ = 1 and even orders further, θ the
+A piston on a line through the crank's centre has a = −rω² Σ A_n cos nθ with A₁ = 1 and further even orders, θ the
 crank's angle from that line. Cylinder j is at the angle β_j and has its pin at ψ_j on the crank; its order n is a
-vector that turns forward with nφ, e^{i(β_j + n(ψ_j − β_j))}, and one that turns backward, e^{i(β_j − n(ψ_j −
-β_j))}, each of half its size.
+vector that turns forward with nφ, e^{i(β_j + n(ψ_j − β_j))}, and one that turns backward, e^{i(β_j − n(ψ_j − β_j))},
+each of half its size.
 """
 
 from __future__ import annotations
@@ -17,26 +17,26 @@ from reportgen.balancing.counterweights import CrankRod, crank_rods
 from reportgen.machine import GROUND, Crank, Guide, Linkage
 
 SAME = 1e-9
-"""Shares by which cylinders may differ that count as alike."""
+"""Largest relative difference of cylinders that count as alike."""
 FORWARD, BACKWARD = 1, -1
 
 
 @dataclass(frozen=True, slots=True)
 class EngineCylinder:
-    """A cylinder in line with the crank's centre: its slider, its angle β and its pin's ψ on the crank (rad)."""
+    """A cylinder in line with the crank's centre: its slider, its angle β and its pin's angle ψ on the crank (rad)."""
 
     slider: int
     bank: float
     pin: float
 
     def vector(self, order: int, sense: int) -> complex:
-        """Return its vector of an order in the star that turns `FORWARD` or `BACKWARD`, at φ = 0, of the size 1."""
+        """Return its vector of an order in the star that turns `FORWARD` or `BACKWARD`, at φ = 0 and with length 1."""
         return complex(np.exp(1j * (self.bank + sense * order * (self.pin - self.bank))))
 
 
 @dataclass(frozen=True, slots=True)
 class Engine:
-    """Cylinders that are alike: crank r and rod l (m), the mass that goes to and fro in each (kg)."""
+    """Equal cylinders: crank r and rod l (m), and the mass that reciprocates in each (kg)."""
 
     cylinders: tuple[EngineCylinder, ...]
     crank: float
@@ -51,7 +51,7 @@ class Engine:
         return all(abs(np.exp(1j * (each.bank - first)) - 1) < SAME for each in self.cylinders)
 
     def star(self, order: int, sense: int) -> complex:
-        """Return the sum of the cylinders' vectors of an order."""
+        """Return the sum of the cylinders' vectors of an order, each with length 1."""
         return sum(cylinder.vector(order, sense) for cylinder in self.cylinders)
 
     def force(self, order: int) -> float:
@@ -60,8 +60,8 @@ class Engine:
 
 
 def engine(linkage: Linkage) -> Engine | None:
-    """Return the engine that a linkage is, None unless all its cylinders are alike and in line with the
-    crank's centre.
+    """Return the engine formed by a linkage; None unless all its cylinders are alike and in line with the crank's
+    centre.
     """
     rods, cylinders, lengths = crank_rods(linkage), [], []
     if not isinstance(linkage.driver, Crank):
@@ -87,7 +87,7 @@ def _alike(lengths: Sequence[tuple[float, float, float]]) -> bool:
 
 
 def on_sliders(linkage: Linkage) -> bool:
-    """Return True if every group is a rod to a slider on the frame, as in an engine; rods may be articulated on
-    one another.
+    """Return True if every group is a rod to a slider on the frame, as in an engine; a rod may be articulated on
+    another one.
     """
     return all(dyad.kind == "RRP" and isinstance(dyad.end, Guide) and dyad.end.link == GROUND for dyad in linkage.dyads)

@@ -1,6 +1,6 @@
 """Ids of an engine that is balanced by orders, which begin with `orders`, with their vocabulary.
 
-A star is f or g of forces and p or q of couples: the first of a pair turns with the crank, the second against it.
+The stars are f and g for forces, p and q for couples: the first of a pair turns with the crank, the second against it.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """Ledger entries for an engine's orders: A_n exactly and by the series in λ, the stars of the cranks, forces and
 couples.
 
-Angles of pins and cylinders are counted from those of the first cylinder. For cylinders that are offset, or whose
-rods are articulated on one another, only the orders of the whole force are entered, including odd ones.
+Angles of pins and cylinders are measured from those of the first cylinder. If cylinders are offset, or rods are
+articulated on one another, only the orders of the whole force are entered, odd ones included.
 """
 
 from __future__ import annotations
@@ -106,7 +106,7 @@ def _whole(angle: float) -> bool:
 
 
 def _star(q: Calculation, layout: Engine, order: int, sense: str) -> Ref:
-    """Return the size of the sum of the cylinders' unit vectors, by its components."""
+    """Return the size of the sum of the cylinders' unit vectors, from its components."""
     across: list[Expression] = []
     up: list[Expression] = []
     for cylinder in layout.cylinders:

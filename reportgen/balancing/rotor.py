@@ -25,7 +25,7 @@ TOP = ("parameters",)
 NEEDS: Mapping[str, tuple[str, ...]] = {"bearings": ("n",), "grade": ("mass", "n", "bearings")}
 """Other keys that a key requires."""
 BALANCED = 1e-9
-"""An unbalance below this share of all unbalance is zero."""
+"""An unbalance below this share of the sum of all is zero."""
 
 
 def case(assignment: Assignment) -> RotorCase:
@@ -36,7 +36,7 @@ def case(assignment: Assignment) -> RotorCase:
 
 
 def table_rows(position: Mapping[str, Any]) -> dict[str, dict[str, float | None]]:
-    """Return the rows that `solve` prints of the results: corrections (kg·mm, °, kg, mm) and forces on bearings (N)."""
+    """Return the rows of results that `solve` prints: corrections (kg·mm, °, kg, mm) and forces on bearings (N)."""
     corrections: dict[str, float | None] = {}
     radii: dict[str, float | None] = {}
     for plane, entry in position["corrections"].items():
@@ -58,8 +58,8 @@ def table_rows(position: Mapping[str, Any]) -> dict[str, dict[str, float | None]
 
 
 def check(given: Parameters) -> Iterator[Finding]:
-    """Yield faults unless planes and bearings go from left to right, required keys exist, and something needs
-    balancing.
+    """Yield faults unless planes and bearings go from left to right, required keys exist, and there is something to
+    balance.
     """
     planes, bearings = given.planes, given.bearings
     if planes.B is not None and planes.B.si <= planes.A.si:
@@ -83,7 +83,7 @@ def check(given: Parameters) -> Iterator[Finding]:
 
 
 def is_balanced(given: Parameters) -> bool:
-    """Return True if the masses need no correction: no force and no couple, which one plane cannot correct."""
+    """Return True if the masses need no correction: neither force nor couple, which a single plane cannot correct."""
     unbalances = [(one.m.si * cmath.rect(one.r.si, one.angle.si), one.z.si - given.planes.A.si) for one in given.masses]
     force, couple = sum(U for U, _ in unbalances), sum(U * z for U, z in unbalances)
     if abs(force) > BALANCED * sum(abs(U) for U, _ in unbalances):

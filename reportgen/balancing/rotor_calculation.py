@@ -1,4 +1,6 @@
-"""The sheet of a rotor: products, both plans, the same by components, loads of the bearings, the quality grade."""
+"""The calculation of a rotor: products, both plans, the same by components, loads of the bearings, the quality
+grade.
+"""
 
 from __future__ import annotations
 
@@ -24,7 +26,7 @@ BEFORE, AFTER = "before", "after"
 
 
 class RotorCalculation:
-    """The sheet of a rotor while it is written."""
+    """The calculation of a rotor during its construction; `written()` returns it."""
 
     def __init__(self, given: Parameters) -> None:
         self.given, self.q = given, Calculation()
@@ -86,8 +88,8 @@ class RotorCalculation:
     # --- plans
 
     def _enter_plans(self) -> None:
-        """Enter the plans: V_B closes the plan of V about plane A, where U_A has no moment; U_A closes the
-        plan of U.
+        """Enter the plans: V_B closes the plan of V about plane A, where U_A has no moment; U_A closes the plan
+        of U.
         """
         q, U = self.q, dict(self.U)
         directions = dict(self.α)
@@ -165,7 +167,7 @@ class RotorCalculation:
         self._enter_polar(LEFT, near)
 
     def _all(self, sizes: Mapping[str, Ref]) -> float:
-        """Return the sum of the sizes of all masses (SI); a share of 1e-9 of it is negligible."""
+        """Return the sum of the sizes of all masses (SI); 1e-9 of it is negligible."""
         return sum(abs(self.q.si(one)) for one in sizes.values())
 
     def _scale_of(self, plane: str) -> float:
@@ -203,7 +205,7 @@ class RotorCalculation:
                 self._enter_force(when, place, parts)
 
     def _at_bearing(self, when: str, axis: str, place: str, opposite: str, sense: int) -> Ref:
-        """Return the part that a bearing has of all unbalance, by moments about the opposite bearing."""
+        """Return the share of the whole unbalance at a bearing, by moments about the opposite bearing."""
         q, z, b = self.q, self.z, self.q["rotor.b"]
         arm = z[opposite] - z[LEFT] if sense < 0 else z[LEFT] - z[opposite]
         if when == BEFORE:
@@ -261,7 +263,7 @@ def resultant(sizes: Mapping[str, Expression], directions: Mapping[str, Expressi
 
 
 def angle_of(q: Calculation, x: Ref, y: Ref) -> Expression:
-    """Return the direction of a vector from its components, from 0° to 360°."""
+    """Return the direction of a vector with these components, from 0° to 360°."""
     across, along = q.si(y), q.si(x)
     if abs(along) <= DUST * abs(across) or along == 0:
         return Number(90.0 if across >= 0 else 270.0, unit="°")

@@ -1,4 +1,4 @@
-"""A rotor as a case: its report and its task with their tables, its key, its results, its sheet."""
+"""A rotor as a case: report and task with their tables, key, results, drawing sheet."""
 
 from __future__ import annotations
 
@@ -25,14 +25,14 @@ from reportgen.formula import Chain, Expression, Number, Symbol, total
 from reportgen.sheets.plates import drawn
 
 OF_BEARING = rotor_ids.at_bearing, rotor_ids.bearing_force
-"""Ids of the load of each bearing."""
+"""Ids of the loads of each bearing."""
 WORKED = 6
-"""Largest number of masses whose products are written out; with more, the table has all and a line shows the first."""
+"""Largest number of masses whose products are all written out; with more, a line shows only the first."""
 
 
 @dataclass(frozen=True)
 class RotorPage(PlacesPage[SolvedRotor]):
-    """A rotor as templates name it."""
+    """A rotor for its templates."""
 
     NAME, TASK, SUMMARY = "rotor", "rotor-task", "rotor-summary"
     SECTIONS = (
@@ -95,7 +95,7 @@ class RotorPage(PlacesPage[SolvedRotor]):
         return not self.case.two_planes and any(printed[id].at(1) for id in parts if id in printed)
 
     def closing(self, of: str, masses: Sequence[str]) -> Equation:
-        """Return the vectors of a plan, whose sum is zero: those of the masses and of the corrections."""
+        """Return the equation of a plan, whose vectors add up to zero: those of the masses and of the corrections."""
         vectors = [Symbol(of, place, over="vector") for place in masses]
         if len(vectors) > WORKED:
             vectors = [*vectors[:2], Symbol("…"), vectors[-1]]
@@ -108,14 +108,14 @@ class RotorPage(PlacesPage[SolvedRotor]):
 
     @property
     def masses_table(self) -> Table:
-        """The masses as they are given."""
+        """The table of the given masses."""
         columns = [rotor_ids.mass, rotor_ids.radius, rotor_ids.angle]
         columns += [rotor_ids.station] if self.case.given.has_couple else []
         return self.by_place("masses", columns, self.case.masses)
 
     @property
     def products(self) -> Table:
-        """m r and m r z of each mass, and as they are laid off in the plans."""
+        """The table of m r and m r z of each mass, and of their lengths in the plans."""
         case = self.case
         columns = [rotor_ids.unbalance, rotor_ids.moment, rotor_ids.angle]
         plans = [(of, rotor_ids.laid_off.only(of=of)) for of in ("V", "U") if rotor_ids.scale(of) in case.printed]
@@ -124,7 +124,7 @@ class RotorPage(PlacesPage[SolvedRotor]):
 
     @property
     def components(self) -> Table:
-        """The components of all products, and their sums."""
+        """The table of the components of all products, and of their sums."""
         printed, kinds = self.case.printed, ("U", "V") if self.case.moments else ("U",)
         columns = [(of, axis) for of in kinds for axis in "xy"]
         sums = [rotor_ids.resultant(*column) for column in columns]
@@ -138,7 +138,7 @@ class RotorPage(PlacesPage[SolvedRotor]):
 
     @property
     def compared(self) -> Table:
-        """The corrections as they are read off and as they come of the components."""
+        """The table of the corrections as measured in the plans and as computed from components."""
         printed, words = self.case.printed, self.words["compared"]
         rows: list[tuple[Inlines, ...]] = []
         for plane in self.case.planes:
@@ -154,7 +154,7 @@ class RotorPage(PlacesPage[SolvedRotor]):
 
     @property
     def loads_table(self) -> Table:
-        """Table of the load of each bearing before and after."""
+        """The table of the load of each bearing before and after balancing."""
         printed, words = self.case.printed, self.words["loads"]
         columns = [(family, when) for when in (BEFORE, AFTER) for family in OF_BEARING]
         ids = {place: [family(when, place) for family, when in columns] for place in BEARINGS}
@@ -193,7 +193,7 @@ class RotorCase(SolvedRotor):
 
     @cached_property
     def entries(self) -> ResultEntries:
-        """The corrections in their planes, and the loads of the bearings before and after."""
+        """The corrections in their planes, and the loads of the bearings before and after balancing."""
         position: dict[str, Any] = {"number": 1, "corrections": {}}
         for plane in self.planes:
             size = self.ledger[rotor_ids.unbalance(plane)].at(1)

@@ -25,26 +25,26 @@ from reportgen.formula import Chain, Number, Symbol
 from reportgen.sheets.plates import on_sheet
 
 LONG, HIGH, WIDE = 140.0, 60.0, 64.0
-"""Length and height of the view along the axis, and width of the view across it, on a page (mm)."""
+"""Largest length and height of the view along the axis, and width of the view across it, on a page (mm)."""
 SHAFT, MASS, ARM = Pen(0.8), Pen(0.35), Pen(0.25)
 CORRECTION = Pen(0.4, style.RED, style.DASHED)
 DISC = 1.7
-"""The radius of the sign of a mass (mm)."""
+"""Radius of the symbol of a mass (mm)."""
 BEYOND = 7.0
 """Length of the shaft beyond the outermost planes and bearings (mm)."""
 APART = 6.0
-"""White between both views (mm)."""
+"""Space between both views (mm)."""
 CLEAR = 8.0
-"""From the farthest mass to the ends of planes and to the line of places (mm)."""
+"""Distance from the farthest mass to the ends of planes and to the axis of places (mm)."""
 HALF_BEARING, PLAY = 3.0, 1.1
-"""Half the width of a bearing, and from the axis to it (mm)."""
+"""Half the width of a bearing, and its distance from the axis (mm)."""
 SENSE = 0.45
 """The radius of the arrow of rotation, as a share of the farthest mass."""
 
 
 @dataclass(frozen=True)
 class PlacedMass:
-    """A mass as it is drawn: its name, its place from the axis (m), its station on the axis (m), its pen."""
+    """A mass in the drawing: its name, its place from the axis (m), its station on the axis (m), its pen."""
 
     name: Symbol | str
     at: complex
@@ -57,7 +57,7 @@ class PlacedMass:
 
 
 def placed_masses(case: SolvedRotor) -> list[PlacedMass]:
-    """Return the unbalanced masses, then the correction masses, where something is known of these."""
+    """Return the unbalanced masses, then the correction masses if some of their data are known."""
     given, ledger = case.given, case.printed
     placed = [
         PlacedMass(number, cmath.rect(mass.r.si, mass.angle.si), mass.z.si, MASS)
@@ -81,7 +81,7 @@ def stations(case: SolvedRotor) -> dict[str, float]:
 
 
 def two_views(case: SolvedRotor, size: FigureSize = IN_REPORT) -> Scene:
-    """Return the rotor from the side and, below, from its right end."""
+    """Draw the rotor from the side and, below, from its right end."""
     side, μ_l = _along_axis(case, size)
     front, μ_r = _across_axis(case, size)
     (low, high), (left, top) = bounds(side.items), bounds(front.items)
@@ -90,7 +90,7 @@ def two_views(case: SolvedRotor, size: FigureSize = IN_REPORT) -> Scene:
 
 
 def _along_axis(case: SolvedRotor, size: FigureSize) -> tuple[Canvas, Chain]:
-    """Return the shaft from the side, z to the right; masses at the height that they have at the angle 0."""
+    """Draw the shaft from the side, z to the right, with masses at their heights for the angle 0."""
     masses, places = placed_masses(case), stations(case)
     ends = [*(one.station for one in masses), *places.values()]
     far = max(abs(one.at) for one in masses)
@@ -127,7 +127,10 @@ def _along_axis(case: SolvedRotor, size: FigureSize) -> tuple[Canvas, Chain]:
 
 
 def ruler(places: Collection[float], per: float, height: float, mm: str) -> tuple[list[Item], list[Request]]:
-    """Return the axis z below a shaft with ticks at some places (m), the first of them at 0."""
+    """Draw the axis z below a shaft with ticks at some places (m), the first of them at 0.
+
+    `per` is in mm/m, `height` in mm; `mm` is the printed unit.
+    """
     start, end = min(places), (max(places) - min(places)) * per
     base, tip = complex(-BEYOND, height), complex(end + BEYOND + 5, height)
     items: list[Item] = [Line(base, tip, style.DIMENSION)]
@@ -140,19 +143,19 @@ def ruler(places: Collection[float], per: float, height: float, mm: str) -> tupl
 
 
 def bearing(at: complex) -> Iterator[Item]:
-    """Yield a bearing on the shaft, its ground above and below it."""
+    """Yield a bearing at a place of the shaft (mm), with its ground above and below."""
     for up in (1j, -1j):
         yield from style.ground(at + PLAY * up - HALF_BEARING, at + PLAY * up + HALF_BEARING, round(up.imag))
 
 
 def mass_on_arm(axis: complex, at: complex, mass: PlacedMass) -> tuple[Item, ...]:
-    """Draw a mass at the end of its arm."""
+    """Draw a mass at the end of its arm, both places in mm."""
     disc = Circle(at, DISC, mass.pen, style.PAPER if mass.corrects else style.TINT)
     return Line(axis, at, CORRECTION if mass.corrects else ARM), disc
 
 
 def _across_axis(case: SolvedRotor, size: FigureSize) -> tuple[Canvas, Chain]:
-    """Return the rotor from its right end: angles from the axis x, anticlockwise."""
+    """Draw the rotor from its right end: angles from the axis x, anticlockwise."""
     masses = placed_masses(case)
     far = max(abs(one.at) for one in masses)
     usual = nice_up(2 * far * MM / WIDE)
@@ -181,18 +184,18 @@ def _across_axis(case: SolvedRotor, size: FigureSize) -> tuple[Canvas, Chain]:
 
 
 def moments_plan(case: SolvedRotor, size: FigureSize = IN_REPORT) -> Scene:
-    """Draw m r z of all masses, closed by that of the correction in plane B."""
+    """Draw m r z of all masses, closed by the correction in plane B."""
     return plan(_polygon(case, "V", case.masses, RIGHT, size))
 
 
 def unbalance_plan(case: SolvedRotor, size: FigureSize = IN_REPORT) -> Scene:
-    """Draw m r of all masses and of the correction in plane B, closed by that in plane A."""
+    """Draw m r of all masses and of the correction in plane B, closed by the correction in plane A."""
     sides = (*case.masses, RIGHT) if case.two_planes else case.masses
     return plan(_polygon(case, "U", sides, LEFT, size))
 
 
 def _polygon(case: SolvedRotor, of: str, sides: Sequence[str], closing: str, size: FigureSize) -> Plan:
-    """Return a plan from the values as they are written, side after side from the pole O."""
+    """Return a plan from the printed values, one side after another from the pole O."""
     ledger, family = case.printed, rotor_ids.unbalance if of == "U" else rotor_ids.moment
     μ = ledger.number(rotor_ids.scale(of))
     on_paper = MM * μ.value / size.scale(μ.value) / size.enlarged
@@ -221,7 +224,7 @@ FIGURES: Mapping[str, tuple[str, DrawRotor]] = {
     "moments": ("plans", moments_plan),
     "unbalances": ("plans", unbalance_plan),
 }
-"""Layer of each figure on a sheet, and the function that draws it."""
+"""Layer of each figure on a drawing sheet, and the function that draws it."""
 
 
 def plates(case: SolvedRotor) -> Iterator[DrawingPlate]:

@@ -1,4 +1,4 @@
-"""Model of the file of a rotor: its masses, its correction planes, known data of the corrections, its bearings."""
+"""Model of the file of a rotor: masses, correction planes, known data of the corrections, bearings."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from reportgen.base.units import Given
 MOST_MASSES = 24
 AT_ORIGIN = Given(0.0, 0.0, "mm", "0 mm")
 LEFT, RIGHT = "A", "B"
-"""The correction planes; a single one is the first."""
+"""The correction planes; a single plane is the first."""
 BEARINGS = ("C", "D")
 
 PositiveMass = Annotated[Given, quantity("kg", least=1e-6, most=1e6)]
@@ -65,7 +65,7 @@ class Parameters(Part):
 
     @property
     def planes_by_name(self) -> dict[str, Given]:
-        """The places of the correction planes, from left to right."""
+        """Places of the correction planes, from left to right."""
         far = {} if self.planes.B is None else {RIGHT: self.planes.B}
         return {LEFT: self.planes.A, **far}
 
@@ -84,5 +84,5 @@ class Parameters(Part):
 
     @property
     def has_couple(self) -> bool:
-        """True if a mass or a correction is outside of plane A."""
+        """True if a mass or a correction lies outside plane A."""
         return self.planes.B is not None or any(one.z.si != self.planes.A.si for one in self.masses)

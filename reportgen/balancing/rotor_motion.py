@@ -1,4 +1,4 @@
-"""A moving rotor for a page: the forces on its bearings, before and after balancing, turn with it."""
+"""A moving rotor for the page: the forces on its bearings, before and after balancing, turn with it."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ RotorTurns = NDArray[np.complex128]
 
 
 def animation(case: SolvedRotor) -> Animation:
-    """Return one turn: the rotor across its axis and along it, with the forces on its bearings."""
+    """Return one turn of the rotor, across its axis and along it, with the forces on its bearings."""
     knots = np.linspace(0, math.tau, SAMPLES + 1)
     turn = np.exp(1j * knots)
     far = max(abs(mass.at) for mass in placed_masses(case))
@@ -73,8 +73,8 @@ def animation(case: SolvedRotor) -> Animation:
 
 
 def forces(case: SolvedRotor) -> Iterator[tuple[str, str, complex]]:
-    """Yield the state, the bearing and the force on it (N) in the axes that turn with the rotor; zero forces are
-    left out.
+    """Yield the state, the bearing and the force on it (N) in the axes that turn with the rotor; zero forces are left
+    out.
     """
     for place in BEARINGS if case.given.bearings else ():
         for when in (BEFORE, AFTER):
@@ -87,7 +87,7 @@ def force_symbol(when: str, place: str) -> Symbol:
 
 
 def _per_force(case: SolvedRotor) -> float:
-    """Return the newtons for a millimetre of the drawing."""
+    """Return the scale of forces (N per mm of the drawing)."""
     return max((abs(force) for _, _, force in forces(case)), default=FORCE) / FORCE
 
 

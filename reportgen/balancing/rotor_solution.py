@@ -54,7 +54,9 @@ class SolvedRotor(DesignCase):
         return tuple(self.given.planes_by_name)
 
     def force_on(self, when: str, place: str) -> complex:
-        """Return the force on a bearing (N), along the axes that turn with the rotor; 0 for rounding errors."""
+        """Return the force on a bearing (N, x + iy) in the axes that turn with the rotor; 0 instead of a rounding
+        error.
+        """
         ω = self.ledger["rotor.omega"].at(1)
         x, y = (self.ledger[rotor_ids.share(when, axis, place)].at(1) for axis in "xy")
         most = sum(abs(self.ledger[rotor_ids.unbalance(mass)].at(1)) for mass in self.masses)
@@ -62,8 +64,8 @@ class SolvedRotor(DesignCase):
 
     @property
     def permitted(self) -> tuple[bool, ...] | None:
-        """Flags for the bearings: True if the unbalance after balancing, with the printed corrections, is within
-        the grade.
+        """Flags by bearing, True if the remaining unbalance with the printed corrections is within the grade; None
+        without a grade.
         """
         if self.given.grade is None:
             return None
@@ -74,7 +76,9 @@ class SolvedRotor(DesignCase):
 
     @cached_property
     def misconceptions(self) -> Misconceptions:
-        """Planes exchanged, z from a wrong plane, statics alone, the wrong side, ω for ω², degrees for radians."""
+        """Common mistakes: planes exchanged, z from a wrong plane, statics alone, the wrong side, ω for ω², degrees for
+        radians.
+        """
         changed: dict[str, list[tuple[str, Expression]]] = {}
         mistakes = *self._of_planes(), *self._of_sides(), *self._of_degrees(), *self._of_speed()
         for id, name, formula in mistakes:
@@ -131,7 +135,7 @@ class SolvedRotor(DesignCase):
             yield rotor_ids.direction(plane), "rotor-wrong-side", heading(Ref(rotor_ids.drawn(of, plane))) + PI
 
     def _of_degrees(self) -> MistakenValues:
-        """Yield the mistake of entering degrees into a calculator set to radians, for all masses."""
+        """Yield the mistake of entering degrees into a calculator in radian mode, for all masses."""
         α = {place: in_degrees(angle) for place, angle in self._α.items()}
         static, name = resultant(self._U, α), "degrees-for-radians"
         if self.two_planes:

@@ -33,27 +33,27 @@ from reportgen.machine.kinematics import Motion, cross, unit
 from reportgen.machine.load_laws import FULL_TURN
 
 SAMPLES, MOST_SAMPLES = 1440, 46080
-"""Places of a turn, a quarter degree apart, of which the curve is made; twice and again as many of one with corners."""
+"""Smallest and largest number of samples of the curve over a turn; a curve with corners needs more samples."""
 FADED = 1e-13
-"""The share of the greatest harmonic below which the last eighth of them shows that there are enough."""
+"""The samples suffice if the last eighth of the harmonics is below this share of the greatest one."""
 ROUNDING = 1e-15
-"""A harmonic below this share of the greatest is rounding."""
+"""A harmonic below this share of the greatest is a rounding error."""
 ON_THE_CIRCLE = 1e-12
 """Largest distance of a point outside a circle, as a share of its radius, that counts as on the circle."""
 NEIGHBOURS = 1.5
-"""Places of the curve within so many steps belong to one touching point."""
+"""Places of the curve within this number of steps belong to one touching point."""
 REFINEMENTS = 40
 SETTLED = 1e-12
-"""A step (rad) below which a point of touch is found."""
+"""The search for a touching point ends with a step (rad) below this."""
 DIFFERENCE = 1e-6
-"""The step (rad) of a difference in place of a derivative: it only steers the search, its zero is exact."""
+"""Step (rad) of the differences that approximate derivatives; they only steer the search, whose zero is exact."""
 
 
 # --- force and moment on the frame ------------------------------------------------------------------
 
 
 def shaking_force(linkage: Linkage, motion: Motion) -> Complexes:
-    """Return F = −Σ m a_S (N) [N], the force that the links' inertia exerts on the frame."""
+    """Return F = −Σ m a_S (N, x + iy) [N], the force that the links' inertia exerts on the frame."""
     total = np.zeros_like(motion.driver, dtype=np.complex128)
     for body in linkage.inertias:
         total -= body.mass * motion.points[body.centre].a
@@ -74,9 +74,7 @@ def shaking_moment(linkage: Linkage, motion: Motion) -> Floats:
 
 
 def frame_reactions(linkage: Linkage, motion: Motion) -> Complexes:
-    """Return the sum of the forces (N) [N] on the frame in all its joints if only inertia acts: F, computed in
-    another way.
-    """
+    """Return the sum of the forces (N) [N] on the frame in all its joints if only inertia acts: F by another method."""
     reactions = solve_forces(linkage, motion, inertia_loads(linkage, motion)).reactions
     on_frame = [joint.links[1] for joint in joints(linkage) if joint.links[0] == GROUND]
     return sum(
@@ -97,34 +95,34 @@ def _crank(linkage: Linkage) -> Crank:
 class CrankCurve:
     """The curve F e^{−iφ}/ω² (kg·m) over a turn as the sum of its harmonics, Σ c_k e^{ikθ}.
 
-    θ is the crank's way in its direction of rotation from position 1; `harmonics` c_k [N] are in the order of the
-    discrete Fourier transform.
+    θ (rad) is the crank's travel in its direction of rotation from position 1; `harmonics` c_k [N] are in the order of
+    the discrete Fourier transform.
     """
 
     harmonics: Complexes
 
     @property
     def step(self) -> float:
-        """The way (rad) from one of the N even places of the curve to the next."""
+        """The step (rad) between the N evenly spaced places of the curve."""
         return FULL_TURN / len(self.harmonics)
 
     @cached_property
     def places(self) -> Floats:
-        """The even places θ (rad) [N]."""
+        """The evenly spaced places θ (rad) [N]."""
         return np.asarray(np.arange(len(self.harmonics)) * self.step, dtype=np.float64)
 
     @cached_property
     def samples(self) -> Complexes:
-        """The curve at its even places [N]."""
+        """The curve at its evenly spaced places [N]."""
         return np.asarray(np.fft.ifft(self.harmonics) * len(self.harmonics))
 
     @cached_property
     def orders(self) -> Floats:
-        """The order k of each harmonic."""
+        """The order k of each harmonic [N]."""
         return np.asarray(np.fft.fftfreq(len(self.harmonics), 1 / len(self.harmonics)), dtype=np.float64)
 
     def at(self, angle: Floats | float, derivative: int = 0) -> Complexes:
-        """Return the curve, or a derivative by θ, at angles θ [N] (rad)."""
+        """Return the curve (kg·m), or a derivative with respect to θ, at angles θ (rad) [N]."""
         kept = self.harmonics != 0
         orders = self.orders[kept]
         waves = np.exp(1j * np.multiply.outer(np.asarray(angle), orders))
@@ -141,9 +139,9 @@ class CrankCurve:
         return float(np.sqrt(others + abs(self.mean + counterweight) ** 2))
 
     def farthest(self, centre: complex) -> tuple[float, Floats]:
-        """Return the greatest distance (kg·m) of the curve from a point, and all its places (rad) of greatest distance.
+        """Return the greatest distance (kg·m) of the curve from a point, and all places (rad) [M] of greatest distance.
 
-        Places within a thousandth of the greatest distance are included, each refined.
+        Places within a thousandth of the greatest distance are included, and each is refined.
         """
         away = np.abs(self.samples - centre)
         peaks = (away >= np.roll(away, 1)) & (away >= np.roll(away, -1)) & (away >= away.max() * (1 - 1e-3))
@@ -165,7 +163,9 @@ class CrankCurve:
         return float(np.abs(self.at(angle) - centre).max()), angle
 
     def greatest(self, counterweight: complex = 0j) -> tuple[float, float]:
-        """Return the greatest |F|/ω² (kg·m) of the turn with a counterweight U on the crank, and its place θ (rad)."""
+        """Return the greatest |F|/ω² (kg·m) of the turn with a counterweight U (kg·m) on the crank, and its place θ
+        (rad).
+        """
         size, places = self.farthest(-counterweight)
         first = places[int(np.abs(self.at(places) + counterweight).argmax())]
         return size, float(np.mod(first, FULL_TURN))
@@ -177,8 +177,8 @@ class CrankCurve:
 
 
 def seen_from_crank(machine: Machine) -> CrankCurve:
-    """Return the curve F e^{−iφ}/ω² of a machine whose crank turns evenly, at so many places that its harmonics fade
-    away.
+    """Return the curve F e^{−iφ}/ω² of a machine whose crank turns evenly, with enough samples for its harmonics to
+    fade.
     """
     count = SAMPLES
     while True:
@@ -197,7 +197,9 @@ def seen_from_crank(machine: Machine) -> CrankCurve:
 
 @dataclass(frozen=True, slots=True)
 class SmallestCircle:
-    """The smallest circle round a curve: centre and radius (kg·m), the two or three places θ (rad) where it touches."""
+    """The smallest circle round a curve: centre and radius (kg·m), and the two or three places θ (rad) where it
+    touches.
+    """
 
     centre: complex
     radius: float
@@ -205,7 +207,8 @@ class SmallestCircle:
 
 
 def round_points(points: Complexes) -> tuple[complex, float, tuple[int, ...]]:
-    """Return centre and radius of the smallest circle round points [N], and the two or three points that determine it.
+    """Return centre and radius of the smallest circle round points [N] (any unit), and the indices of the two or three
+    points on it.
 
     The farthest point outside is added to the circle repeatedly. The circle grows each time, so the loop ends.
     """
@@ -226,7 +229,7 @@ def round_points(points: Complexes) -> tuple[complex, float, tuple[int, ...]]:
 
 
 def _round_few(points: Complexes) -> tuple[complex, float, tuple[int, ...]]:
-    """Return the smallest circle round up to four points, by all pairs and all triples of them."""
+    """Return the smallest circle round up to four points, by trying all pairs and triples."""
     best: tuple[complex, float, tuple[int, ...]] = (0j, np.inf, ())
     for few in (*combinations(range(len(points)), 2), *combinations(range(len(points)), 3)):
         centre = through(points[list(few)])
@@ -237,7 +240,7 @@ def _round_few(points: Complexes) -> tuple[complex, float, tuple[int, ...]]:
 
 
 def through(points: Complexes) -> complex:
-    """Return the centre of the circle on two points as a diameter, or through three; nan where the three lie
+    """Return the centre of the circle through two points [2] as a diameter, or through three [3]; nan if the three lie
     in a line.
     """
     if len(points) == 2:
@@ -249,9 +252,9 @@ def through(points: Complexes) -> complex:
 
 
 def smallest_round(curve: CrankCurve) -> SmallestCircle:
-    """Return the smallest circle round a whole curve: that of its samples, with the points of touch refined.
+    """Return the smallest circle round a whole curve: the circle of its samples, with the touching points refined.
 
-    Where the curve leaves the circle between the samples, the places where it is farthest are taken among them.
+    Where the curve leaves the circle between the samples, its farthest places are added to them.
     """
     points, angles = curve.samples, curve.places
     for _ in range(REFINEMENTS):
@@ -286,9 +289,10 @@ def _merged(touching: Floats, near: float) -> Floats:
 
 
 def _refined(curve: CrankCurve, touching: Floats) -> Floats:
-    """Return the places θ (rad) near these at which the circle on the curve's points there touches the curve.
+    """Return the places θ (rad) next to the given ones at which the circle through the curve's points touches the
+    curve.
 
-    Touching means (c − z) ⊥ c′ at each; Newton's method, with differences for its derivatives.
+    Touching means (c − z) ⊥ c′ at each point; Newton's method with differences instead of derivatives.
     """
 
     def slopes(angle: Floats) -> Floats:
@@ -315,12 +319,12 @@ def _refined(curve: CrankCurve, touching: Floats) -> Floats:
 NOTHING = 1e-9
 """A counterweight below this share of all masses at the crank's pin is zero."""
 FINE = 720
-"""Places of a cycle's turn at which torques and moments with and without counterweights are compared."""
+"""Number of places of a turn at which torques and moments with and without counterweights are compared."""
 
 
 @dataclass(frozen=True)
 class BalancedTurn:
-    """The curve that the crank sees, U (kg·m) by each requested rule, and the counterweights that are applied.
+    """The curve seen from the crank, U (kg·m) by each requested rule, and the counterweights that are applied.
 
     These are the counterweight of the first rule, or those of the whole balance of a four-bar; () if they are zero.
     """
@@ -337,13 +341,13 @@ class BalancedTurn:
 
     @cached_property
     def cycles(self) -> tuple[Analysis, Analysis]:
-        """The whole analysis over the cycle, finely, without and with the counterweights."""
+        """The analysis at closely spaced angles of the cycle, without and with the counterweights."""
         angles = np.arange(FINE * self.machine.turns) * (FULL_TURN / FINE)
         return analyse(self.machine, angles), analyse(self.balanced, angles)
 
     @cached_property
     def left(self) -> float:
-        """The greatest force on the frame (N) that the counterweights leave at those places."""
+        """The greatest force on the frame (N) that remains with the counterweights."""
         after = self.cycles[1]
         return float(np.abs(shaking_force(after.machine.linkage, after.motion)).max())
 
@@ -362,7 +366,7 @@ def counterweight(machine: Machine, curve: CrankCurve, rule: CounterweightRule, 
 
 
 def balanced_turn(machine: Machine) -> BalancedTurn:
-    """Return the balancing that a machine's report requests; the machine's crank turns evenly."""
+    """Return the balancing that a machine's file requests; the crank must turn evenly."""
     asked, curve = machine.topic("balancing", Balancing) or Balancing(), seen_from_crank(machine)
     products = {rule: counterweight(machine, curve, rule, asked.share) for rule in asked.rules}
     carried_out = force_balance(machine.linkage) if asked.links else {}

@@ -1,6 +1,4 @@
-"""Drawing of the star of an order of an engine: a vector for each cylinder, all of one size, and their sum, to
-scale.
-"""
+"""Drawing of the star of an order of an engine: a vector of equal length for each cylinder, and their sum, to scale."""
 
 from __future__ import annotations
 
@@ -15,7 +13,7 @@ from reportgen.drawing.labels import Request, joined, label
 RAY = 14.0
 """Length of a cylinder's vector (mm)."""
 SAME = 0.4
-"""Ends within this (mm) are one."""
+"""Vector ends closer than this (mm) are drawn as one."""
 CLOSED = 1e-9
 """A sum below this share of a vector is zero."""
 BEYOND = 3.0
@@ -23,7 +21,7 @@ BEYOND = 3.0
 
 
 def star(vectors: Sequence[complex], names: Sequence[Content], total: Content, title: str = "") -> Scene:
-    """Draw vectors of the size 1 from one pole with their labels, and their sum, labelled `total`."""
+    """Draw vectors of length 1 from one pole with their labels, and their sum, labelled `total`."""
     reach = RAY + BEYOND
     items: list[Item] = [Line(-reach + 0j, reach + 0j, style.AXIS), Line(-1j * reach, 1j * reach, style.AXIS)]
     items.append(Circle(0j, RAY, style.THIN))

@@ -23,7 +23,9 @@ RODS = ("rotating", "share")
 
 
 class CrankCounterweight(Part):
-    """A counterweight on the crank, some way from its centre, by the first of some rules; the others are compared."""
+    """A counterweight on the crank at a `radius` from its centre, by the first of the `rules`; the others are
+    compared.
+    """
 
     rules: Annotated[tuple[CounterweightRule, ...], Field(min_length=1, max_length=MOST_RULES)]
     share: Share | None = None
@@ -39,7 +41,7 @@ class BalancingTask(Part):
 
     @property
     def asked(self) -> Balancing:
-        """The same as the machine has it."""
+        """The request in the form that the machine stores."""
         if (weight := self.counterweight) is not None:
             share = 0.0 if weight.share is None else weight.share.si
             return Balancing(weight.rules, share, radius=weight.radius.si)
@@ -87,8 +89,8 @@ def faults(parameters: TopicParameters, machine: Machine) -> Iterator[Finding]:
 
 
 def _of_rules(given: CrankCounterweight, machine: Machine) -> Iterator[Finding]:
-    """Yield faults unless each rule once; those of slider-cranks have their rods on the crank; a share is given
-    where a rule takes it.
+    """Yield faults unless rules are not repeated, those for slider-cranks find rods on the crank, and the rule that
+    needs a share has it.
     """
     where = ("parameters", "balancing", "counterweight")
     offered = bool(crank_rods(machine.linkage))
@@ -104,7 +106,9 @@ def _of_rules(given: CrankCounterweight, machine: Machine) -> Iterator[Finding]:
 
 
 def _of_links(given: BalancingTask, machine: Machine) -> Iterator[Finding]:
-    """Yield faults of counterweights on crank and rocker of a four-bar, at a distance from their centres."""
+    """Yield faults of counterweights that are not on crank and rocker of a four-bar, or have no distance from their
+    centres.
+    """
     where = ("parameters", "balancing")
     if given.links is None:
         if given.radius is not None:

@@ -1,4 +1,4 @@
-"""The chapter on balancing: the views that templates name, its lines, tables and figures."""
+"""The chapter on balancing: views, ids of lines, tables and figures for its templates."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ from reportgen.report.topic_views import ViewHooks, always
 __all__ = ["FIGURES", "FUNCTIONS", "VALUES", "factors_table"]
 
 ROUND = 181
-"""Points of a circle that is drawn among curves."""
+"""Number of points of a circle that is drawn as a curve."""
 
 
 def _turn(report: ReportContext) -> BalancedTurn:
@@ -43,7 +43,7 @@ def _turn(report: ReportContext) -> BalancedTurn:
 @view("link", "parts", "lines")
 @dataclass(frozen=True, slots=True)
 class ShakenLink:
-    """A link whose inertia shakes the frame: the ids of its force's components, and of arms and moment."""
+    """A link whose inertia shakes the frame: ids of its force's components, and of arms and moment."""
 
     link: int
     parts: list[str]
@@ -53,7 +53,7 @@ class ShakenLink:
 @view("name", "lines", "masses")
 @dataclass(frozen=True, slots=True)
 class BalancingRule:
-    """A rule for the counterweight on the crank: the ids of the inputs of U, of U itself and its angle.
+    """A rule for the counterweight on the crank: ids of the inputs of U, of U and its angle.
 
     `masses` are those of the rods at their pins, if the rule is the first that uses them.
     """
@@ -67,7 +67,7 @@ class BalancingRule:
 
 
 def shaken(report: ReportContext) -> tuple[ShakenLink, ...]:
-    """Return the links with a part in force or moment on the frame, in the order of the file."""
+    """Return the links that contribute to the force or moment on the frame, in the order of the file."""
     entered = []
     for body in report.machine.linkage.inertias:
         parts = report.known(balance_ids.force_of_link(body.link, axis) for axis in AXES)
@@ -115,8 +115,8 @@ RODS = ("rotating", "share")
 
 
 def balancing_state(report: ReportContext) -> str:
-    """Return the request: "none", the shaking force on the "frame", a counterweight on the "crank", one in "vain"
-    that is zero, or the whole balance by counterweights on the "links" of a four-bar.
+    """Return the request: "none", the shaking force on the "frame", a counterweight on the "crank", "vain" if it is
+    zero, or "links" for counterweights that balance all force of a four-bar.
     """
     turn = balanced_in(report.analysis)
     if turn.products:
@@ -157,13 +157,13 @@ def main_rule(report: ReportContext) -> str:
 
 
 def other_rules(report: ReportContext) -> list[str]:
-    """Return the rules that are compared with it, in words."""
+    """Return the rules that are compared with the applied one, in words."""
     _, *others = _turn(report).products
     return [report.words["balancing"]["told"][rule] for rule in others]
 
 
 def greatest_left(report: ReportContext) -> Value:
-    """Return the greatest force that the counterweight which is carried out leaves."""
+    """Return the greatest force (N) that remains with the applied counterweight."""
     return Value(report.ledger.number(balance_ids.greatest("F", next(iter(_turn(report).products)))))
 
 
@@ -171,7 +171,7 @@ def greatest_left(report: ReportContext) -> Value:
 
 
 def balanced_table(report: ReportContext) -> list[str]:
-    """Return the ids of the values that the counterweights change, each beside its original."""
+    """Return the ids of the values that the counterweights change, each next to its original."""
     pairs = (
         (balance_ids.FORCE, balance_ids.AFTER_FORCE),
         ("R.01", balance_ids.AFTER_REACTION),
@@ -182,7 +182,7 @@ def balanced_table(report: ReportContext) -> list[str]:
 
 
 def rules_table(report: ReportContext) -> Iterator[Sequence[object]]:
-    """Yield each rule with its U, angle, greatest and mean force, the first row without a counterweight."""
+    """Yield a row for each rule: its U, angle, greatest and mean force; the first row is without a counterweight."""
     words, turn = report.words["balancing"]["rules"], _turn(report)
     for state in (BEFORE, *turn.products):
         named = (balance_ids.rule_product, balance_ids.rule_angle)
@@ -192,7 +192,7 @@ def rules_table(report: ReportContext) -> Iterator[Sequence[object]]:
 
 
 def cost_table(report: ReportContext) -> Iterator[Sequence[object]]:
-    """Yield the greatest force, moments and the masses before and after."""
+    """Yield rows of the greatest force, the moments and the masses, before and after balancing."""
     after = next(iter(_turn(report).products), AFTER)
     for quantity, state in (("F", after), ("M", AFTER), ("cb", AFTER)):
         pair = report.known(balance_ids.greatest(quantity, when) for when in (BEFORE, state))
@@ -210,7 +210,7 @@ def _compared(report: ReportContext, name: str, pair: Sequence[str]) -> Sequence
 
 
 def residuals(report: ReportContext) -> dict[str, float]:
-    """Return shares: the difference of F from the inertia reactions on the frame, and the remaining force of a
+    """Return, as shares, the difference of F from the inertia reactions on the frame, and the remaining force of a
     four-bar.
     """
     analysis, turn = report.analysis, balanced_in(report.analysis)
@@ -229,7 +229,9 @@ def residuals(report: ReportContext) -> dict[str, float]:
 
 
 def _of_turn(report: ReportContext) -> tuple[np.ndarray, np.ndarray, tuple[int, ...], tuple[str, ...]]:
-    """Return F (N) at the samples of a turn, e^{iφ} there, the indices of the shown positions, and their names."""
+    """Return F (N) [N] at the samples of a turn, e^{iφ} there [N], the indices of the shown positions, and
+    their names.
+    """
     cycle = report.dense_cycle
     count = int(np.searchsorted(cycle.cycle_angle, FULL_TURN * (1 + 1e-9), side="right"))
     force = shaking_force(report.machine.linkage, cycle.motion)[:count]
@@ -239,14 +241,14 @@ def _of_turn(report: ReportContext) -> tuple[np.ndarray, np.ndarray, tuple[int, 
 
 
 def hodograph(report: ReportContext) -> FigureScenes:
-    """Return the ends of F, laid off from one pole, over the turn."""
+    """Draw the hodograph of F over the turn: the ends of its vectors from one pole."""
     force, _, marks, names = _of_turn(report)
     curve = PlottedCurve("", force.real, force.imag, marks, names)
     return FigureScenes((_polar(report, (curve,), balance_ids.component),))
 
 
 def balanced_hodograph(report: ReportContext) -> FigureScenes:
-    """Return the hodographs of F without and with the counterweight that is carried out."""
+    """Draw the hodographs of F without and with the applied counterweight."""
     force, crank, marks, names = _of_turn(report)
     (weight,) = _turn(report).weights
     left = force + weight.product * report.machine.speed**2 * crank
@@ -258,7 +260,7 @@ def balanced_hodograph(report: ReportContext) -> FigureScenes:
 
 
 def discs(report: ReportContext) -> FigureScenes:
-    """Return the scheme with the counterweights that are carried out."""
+    """Draw the scheme with the applied counterweights."""
     factor, index, motion = reduction(report), shown_at(report), report.analysis.motion
     scale = drawing_scale(report) * factor
     discs_drawn = []
@@ -273,7 +275,7 @@ def discs(report: ReportContext) -> FigureScenes:
 
 
 def seen_curve(report: ReportContext) -> FigureScenes:
-    """Return F as the crank sees it, the smallest circle round it with its touching points, and the origin by each
+    """Draw F as seen from the crank, the smallest circle round it with its touching points, and the origin by each
     rule.
     """
     turn = _turn(report)

@@ -4,8 +4,8 @@ Friction depends on the forces p that press joints together, and the reactions u
 
     p_j = Σ |u_t|,  u_t = a_t + Σ b_tk p_k,  t over the reactions of joint j.
 
-In a guide u is a number, and |u| = ±u: once the side on which each guide bears is known, the equations are linear.
-In a pin u is a vector, and Newton's method solves for its size. `joint_friction` uses them if its rounds do not
+In a guide u is a number, and |u| = ±u: once the side on which each guide bears is known, the equations are linear. In a
+pin u is a vector, and Newton's method solves for its size. `joints.solve_with_friction` uses them if its rounds do not
 converge.
 """
 
@@ -21,20 +21,20 @@ from numpy.typing import NDArray
 from reportgen.base.arrays import Complexes, Flags, Floats
 
 MOST_STEPS = 40
-"""Newton's method settles in ten steps or not at all."""
+"""Newton's method converges in ten steps or not at all."""
 SETTLED = 1e-12
 """Residual of the equations, as a share of the greatest reaction, that counts as rounding."""
 STARTS = (1.0, 0.0, 10.0)
 """Start values of Newton's method, as multiples of the forces without friction."""
 MOST_PATTERNS = 1024
-"""Choices of sides that are tried: all of them up to ten faces of guides."""
+"""Largest number of choices of sides that are tried: enough for all choices of ten faces."""
 
 
 @dataclass(frozen=True, slots=True)
 class BearingEquations:
-    """The reactions [T] that press joints at positions [N]: a = `base` [T, N], b = `slope` [T, J, N].
+    """The reactions (N) [T] that press joints at positions [N]: a = `base` [T, N], b = `slope` [T, J, N].
 
-    `joint` is the number of each reaction's joint [T], `guides` says which reactions are those of guides [T].
+    `joint` [T] is the number of each reaction's joint, `guides` [T] is True for the reactions of guides.
     """
 
     joint: NDArray[np.int64]
@@ -43,10 +43,10 @@ class BearingEquations:
     slope: Complexes
 
     def solve(self) -> Floats:
-        """Return the forces p ≥ 0 that press each joint [J, N], nan at a position without any.
+        """Return the forces p ≥ 0 (N) that press each joint [J, N], nan at a position without a solution.
 
-        Of several solutions that one counts whose guides bear on the sides on which they bear without friction, or on
-        as many of them as possible: it is the one that grows out of them as friction grows.
+        Among several solutions the one is chosen whose guides bear on the same sides as without friction, or as many of
+        them as possible: it is the solution that develops from the frictionless one as friction grows.
         """
         count = self.slope.shape[1]
         solved = np.full((count, self.base.shape[1]), np.nan)
@@ -62,8 +62,8 @@ class BearingEquations:
         return solved
 
     def _bearing(self, at: NDArray[np.int64], signs: Floats, start: float) -> Floats:
-        """Return the forces at the positions `at` if the guides bear by `signs` [T, n]; nan where the equations deny
-        it.
+        """Return the forces at the positions `at` if the guides bear by `signs` [T, n]; nan where the equations
+        contradict this.
         """
         base, slope = self.base[:, at], self.slope[:, :, at]
         belongs = (self.joint == np.arange(slope.shape[1])[:, None]).astype(np.float64)
@@ -90,6 +90,6 @@ class BearingEquations:
 
 
 def _patterns(guides: int) -> Iterator[tuple[int, ...]]:
-    """Return the sets of guides that bear on the other side than without friction, beginning with the empty set."""
+    """Return the sets of guides that bear on the opposite side than without friction, starting with the empty set."""
     every = chain.from_iterable(combinations(range(guides), count) for count in range(guides + 1))
     return islice(every, MOST_PATTERNS)

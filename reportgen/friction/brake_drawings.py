@@ -24,7 +24,7 @@ TURN = math.tau
 
 
 def drum(θ: float, sense: int, name: Symbol) -> Canvas:
-    """Return a drum with the band that lies on it by θ (rad), S₁ on the right; an arrow inside turns with `sense`."""
+    """Draw a drum with the band wrapped on it by θ (rad), S₁ on the right; an arrow inside turns with `sense`."""
     angle = math.fmod(θ, TURN) or TURN
     right, left = math.pi / 2 - angle / 2, math.pi / 2 + angle / 2
     items: list[Item] = [
@@ -46,12 +46,12 @@ def drum(θ: float, sense: int, name: Symbol) -> Canvas:
 
 
 def belt_scheme(case: DesignCase) -> Scene:
-    """Return the belt on its drum, which it turns from S₂ towards S₁."""
+    """Draw the belt on its drum, which it turns from S₂ towards S₁."""
     return finish(drum(case.printed["friction.belt.theta"].at(1), -1, Symbol("M")))
 
 
 def band_scheme(case: DesignCase) -> Scene:
-    """Return the drum with its band and, below, the lever free of it, its arms true to scale."""
+    """Draw the drum with its band and, below, the separated lever, with its arms to scale."""
     ledger = case.printed
     above = settle(drum(ledger["friction.band.theta"].at(1), 1, Symbol("ω")))
     l, a, b = (ledger[f"friction.band.{name}"].at(1) for name in "lab")  # noqa: E741
@@ -71,7 +71,7 @@ def band_scheme(case: DesignCase) -> Scene:
 
 
 def across(start: complex, length: float, name: Symbol) -> Canvas:
-    """Return a dimension from a place (mm) to the right, or to the left where the length is negative."""
+    """Draw a dimension of a length (mm) from a place (mm) to the right, or to the left if the length is negative."""
     end = start + length
     arrows = tuple(
         Arrow((start + end) / 2, to, style.DIMENSION, min(style.DIMENSION_HEAD, abs(length) / 3)) for to in (start, end)
@@ -82,8 +82,8 @@ def across(start: complex, length: float, name: Symbol) -> Canvas:
 
 
 def shoe_scheme(case: DesignCase) -> Scene:
-    """Return the drum under its shoe, the lever true to scale; the sense of rotation in which friction presses the
-    shoe.
+    """Draw the drum under its shoe and the lever to scale, in the sense of rotation in which friction presses
+    the shoe.
     """
     ledger = case.printed
     l, a, d = (ledger[f"friction.shoe.{name}"].at(1) for name in "lad")  # noqa: E741

@@ -1,4 +1,6 @@
-"""Effects of friction over a whole cycle: the mean torque, and the places where a slider cannot move the crank."""
+"""Effects of friction over a whole cycle: the mean torque, and the dead zones in which a slider cannot move the
+crank.
+"""
 
 from __future__ import annotations
 
@@ -17,13 +19,13 @@ from reportgen.machine.motion_sense import moving, pace
 from reportgen.machine.quadrature import mean_over
 
 HALVINGS = 40
-"""Past the spacing of floats beside an angle."""
+"""Enough halvings to reach the spacing of floats."""
 FARTHEST = np.radians(80.0)
-"""A slider that cannot move its crank so far from a dead centre moves it nowhere."""
+"""A slider that cannot move its crank at this distance (rad) from a dead centre cannot move it anywhere."""
 
 
 def turning_back(machine: Machine, joint: Joint) -> Iterator[float]:
-    """Yield the cycle angles (rad) at which the links of a joint turn back, or slide back, against each other."""
+    """Yield the cycle angles (rad) at which the relative rotation or sliding of a joint's links reverses."""
 
     def rate(angle: Floats) -> Floats:
         motion = motion_at(machine, angle)
@@ -60,7 +62,7 @@ def mean_torque(machine: Machine) -> float:
 
 
 class _LocksError(Exception):
-    """The mechanism locks on its way."""
+    """The mechanism locks somewhere in the cycle."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,8 +80,8 @@ def dead_zones(machine: Machine, friction: Friction, stroke: Stroke) -> tuple[De
     """Return the dead zones of a slider that drives its crank with a constant force; other masses and loads are
     ignored.
 
-    Within them friction consumes all work of the slider: the torque to apply to the crank no longer opposes its
-    motion. nan if the slider cannot move the crank anywhere.
+    Within them friction consumes all work of the slider: the torque to apply to the crank no longer opposes its motion.
+    The angles are nan if the slider cannot move the crank anywhere.
     """
     bare = replace(machine, applied=(), torques=(), linkage=replace(machine.linkage, inertias=()))
 

@@ -1,7 +1,6 @@
-"""The sheets of the friction exercises: every quantity with its formula, one sheet for each task.
+"""Calculations of the friction exercises: every quantity with its formula, one function for each task.
 
-Friction is dry friction of Coulomb; a full reaction makes the angle φ = arctan f with the normal, against the
-motion.
+Friction is dry friction of Coulomb; a full reaction makes the angle φ = arctan f with the normal, against the motion.
 """
 
 from __future__ import annotations
@@ -20,14 +19,12 @@ STRAIGHT = Number(180.0, unit="°")
 
 
 def force_scale(*forces: float) -> float:
-    """Return a round scale (N per m of paper) at which the largest of some forces (N) fits."""
+    """Return a round scale (N per m of paper) at which the largest of some forces (N) fits the page."""
     return nice_up(max(map(abs, forces)) / TALL) * MM
 
 
 def incline_sheet(given: Incline) -> Calculation:
-    """Return the sheet of a body on a plane: P = Q sin(α + φ)/cos(β − φ) raises it, P′ = Q sin(α − φ)/cos(β + φ)
-    lowers it.
-    """
+    """Calculate a body on a plane: P = Q sin(α + φ)/cos(β − φ) raises it, P′ = Q sin(α − φ)/cos(β + φ) lowers it."""
     q = Calculation()
     with q.within(KeyChapter.data):
         Q, α = q.give("friction.incline.Q", given.Q.si), q.give("friction.incline.alpha", given.alpha.si)
@@ -60,9 +57,7 @@ def incline_sheet(given: Incline) -> Calculation:
 
 
 def wedge_sheet(given: Wedge) -> Calculation:
-    """Return the sheet of a wedge under a load: P = Q cos φ₃ sin(α + φ₁ + φ₂)/(cos φ₂ cos(α + φ₁ + φ₃)), and back
-    with −φ.
-    """
+    """Calculate a wedge under a load: P = Q cos φ₃ sin(α + φ₁ + φ₂)/(cos φ₂ cos(α + φ₁ + φ₃)), and back with −φ."""
     q = Calculation()
     coefficients = {"1": given.f1, "2": given.f2, **({"3": given.f3} if given.f3 else {})}
     with q.within(KeyChapter.data):
@@ -81,8 +76,8 @@ def wedge_sheet(given: Wedge) -> Calculation:
         return part * sin(angle) if in_guide is None else part * sin(angle) / cos(in_guide)
 
     driving = α + φ["1"]
+    # A block that leans back touches the other side of its guide, where friction turns the reaction the other way.
     leans_back = q.si(α) < q.si(φ["1"])
-    """The block leans on the other side of its guide, where friction turns the reaction the other way."""
     returning = φ["1"] - α if leans_back else α - φ["1"]
     with q.within(KeyChapter.forces):
         raised = cos(driving if in_guide is None else driving + in_guide)
@@ -105,9 +100,7 @@ def wedge_sheet(given: Wedge) -> Calculation:
 
 
 def screw_sheet(given: Screw) -> Calculation:
-    """Return the sheet of a screw: M = Q d₂/2 tan(γ + φ′) + M_c, the profile in φ′ = arctan(f/cos β), η = Q
-    l/(2π M).
-    """
+    """Calculate a screw: M = Q d₂/2 tan(γ + φ′) + M_c, the profile in φ′ = arctan(f/cos β), η = Q l/(2π M)."""
     q = Calculation()
     with q.within(KeyChapter.data):
         Q, d = q.give("friction.screw.Q", given.Q.si), q.give("friction.screw.d", given.d.si)
@@ -144,7 +137,9 @@ def screw_sheet(given: Screw) -> Calculation:
 
 
 def wrap(q: Calculation, task: str, d: Ref, θ: Ref, f: Ref) -> tuple[Ref, Ref]:
-    """Return the radius of a drum, and by how much the friction on it multiplies a tension: e^{fθ}, θ in radians."""
+    """Return the radius of a drum, and the factor by which the friction on it multiplies a tension: e^{fθ}, θ in
+    radians.
+    """
     with q.within(KeyChapter.geometry):
         r = q.define(f"friction.{task}.r", d / 2)
         radians = q.define(f"friction.{task}.radians", θ * PI / STRAIGHT)
@@ -154,9 +149,7 @@ def wrap(q: Calculation, task: str, d: Ref, θ: Ref, f: Ref) -> tuple[Ref, Ref]:
 
 
 def belt_sheet(given: BeltOnDrum) -> Calculation:
-    """Return the sheet of a belt about to slip: S₁ = S₂ e^{fθ}, M = (S₁ − S₂) r, the force on the axle, the
-    greatest pressure.
-    """
+    """Calculate a belt about to slip: S₁ = S₂ e^{fθ}, M = (S₁ − S₂) r, the force on the axle, the greatest pressure."""
     q = Calculation()
     with q.within(KeyChapter.data):
         d, θ = q.give("friction.belt.d", given.d.si), q.give("friction.belt.theta", given.theta.si)
@@ -192,7 +185,7 @@ def tensions(q: Calculation, task: str, M: Ref, r: Ref, k: Ref) -> tuple[Ref, Re
 
 
 def band_sheet(given: Band) -> Calculation:
-    """Return the sheet of a band brake: P l = S₁ a + S₂ b in one sense of rotation, S₂ a + S₁ b in the other."""
+    """Calculate a band brake: P l = S₁ a + S₂ b in one sense of rotation, S₂ a + S₁ b in the other."""
     q = Calculation()
     with q.within(KeyChapter.data):
         M, d = q.give("friction.band.M", given.M.si), q.give("friction.band.d", given.d.si)
@@ -211,8 +204,8 @@ def band_sheet(given: Band) -> Calculation:
 
 
 def shoe_sheet(given: Shoe) -> Calculation:
-    """Return the sheet of a shoe on a lever: P l = N a ∓ F c, less if friction presses the shoe on the drum; locks
-    at a ≤ f c.
+    """Calculate a shoe on a lever: P l = N a ∓ F c, less if friction presses the shoe on the drum; it locks if
+    a ≤ f c.
     """
     q = Calculation()
     with q.within(KeyChapter.data):

@@ -1,4 +1,7 @@
-"""The friction exercises as cases: report and task of each, its key, its results, its drawing sheet."""
+"""The friction exercises as cases: report and task of each, its key, its results, its drawing sheet.
+
+`CASES` maps the key of a task to its case.
+"""
 
 from __future__ import annotations
 
@@ -23,7 +26,7 @@ from reportgen.friction import brake_drawings, exercise_calculations, exercise_d
 
 @dataclass(frozen=True)
 class FrictionTask:
-    """Functions that make the sheet and the drawings of a task; the last are its force plans, if it has any."""
+    """Functions that make the calculation and the drawings of a task: its scheme, and its force plans if it has any."""
 
     name: str
     sheet: Callable[[Any], Calculation]
@@ -33,7 +36,7 @@ class FrictionTask:
 
 @dataclass(frozen=True)
 class FrictionPage(DesignPage["FrictionCase"]):
-    """A task as its templates name it."""
+    """A friction exercise for its templates."""
 
     NAME = "friction"
 
@@ -63,7 +66,7 @@ class FrictionPage(DesignPage["FrictionCase"]):
 
 @dataclass(frozen=True)
 class FrictionCase(DesignCase):
-    """A task with friction, as a `Case`."""
+    """A friction exercise, as a `Case`."""
 
     TASK: ClassVar[FrictionTask]
 
@@ -79,21 +82,21 @@ class FrictionCase(DesignCase):
     @property
     @abstractmethod
     def holds(self) -> Mapping[str, bool]:
-        """Conditions that the text expresses in words, with their truth values."""
+        """Conditions that the templates use, with their truth values."""
 
     @property
     @abstractmethod
     def locks(self) -> bool | None:
-        """True if it is self-locking; None if it can only slip."""
+        """True if it is self-locking; None for a task that cannot lock."""
 
     def at(self, name: str) -> float:
-        """Return a result (SI) by the end of its id; 0 of one that the task has not."""
+        """Return a result (SI) by the end of its id; 0 if the task does not have it."""
         id = f"friction.{self.TASK.name}.{name}"
         return float(self.ledger[id].at(1)) if id in self.ledger else 0.0
 
     @cached_property
     def entries(self) -> ResultEntries:
-        """All results by the ends of their ids, and whether it is self-locking, if that is a question."""
+        """All results by the ends of their ids, and whether the task is self-locking if it can be."""
         head = f"friction.{self.TASK.name}."
         results: dict[str, Any] = {
             id.removeprefix(head): family.at(1)
@@ -232,7 +235,7 @@ class BeltCase(FrictionCase):
 
     @property
     def locks(self) -> None:
-        """A belt slips as soon as the torque is larger."""
+        """None: a belt slips as soon as the torque is larger."""
 
     @property
     def holds(self) -> Mapping[str, bool]:

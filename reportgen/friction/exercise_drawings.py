@@ -18,9 +18,9 @@ from reportgen.formula import Fraction, Number, Product, Symbol
 
 DOWN = -1j
 FORCE = 19.0
-"""Length of a force on a scheme (mm), where only its line matters."""
+"""Length of a force on a scheme (mm), where only its line of action matters."""
 BASE, HIGHEST = 72.0, 46.0
-"""The length of a slope's base, and the most that a slope may rise (mm)."""
+"""Length of a slope's base, and the largest height of a slope (mm)."""
 ARC = 13.0
 """The radius of the arc of an angle (mm)."""
 
@@ -28,8 +28,8 @@ ARC = 13.0
 def force(
     at: complex, angle: float, *name: Content, reaction: bool = False, pushes: bool = False, length: float = FORCE
 ) -> Canvas:
-    """Return a force along an angle (rad) from a place (mm), or up to it where it `pushes`; its name at the
-    free end.
+    """Draw a force along an angle (rad) from a place (mm), or up to the place if it `pushes`, with its name at the free
+    end.
     """
     along = length * polar(angle)
     start, tip = (at - along, at) if pushes else (at, at + along)
@@ -39,7 +39,7 @@ def force(
 
 
 def angle_mark(at: complex, start: float, stop: float, name: Content, radius: float = ARC) -> Canvas:
-    """Return the arc of an angle about a place (mm), its name outside."""
+    """Draw the arc of an angle from `start` to `stop` (rad) about a place (mm), with its name outside."""
     middle = at + radius * polar((start + stop) / 2)
     arc = Arc(at, radius, start, stop, style.DIMENSION)
     return Canvas((arc,), (label(middle, name, prefer=((start + stop) / 2,), gap=0.8),), (angle(name, stop - start),))
@@ -54,7 +54,7 @@ def slope_base(α: float) -> float:
 
 
 def incline_scheme(case: DesignCase) -> Scene:
-    """Draw the body on its plane while it is raised: Q, P, the normal force and friction."""
+    """Draw the body on its plane as it is raised: Q, P, the normal force and friction."""
     ledger = case.printed
     α = ledger["friction.incline.alpha"].at(1)
     β = ledger["friction.incline.beta"].at(1) if "friction.incline.beta" in ledger else 0.0
@@ -82,7 +82,7 @@ def incline_scheme(case: DesignCase) -> Scene:
 
 
 def incline_plans(case: DesignCase, size: FigureSize = IN_REPORT) -> tuple[Scene, ...]:
-    """Return the triangles of Q, P and the full reaction R of the plane: raised, then let down."""
+    """Draw the triangles of Q, P and the full reaction R of the plane: raised, then lowered."""
     ledger = case.printed
     α = ledger["friction.incline.alpha"].at(1)
     β = ledger["friction.incline.beta"].at(1) if "friction.incline.beta" in ledger else 0.0
@@ -105,7 +105,7 @@ Side = tuple[str, complex, Symbol, VectorStyle]
 def closed(
     case: DesignCase, task: str, sides: Sequence[Side], closing: tuple[str, Symbol], end: str, size: FigureSize
 ) -> Scene:
-    """Return a force plan from the pole O, one side (N) after another, closed by the last."""
+    """Draw a force plan from the pole O: one side (N) after another, closed by the last one."""
     μ, per = scale_of(case, task, size)
     vectors, at = [], 0j
     for name, side, symbol, pen in sides:
@@ -123,7 +123,7 @@ def scale_of(case: DesignCase, task: str, size: FigureSize) -> tuple[tuple[Symbo
 
 
 def drawn_plan(case: DesignCase, task: str, vectors: Iterable[PlanVector[complex]], end: str, note: Content) -> Scene:
-    """Return a plan with its title: of raising, or of letting down."""
+    """Return the scene of a plan, in units of paper (mm), titled as raising, or as lowering if `end` is given."""
     drawing = Plan(tuple(vectors), (PlanPoint(Symbol("O"), 0j),), scale=note)
     titles = case.words["friction"]["figures"][task]
     return plan(drawing, title=titles["lowering" if end else "raising"], margin=4.0)
@@ -133,7 +133,7 @@ def drawn_plan(case: DesignCase, task: str, vectors: Iterable[PlanVector[complex
 
 
 def wedge_scheme(case: DesignCase) -> Scene:
-    """Draw the wedge under its load while it is driven: Q, P, the reactions at their angles of friction."""
+    """Draw the wedge under its load as it is driven: Q, P, the reactions at their angles of friction."""
     ledger = case.printed
     α, *φ = (
         ledger[f"friction.wedge.{name}"].at(1) if f"friction.wedge.{name}" in ledger else 0.0
@@ -169,8 +169,8 @@ def wedge_scheme(case: DesignCase) -> Scene:
 
 
 def wedge_plans(case: DesignCase, size: FigureSize = IN_REPORT) -> tuple[Scene, ...]:
-    """Return the triangles of the load (Q, R₃, R₁) and of the wedge (R₁, R₂, P) on their common side: driven,
-    let back.
+    """Draw the triangles of the load (Q, R₃, R₁) and of the wedge (R₁, R₂, P) on their common side: driven, then
+    released.
     """
     ledger = case.printed
     μ, per = scale_of(case, "wedge", size)
@@ -205,7 +205,7 @@ UNROLLED, STEEP = 96.0, 60.0
 
 
 def screw_scheme(case: DesignCase) -> Scene:
-    """Return the thread unrolled, true to scale: its lead over the circumference, the load, the reaction at φ′."""
+    """Draw the thread unrolled and to scale: its lead over the circumference, the load, the reaction at φ′."""
     ledger = case.printed
     γ, φ = (ledger[f"friction.screw.{name}"].at(1) for name in ("gamma", "phi"))
     around = min(UNROLLED, STEEP / math.tan(γ))

@@ -10,7 +10,7 @@ from reportgen.formula.ledger import MistakenValues
 
 
 def changed(task: str, q: Calculation) -> dict[str, list[tuple[str, Expression]]]:
-    """Return the mistakes of a task by the ids of its quantities, of those that the sheet has."""
+    """Return the mistakes of a task by the ids of its quantities, as far as the calculation has them."""
     mistakes: dict[str, list[tuple[str, Expression]]] = {}
     for id, name, formula in TASKS[task](q):
         if id in q:
@@ -19,7 +19,7 @@ def changed(task: str, q: Calculation) -> dict[str, list[tuple[str, Expression]]
 
 
 def against(q: Calculation, id: str, *angles: str) -> Expression:
-    """Return the formula of a quantity with angles of friction turned the other way."""
+    """Return the formula of a quantity with some angles of friction reversed."""
     definition = q.families[id].definition
     assert definition is not None
     return substitute(definition, lambda ref: -ref if ref.id in angles else ref)

@@ -23,8 +23,8 @@ PART = "friction"
 HAS_POSITIONS = False
 TOP = ("parameters",)
 STEEPEST = math.radians(89)
-"""Largest angle between a force and the direction that would jam it (rad); closer to 90° no force that can be
-drawn moves the body.
+"""Largest angle (rad) between a force and the direction in which it would jam; closer to 90° the force could not be
+drawn.
 """
 
 
@@ -36,7 +36,7 @@ def case(assignment: Assignment) -> FrictionCase:
 
 
 def table_rows(position: Mapping[str, Any]) -> dict[str, dict[str, float]]:
-    """Return the row that `solve` prints of the results: the numbers of the task."""
+    """Return the row of results that `solve` prints, in the units of the task's entries (SI)."""
     return {
         task: {name: value for name, value in position[task].items() if name != "self_locking"}
         for task in TASKS
@@ -48,7 +48,7 @@ def table_rows(position: Mapping[str, Any]) -> dict[str, dict[str, float]]:
 
 
 def of_incline(given: Incline) -> Iterator[Finding]:
-    """Require a force that presses the body on the plane, and can move it up and down."""
+    """Require a force that presses the body on the plane and can move it up and down."""
     where, φ, α = (*TOP, "incline"), math.atan(given.f), given.alpha.si
     β = -α if given.beta is None else given.beta.si
     at = (*where, "beta" if "beta" in given.model_fields_set else "alpha")
@@ -88,16 +88,18 @@ def of_band(given: Band) -> Iterator[Finding]:
 
 
 MOST_GRIP = 20.0
-"""The largest f θ: beyond it one tension is a millionth of a thousandth of the other."""
+"""Largest f θ (θ in rad): beyond it one tension is less than a millionth of a thousandth of the other."""
 
 
 def wrapped(task: str, f: float, theta: Given) -> Iterator[Finding]:
+    """Yield a fault if the friction `f` and the wrap angle `theta` (rad) make e^{fθ} too large."""
     if f * theta.si > MOST_GRIP:
         most = f"{math.floor(math.degrees(MOST_GRIP / f)):g}"
         yield Finding("friction-grip", (*TOP, task, "theta"), {"theta": theta.text, "most": most})
 
 
 def degrees(angle: float) -> str:
+    """Return an angle (rad) in degrees as text for a message."""
     return f"{math.degrees(angle):.4g}"
 
 
@@ -111,7 +113,7 @@ CHECKED: Mapping[str, Callable[[Any], Iterator[Finding]]] = {
 
 
 def check(given: Parameters) -> Iterator[Finding]:
-    """Yield faults that no single value of a task shows."""
+    """Yield the faults of a task that depend on several values."""
     for task, look in CHECKED.items():
         if (of_task := getattr(given, task)) is not None:
             yield from look(of_task)

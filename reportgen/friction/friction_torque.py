@@ -20,9 +20,9 @@ from reportgen.machine.cycle_torque import SAME_ANGLE, CycleTorque
 from reportgen.machine.load_laws import FULL_TURN
 
 PARTS = 180
-"""Parts of a turn at least."""
+"""Smallest number of parts of a turn."""
 ORDER = 6
-"""Places in a part."""
+"""Number of nodes in a part."""
 ACCURATE = 1e-9
 """Largest contribution of the highest polynomials in a part to the torque, as a share of its greatest value."""
 MOST_HALVINGS = 12
@@ -40,7 +40,7 @@ class LocksError(Exception):
 
 
 def friction_loss(machine: Machine) -> CycleTorque | None:
-    """Return the torque that friction takes from the crank of a machine; None for a machine without friction.
+    """Return the torque (N·m) that friction takes from the crank over the cycle; None for a machine without friction.
 
     Raises `LocksError`.
     """
@@ -69,7 +69,7 @@ def friction_loss(machine: Machine) -> CycleTorque | None:
 
 
 def _coefficients(machine: Machine, low: Floats, high: Floats) -> Floats:
-    """Return Legendre's coefficients [n, 6] of M_loss in parts [n]."""
+    """Return the Legendre coefficients [n, 6] of M_loss (N·m) in the parts [n] between `low` and `high` (rad)."""
     angle = low[:, None] + (high - low)[:, None] * (NODES + 1) / 2
     analysis = analyse(machine, angle.ravel())
     solved = with_friction(analysis)

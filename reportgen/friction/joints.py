@@ -1,17 +1,17 @@
 """Friction in the joints: friction circles of pins, friction angles of guides, and the torque that overcomes them.
 
-The reaction R of a pin with friction is tangent to the circle of radius ρ = f r about its centre, and that of a
-guide leans by arctan f against the sliding. So each joint contributes a couple or a force that depends on its
-reaction,
+The reaction R of a pin with friction is tangent to the circle of radius ρ = f r about its centre, and that of a guide
+leans by arctan f against the sliding. So each joint contributes a couple or a force that depends on its reaction,
 
     M_ij = −sgn(ω_j − ω_i) ρ R_ij,   F_ij = −sgn(v_ji) f |N_ij|,
 
-on link j, and the opposite on link i. They are applied to the links as further loads, and the links are balanced
-again, round after round, until the reactions converge (Artobolevsky's method of successive approximations). If the
-rounds do not converge, the equations of the position are solved exactly (`bearing_equations`); only if they have no
-solution, the mechanism locks.
+on link j, and the opposite on link i. They are applied to the links as further loads, and the links are balanced again,
+round after round, until the reactions converge (Artobolevsky's method of successive approximations). If the rounds do
+not converge, `bearing_equations` solves the equations of the position exactly; the mechanism locks only if they have no
+solution.
 
-If the links of a joint do not move against each other at all, there is no friction.
+A joint whose links never move against each other has no friction. `with_friction(analysis)` returns the result for a
+machine.
 """
 
 from __future__ import annotations
@@ -34,20 +34,22 @@ from reportgen.machine.slider_faces import Faces
 STANDS = 1e-12
 """A round that changes the reactions by less than this share of the greatest has converged."""
 MOST_ROUNDS = 40
-"""Rounds that halve their change at least settle by then; for others the equations are solved."""
+"""Largest number of rounds: if each halves the change, they converge by then; otherwise the equations are solved."""
 
 
 @dataclass(frozen=True)
 class Friction:
-    """The friction of the joints: the radius ρ (m) of the friction circle by pin, f by the slider of a guide."""
+    """The friction of the joints: radius ρ (m) of the friction circle by pin, coefficient f by the slider of a
+    guide.
+    """
 
     circles: Mapping[str, float] = field(default_factory=dict)
     coefficients: Mapping[int, float] = field(default_factory=dict)
     faces: Mapping[int, Faces] = field(default_factory=dict)
-    """Faces of wide sliders, by their links: friction acts on each end that bears."""
+    """Faces of wide sliders, by their links: friction acts on each end in contact."""
 
     def joints(self, linkage: Linkage) -> tuple[Joint, ...]:
-        """Return the joints that have friction, in the order of assembly."""
+        """Return the joints with friction, in the order of assembly."""
         return tuple(
             joint
             for joint in joints(linkage)
@@ -57,16 +59,16 @@ class Friction:
 
 @dataclass(frozen=True)
 class FrictionForces:
-    """Reactions and balancing torque with friction, and how they came out; arrays over positions [N]."""
+    """Reactions and balancing torque with friction, and the course of the solution; arrays over positions [N]."""
 
     rounds: tuple[Forces, ...]
-    """Reactions of each round; the first are those without friction, the last have converged."""
+    """Reactions of each round: the first are those without friction, the last have converged."""
     loads: tuple[Load, ...]
     """Friction loads on each link of each joint: couples of pins, forces of guides."""
     held: Mapping[str, Flags]
-    """The joints by their reactions, with the positions [N] at which theirs cannot be found: the mechanism locks."""
+    """Flags [N] by the joint's reaction, True where it cannot be determined: the mechanism locks."""
     exact: Flags
-    """The positions [N] at which the rounds do not settle, and the last of them is the solution of the equations."""
+    """Flags [N], True where the rounds do not converge and the equations give the last round."""
 
     @property
     def forces(self) -> Forces:
@@ -75,7 +77,7 @@ class FrictionForces:
 
     @property
     def stands(self) -> Flags:
-        """Flags [N]: True where reactions with friction exist; elsewhere the mechanism locks."""
+        """Flags [N], True where reactions with friction exist; elsewhere the mechanism locks."""
         return np.asarray(~np.any(list(self.held.values()), axis=0))
 
     @property
@@ -85,7 +87,7 @@ class FrictionForces:
 
 
 def relative_motion(joint: Joint, motion: Motion) -> tuple[Floats, Floats]:
-    """Return the rate at which a joint's second link turns (rad/s) or slides (m/s) against the first [N], and its
+    """Return the relative rate of a joint's second link against the first [N] (rad/s, or m/s for a slide) and its
     derivative.
     """
     if joint.kind == "P":
@@ -97,10 +99,10 @@ def relative_motion(joint: Joint, motion: Motion) -> tuple[Floats, Floats]:
 
 
 def relative_sense(joint: Joint, motion: Motion) -> Floats:
-    """Return the sign of a joint's relative motion [N]; where it is at rest, that of the motion that follows.
+    """Return the sign of a joint's relative motion [N]; at rest, that of the motion that follows.
 
-    It is 0 where neither is more than rounding compared with the speed of the whole mechanism: the links of the
-    joint do not move against each other.
+    It is 0 where both are only rounding errors relative to the speed of the mechanism: the links do not move against
+    each other.
     """
     rate, change = relative_motion(joint, motion)
     moves, hastens = pace(motion, joint.kind)
@@ -109,10 +111,9 @@ def relative_sense(joint: Joint, motion: Motion) -> Floats:
 
 
 def reactions_that_press(friction: Friction, joint: Joint, motion: Motion, forces: Forces) -> tuple[Complexes, ...]:
-    """Return the reactions (N) [N] whose sizes press the links of a joint together: R of a pin; N of a guide, as a
-    number.
+    """Return the reactions (N) [N] whose sizes press a joint's links together: R of a pin; N of a guide, as a number.
 
-    A wide slider has two, N₁ and N₂ of its ends: they add up to N unless it tilts.
+    A wide slider has two, N₁ and N₂ at its ends, which add up to N unless it tilts.
     """
     reaction = forces.reactions[reaction_name(*joint.links)]
     if joint.kind == "R":
@@ -124,17 +125,16 @@ def reactions_that_press(friction: Friction, joint: Joint, motion: Motion, force
 
 
 def pressing(friction: Friction, joint: Joint, motion: Motion, forces: Forces) -> Floats:
-    """Return the force (N) [N] that presses the links of a joint together: R, |N|, or |N₁| + |N₂| of the ends of a
+    """Return the force (N) [N] that presses a joint's links together: R, |N|, or |N₁| + |N₂| for the ends of a
     slider.
     """
     return np.asarray(sum(np.abs(each) for each in reactions_that_press(friction, joint, motion, forces)))
 
 
 def _rubbing(friction: Friction, joint: Joint, sense: Floats, motion: Motion, pressed: Floats) -> tuple[Load, ...]:
-    """Return the friction loads of a joint that is `pressed` together (N) [N], against the `sense` [N] of the
-    motion in it.
+    """Return the friction loads of a joint that is `pressed` together (N) [N], against the `sense` [N] of its motion.
 
-    M = −sgn(ω_rel) ρ R of a pin, F = −sgn(v) f |N| along a guide, at the face of a wide slider.
+    M = −sgn(ω_rel) ρ R for a pin, F = −sgn(v) f |N| along a guide, at the face of a wide slider.
     """
     at = motion.points[joint.point].p
     if joint.kind == "R":
@@ -157,9 +157,10 @@ def _on_both(joint: Joint, force: Complexes, at: Complexes, couple: Floats) -> t
 def solve_with_friction(
     friction: Friction, linkage: Linkage, motion: Motion, loads: Sequence[Load], frictionless: Forces | None = None
 ) -> FrictionForces:
-    """Balance every link under `loads` and the friction of its joints, which depends on the reactions.
+    """Solve for the reactions (N) and the balancing torque (N·m) [N] under `loads` and the friction of the joints.
 
-    Positions at which the mechanism locks have nan: no reactions agree with the friction that they cause.
+    `frictionless` are the reactions without friction, computed if not given.  Values are nan at positions where the
+    mechanism locks: no reactions agree with the friction that they cause.
     """
     equilibrium = Equilibrium.of(linkage, motion)
     rounds = [frictionless or equilibrium.under(loads)]
@@ -237,12 +238,12 @@ def _without(forces: Forces, at: Flags) -> Forces:
 
 
 def friction_of(machine: Machine) -> Friction | None:
-    """Return the friction of a machine's joints, None if there is none."""
+    """Return the friction of a machine's joints; None if there is none."""
     return machine.topic("friction", Friction)
 
 
 def with_friction(analysis: Analysis) -> FrictionForces:
-    """Return reactions and torque with the friction of the joints, of a machine in which something rubs."""
+    """Return reactions and torque with friction, for a machine whose file requests friction; they are computed once."""
     return analysis.derived(_solved)
 
 

@@ -23,9 +23,9 @@ CIRCLE = Pen(0.2, style.RED)
 def friction_items(
     report: ReportContext, analysis: Analysis, scale: float, per: float, turn: int
 ) -> Iterator[MovingItem]:
-    """Yield the circles and reactions at the samples of an analysis, `scale` mm a metre, `per` newtons a millimetre.
+    """Yield the circles and reactions at the samples of an analysis, `scale` in mm/m and `per` in N/mm.
 
-    The first `turn` samples are one turn of the driver, in which the circles go round.
+    The first `turn` samples are one turn of the driver, in which the circles follow their pins.
     """
     solved = with_friction(analysis)
     if not per:

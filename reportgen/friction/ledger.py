@@ -1,9 +1,9 @@
 """Ledger entries for friction in the joints: circles, couples and forces, rounds, torque and efficiency.
 
 The entries of a joint with friction are: `friction.omega.12`, the rate at which the second link turns against the
-first; `friction.R.12`, the reaction with friction; `friction.M.12` = ρ R, the couple of a pin; `friction.F.03` = f
-R, the force of a guide; `friction.part.12`, the torque that overcomes it. The reactions are read off the force
-plans of their rounds; those of a round give the next torque by the balance of power,
+first; `friction.R.12`, the reaction with friction; `friction.M.12` = ρ R, the couple of a pin; `friction.F.03` = f R,
+the force of a guide; `friction.part.12`, the torque that overcomes it. The reactions are read from the force plans of
+their rounds; those of a round give the next torque by the balance of power,
 
     M = M₀ + Σ ρ R ω_rel/ω₁ + Σ f R v_rel/ω₁.
 """
@@ -32,12 +32,12 @@ from reportgen.machine import DRIVER, GROUND, Crank, Joint, Linkage
 from reportgen.machine.analysis import Analysis, Machine
 
 MOST_ROUNDS = 12
-"""Rounds that are entered; more are wanted only near where the mechanism locks."""
+"""Largest number of rounds that are entered; only positions close to locking need more."""
 
 
 @dataclass(frozen=True, slots=True)
 class RubbingJoint:
-    """A joint that rubs, with the digits of its reaction and the id of ρ or f."""
+    """A joint with friction, the digits of its reaction and the id of ρ or f."""
 
     joint: Joint
     digits: str
@@ -50,21 +50,21 @@ class RubbingJoint:
 
     @property
     def ends(self) -> tuple[int, int]:
-        """The link that acts and the one that is acted on, of the reaction as it is named."""
+        """The acting link and the one it acts on, in the order of the reaction's name."""
         first, second = self.joint.links
         return (first, second) if self.digits == ids.joint(first, second) else (second, first)
 
     @property
     def lost(self) -> str:
-        """The id of the couple or the force of friction."""
+        """The id of the couple or force of friction."""
         return (friction_ids.couple if self.is_pin else friction_ids.force)(self.digits)
 
 
 def rubbing_joints(
     q: Calculation | Mapping[str, object], linkage: Linkage, friction: Friction
 ) -> tuple[RubbingJoint, ...]:
-    """Return the joints that rub, in the order of assembly, each once by the digits that the ledger has for its
-    reaction.
+    """Return the joints with friction, in the order of assembly, with the digits that the ledger uses for their
+    reactions.
     """
     solved = []
     for joint in friction.joints(linkage):
@@ -78,7 +78,9 @@ def rubbing_joints(
 
 
 def enter_forces(q: Calculation, analysis: Analysis, worked: Sequence[int]) -> None:
-    """Enter the friction at each position; rounds until the printed figures of the `worked` ones do not change."""
+    """Enter the friction at each position, in rounds until the printed values at the `worked` positions no longer
+    change.
+    """
     machine, friction, solved = analysis.machine, friction_of(analysis.machine), with_friction(analysis)
     assert friction is not None
     for point in friction.circles:
@@ -143,7 +145,7 @@ def _balanced(q: Calculation, linkage: Linkage) -> tuple[str, str, Ref]:
 
 
 def _rounds(solved: FrictionForces, worked: Sequence[int]) -> int:
-    """Return the first round whose torque prints like that of the last round at the worked positions."""
+    """Return the first round whose torque is printed like that of the last round at the worked positions."""
     torques = np.array([forces.torque for forces in solved.rounds])
     compared = torques[:, [k - 1 for k in worked]] if worked else torques
     compared = compared[:, np.isfinite(compared).all(axis=0)]
@@ -157,9 +159,9 @@ def _rounds(solved: FrictionForces, worked: Sequence[int]) -> int:
 
 
 def _rate(q: Calculation, machine: Machine, each: RubbingJoint) -> Ref | None:
-    """Return the size of the relative motion in a joint: ω of a pin's links against each other, v of a slide.
+    """Return the relative rate in a joint: ω of a pin's links against each other, v of a slide.
 
-    None where the links never move against each other.
+    None if the links never move against each other.
     """
     if not each.is_pin:
         return q[_sliding(q, machine.linkage, each.joint)]
@@ -179,14 +181,14 @@ def _rate(q: Calculation, machine: Machine, each: RubbingJoint) -> Ref | None:
 
 
 def _omega(q: Calculation, machine: Machine, link: int) -> Expression | None:
-    """Return the signed angular velocity of a link, anticlockwise positive; None of one that does not turn."""
+    """Return the signed angular velocity of a link, anticlockwise positive; None if it does not turn."""
     if link == DRIVER and isinstance(machine.linkage.driver, Crank):
         return signed(machine.turn, q["omega.1"])
     return q.find(ids.signed("omega", link)) if link != GROUND else None
 
 
 def _sliding(q: Calculation, linkage: Linkage, joint: Joint) -> str:
-    """Return the id of the velocity with which a slider slides over its guide."""
+    """Return the id of the velocity of a slider relative to its guide."""
     plan = scheme(linkage)
     guide, slider = joint.links
     if slider == DRIVER:
@@ -201,7 +203,7 @@ def _sliding(q: Calculation, linkage: Linkage, joint: Joint) -> str:
 
 
 def enter_cycle(q: Calculation, analysis: Analysis) -> None:
-    """Enter the mean torque with friction, the efficiency by the works over the cycle, the dead zones of sliders."""
+    """Enter the mean torque with friction, the efficiency from the works of the cycle, the dead zones of sliders."""
     machine, friction = analysis.machine, friction_of(analysis.machine)
     if friction is None or not machine.cyclic:
         return
@@ -225,7 +227,9 @@ def enter_cycle(q: Calculation, analysis: Analysis) -> None:
 
 
 def reduced(q: Calculation, largest: float) -> Ref | None:
-    """Enter the torque that friction takes from the driver, None if no joint takes any."""
+    """Enter the torque (N·m) that friction takes from the driver; None without friction.  `largest` is its reference
+    size.
+    """
     lost = [q[id] for id in q.families if id in friction_ids.part]
     if not lost:
         return None
@@ -236,7 +240,7 @@ def reduced(q: Calculation, largest: float) -> Ref | None:
 
 
 def mistakes(ledger: Ledger, machine: Machine) -> Changed:
-    """Return other definitions of quantities of friction, by id, with the names of the mistakes that they are."""
+    """Return mistaken definitions of friction quantities, by id, with the names of the mistakes."""
     families = ledger.families
     solved: dict[str, list[tuple[str, Expression]]] = {}
     for id, family in families.items():

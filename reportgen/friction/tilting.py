@@ -1,7 +1,7 @@
-"""Friction at both ends of a wide slider that tilts: values for templates and figures about its two face reactions.
+"""Friction at both ends of a wide slider that tilts: values for templates and figures of its two face reactions.
 
-Each of them leans from its normal by the angle of friction; their resultant does not, since the two normals are
-opposed and the two forces of friction are not.
+Each of them leans from its normal by the angle of friction; their resultant does not, since the two normals are opposed
+and the two forces of friction are not.
 """
 
 from __future__ import annotations
@@ -29,7 +29,9 @@ DETAIL = 26.0
 
 @dataclass(frozen=True, slots=True)
 class FaceForce:
-    """The force of a guide (N) on an end of a slider's face: across it, along it against the sliding; its place (m)."""
+    """The force of a guide (N) on an end of a slider's face: `across` the guide, and `along` it against the sliding;
+    its place (m).
+    """
 
     number: int
     across: complex
@@ -38,7 +40,7 @@ class FaceForce:
 
 
 def face_forces(report: ReportContext, joint: Joint, k: int) -> tuple[FaceForce, ...]:
-    """Return the face forces on the joint's second link at a position where it tilts with friction, else ()."""
+    """Return the face forces on the joint's second link at position `k`; () if it does not tilt."""
     friction, solved, link = friction_of(report.machine), with_friction(report.analysis), joint.links[1]
     if friction is None or solved is None or joint.kind != "P" or link not in friction.faces:
         return ()
@@ -58,14 +60,14 @@ def face_forces(report: ReportContext, joint: Joint, k: int) -> tuple[FaceForce,
 
 
 def tilting(report: ReportContext, k: int) -> list[str]:
-    """Return the wide sliders that rub and tilt at a position, with friction: both of their ends bear and rub."""
+    """Return the wide sliders with friction that tilt at position `k`, so that both of their ends are in contact."""
     friction = friction_of(report.machine)
     assert friction is not None, "the chapter is there where joints rub"
     return [str(joint.links[1]) for joint in friction.joints(report.machine.linkage) if face_forces(report, joint, k)]
 
 
 def any_tilts(report: ReportContext) -> bool:
-    """Return True if a wide slider that rubs tilts at any position."""
+    """Return True if a wide slider with friction tilts at any position."""
     friction = friction_of(report.machine)
     return friction is not None and report.has_forces and any(tilting(report, k) for k in report.all_positions)
 
@@ -75,7 +77,9 @@ def any_tilts(report: ReportContext) -> bool:
 
 @dataclass(frozen=True, slots=True)
 class Leaning:
-    """A force of a guide with its parts across and along it (N), its place (mm), the names of all three or its own."""
+    """A force of a guide with its components across and along it (N), its place (mm), and its name or those of all
+    three.
+    """
 
     across: complex
     along: complex
@@ -84,8 +88,9 @@ class Leaning:
 
 
 def leaning_forces(guide: complex, forces: Sequence[Leaning], φ: Symbol, title: str) -> Scene:
-    """Return the forces of a guide at one scale, each with its parts and its lean φ; `guide` is the direction of the
-    sliding.
+    """Draw the forces of a guide at one scale, each with its components and its lean φ.
+
+    `guide` is the unit vector of the sliding.
     """
     size = DETAIL / max(abs(force.across + force.along) for force in forces)
     reach = DETAIL / 2 + max(abs(force.at) for force in forces)
@@ -116,8 +121,9 @@ def _leaning(force: Leaning, size: float, φ: Symbol) -> Canvas:
 
 
 def at_both_ends(named: Iterable[tuple[FaceForce, Symbol]], guide: complex, φ: Symbol, title: str) -> Scene:
-    """Return the two forces on a slider that tilts, at the ends of its face, which is drawn as long as they
-    have room.
+    """Draw the two forces (N) on a slider that tilts, at the ends of its face, whose drawn length suits them.
+
+    `guide` is the unit vector of the sliding.
     """
     faces = list(named)
     places = np.array([force.at for force, _ in faces])

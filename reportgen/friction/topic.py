@@ -50,8 +50,8 @@ class JointFriction(Part):
 
 
 def faults(parameters: TopicParameters, machine: Machine) -> Iterator[Finding]:
-    """Yield faults unless joints belong to the linkage, each pin has its circle or both f and its radius, and
-    there are loads.
+    """Yield faults unless joints belong to the linkage, each pin has its circle or both f and its radius, and there are
+    loads.
     """
     given = parameters.section("friction", JointFriction)
     if given is None:
@@ -77,7 +77,7 @@ def faults(parameters: TopicParameters, machine: Machine) -> Iterator[Finding]:
 
 
 def enter(opening: Opening) -> TopicData:
-    """Enter the data of the joints that rub; faulty ones, which the file's checks report, are left out."""
+    """Enter the data of the joints with friction; faulty ones, which the file's checks report, are left out."""
     given = opening.given.section("friction", JointFriction)
     assert given is not None, "the file asks for friction"
     linkage, datum = opening.linkage, opening.datum
@@ -102,7 +102,7 @@ def enter(opening: Opening) -> TopicData:
 
 
 def failures(machine: Machine, worked: Sequence[int]) -> Iterator[Finding]:
-    """Report a joint where the mechanism locks, since its friction grows with the reaction that it causes.
+    """Report a joint in which the mechanism locks.
 
     Only the worked positions are examined, or the whole cycle if another topic uses the torque with friction.
     """
@@ -124,7 +124,7 @@ def failures(machine: Machine, worked: Sequence[int]) -> Iterator[Finding]:
 
 
 def _faces(opening: Opening) -> dict[int, Faces]:
-    """Return the faces of wide sliders, which an earlier topic has entered; empty if all sliders are narrow."""
+    """Return the faces of wide sliders, which an earlier topic has entered; {} if all sliders are narrow."""
     faces = opening.provided.get(FACES.name, {})
     assert isinstance(faces, dict), "faces are by their links"
     return faces

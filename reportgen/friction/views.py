@@ -1,6 +1,4 @@
-"""Friction in a report: the values of each joint that templates name, the rounds, and the figures with friction
-circles.
-"""
+"""Friction in a report: values of each joint for templates, the rounds, and figures with friction circles."""
 
 from __future__ import annotations
 
@@ -53,7 +51,7 @@ ENLARGEMENTS = (2.0, 2.5, 4.0, 5.0, 10.0, 20.0, 25.0, 40.0, 50.0, 100.0, 200.0, 
 @view()
 @dataclass(frozen=True, slots=True)
 class Rubbing:
-    """A joint with friction as templates see it: the digits of its reaction, its pin or its slider."""
+    """A joint with friction for templates: the digits of its reaction, its pin or its slider."""
 
     of: RubbingJoint
     digits: str
@@ -63,7 +61,7 @@ class Rubbing:
 
 
 def rubbing(report: ReportContext) -> tuple[Rubbing, ...]:
-    """Return the joints that rub, in the order of assembly."""
+    """Return the joints with friction, in the order of assembly."""
     friction = friction_of(report.machine)
     if friction is None or not report.has_forces:
         return ()
@@ -77,7 +75,7 @@ def rubbing(report: ReportContext) -> tuple[Rubbing, ...]:
 
 
 def resting(report: ReportContext) -> str:
-    """Return the links of joints without friction, since they never move against each other: "2–3, 1–4"."""
+    """Return the links of joints that have no friction because they never move against each other: "2–3, 1–4"."""
     friction = friction_of(report.machine)
     if friction is None or not report.has_forces:
         return ""
@@ -101,44 +99,44 @@ def data(report: ReportContext) -> Inlines:
 
 
 def loss_lines(report: ReportContext) -> list[str]:
-    """Return the couples and forces of friction."""
+    """Return the ids of the couples and forces of friction."""
     return [each.of.lost for each in rubbing(report)]
 
 
 def part_lines(report: ReportContext) -> list[str]:
-    """Return the ids of the parts that overcome the friction of each joint, and of the torque with all of it."""
+    """Return the ids of the torques that overcome the friction of each joint, and of the torque with friction."""
     return [*(friction_ids.part(each.digits) for each in rubbing(report)), friction_ids.torque]
 
 
 def mean_lines(report: ReportContext) -> list[str]:
-    """Return the mean torque with friction and the efficiency over the cycle."""
+    """Return the ids of the mean torque with friction and of the efficiency over the cycle."""
     return report.known((friction_ids.mean, friction_ids.cycle_efficiency))
 
 
 def circle_lines(report: ReportContext) -> list[str]:
-    """Return the ids of the friction circles that are worked out, not given."""
+    """Return the ids of the friction circles that are calculated, not given."""
     points = dict.fromkeys(each.point for each in rubbing(report) if each.kind == "pin")
     return [id for id in map(friction_ids.circle, points) if report.ledger[id].definition is not None]
 
 
 def angle_lines(report: ReportContext) -> list[str]:
-    """Return the angles of friction of the sliders."""
+    """Return the ids of the angles of friction of the sliders."""
     links = dict.fromkeys(each.link for each in rubbing(report) if each.kind == "slider")
     return [friction_ids.angle(link) for link in links]
 
 
 def turning_lines(report: ReportContext) -> list[str]:
-    """Return the ids of the relative rotations in pins, where both links turn."""
+    """Return the ids of the relative rotations in pins between two moving links."""
     return report.known(friction_ids.turning(each.digits) for each in rubbing(report))
 
 
 def drives(report: ReportContext, k: int) -> str:
-    """Return "drives" if the driver drives at a position, so that it has an efficiency there, else "driven"."""
+    """Return "drives" if the driver does work at position `k`, so that an efficiency exists, else "driven"."""
     return "driven" if math.isnan(report.ledger.number(friction_ids.efficiency, k).value) else "drives"
 
 
 def has_efficiency(report: ReportContext, k: int) -> bool:
-    """Return True if the driver drives at a position."""
+    """Return True if the driver does work at position `k`."""
     return drives(report, k) == "drives"
 
 
@@ -146,7 +144,7 @@ def cycle(report: ReportContext) -> str:
     """Return the state of the cycle for its efficiency: the driver "drives", is "driven", is neither ("even"), or
     "locks".
 
-    Friction may also have "consumed" all work of the machine.
+    "consumed" means that friction takes all work of the machine.
     """
     if friction_ids.mean not in report.ledger:
         return "locks"
@@ -160,17 +158,19 @@ def cycle(report: ReportContext) -> str:
 
 
 def results(report: ReportContext) -> list[str]:
-    """Return the torque with friction and the efficiency."""
+    """Return the ids of the torque with friction and of the efficiency."""
     return report.known((friction_ids.torque, friction_ids.efficiency))
 
 
 def reactions(report: ReportContext) -> tuple[str, ...]:
-    """Return the reactions with friction, by their ids."""
+    """Return the ids of the reactions with friction."""
     return tuple(friction_ids.reaction(each.digits) for each in rubbing(report))
 
 
 def rounds(report: ReportContext, key: str, caption: str, head: Sequence[str], k: int) -> tuple[Table, ...]:
-    """Return the reactions of each round and the torque that those before it give; the first are without friction."""
+    """Return a table of the reactions in each round and the torque that the previous ones give; the first are without
+    friction.
+    """
     ledger, joints = report.ledger, rubbing(report)
     numbers = [n for n in range(1, len(ledger.families)) if friction_ids.torque_of_round(n) in ledger]
     names = ["", *map(str, range(1, len(numbers) + 1))]
@@ -190,8 +190,8 @@ def rounds(report: ReportContext, key: str, caption: str, head: Sequence[str], k
 
 
 def dead_rows(report: ReportContext) -> Iterator[Sequence[object]]:
-    """Yield each slider's dead centres, by the angle of the crank from position 1, and how far on either side
-    it locks.
+    """Yield each slider's dead centres by the crank angle from position 1, and the angles before and after in which it
+    locks.
     """
     machine = report.machine
     for course in machine.sliders:
@@ -208,14 +208,16 @@ def dead_rows(report: ReportContext) -> Iterator[Sequence[object]]:
 
 @dataclass(frozen=True, slots=True)
 class JointForce:
-    """Force in a joint with friction at a position, on the link that its name ends with, and its place (m)."""
+    """Force (N) in a joint with friction at a position, on the second link of the reaction's name, and its
+    place (m).
+    """
 
     each: Rubbing
     force: complex
     at: complex
     k: int
     offset: complex
-    """From the centre of the pin to the line of the force (m), 0 in a guide."""
+    """Vector (m) from the centre of the pin to the line of the force; 0 in a guide."""
 
 
 def _found(report: ReportContext) -> FrictionForces:
@@ -245,12 +247,12 @@ def joint_forces(report: ReportContext, k: int) -> Iterator[JointForce]:
 
 
 def scheme(report: ReportContext, k: int) -> FigureScenes:
-    """Return the mechanism with its friction circles and the lines of the reactions, which are tangent to them."""
+    """Draw the mechanism with its friction circles and the lines of the reactions, which are tangent to them."""
     return as_large_as_asked(report, partial(scheme_scene, report, k))
 
 
 def scheme_scene(report: ReportContext, k: int, factor: float = 1.0) -> Scene:
-    """Return the same by a factor of enlargement."""
+    """Return the same drawing, enlarged by `factor` relative to μ_l."""
     machine, motion, scale = report.machine.linkage, report.analysis.motion, drawing_scale(report) * factor
     loaded = [carried for carried in joint_forces(report, k) if carried.force]
     bones, look = skeleton(machine, motion, k - 1, scale), looks(report, scale, factor)
@@ -276,7 +278,7 @@ def scheme_scene(report: ReportContext, k: int, factor: float = 1.0) -> Scene:
 
 
 def _line(carried: JointForce, loaded: Sequence[JointForce], scale: float) -> Iterator[Item]:
-    """Yield the line of a force: to the other joint of its link if it is tangent to that one's circle too."""
+    """Yield the line of a force: to the next joint of its link if it is tangent to that friction circle too."""
     along, here = carried.force / abs(carried.force), (carried.at + carried.offset) * scale
     for further in loaded:
         there = (further.at + further.offset) * scale
@@ -298,7 +300,7 @@ def _named(report: ReportContext, each: Rubbing) -> Symbol:
 
 
 def joints(report: ReportContext, k: int) -> FigureScenes:
-    """Return each friction circle enlarged with the line of its reaction; each guide with its angle of friction."""
+    """Draw each friction circle enlarged with the line of its reaction, and each guide with its angle of friction."""
     scale = drawing_scale(report)
     return beside_one_another(
         *(_detail(report, k, carried, scale) for carried in joint_forces(report, k) if carried.force)
@@ -377,10 +379,9 @@ def force_plan_of_driver(report: ReportContext, k: int) -> FigureScenes:
 
 
 def force_plan_with_friction(report: ReportContext, polygon: Polygon, k: int) -> Plan:
-    """Return the plan without friction, of whole reactions alone, and where the plan with friction leaves it.
+    """Return the plan without friction, with whole reactions, and the plan with friction where it differs.
 
-    Loads are laid off alike; reactions carried over from further groups and those that close the plan are those with
-    friction, which in guides is a part of them.
+    Both have the same loads; reactions from other groups and those that close the plan include friction in the second.
     """
     drawing, μ = force_plan(report, polygon, k), float(report.ledger[ids.force_scale(polygon.name)].at(k))
     per_newton = MM / μ / report.enlarged

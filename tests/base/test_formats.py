@@ -76,4 +76,8 @@ def test_documentation_has_every_format_with_what_it_needs() -> None:
     assert listed == [
         (COMMANDS.get(row.product, row.product), row.name, ", ".join(row.needs) or "–") for row in FORMATS
     ]
-    assert f"[--make {','.join(product.name for product in PRODUCTS)}]" in text
+    options = (ROOT / "docs" / "reference" / "options.md").read_text(encoding="utf-8")
+    sections = dict(re.findall(r"^## `(\w+)`\n(.*?)(?=^## |\Z)", options, re.MULTILINE | re.DOTALL))
+    for product in dict.fromkeys(row.product for row in FORMATS):
+        assert ", ".join(output_formats.names(product)) in sections[COMMANDS.get(product, product)]
+    assert ", ".join(product.name for product in PRODUCTS) in sections["batch"]
