@@ -7,7 +7,6 @@ by chromium, and left as it is where there is none.
 from __future__ import annotations
 
 import json
-import os
 import shutil
 import signal
 import subprocess
@@ -214,29 +213,35 @@ def tutorials() -> None:
         save(page_with(CAPTION, report), "first-report-page", TUTORIAL_DPI)
 
 
-def command(*words: str, cwd: Path) -> None:
-    """Run `reportgen` with these arguments in a folder."""
-    path = {**os.environ, "PYTHONPATH": str(ROOT)}
-    subprocess.run([sys.executable, "-m", "reportgen.cli", *words], cwd=cwd, env=path, check=True, capture_output=True)
+def followed(tutorial: str, place: str) -> Path:
+    """Do in an empty folder what a tutorial says, with the commands that it shows; return the folder."""
+    sys.path.insert(0, str(ROOT))
+    from tests.documents import play
+
+    play(f"docs/tutorials/{tutorial}.md", Path(place), whole=True)
+    return Path(place)
 
 
 def hand_in() -> None:
     """Save the papers that the tutorial of the hand-in shows."""
-    with tempfile.TemporaryDirectory() as name:
-        folder = Path(name)
-        (folder / "roster.csv").write_text("id,name\nS01,Lan Pham\n", encoding="utf-8")
-        command("new", "slider-crank", "-o", "machine.yaml", "--lang", "en", cwd=folder)
-        command("variants", "machine.yaml", "roster.csv", "-o", "given", cwd=folder)
-        command("batch", "roster.csv", "--assignments", "given", "--make", "task", "--out", "tasks", cwd=folder)
-        own = folder / "tasks" / "S01"
+    with tempfile.TemporaryDirectory() as place:
+        own = followed("hand-in", place) / "tasks" / "S01"
         task = pymupdf.open(own / "task.pdf")
         save(task[0], "hand-in-task", TUTORIAL_DPI)
         save(task[-1], "hand-in-sheet", TUTORIAL_DPI, task[-1].rect - (0, 0, 0, task[-1].rect.height / 2))
-        command("sheet", "assignment.yaml", "--format", "pdf", cwd=own)
-        save(pymupdf.open(own / "out" / "assignment" / "sheet-1.pdf")[0], "hand-in-drawing", SHEET_DPI)
-        command("build", "assignment.yaml", "--format", "docx", cwd=own)
-        if (pages := in_word(own / "out" / "assignment" / "report.docx")) is not None:
+        save(pymupdf.open(own / "hand-in" / "sheet-1.pdf")[0], "hand-in-drawing", SHEET_DPI)
+        if (pages := in_word(own / "hand-in" / "report.docx")) is not None:
             save(page_with(SHOWN_IN_WORD, pages), "hand-in-word", TUTORIAL_DPI)
+
+
+def class_of_60() -> None:
+    """Save the marks of the class and the feedback for a student that the tutorial of the class shows."""
+    with tempfile.TemporaryDirectory() as place:
+        marked = followed("class-of-60", place) / "marked"
+        marks = pymupdf.open(marked / "class.pdf")[1]
+        save(marks, "class-of-60-marks", TUTORIAL_DPI)
+        feedback = pymupdf.open(marked / "S05" / "feedback.pdf")[0]
+        save(feedback, "class-of-60-feedback", TUTORIAL_DPI, feedback.rect - (0, 0, 0, feedback.rect.height / 3))
 
 
 def in_word(file: Path) -> pymupdf.Document | None:
@@ -285,6 +290,7 @@ def main() -> None:
     form()
     tutorials()
     hand_in()
+    class_of_60()
     curves()
     for kind in kinds():
         file = SHOWN.get(kind) or min(SAMPLE.parent.glob(f"{kind}-*.yaml"))
