@@ -149,8 +149,8 @@ class MachineCase(MachineAnalysis):
 
         machine, points = self.analysis.machine, self.analysis.motion.points
         signed = {
-            name(pin): (np.real(np.conj(way) * getattr(points[pin], rate)), way)
-            for pin, way in self._report.slider_senses.items()
+            name(pin): (np.real(np.conj(direction) * getattr(points[pin], rate)), direction)
+            for pin, direction in self._report.slider_senses.items()
             for rate, name in ids.POINT_RATE.items()
         }
         slides = bool(machine.span)
@@ -174,9 +174,9 @@ class MachineCase(MachineAnalysis):
             _wrong_readings(analysis),
             _whole_rods(analysis.machine, tuple(self.ledger.families)),
             changed={
-                id: other
+                id: definition
                 for hooks in LEDGER.among(analysis.machine.topics)
-                for id, other in hooks.mistakes(self.ledger, analysis.machine).items()
+                for id, definition in hooks.mistakes(self.ledger, analysis.machine).items()
             },
         )
 

@@ -36,6 +36,8 @@ PUBLIC = {
     # keys of assignment files
     "reportgen.catalogue.declared_loads": {"way"},
     "reportgen.springs.topic": {"other"},
+    # keys of title blocks
+    "reportgen.sheets.title_block": {"other"},
     # members that templates read
     "reportgen.catalogue.linkage_words": {"way"},
     "reportgen.report.link_views": {"one"},

@@ -99,11 +99,13 @@ def plot_files(
     points = curves.read_measured(measured, cases[0], of) if measured is not None else ()
     spoken = cases[0].assignment.language
     made = {
-        safe(name): matplotlib_figures.chart(one, spoken)
-        for name, one in curves.diagrams(cases, of, over, points).items()
+        safe(name): matplotlib_figures.chart(diagram, spoken)
+        for name, diagram in curves.diagrams(cases, of, over, points).items()
     }
     rows = chosen("plots", formats)
-    return {f"{name}.{row.suffix}": row.load()(one, row.name, dpi) for name, one in made.items() for row in rows}
+    return {
+        f"{name}.{row.suffix}": row.load()(diagram, row.name, dpi) for name, diagram in made.items() for row in rows
+    }
 
 
 def worked_at(assignment: Assignment, at: str) -> tuple[Case, tuple[str, ...]]:

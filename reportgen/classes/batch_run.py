@@ -203,8 +203,10 @@ def _run(
                 outcome = _put(job, made, out, entries.get((job.student, job.product)))
                 file_name = files[job.student]
                 problems = tuple(
-                    one if isinstance(one, str) else one.in_file(str(Path(file_name).parent / one.location.file))
-                    for one in outcome.problems
+                    entry
+                    if isinstance(entry, str)
+                    else entry.in_file(str(Path(file_name).parent / entry.location.file))
+                    for entry in outcome.problems
                 )
                 add(entry_of(job, outcome), problems, outcome.exit_code)
     with reported(out):

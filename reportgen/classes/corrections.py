@@ -187,11 +187,11 @@ def corrected(marking: Marking, correction: Correction) -> Marking | Fault:
         return Fault("correction-points", correction.locations["judgement"], most)
     reason = correction.reason_in(marking.key.language)
     places = {(cell.id, cell.position): _judged(cell, points, worth, reason) for cell in cells}
-    shown = (*what, Text(f" ({correction.position})")) if wanted else what
+    label = (*what, Text(f" ({correction.position})")) if wanted else what
     return replace(
         marking,
         cells=tuple(places.get((cell.id, cell.position), cell) for cell in marking.cells),
-        amendments=(*marking.amendments, Amendment(shown, frozenset(places), reason)),
+        amendments=(*marking.amendments, Amendment(label, frozenset(places), reason)),
     )
 
 

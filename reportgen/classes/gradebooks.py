@@ -166,8 +166,8 @@ def _grade(share: float, highest: str) -> str:
     """Return a grade with the decimal mark and the number of decimals of the maximum grade."""
     whole, point, decimals = highest.partition("," if "," in highest else ".")
     value = share * float(f"{whole}.{decimals or 0}")
-    shown = f"{value:.{len(decimals) if point else DECIMALS}f}"
-    return shown.replace(".", point or ".")
+    text = f"{value:.{len(decimals) if point else DECIMALS}f}"
+    return text.replace(".", point or ".")
 
 
 def _commented(present: str, lines: Sequence[str]) -> str:

@@ -105,8 +105,8 @@ class _QuestionBlocks(Blocks):
         if not isinstance(block, tree.Figure):
             return super().block(block, room)
         caption = self.caption(self.words.figure, block)
-        shown = "".join(map(self._picture, picture_files.pngs(block.scenes, self.language, DOTS)))
-        return f"{shown}<p>{caption}</p>" if caption else shown
+        pictures = "".join(map(self._picture, picture_files.pngs(block.scenes, self.language, DOTS)))
+        return f"{pictures}<p>{caption}</p>" if caption else pictures
 
     def _picture(self, data: bytes) -> str:
         name = f"figure-{len(self.pictures) + 1}.png"

@@ -181,7 +181,7 @@ def with_own(collected: Collected, own: OwnWorks, known: Container[str], languag
     one of the `known` assignments does not replace its student's own files.
     """
     sheets = dict(collected.sheets)
-    told: list[Problem] = []
+    notes: list[Problem] = []
     for assignment, work in own.works.items():
         first = work.files[0][0]
         stray = assignment in sheets and named_after(sheets[assignment][1].path, known) not in (
@@ -196,10 +196,10 @@ def with_own(collected: Collected, own: OwnWorks, known: Container[str], languag
                 sheets[assignment] = submission, first
         elif not sheets[assignment][0].fingerprint:
             about = {"text": assignment, "sheet": sheets[assignment][1].path.name}
-            told.append(as_problem(Fault("own-beside-sheet", Location(str(first.path)), about), language, "note"))
+            notes.append(as_problem(Fault("own-beside-sheet", Location(str(first.path)), about), language, "note"))
     sheets |= {assignment: sheet for assignment, sheet in collected.readings.items() if assignment not in sheets}
     refused = (*collected.refused, *own.refused)
-    return replace(collected, sheets=sheets, refused=refused, problems=(*collected.problems, *own.problems, *told))
+    return replace(collected, sheets=sheets, refused=refused, problems=(*collected.problems, *own.problems, *notes))
 
 
 def completed(out: Path | None, given: Sequence[Path]) -> Iterator[Handed]:

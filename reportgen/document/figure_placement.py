@@ -71,11 +71,11 @@ def fits(width: float, height: float, paper: tuple[float, float]) -> bool:
 
 def on_paper(*scenes: Scene) -> FigureScenes:
     """Scenes in the text if they fit there in true size, else turned, else each on a page large enough for all."""
-    for shown in (scenes, tuple(map(close, scenes))):
-        if all(map(in_text, shown)):
-            return FigureScenes(shown)
-        if len(shown) == 1 and across(shown[0]):
-            return FigureScenes(shown, turned=True)
+    for candidates in (scenes, tuple(map(close, scenes))):
+        if all(map(in_text, candidates)):
+            return FigureScenes(candidates)
+        if len(candidates) == 1 and across(candidates[0]):
+            return FigureScenes(candidates, turned=True)
     width, height = max(scene.width for scene in scenes), max(scene.height for scene in scenes)
     papers = (paper for paper in PLATES if fits(width, height, paper))
     return FigureScenes(scenes, next(papers, (width + WHITE[0], height + WHITE[1])))
@@ -95,7 +95,7 @@ def beside_one_another(*scenes: Scene) -> FigureScenes:
     if len(turned) == 1 and across(turned[0]):
         return FigureScenes(turned, turned=True)
     for paper in PLATES:
-        shown = sheets(scenes, paper[0] - WHITE[0], paper[1] - WHITE[1], trim=CLOSE)
-        if len(shown) == 1 and fits(shown[0].width, shown[0].height, paper):
-            return FigureScenes(shown, paper)
+        packed = sheets(scenes, paper[0] - WHITE[0], paper[1] - WHITE[1], trim=CLOSE)
+        if len(packed) == 1 and fits(packed[0].width, packed[0].height, paper):
+            return FigureScenes(packed, paper)
     return on_paper(*scenes)

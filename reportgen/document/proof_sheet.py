@@ -96,8 +96,8 @@ class ProofReader:
         try:
             value = self.environment.compile_expression(expression, undefined_to_none=False)(**self.names)
             # What is referred to stands in no proof sheet.
-            shown = inlines(value)
-            return tuple(Text(f"@{one.key}") if isinstance(one, Reference) else one for one in shown)
+            printed = inlines(value)
+            return tuple(Text(f"@{one.key}") if isinstance(one, Reference) else one for one in printed)
         except Exception:
             # Whatever this machine cannot say is read as it is written.
             return (Emph((Text(f"‹{expression}›"),)),)

@@ -161,8 +161,8 @@ class SectionContents:
                     calls.add("for")
                 case nodes.Include():
                     calls.add("include")
-                case nodes.Output(nodes=shown):
-                    names |= {name.name for part in shown for name in _names(part)}
+                case nodes.Output(nodes=parts):
+                    names |= {name.name for part in parts for name in _names(part)}
         return SectionContents(
             frozenset(calls),
             frozenset(names - GRAMMAR),
@@ -188,8 +188,8 @@ def _names(part: nodes.Node) -> Iterator[nodes.Name]:
     """Yield the names that are shown, without those of conditions: a language may distinguish other cases."""
     if isinstance(part, nodes.Name):
         yield part
-    shown = (part.expr1, part.expr2) if isinstance(part, nodes.CondExpr) else part.iter_child_nodes()
-    for inner in shown:
+    visible = (part.expr1, part.expr2) if isinstance(part, nodes.CondExpr) else part.iter_child_nodes()
+    for inner in visible:
         if inner is not None:
             yield from _names(inner)
 

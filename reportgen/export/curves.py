@@ -36,8 +36,8 @@ def dense(assignment: Assignment, count: int = POINTS) -> Assignment:
     """An assignment with so many positions a turn, those of its parts too, as far as they count theirs."""
     from reportgen import catalogue
 
-    def counted(one: Assignment) -> Assignment:
-        return one.with_positions(count) if catalogue.kind(one.kind).counts_positions else one
+    def counted(assignment: Assignment) -> Assignment:
+        return assignment.with_positions(count) if catalogue.kind(assignment.kind).counts_positions else assignment
 
     parts = tuple(replace(part, alone=counted(part.alone)) for part in assignment.parts)
     return replace(counted(assignment), parts=parts)
@@ -70,9 +70,9 @@ def diagrams(
     """
     by_unit: dict[tuple[str, bool], list[str]] = {}
     for id in dict.fromkeys(quantity(cases[0], one).id for one in of):
-        found = quantity(cases[0], id)
-        slides = found.over(cases[0].assignment.language).slides
-        by_unit.setdefault((found.family.how.unit, slides), []).append(id)
+        reference = quantity(cases[0], id)
+        slides = reference.over(cases[0].assignment.language).slides
+        by_unit.setdefault((reference.family.how.unit, slides), []).append(id)
     return {"-".join(ids): _diagram(cases, ids, over, measured) for ids in by_unit.values()}
 
 
@@ -84,26 +84,26 @@ def _diagram(cases: Sequence[Case], ids: Sequence[str], over: Over, measured: Se
     ]
     first = quantity(cases[0], ids[0])
     motion = first.over(cases[0].assignment.language)
-    for one in measured:
-        if one.id in ids:
-            symbol, how = first.case.ledger.symbol(one.id), first.case.ledger[one.id].how
-            x = _across(one, over, motion, cases[0].assignment.language)
-            curves.append(PlottedCurve(_told(symbol, one.name), x, one.values / how.scale, dots=True))
+    for series in measured:
+        if series.id in ids:
+            symbol, how = first.case.ledger.symbol(series.id), first.case.ledger[series.id].how
+            x = _across(series, over, motion, cases[0].assignment.language)
+            curves.append(PlottedCurve(_told(symbol, series.name), x, series.values / how.scale, dots=True))
     turn = over == "phi" and not motion.slides
     return Diagram(tuple(curves), axis_across(motion, over), axis_up(first, ids), turn=turn)
 
 
-def curve(found: Found, over: Over, told: str, language: Language) -> PlottedCurve:
-    """Return a quantity over the driver's way (degrees, or mm) or over time (s), for the whole cycle; `told` is
+def curve(source: Found, over: Over, note: str, language: Language) -> PlottedCurve:
+    """Return a quantity over the driver's way (degrees, or mm) or over time (s), for the whole cycle; `note` is
     appended.
     """
-    motion, values = found.over(language), found.values / found.family.how.scale
+    motion, values = source.over(language), source.values / source.family.how.scale
     gone = motion.gone
     if not motion.slides:
         # A cycle ends where it begins.
         gone, values = np.append(gone, motion.whole), np.append(values, values[0])
     per = _speed(motion, language) if over == "time" else 1 / MM if motion.slides else math.pi / 180
-    return PlottedCurve(_told(found.family.symbol, told), gone / per, values)
+    return PlottedCurve(_told(source.family.symbol, note), gone / per, values)
 
 
 def _told(symbol: Symbol, name: str) -> Content:
@@ -117,24 +117,24 @@ def axis_across(motion: DriverMotion, over: Over) -> Chain:
     return Chain((Symbol("s" if motion.slides else "φ"),), motion.called)
 
 
-def axis_up(found: Found, ids: Sequence[str]) -> Content:
+def axis_up(source: Found, ids: Sequence[str]) -> Content:
     """The axis of the quantities: the symbol of one, the unit, and in which sense they are positive, if in one."""
-    unit, motion = found.family.how.unit, found.case.driver_motion
+    unit, motion = source.family.how.unit, source.case.driver_motion
     ways = {motion.signed[id][1] if motion and id in motion.signed else None for id in ids}
-    note, words = unit, found.case.words
-    if len(ways) == 1 and (way := ways.pop()) is not None:
-        sense = heading_of(words, math.degrees(cmath.phase(way)))
+    note, words = unit, source.case.words
+    if len(ways) == 1 and (direction := ways.pop()) is not None:
+        sense = heading_of(words, math.degrees(cmath.phase(direction)))
         note = str(words["figure"]["positive"]).format(title=unit, sense=sense)
-    return Chain((found.family.symbol,), note) if len(ids) == 1 else note
+    return Chain((source.family.symbol,), note) if len(ids) == 1 else note
 
 
 # --- what was measured ------------------------------------------------------------------------------
 
 
-def _across(one: Measured, over: Over, motion: DriverMotion, language: Language) -> np.ndarray:
+def _across(series: Measured, over: Over, motion: DriverMotion, language: Language) -> np.ndarray:
     """Measured places on the axis: degrees or seconds."""
-    x = one.x
-    if one.over != over:
+    x = series.x
+    if series.over != over:
         speed = _speed(motion, language)
         x = x * speed if over == "phi" else x / speed
     return np.degrees(x) if over == "phi" else x
@@ -157,7 +157,7 @@ def read_measured(path: Path, case: Case, of: Sequence[str]) -> list[Measured]:
     head, *rows = page.rows or ((),)
     faults: list[Fault] = []
     wanted = [quantity(case, one).id for one in of]
-    found: list[Measured] = []
+    measured: list[Measured] = []
     over = AXES.get(_name_and_unit(head[0])[0]) if head else None
     if over is None:
         where = head[0].location if head else Location(str(path))
@@ -168,12 +168,12 @@ def read_measured(path: Path, case: Case, of: Sequence[str]) -> list[Measured]:
         id = next((one for one, asked in zip(wanted, of, strict=True) if name in (one, asked)), None)
         if id is not None:
             unit = quantity(case, id).family.how.unit
-            found.append(Measured(id, over, x, _column(cell, rows, place, unit, faults), path.stem))
-    if not found:
+            measured.append(Measured(id, over, x, _column(cell, rows, place, unit, faults), path.stem))
+    if not measured:
         faults.append(Fault("measured-nothing", head[0].location, {"known": ", ".join(of)}))
     if faults:
         raise as_error(faults, case.assignment.language)
-    return found
+    return measured
 
 
 def _name_and_unit(cell: SheetCell) -> tuple[str, str]:

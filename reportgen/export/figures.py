@@ -62,10 +62,10 @@ class MovingFigure:
 
     def _goes_on(self, layers: Collection[str]) -> bool:
         """Return True if something is shown that does not repeat from turn to turn."""
-        shown = (item for item in self.pane.items if not item.layer or item.layer in layers)
+        visible = (item for item in self.pane.items if not item.layer or item.layer in layers)
         return any(
             track.values.size > self.animation.knots.size
-            for item in shown
+            for item in visible
             for track in (getattr(item, name, None) for name in ("at", "start", "end"))
             if isinstance(track, Track)
         )
@@ -93,9 +93,9 @@ def listed(case: Case) -> tuple[tuple[NamedFigure, ...], tuple[MovingFigure, ...
 def moving(case: Case) -> tuple[MovingFigure, ...]:
     """Return the animations of all parts."""
     return tuple(
-        MovingFigure(f"{one.name}.{pane.key}" if one.name else pane.key, one, pane)
-        for one in case.animations()
-        for pane in one.panes
+        MovingFigure(f"{animation.name}.{pane.key}" if animation.name else pane.key, animation, pane)
+        for animation in case.animations()
+        for pane in animation.panes
     )
 
 
@@ -115,18 +115,18 @@ def figure_files(case: Case, query: FigureQuery) -> Mapping[str, bytes]:
     files: dict[str, bytes] = {}
     if still:
         scenes = dict(drawings(named_figures(case.document()), query, movable, language))
-        found = bounded(case.assignment, drawn, tuple(scenes.values()), language, still, query.dpi)
-        if "svg" in found:
+        rendered = bounded(case.assignment, drawn, tuple(scenes.values()), language, still, query.dpi)
+        if "svg" in rendered:
             phrases = case.words["told"]
             said = (". ".join(sentences(scene.description, phrases, language)) for scene in scenes.values())
-            found["svg"] = list(map(_described, found["svg"], said))
+            rendered["svg"] = list(map(_described, rendered["svg"], said))
         for row in chosen("figures", still):
-            files |= {f"{name}.{row.suffix}": one for name, one in zip(scenes, found[row.name], strict=True)}
-    for one in _wanted(case, query, movable()) if moved else ():
-        frames = one.frames(query.layers)
+            files |= {f"{name}.{row.suffix}": made for name, made in zip(scenes, rendered[row.name], strict=True)}
+    for figure in _wanted(case, query, movable()) if moved else ():
+        frames = figure.frames(query.layers)
         for row in chosen("figures", moved):
             made = bounded(case.assignment, animated, frames, language, row.name, query.dpi)
-            files[f"{safe(one.name)}.{row.suffix}"] = made
+            files[f"{safe(figure.name)}.{row.suffix}"] = made
     return files
 
 
@@ -161,22 +161,22 @@ def drawings(
     Raises `UnknownNameError`, or `NotOfferedError` if no figure shows the requested position.
     """
     if not query.names:
-        shown = [one.shown_at(query.labels) for one in figures] if query.labels else figures
-        if not any(shown):
+        at_position = [figure.shown_at(query.labels) for figure in figures] if query.labels else figures
+        if not any(at_position):
             raise NotOfferedError(word("no_figure_at", language, label=query.labels[0] if query.labels else ""))
-        for one in filter(None, shown):
-            yield from one.files.items()
+        for figure in filter(None, at_position):
+            yield from figure.files.items()
     for name in query.names:
         # With a position v is the plan of that one.
-        of_name = [one for one in figures if name == one.name or (query.labels and name == one.kind)]
+        of_name = [figure for figure in figures if name == figure.name or (query.labels and name == figure.kind)]
         if of_name:
-            for one in of_name:
-                yield from ((query.labels and one.shown_at(query.labels)) or one).files.items()
-        elif found := next((one for one in movable() if one.name == name), None):
+            for figure in of_name:
+                yield from ((query.labels and figure.shown_at(query.labels)) or figure).files.items()
+        elif moving_figure := next((figure for figure in movable() if figure.name == name), None):
             label = query.labels[0] if query.labels else ""
-            yield safe(f"{name}-{label}" if label else name), found.at(label, query.layers)
+            yield safe(f"{name}-{label}" if label else name), moving_figure.at(label, query.layers)
         else:
-            known = [*(one.name for one in figures), *(one.name for one in movable())]
+            known = [*(figure.name for figure in figures), *(figure.name for figure in movable())]
             raise UnknownNameError(unknown("no_figure", name, known, language))
 
 

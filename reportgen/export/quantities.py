@@ -93,20 +93,20 @@ def quantity(case: Case, id: str) -> Found:
     Raises `UnknownNameError`.
     """
     cases = list(case.parts.values()) or [case]
-    for one in cases:
-        if id in one.ledger:
-            return Found(id, one)
-    for one in cases:
-        for own, family in one.ledger.families.items():
+    for part in cases:
+        if id in part.ledger:
+            return Found(id, part)
+    for part in cases:
+        for own, family in part.ledger.families.items():
             if not family.hidden and id == f"{family.symbol.base}.{family.symbol.sub}":
-                return Found(own, one)
-    raise UnknownNameError(unknown("no_quantity", id, list(shown(case)), case.assignment.language))
+                return Found(own, part)
+    raise UnknownNameError(unknown("no_quantity", id, list(visible_ids(case)), case.assignment.language))
 
 
-def shown(case: Case) -> Iterator[str]:
+def visible_ids(case: Case) -> Iterator[str]:
     """The ids of what is printed at the positions, numbers of the plane left out."""
-    for one in case.parts.values() or [case]:
-        over = one.driver_motion
-        for id, family in one.ledger.families.items():
+    for part in case.parts.values() or [case]:
+        over = part.driver_motion
+        for id, family in part.ledger.families.items():
             if over is not None and len(family.values) == len(over.gone) and not (family.hidden or family.is_plane):
                 yield id

@@ -42,13 +42,15 @@ class Study:
 
         Raises `UnknownNameError` for an id that there is not.
         """
-        found = [quantity(self._base, id) for id in of]
-        together = [one.id for one in found if one.case is self._base and self.is_told(one.id)]
+        quantities = [quantity(self._base, id) for id in of]
+        together = [source.id for source in quantities if source.case is self._base and self.is_told(source.id)]
         values = self._evaluated(together)
-        for one in found:
-            if one.id not in values:
-                values[one.id] = self._one_by_one(one.id)
-        return {id: QuantityArray.of(values[one.id], one.family) for id, one in zip(of, found, strict=True)}
+        for source in quantities:
+            if source.id not in values:
+                values[source.id] = self._one_by_one(source.id)
+        return {
+            id: QuantityArray.of(values[source.id], source.family) for id, source in zip(of, quantities, strict=True)
+        }
 
     # --- a case a value
 
@@ -142,13 +144,13 @@ class Study:
         ledger = self._base.ledger
         needed = frozenset(other for id in wanted for other in self._needed(id))
         changes = {id: values for id, values in self._given.items() if id in needed}
-        found = ledger.evaluate(changes, only=needed)
+        values_of = ledger.evaluate(changes, only=needed)
         made = {}
         for id in wanted:
-            values = found[id]
+            values = values_of[id]
             if signed := self._signed(id):
-                corner, scale, way = signed
-                values = np.real(np.conj(way) * found[corner]) * found[scale]
+                corner, scale, direction = signed
+                values = np.real(np.conj(direction) * values_of[corner]) * values_of[scale]
             size = len(ledger[id].values)
             rows = np.full((len(self.variants), size), np.nan, dtype=values.dtype)
             rows[[one is not None for one in self.variants]] = values

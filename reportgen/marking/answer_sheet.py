@@ -52,8 +52,8 @@ def rows_shown(key: Key) -> tuple[KeyRow, ...]:
     """Return the rows of the sheet: given, asked and scales; given data of formulas only if formulas are asked for."""
     formulas = any(row.part is KeyChapter.formulas for row in key.asked)
     given = (row.id for row in key.rows if row.role is Role.given and (formulas or row.part is not KeyChapter.formulas))
-    shown = frozenset(given)
-    return tuple(row for row in key.rows if row.positions or row.id in shown)
+    given_ids = frozenset(given)
+    return tuple(row for row in key.rows if row.positions or row.id in given_ids)
 
 
 def number_format(row: KeyRow) -> str:
@@ -230,13 +230,13 @@ def read_submission(
     reading = _Reading(key, language, settled=fingerprint is None)
     answered = sheets if key.parts else sheets[:1]
     if by_data:
-        shown = [fault for answers in answered for fault in _data_shown(key, *answers)]
-        unsaid = not shown and named is not None and name != key.id
+        data_faults = [fault for answers in answered for fault in _data_shown(key, *answers)]
+        unsaid = not data_faults and named is not None and name != key.id
         about = {"text": name, "wanted": key.id}
         if (
             faults := [Fault("sheet-of-another", location, about)]
             if unsaid
-            else [one for one in shown if one is not None]
+            else [one for one in data_faults if one is not None]
         ):
             raise as_error(faults, language)
     for answers in answered:

@@ -100,8 +100,8 @@ def guard(
             flags[number] = replace(flag, taken=tuple(taken))
             result |= {place: replace(result[place], verdict=Verdict.implausible, points=0.0) for place in taken}
         for place in flag.places:
-            if flag.other:
-                names = (*result[place].classmates, flag.other)
+            if flag.classmate:
+                names = (*result[place].classmates, flag.classmate)
                 result[place] = replace(result[place], classmates=tuple(dict.fromkeys(names)))
     return result, tuple(flags)
 
@@ -155,7 +155,7 @@ def _same_columns(scheme: MarkingScheme, cells: Cells) -> Iterator[Notice]:
         copies.add(copy)
         # Values that are right all the same keep their points.
         spoiled = tuple(place for place in cells if place[1] == copy and cells[place].verdict is Verdict.follows)
-        yield Notice("columns", tuple((id, copy) for id in same), spoiled, other="", count=len(telling))
+        yield Notice("columns", tuple((id, copy) for id in same), spoiled, classmate="", count=len(telling))
 
 
 def _differ(cells: Cells, first: Place, second: Place) -> bool:
@@ -186,7 +186,7 @@ def _other_data(scheme: MarkingScheme, cells: Cells, classmates: Sequence[Classm
         spoiled = (one for one in follows if scheme.stands_on(one, causes) or misread & {*scheme.before[one[0]]})
         # In the order of the sheet, so that every run gives the same result.
         yield Notice(
-            "other-data", tuple(place for place in first if place in causes), tuple(spoiled), other=classmate_id
+            "other-data", tuple(place for place in first if place in causes), tuple(spoiled), classmate=classmate_id
         )
 
 
@@ -238,14 +238,14 @@ def _copied(scheme: MarkingScheme, cells: Cells, classmates: Sequence[Classmate]
                 copied |= dict.fromkeys(met)
                 chance = min(chance, by_chance)
         if copied:
-            flags.append(Notice("classmate", tuple(copied), other=classmate.key.id, chance=chance))
+            flags.append(Notice("classmate", tuple(copied), classmate=classmate.key.id, chance=chance))
     # If several classmates have the same values, the closest is named first. A sheet is copied whole if nearly all its
     # values match.
     flags.sort(key=lambda flag: -len(flag.places))
     by_id = {one.key.id: one for one in others}
     filled = tuple(_filled(cells))
     for number, flag in enumerate(flags):
-        classmate = by_id[flag.other]
+        classmate = by_id[flag.classmate]
         if _is_whole(scheme, cells, classmate):
             flags[number] = replace(flag, kind="classmate-sheet", spoiled=filled)
         elif copied_on := _of_key(scheme, cells, own, classmate):

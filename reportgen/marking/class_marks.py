@@ -102,8 +102,8 @@ def grade_rows(
     unread = [*(open_cells(marking) for marking in markings), *(_open_places(one) for one in unmarked)]
     rows[1:] = [(*row, text) for row, text in zip(rows[1:], unread, strict=True)]
     if unwritten:
-        told = ["; ".join(marking.unwritten) for marking in markings] + [""] * len(unmarked)
-        rows[1:] = [(*row, text) for row, text in zip(rows[1:], told, strict=True)]
+        remarks = ["; ".join(marking.unwritten) for marking in markings] + [""] * len(unmarked)
+        rows[1:] = [(*row, text) for row, text in zip(rows[1:], remarks, strict=True)]
     return tuple(rows)
 
 
@@ -205,7 +205,7 @@ def _flags(marking: Marking, words: Mapping[str, Any], people: Mapping[str, str]
     for flag in marking.flags:
         cells = [cell for cell in marking.cells if (cell.id, cell.position) in {*flag.places[:SHOWN]}]
         where = ", ".join(_cell_text(marking.key, cell) for cell in cells) + (", …" if len(flag.places) > SHOWN else "")
-        of = f" = {people.get(flag.other, flag.other)}" if flag.other else ""
+        of = f" = {people.get(flag.classmate, flag.classmate)}" if flag.classmate else ""
         chance = f", p < {max(flag.chance, 1e-9):.0e}" if flag.kind.startswith("classmate") else ""
         taken = f", {words['warning_names']['taken']}: {len(flag.taken)}" if flag.taken else ""
         texts.append(f"{words['warning_names'][flag.kind]}{of} ({len(flag.places)}: {where}{chance}{taken})")

@@ -80,7 +80,7 @@ def _summary(
         )
         yield paragraph(text)
     counts = Counter(
-        "unsettled" if one.unsettled is not None else "refused" if one.reasons else "missing" for one in unmarked
+        "unsettled" if row.unsettled is not None else "refused" if row.reasons else "missing" for row in unmarked
     )
     names = ("missing", "refused", "unsettled")
     yield from (paragraph(page[name].format(count=counts[name])) for name in names if counts[name])
@@ -252,11 +252,11 @@ def _variants(
     ticks = [step * n for n in range(math.ceil(policy.scale.highest / step) + 1)]
     # A figure has room for a limited number of lines.
     for start in range(0, len(compared), MOST_BARS):
-        shown = compared[start : start + MOST_BARS]
+        drawn = compared[start : start + MOST_BARS]
         scene = intervals(
-            [f"{_plain_name(group, words, language)} {group.value}" for group in shown],
-            [group.mean for group in shown],
-            [group.spread for group in shown],
+            [f"{_plain_name(group, words, language)} {group.value}" for group in drawn],
+            [group.mean for group in drawn],
+            [group.spread for group in drawn],
             ticks,
             page["mean_axis"],
         )
@@ -285,8 +285,8 @@ def _errors(markings: Sequence[Marking], words: PageWords, language: Language) -
     ]
     by_quantity = [(symbols[id], count) for id, count in quantities]
     for title, counted in ((page["quantities"], by_quantity), (page["mistakes"], mistakes)):
-        shown, others = counted[:MOST_BARS], counted[MOST_BARS:]
+        most_frequent, others = counted[:MOST_BARS], counted[MOST_BARS:]
         if others:
-            shown.append((page["others"].format(count=len(others)), sum(count for _, count in others)))
-        names, counts = zip(*shown, strict=True)
+            most_frequent.append((page["others"].format(count=len(others)), sum(count for _, count in others)))
+        names, counts = zip(*most_frequent, strict=True)
         yield Figure((bars(names, counts, page["errors"]),), (Text(title),), here=True)

@@ -91,11 +91,11 @@ def _best_order(
     """
     best = _best_verdicts(scheme, submission)
     for exchange in possible_exchanges(scheme, submission, best[1]):
-        other = _best_verdicts(scheme, exchange.undone(submission))
-        lost = exchange.charged(other[1])
-        cost = other[1][lost].points if lost else 0.0
-        if cost and exchange.explains(other[1]) and _points(other[1]) - cost > _points(best[1]):
-            return *other, exchange
+        corrected = _best_verdicts(scheme, exchange.undone(submission))
+        lost = exchange.charged(corrected[1])
+        cost = corrected[1][lost].points if lost else 0.0
+        if cost and exchange.explains(corrected[1]) and _points(corrected[1]) - cost > _points(best[1]):
+            return *corrected, exchange
     return *best, None
 
 
@@ -263,9 +263,9 @@ def _charged_once(working: Working, cells: Cells, mistakes: Mapping[Place, Mista
     order = {row.id: index for index, row in enumerate(scheme.judged)}
     changed: dict[Place, Marked] = {}
     unseen = {
-        (one.name, one.where): one
-        for one in mistakes.values()
-        if not any(map(working.shows, one.changes or [one.where]))
+        (mistake.name, mistake.where): mistake
+        for mistake in mistakes.values()
+        if not any(map(working.shows, mistake.changes or [mistake.where]))
     }
     for (name, where), mistake in unseen.items():
         ways = (mistake.changes, *redesigned(working, mistake))
@@ -282,7 +282,7 @@ def _charged_once(working: Working, cells: Cells, mistakes: Mapping[Place, Mista
             index = scheme.rows[cell.id].at(cell.position)
             given = float(working.values[cell.id][index])
             following = (_own(scheme.ledger, values, cell.id, index) for values in possible)
-            own = next((one for one in following if _follows(scheme, cell.id, given, one, cell.band)), None)
+            own = next((value for value in following if _follows(scheme, cell.id, given, value, cell.band)), None)
             if own is not None:
                 points = policy.worth(cell.id) * policy.follows
                 changed[place] = replace(
@@ -361,8 +361,8 @@ def _hint(scheme: MarkingScheme, marking: Marking, cell: Marked) -> str:
         return named.format(symbol=symbol, **cell.exchanged_labels(marking.key))
     assert cell.given is not None, "only a given value diverges"
     size = words["compare"]["larger" if abs(cell.given) > abs(cell.own) else "smaller"]
-    shown = (marking.key.find(id) for id in scheme.before[cell.id])
-    nearest = [symbol_text(row, marking.key) for row in shown if row is not None][:NEAREST]
+    earlier = (marking.key.find(id) for id in scheme.before[cell.id])
+    nearest = [symbol_text(row, marking.key) for row in earlier if row is not None][:NEAREST]
     return f"{size} {words['compare']['from'].format(symbols=', '.join(dict.fromkeys(nearest)))}" if nearest else size
 
 

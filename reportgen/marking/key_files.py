@@ -182,14 +182,14 @@ def key_json(key: Key) -> str:
 def _numbers(values: np.ndarray) -> list[float | None]:
     """Return values rounded for JSON: 0 if negligible beside the largest one, None for NaN."""
     least = ZERO * float(np.max(np.abs(values), initial=0.0, where=np.isfinite(values)))
-    shown = (0.0 if abs(value) < least else significant(float(value), VALUE_DIGITS) for value in values)
-    return [value if value == value else None for value in shown]
+    written = (0.0 if abs(value) < least else significant(float(value), VALUE_DIGITS) for value in values)
+    return [value if value == value else None for value in written]
 
 
 def _bands(row: KeyRow, widths: np.ndarray) -> list[float | None]:
     """Return the half widths of bands with one more figure than the key prints; negligible ones are 0."""
-    shown = (band(row, float(width), BAND_DIGITS + 1) for width in np.where(np.isnan(row.values), np.nan, widths))
-    return list(shown)
+    printed = (band(row, float(width), BAND_DIGITS + 1) for width in np.where(np.isnan(row.values), np.nan, widths))
+    return list(printed)
 
 
 # --- the document ---------------------------------------------------------------------------------
@@ -287,9 +287,9 @@ def _values(row: KeyRow, index: int, senses: bool) -> tuple[Number | str, ...]:
 
 def _band_number(row: KeyRow, width: float) -> Number | str:
     """Return a band as a number; one far below the last figure of its row is 0."""
-    shown = band(row, width)
-    if shown is None:
+    printed = band(row, width)
+    if printed is None:
         return DASH
-    decimals = min(band_decimals(shown), FINEST if row.decimals is None else row.decimals + FINER)
-    number = Number(shown, decimals)
+    decimals = min(band_decimals(printed), FINEST if row.decimals is None else row.decimals + FINER)
+    number = Number(printed, decimals)
     return number if number.shown else Number(0.0)

@@ -174,15 +174,15 @@ def points_of(cells: Iterable[Marked]) -> tuple[float, float]:
 class Notice:
     """A finding for the lecturer: a `kind` (a key of `warnings` in words) and the places that show it.
 
-    `spoiled` are places whose marks the policy may deduct for it, `taken` those where it did. `other` is the assignment
-    that the values come from, `chance` the probability that an honest sheet shows as much, `count` the number of values
-    compared.
+    `spoiled` are places whose marks the policy may deduct for it, `taken` those where it did. `classmate` is the
+    assignment that the values come from, `chance` the probability that an honest sheet shows as much, `count` the
+    number of values compared.
     """
 
     kind: str
     places: tuple[Place, ...]
     spoiled: tuple[Place, ...] = ()
-    other: str = ""
+    classmate: str = ""
     chance: float = 0.0
     count: int = 0
     taken: tuple[Place, ...] = ()

@@ -201,8 +201,8 @@ def key_asked(policy: Policy, key: Key, submission: Submission) -> tuple[Key, fr
     drawn = frozenset(filled) if submission.fingerprint else submission.drawn
     rows = []
     for row in policy.ask.of(key, {id for id, _ in (*filled, *drawn)}).rows:
-        shown = {k for id, k in (*filled, *drawn) if id == row.id}
+        filled_at = {k for id, k in (*filled, *drawn) if id == row.id}
         further = any(id == row.id for id, _ in drawn) and not policy.ask.wants(row)
-        rows.append(replace(row, positions=tuple(k for k in row.positions if k in shown)) if further else row)
+        rows.append(replace(row, positions=tuple(k for k in row.positions if k in filled_at)) if further else row)
     asked = {row.id for row in rows if policy.ask.wants(row)} | {id for id, _ in drawn}
     return replace(key, rows=tuple(rows)), frozenset(asked)

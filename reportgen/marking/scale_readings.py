@@ -91,8 +91,8 @@ def charged_for_scales(working: Working, cells: Cells) -> dict[Place, Marked]:
             continue
         spoilt = [
             place
-            for place, one in cells.items()
-            if one.verdict is Verdict.follows and one.worth and id in scheme.before[place[0]]
+            for place, affected in cells.items()
+            if affected.verdict is Verdict.follows and affected.worth and id in scheme.before[place[0]]
         ]
         for place in sorted(spoilt, key=lambda place: (order[place[0]], place[1]))[:1]:
             charged[place] = replace(cells[place], verdict=Verdict.wrong, points=0.0)
@@ -138,13 +138,13 @@ class _Possible:
 
 def _open_scales(scheme: MarkingScheme, submission: Submission) -> list[str]:
     """Return the computed scales of plans without a length on the sheet, in the ledger's order."""
-    shown = {vocabulary.plan(id) for id, _ in submission.values.keys() - submission.measured.keys()}
+    filled_plans = {vocabulary.plan(id) for id, _ in submission.values.keys() - submission.measured.keys()}
     scales = {
         row.id
         for row in scheme.key.rows
         if row.role is Role.scale and row.kind != "segment" and scheme.ledger[row.id].definition is not None
     }
-    return [id for id in scheme.ledger.families if id in scales - shown and len(scheme.ledger[id].values) == 1]
+    return [id for id in scheme.ledger.families if id in scales - filled_plans and len(scheme.ledger[id].values) == 1]
 
 
 def _stated(scheme: MarkingScheme, submission: Submission, scales: Sequence[str]) -> dict[str, float]:

@@ -122,7 +122,7 @@ class Working:
         """
         ledger, index = self.scheme.ledger, row.at(position)
         accepted = [
-            float(self.values[other][index].real) for other in self.scheme.alike[row.id] if other in self.values
+            float(self.values[equal][index].real) for equal in self.scheme.alike[row.id] if equal in self.values
         ]
         if row.role is Role.scale and row.id in self.scheme.makers:
             size, length = self.scheme.makers[row.id]
@@ -131,7 +131,9 @@ class Working:
         accepted += self._by_length_scale(row, index)
         accepted += [self.by_another_way(row, way, index) for way in self.scheme.misconceptions.ways.get(row.id, ())]
         return [
-            one for one in accepted if np.isfinite(one) and not self._is_right(row, ledger[row.id].values[index], one)
+            value
+            for value in accepted
+            if np.isfinite(value) and not self._is_right(row, ledger[row.id].values[index], value)
         ]
 
     def by_another_way(self, row: KeyRow, definition: Expression, index: int) -> float:
@@ -239,10 +241,10 @@ def lay_out(
             if first is not None:
                 tried.insert(0, float(scheme.ledger[first].values[0] / values[first][0]))
             plan_of_place = [id for id in plan if id != first]
-            factor[place], shown = drawn_at(scheme, values, plan_of_place, tried, own)
+            factor[place], drawn_there = drawn_at(scheme, values, plan_of_place, tried, own)
             if any(np.isfinite(values[id][own]).any() for id in plan):
                 # A scale at which nothing was drawn must not widen the tolerances.
-                drawn[scale][place] = factor[place] if shown else min(factor[place], 1.0)
+                drawn[scale][place] = factor[place] if drawn_there else min(factor[place], 1.0)
             elif 1 / FURTHEST <= factor[place] <= FURTHEST:
                 drawn[scale][place] = factor[place]
         scales[scale] = factor * usual

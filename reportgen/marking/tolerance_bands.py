@@ -194,9 +194,9 @@ def _or_nothing(values: np.ndarray) -> np.ndarray:
 def _carried_through(ledger: Ledger, errors: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
     """Return the half widths (SI) [N] of every printed quantity, from the own errors of some quantities."""
     rows = {id: row for row, id in enumerate(errors)}
-    shown = [id for id, family in ledger.families.items() if not (family.hidden or family.is_plane)]
+    visible = [id for id, family in ledger.families.items() if not (family.hidden or family.is_plane)]
     if not rows:
-        return {id: np.zeros(len(ledger[id].values)) for id in shown}
+        return {id: np.zeros(len(ledger[id].values)) for id in visible}
 
     def moved(id: str) -> object:
         def move(value: np.ndarray, _: Mapping[str, np.ndarray]) -> np.ndarray:
@@ -208,7 +208,7 @@ def _carried_through(ledger: Ledger, errors: Mapping[str, np.ndarray]) -> dict[s
 
     values = ledger.evaluate({id: moved(id) for id in errors})
     bands: dict[str, np.ndarray] = {}
-    for id in shown:
+    for id in visible:
         family = ledger[id]
         change = np.atleast_2d(values[id] - family.values)
         if family.how.unit == "°":

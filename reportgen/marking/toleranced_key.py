@@ -106,8 +106,10 @@ def key_of(case: Case) -> Key:
 
     parts, families = list(KeyChapter), ledger.families.values()
     # No rows for points, optional quantities and the sizes of signed rotations.
-    shown = (one.id for one in families if not (one.hidden or one.is_plane or one.optional or one.id in ledger.signed))
-    rows = sorted([row(id) for id in shown], key=lambda row: parts.index(row.part))
+    visible = (
+        one.id for one in families if not (one.hidden or one.is_plane or one.optional or one.id in ledger.signed)
+    )
+    rows = sorted([row(id) for id in visible], key=lambda row: parts.index(row.part))
     student = assignment.report.student
     fields = {"name": student.name, "id": student.id, "class": student.class_}
     return Key(
@@ -249,17 +251,23 @@ class Ask:
         """
         if self.file is None:
             return
-        left = {index: one for index, one in enumerate(self.patterns) if one.removeprefix(NOT) not in headed_chapters()}
+        left = {
+            index: pattern
+            for index, pattern in enumerate(self.patterns)
+            if pattern.removeprefix(NOT) not in headed_chapters()
+        }
         known: dict[str, None] = dict.fromkeys(headed_chapters())
         tried = False
         for key in keys if left else ():
             tried = True
             known |= dict.fromkeys(row.id for row in key.asked)
-            left = {index: one for index, one in left.items() if not any(_fits(one, row) for row in key.asked)}
+            left = {
+                index: pattern for index, pattern in left.items() if not any(_fits(pattern, row) for row in key.asked)
+            }
             if not left:
                 return
         findings = [
-            Finding("ask-fits-nothing", ("ask", index), _about(one, list(known))) for index, one in left.items()
+            Finding("ask-fits-nothing", ("ask", index), _about(pattern, list(known))) for index, pattern in left.items()
         ]
         if tried and findings:
             raise as_error(placed(read_source(self.file), findings), language)

@@ -82,16 +82,16 @@ def _divisions(
             own = marking.key.find(row.id)
             if own is not None and own.role is Role.given and own.single:
                 value = float(own.values[0])
-                shown = write(float(f"{value:.6g}"), None, language)
-                of_student[marking.key.id] = (value, f"{shown} {own.unit}".strip())
+                printed = write(float(f"{value:.6g}"), None, language)
+                of_student[marking.key.id] = (value, f"{printed} {own.unit}".strip())
         yield row.symbol, _sorted(of_student)
 
 
 def _sorted(of_student: Mapping[str, tuple[float, str]]) -> Mapping[str, list[str]]:
     """Return the students of each value, the smallest value first."""
     members: dict[str, list[str]] = {}
-    for id, (_, shown) in sorted(of_student.items(), key=lambda item: item[1]):
-        members.setdefault(shown, []).append(id)
+    for id, (_, value) in sorted(of_student.items(), key=lambda item: item[1]):
+        members.setdefault(value, []).append(id)
     return members
 
 

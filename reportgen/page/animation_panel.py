@@ -161,7 +161,7 @@ class PanelWriter:
             words=self.words,
             animation=animation,
             own=self.own,
-            save=partial(save_buttons, told=self.words["save_figure"]),
+            save=partial(save_buttons, label=self.words["save_figure"]),
             speeds=[(speed, write(speed, None, self.language)) for speed in SPEEDS],
             shown_layer=LAYERS[0],
             machine=self.pane(machine),
@@ -229,13 +229,13 @@ class PanelWriter:
         errors = self.animation.errors
         if self.animation.instants:
             return str(self.words["instants"])
-        shown = {
+        printed = {
             "count": len(self.animation.knots) - 1,
             "place": rounded_up(errors.place, self.language),
             "crank": rounded_up(100 * errors.place / errors.crank, self.language),
             "share": rounded_up(100 * errors.share, self.language),
         }
-        return str(self.words["accuracy"].format(**shown))
+        return str(self.words["accuracy"].format(**printed))
 
     # --- drawings
 
@@ -355,8 +355,8 @@ def _timed(run: TimedRun) -> Mapping[str, Any]:
     """A run as the script plays it: what it is called, and its samples."""
     samples = {"time": run.time, "angle": run.angle, "speed": run.speed, "drive": run.drive}
     steps = {name: _step(float(np.max(np.abs(values), initial=0.0))) for name, values in samples.items()}
-    shown = {name: [float(f"{settled(float(one), steps[name]):.6g}") for one in samples[name]] for name in samples}
-    return {"key": run.key, **shown}
+    rounded = {name: [float(f"{settled(float(one), steps[name]):.6g}") for one in samples[name]] for name in samples}
+    return {"key": run.key, **rounded}
 
 
 def rounded_up(value: float, language: Language, figures: int = 2) -> str:

@@ -90,8 +90,8 @@ class Resident:
         """Return the runs of samples that differ from those of the current machine: whole tracks, adjacent ones
         joined.
         """
-        other = np.logical_or.reduceat(values.view("<u4") != self.values.view("<u4"), self.starts[:-1])
-        edges = np.flatnonzero(np.diff(np.concatenate(([False], other, [False]))))
+        changed = np.logical_or.reduceat(values.view("<u4") != self.values.view("<u4"), self.starts[:-1])
+        edges = np.flatnonzero(np.diff(np.concatenate(([False], changed, [False]))))
         return [slice(int(first), int(end)) for first, end in self.starts[edges].reshape(-1, 2)]
 
     def _by_place(self, pane: Pane, bodies: list[str]) -> Iterator[tuple[int, str]]:

@@ -207,9 +207,9 @@ class EditSession(LiveSession):
         source = Source(str(self.path), faults=(text,)) if isinstance(text, Fault) else read_text(text, str(self.path))
         given = catalogue.with_taken(source, self.path, self.whole)
         problems, pages = catalogue.problems_of(given, self.path, language), self._pages(source)
-        shown = given, tuple(problems), language, undo, redo, tuple(pages.items())
+        inputs = given, tuple(problems), language, undo, redo, tuple(pages.items())
         # The page that has made a change asks again when it hears of that.
-        if self._form[0] == shown:
+        if self._form[0] == inputs:
             return self._form[1]
         kind = at(source.top, ("kind",))
         known = isinstance(kind, Scalar) and kind.text in kinds()
@@ -236,7 +236,7 @@ class EditSession(LiveSession):
             whole=self.whole and self.whole.name,
             kind_titles=titles(language),
         )
-        self._form = shown, written, self._form[2] + 1
+        self._form = inputs, written, self._form[2] + 1
         return written
 
     def owners(self) -> Mapping[str, Any]:

@@ -209,8 +209,8 @@ def _school(path: Path, opens: Opener) -> Path | None:
     return None
 
 
-def _follow(states: Callable[[], object], session: LiveSession, stop: threading.Event, shown: object) -> None:
-    """Renew the live session whenever the states of its files are not as they were `shown`.
+def _follow(states: Callable[[], object], session: LiveSession, stop: threading.Event, known: object) -> None:
+    """Renew the live session whenever the states of its files are not as they were `known`.
 
     Their paths are asked again and again: what watches files holds on to a folder that was renamed, does not follow
     links and hears nothing of changes that another computer makes.
@@ -219,9 +219,9 @@ def _follow(states: Callable[[], object], session: LiveSession, stop: threading.
         # What the form itself has written need not be waited for.
         own = session.touched.wait(LOOKING)
         session.touched.clear()
-        if states() != shown:
+        if states() != known:
             stop.wait(0 if own else QUIET / 1000)
-            shown = states()
+            known = states()
             with _ONE_AT_A_TIME:
                 session.renew()
 

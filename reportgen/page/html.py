@@ -290,8 +290,8 @@ class Blocks:
         return anchor(section.key) if section.key else self._places[id(section)]
 
     def titled(self, number: str, title: tree.Inlines) -> str:
-        shown = f'<span class="n">{escape(number)}</span> ' if number else ""
-        return shown + self.inlines(title)
+        number_text = f'<span class="n">{escape(number)}</span> ' if number else ""
+        return number_text + self.inlines(title)
 
     def run_in(self, section: tree.Section) -> str:
         return f'<strong id="{self.place(section)}">{self.titled(section.number, section.title)}</strong> '
@@ -309,12 +309,12 @@ class Blocks:
             while depth < section.level:
                 lines.append("<ol>" if depth == section.level - 1 else "<ol><li>")
                 depth += 1
-            shown = self.titled(section.number, section.title)
-            lines.append(f'<li><a href="#{self.place(section)}">{shown}</a>')
+            heading = self.titled(section.number, section.title)
+            lines.append(f'<li><a href="#{self.place(section)}">{heading}</a>')
         lines.append("</li></ol>" * depth)
-        shown = escape(title)
+        heading = escape(title)
         return (
-            f'<nav class="contents" id="contents" aria-label="{shown}"><details open><summary>{shown}</summary>'
+            f'<nav class="contents" id="contents" aria-label="{heading}"><details open><summary>{heading}</summary>'
             f"{''.join(lines)}</details></nav>"
         )
 
@@ -334,22 +334,22 @@ class Blocks:
 
     def inlines(self, inlines: tree.Inlines) -> str:
         """Return inlines in a row; a mark stays with its formula, where a browser would separate them."""
-        shown: list[str] = []
+        texts: list[str] = []
         behind_formula = False
         for inline in inlines:
             text = inline.text if isinstance(inline, tree.Text) else ""
             if behind_formula and (marks := CLOSING.match(text)):
-                pieces, stroke, last = shown.pop().rpartition(BREAK)
-                shown.append(f'{pieces}{stroke}<span class="nb">{last}{escape(marks[0])}</span>')
+                pieces, stroke, last = texts.pop().rpartition(BREAK)
+                texts.append(f'{pieces}{stroke}<span class="nb">{last}{escape(marks[0])}</span>')
                 inline = tree.Text(text[marks.end() :])
             behind_formula = isinstance(inline, tree.InlineMath)
-            if behind_formula and shown and shown[-1].endswith("("):
+            if behind_formula and texts and texts[-1].endswith("("):
                 first, stroke, pieces = self.inline(inline).partition(BREAK)
-                shown[-1] = shown[-1].removesuffix("(")
-                shown.append(f'<span class="nb">({first}</span>{stroke}{pieces}')
+                texts[-1] = texts[-1].removesuffix("(")
+                texts.append(f'<span class="nb">({first}</span>{stroke}{pieces}')
             else:
-                shown.append(self.inline(inline))
-        return "".join(shown)
+                texts.append(self.inline(inline))
+        return "".join(texts)
 
     def inline(self, inline: tree.Inline) -> str:
         match inline:
@@ -416,13 +416,13 @@ class Blocks:
 
     def table(self, table: tree.Table) -> str:
         caption = self.caption(self.words.table, table)
-        shown = f"<caption><span>{caption}</span></caption>" if caption else ""
+        caption_text = f"<caption><span>{caption}</span></caption>" if caption else ""
         aligns = [ALIGNS[column.align] for column in table.columns]
         head = "".join(f"<tr>{''.join(self.cells(row, aligns, 'th'))}</tr>" for row in table.head)
         rows = "\n".join(f"<tr>{''.join(self.cells(row, aligns, 'td'))}</tr>" for row in table.rows)
         look = "ruled framed" if table.framed else "ruled"
         body = f"{f'<thead>{head}</thead>' if head else ''}<tbody>{rows}</tbody>"
-        return f'<div class="scroll tabled"{_id(table.key)}><table class="{look}">{shown}{body}</table></div>'
+        return f'<div class="scroll tabled"{_id(table.key)}><table class="{look}">{caption_text}{body}</table></div>'
 
     def cells(self, row: Sequence[tree.Cell], aligns: Sequence[str], name: str) -> Iterator[str]:
         column = 0
@@ -439,18 +439,18 @@ class Blocks:
 
     def named(self, inlines: tree.Inlines) -> str:
         """Inlines that say in letters, too, what they are if they are a formula alone: a cell needs a name."""
-        shown = self.inlines(inlines)
+        text = self.inlines(inlines)
         if any(not isinstance(inline, tree.InlineMath) for inline in inlines):
-            return shown
-        return shown.replace("<math>", f'<math aria-label="{escape(tree.plain(inlines, self.language))}">', 1)
+            return text
+        return text.replace("<math>", f'<math aria-label="{escape(tree.plain(inlines, self.language))}">', 1)
 
     # --- figures ------------------------------------------------------------------------------------
 
     def figure(self, block: tree.Figure | tree.Plate, drawings: str, name: str = "") -> str:
         caption = self.again(block) if isinstance(block, tree.Plate) and block.continues else None
         caption = self.caption(self.words.figure, block) if caption is None else caption
-        shown = f"<figcaption>{caption}</figcaption>" if caption else ""
-        return f'<figure{_id(block.key)}{_class(name)}><div class="scroll">{drawings}</div>{shown}</figure>'
+        caption_text = f"<figcaption>{caption}</figcaption>" if caption else ""
+        return f'<figure{_id(block.key)}{_class(name)}><div class="scroll">{drawings}</div>{caption_text}</figure>'
 
     def scene(self, scene: Scene, block: tree.Figure | tree.Plate) -> str:
         name = figure_text(block, scene, self.words, self.language)
@@ -472,12 +472,12 @@ class Blocks:
         return f"<b>{escape(self.words.figure)} {escape(block.number)}</b>{where}"
 
 
-def save_buttons(file: str, told: str) -> str:
+def save_buttons(file: str, label: str) -> str:
     """Return buttons that save the preceding drawing to a file of this name; the style sheet has their labels."""
     buttons = "".join(
         f'<button type="button" data-save="{kind}" aria-label="{kind.upper()}"></button>' for kind in ("svg", "png")
     )
-    return f'<p class="save" role="group" aria-label="{escape(told)}" data-name="{escape(safe(file))}">{buttons}</p>'
+    return f'<p class="save" role="group" aria-label="{escape(label)}" data-name="{escape(safe(file))}">{buttons}</p>'
 
 
 _DOTS = '<span class="dots"></span>'

@@ -216,8 +216,8 @@ class Samples:
         report, motion = self.report, self._one_turn
         linkage, scale = self.machine.linkage, self.scale
         look = looks(report, scale)
-        shown = self._sample(self.case.assignment.worked_positions[0]) % (self.knots.size - 1)
-        items = linkage_items(linkage, motion, shown, scale, look)
+        sample = self._sample(self.case.assignment.worked_positions[0]) % (self.knots.size - 1)
+        items = linkage_items(linkage, motion, sample, scale, look)
         low, high = self.chosen("box", lambda: self._room(motion, scale, extent(items)))
         names = self.machine.paths or tuple(n for n in motion.points if n not in linkage.ground)
         items = ([] if self.machine.instants else path_items(linkage, motion, names, scale)) + items
@@ -233,7 +233,7 @@ class Samples:
             items += hooks.with_forces(report, self.analysis, scale, per, self.knots.size)
         layers = (*FORCES, *(layer for hooks in self._topics for layer in hooks.force_layers))
         scales += [BarScale(per, "force", layers)] if forces else []
-        shown_by_topics = [hooks.shown(report, motion, scale, ARROW, self.chosen) for hooks in self._topics]
+        items_of_topics = [hooks.with_bars(report, motion, scale, ARROW, self.chosen) for hooks in self._topics]
         spots = tuple(
             Spot(
                 name,
@@ -248,10 +248,10 @@ class Samples:
         return Pane(
             "machine",
             report.words["page"]["machine"],
-            items=(*items, *(item for of_topic, _ in shown_by_topics for item in of_topic)),
+            items=(*items, *(item for of_topic, _ in items_of_topics for item in of_topic)),
             low=low,
             high=high,
-            scales=(*scales, *(bar for _, bars in shown_by_topics for bar in bars)),
+            scales=(*scales, *(bar for _, bars in items_of_topics for bar in bars)),
             spots=spots,
         )
 
@@ -411,8 +411,8 @@ class Samples:
             ends = lever.tracks[start], lever.tracks[f"{name} end"]
             balance = name == "Rcb"
             items.append(MovingVector(*ends, style.REACTION if balance else style.ACTIVE, name=name))
-            shown = vocabulary.vector(self.report.balance_symbol()) if balance else self._force_symbol(name)
-            items.append(MovingName(shown, ends[1], ends[:1], 0.6))
+            symbol = vocabulary.vector(self.report.balance_symbol()) if balance else self._force_symbol(name)
+            items.append(MovingName(symbol, ends[1], ends[:1], 0.6))
         return panes.plan("lever", title, items, lever)
 
     # --- curves and numbers
@@ -425,8 +425,8 @@ class Samples:
         if not report.has_forces:
             return
         torque = torque_chart(report, half=True)
-        shown = report.balance_symbol()
-        yield Chart(torque, (Curve(shown, Track(self.analysis.torque)),))
+        balance_symbol = report.balance_symbol()
+        yield Chart(torque, (Curve(balance_symbol, Track(self.analysis.torque)),))
         if gases := self.analysis.gas:
             unit = KINDS["pressure"].scale
             pressures = [(Symbol("p", str(gas.piston.link)), gas.pressure / unit) for gas in gases.values()]

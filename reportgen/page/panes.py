@@ -19,10 +19,10 @@ def plan(key: str, title: str, items: list[MovingItem], plan_fitted: Fitted) -> 
 
 def value(symbol: Symbol, kind: str, values: np.ndarray) -> MomentValue:
     how = KINDS[kind]
-    shown = values / how.scale
-    greatest = float(np.nanmax(np.abs(shown), initial=0.0))
+    converted = values / how.scale
+    greatest = float(np.nanmax(np.abs(converted), initial=0.0))
     decimals = min(max(significant_decimals(greatest, DIGITS), 0), MOST_DECIMALS)
-    return MomentValue(symbol, how.unit, Track(shown), decimals)
+    return MomentValue(symbol, how.unit, Track(converted), decimals)
 
 
 def scalar(symbol: Symbol) -> Symbol:

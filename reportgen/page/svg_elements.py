@@ -217,7 +217,7 @@ class Painter:
 
     def text(self, content: Content) -> str:
         """Return a label as the content of a text element."""
-        shown, drop = [], 0.0
+        spans, drop = [], 0.0
         for run in Runs(self.language).content(content):
             # A shift counts in the font size of the run that it moves.
             shift = (run.drop - drop) / run.size
@@ -226,9 +226,9 @@ class Painter:
             names = ("i " if run.italic else "") + ("x" if run.size < 1 else "")
             attributes += f' class="{names.strip()}"' if names else ""
             text = escape(run.text)
-            shown.append(f"<tspan{attributes}>{text}</tspan>" if attributes else text)
+            spans.append(f"<tspan{attributes}>{text}</tspan>" if attributes else text)
             drop = run.drop
-        return "".join(shown)
+        return "".join(spans)
 
 
 class Runs(formula_setter.Setter[tuple[Run, ...]]):

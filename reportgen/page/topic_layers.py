@@ -24,7 +24,7 @@ def _no_items(report: ReportContext, analysis: Analysis, scale: float, per: floa
     yield from ()
 
 
-def _nothing_shown(
+def _no_items_with_bars(
     report: ReportContext, motion: Motion, scale: float, longest: float, chosen: Chosen
 ) -> tuple[Sequence[MovingItem], Sequence[BarScale]]:
     return (), ()
@@ -51,7 +51,7 @@ class LayerHooks:
     """Items, curves, runs and numbers of a topic on the page.
 
     `with_forces` gives items at the samples of an analysis, `scale` mm a metre and `per` newtons a millimetre, of which
-    the first `turn` samples are one turn; `shown` gives items over one turn with bars of their own scale.
+    the first `turn` samples are one turn; `with_bars` gives items over one turn with bars of their own scale.
     """
 
     layers: tuple[str, ...] = ()
@@ -59,9 +59,9 @@ class LayerHooks:
     force_layers: tuple[str, ...] = ()
     """Layers whose arrows have the scale of the forces."""
     with_forces: Callable[[ReportContext, Analysis, float, float, int], Iterator[MovingItem]] = _no_items
-    shown: Callable[[ReportContext, Motion, float, float, Chosen], tuple[Sequence[MovingItem], Sequence[BarScale]]] = (
-        _nothing_shown
-    )
+    with_bars: Callable[
+        [ReportContext, Motion, float, float, Chosen], tuple[Sequence[MovingItem], Sequence[BarScale]]
+    ] = _no_items_with_bars
     room: Callable[[ReportContext, Motion, float, Box], Box] = _no_more_room
     """Gives the corners of a drawing that holds the items, too."""
     runs: Callable[[ReportContext], Sequence[TimedRun]] = _no_runs

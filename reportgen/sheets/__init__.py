@@ -180,10 +180,10 @@ def _chosen(plates: Plates, form: TitleBlock, wanted: str, least: str) -> tuple[
 
 def _sheet(case: Case, form: TitleBlock, paper: str, number: int, laid_out: Sequence[Laid]) -> DrawingSheet:
     """One of the sheets with its frame and its title block."""
-    shown, parts = laid_out[number - 1]
+    kind, parts = laid_out[number - 1]
     fields = fields_of(case, form, number) | {
         # A set of several works is called by its title itself.
-        "title": case.words["plates"]["sets"].get(shown, shown),
+        "title": case.words["plates"]["sets"].get(kind, kind),
         "sheet": str(number),
         "sheets": str(len(laid_out)),
         "format": paper,

@@ -80,14 +80,14 @@ def grids(report: ReportContext, listed: Sequence[Listed], cycle: bool = False) 
     """Quantities at the positions of one turn or of the cycle, as many tables as they need."""
     at = report.all_positions if cycle else report.positions
     tabulated = dict.fromkeys(id for columns in listed for id in columns(report))
-    shown = [id for id in tabulated if not all(report.is_zero(id, k) for k in at)]
+    listed_ids = [id for id in tabulated if not all(report.is_zero(id, k) for k in at)]
     parts = -(-len(at) // MOST_ROWS)
     rows = [at[len(at) * n // parts : len(at) * (n + 1) // parts] for n in range(parts)]
-    head, every = _quantities(report, shown, at)
+    head, every = _quantities(report, listed_ids, at)
     first, *across = widths([*head, *every])
     columns: list[list[str]] = []
     right = math.inf
-    for id, width in zip(shown, across, strict=True):
+    for id, width in zip(listed_ids, across, strict=True):
         right += ENLARGED * width
         if right > WIDEST:
             columns.append([])

@@ -143,23 +143,23 @@ def _motion_plans(sources: Sources, what: What, name: str) -> Iterator[Drawn]:
     if report.parts("velocity-plates"):
         series, mirrored = MotionFigures(what).series(report), positions_mirrored(report, what)
         share = 1.0 if sources.every else series.fitted()[0]
-        told: tuple[Content, ...] = ()
+        notes: tuple[Content, ...] = ()
         if sources.every:
             series = replace(series, positions=one_turn(report))
         elif mirrored.at:
             pairs = ", ".join(f"{label(at)} ({label(of)})" for at, of in zip(mirrored.at, mirrored.of, strict=True))
-            told = (str(sources.words["mirrored"]).format(pairs=pairs),)
-        yield _drawn_series(sources, series, share, Drawn(f"{name}-plates", name, (), told, name))
+            notes = (str(sources.words["mirrored"]).format(pairs=pairs),)
+        yield _drawn_series(sources, series, share, Drawn(f"{name}-plates", name, (), notes, name))
 
 
 def _drawn_series(sources: Sources, series: PlanSeries, usual: float, of: Drawn, share: float = 0.0) -> Drawn:
     """Plans of one scale, a `usual` share as large as the worked ones or up to as large; they say the report's, too."""
     share = share or usual
     after = min((one for one in SHARES if one > share), default=None)
-    (symbol, shown), (_, in_report) = series.note(share).parts, series.note(usual).parts
-    assert isinstance(shown, Number)
+    (symbol, number), (_, in_report) = series.note(share).parts, series.note(usual).parts
+    assert isinstance(number, Number)
     assert isinstance(in_report, Number)
-    larger = on_sheet(sources.report.case, 1).told(symbol, shown, in_report)
+    larger = on_sheet(sources.report.case, 1).told(symbol, number, in_report)
     return replace(
         of,
         scenes=tuple(replace(series, report=sources.small).scenes(share)),

@@ -25,16 +25,16 @@ def displayed(value: float, number_format: str) -> str:
     if not is_code or None in [text for text, _ in tokens] or not value.is_integer() or not 0 <= value < LARGEST:
         return ""
     digits = number_text(value)
-    shown: list[str] = []
+    pieces: list[str] = []
     for text, is_digit in reversed(tokens):
         if not is_digit:
-            shown.append(text or "")
+            pieces.append(text or "")
             continue
         places -= 1
         # The first place takes all the digits that are left.
         own, digits = (digits, "") if not places else (digits[-1:], digits[:-1])
-        shown.append(own or {"0": "0", "?": " "}.get(text or "", ""))
-    return "".join(reversed(shown)).strip()
+        pieces.append(own or {"0": "0", "?": " "}.get(text or "", ""))
+    return "".join(reversed(pieces)).strip()
 
 
 def _first_section(number_format: str) -> str:

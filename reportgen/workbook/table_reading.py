@@ -90,8 +90,10 @@ def _judged(package: Package) -> tuple[bytes, list[int], bool]:
     beside = posixpath.join(folder, "_rels", f"{name}.rels")
     relations = package.relations(beside)
     places = {
-        id: one.target.lstrip("/") if one.target.startswith("/") else posixpath.normpath(f"{folder}/{one.target}")
-        for id, one in relations.items()
+        id: relation.target.lstrip("/")
+        if relation.target.startswith("/")
+        else posixpath.normpath(f"{folder}/{relation.target}")
+        for id, relation in relations.items()
     }
     listed = [attributes.get("id", "") for tag, attributes in package.elements(workbook) if tag == "sheet"]
     if len(listed) > MOST_SHEETS:
@@ -102,7 +104,9 @@ def _judged(package: Package) -> tuple[bytes, list[int], bool]:
     sheets = [places[id] for id in listed if relations[id].kind == "worksheet"]
     if not sheets:
         raise package.refused("sheet-no-zip")
-    tables = {one.kind: places[id] for id, one in relations.items() if one.kind in ("styles", "sharedStrings")}
+    tables = {
+        relation.kind: places[id] for id, relation in relations.items() if relation.kind in ("styles", "sharedStrings")
+    }
     others = [CONTENT_TYPES, workbook, beside, *(place for place in tables.values() if place in package)]
     for sheet in set(sheets):
         package.without_empty_cells(sheet)
@@ -335,8 +339,8 @@ def _csv_rows(text: str, file: str) -> Iterator[tuple[SheetCell, ...]]:
         content = unquoted if quoted is None else quoted.replace('""', '"') + behind
         if len(content) > LONGEST_CELL:
             raise too_long(location)
-        shown = unguarded(unicodedata.normalize("NFC", content))
-        row.append(SheetCell(shown, location, "text") if shown.strip() else SheetCell(None, location, "empty"))
+        clean = unguarded(unicodedata.normalize("NFC", content))
+        row.append(SheetCell(clean, location, "text") if clean.strip() else SheetCell(None, location, "empty"))
         for inner in _LINE_END.finditer(text, at, match.end()):
             line, start = line + 1, inner.end()
         at = match.end()

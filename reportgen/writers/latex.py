@@ -342,8 +342,8 @@ class _Writer:
         """Return the rows of a figure with the caption below, on as many pages as they need."""
         if figure.turned:
             drawing = paint_latex(figure.scenes[0], self.formulas)
-            shown = _command("turned", drawing, self.caption(self.document.words.figure, figure))
-            return f"\\begin{{turnedscene}}\n{shown}\n\\end{{turnedscene}}"
+            rotated = _command("turned", drawing, self.caption(self.document.words.figure, figure))
+            return f"\\begin{{turnedscene}}\n{rotated}\n\\end{{turnedscene}}"
         word = self.document.words.figure
         first, *others = layout.in_parts(figure)
         place = "herescenes" if figure.here else "scenes"

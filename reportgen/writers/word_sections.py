@@ -19,7 +19,7 @@ class Bookmark:
     """The target of a reference: a bookmark, and the switch that shows something other than the marked text."""
 
     bookmark: str
-    shown: str = ""
+    switch: str = ""
 
 
 def paged(blocks: Sequence[tree.Block], usual: PageSetup) -> Iterator[tuple[tuple[PageSetup, int], tree.Block]]:
