@@ -1,7 +1,7 @@
 """The tree of a finished document: blocks, and the inlines inside them.
 
-Everything that makes or writes a document uses these types.  The package knows blocks and words, but no machine and no
-case.  Texts are plain strings exactly as they appear in print; writers escape them.  Lengths are in millimetres.  A
+Everything that makes or writes a document uses these types. The package knows blocks and words, but no machine and no
+case. Texts are plain strings exactly as they appear in print; writers escape them. Lengths are in millimetres. A
 block's `key` is unique in the document and other blocks refer to it; `document.numbering` fills in its `number`, so
 that all writers print the same numbers.
 
@@ -41,7 +41,7 @@ from reportgen.formula.plain_text import formula, quantity
 class Section:
     """A heading; level 1 is a part of the report, 4 is a run-in heading.
 
-    `numbered=False` is for foreword, conclusion and the like: listed in the contents, not counted.  One that begins a
+    `numbered=False` is for foreword, conclusion and the like: listed in the contents, not counted. One that begins a
     section of the templates has its name in `opens`, which is not printed.
     """
 
@@ -72,7 +72,7 @@ class List:
 class Equation:
     """One or more displayed lines; each row is one expression.
 
-    With a `key` the group is numbered, once, on its last row.  A row too wide for the text block is
+    With a `key` the group is numbered, once, on its last row. A row too wide for the text block is
     broken by the writers before an "=" of its chain, aligned after the first.
     """
 
@@ -103,8 +103,8 @@ class Cell:
 class Table:
     """Ruled table; where it continues on the next page, its number and its `head` rows repeat.
 
-    A cell spans columns only; one across the whole table heads the rows below it.  A `framed` table has a frame
-    around its head and rows, as a boxed answer has.  If it runs over pages, the last page has at least `last` rows.
+    A cell spans columns only; one across the whole table heads the rows below it. A `framed` table has a frame
+    around its head and rows, as a boxed answer has. If it runs over pages, the last page has at least `last` rows.
     """
 
     columns: tuple[Column, ...]
@@ -121,8 +121,8 @@ class Table:
 class Figure:
     """One scene, or several side by side in rows as they fit, with one caption, in true size.
 
-    If the page has no room for it, the text continues to the end of the page before it.  A figure `turned` by 90°
-    has a page for itself.  `at` is the label of the position that it shows, if it shows one.  A figure marked `here`
+    If the page has no room for it, the text continues to the end of the page before it. A figure `turned` by 90°
+    has a page for itself. `at` is the label of the position that it shows, if it shows one. A figure marked `here`
     keeps its place between tables that run over pages.
     """
 
@@ -143,7 +143,7 @@ class Plate:
 
     Plates are collected at the end of their chapter.
 
-    With `continues` it is a further page of the figure before it, whose number it shares.  `at` is the label of the
+    With `continues` it is a further page of the figure before it, whose number it shares. `at` is the label of the
     position that it shows, if it shows one; `rest` is as that of a figure.
     """
 

@@ -1,7 +1,7 @@
 """Text alternatives for figures, for readers who do not see the drawing.
 
 The PDF, the page and the Word file use the same text: number and caption, then the facts that the drawing states about
-itself, at most `MOST` characters.  If this leaves something out, the text names the table that has the rest.
+itself, at most `MOST` characters. If this leaves something out, the text names the table that has the rest.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Punctuation of languages that write no spaces between words, such as Chinese.
 
-Code writes blanks, commas and parentheses between inlines as in English.  In a line with letters of such a language,
+Code writes blanks, commas and parentheses between inlines as in English. In a line with letters of such a language,
 this module adapts them for all writers: punctuation becomes full-width, and spaces beside it or beside such letters go.
 Only a formula or a value keeps a space beside a letter, because typesetters leave a gap between two scripts; between
 plain letters they add it themselves.

@@ -1,7 +1,7 @@
 """Parse Markdown with tokens for values into blocks of the tree.
 
 The vocabulary is small on purpose: headings to level 4, paragraphs, emphasis, strong, line breaks, lists and page
-breaks (`---`).  A function makes each other kind of block.
+breaks (`---`). A function makes each other kind of block.
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 
 Parts (level 1) count 1, 2, …; sections below them 1.1 and 1.1.1; equations, tables and figures count by part, each
 kind
-separately.  In a part without a number they count 1, 2, … through the whole document.  These never equal the number of
+separately. In a part without a number they count 1, 2, … through the whole document. These never equal the number of
 a
 counted part, which has two members.
 """
@@ -30,7 +30,7 @@ def number(document: tree.Document) -> tree.Document:
     """The document with every number and reference filled in.
 
     An equation's number is "1.2", a reference to it "(1.2)"; a reference to a section without a number
-    is its title.  Raises `DocumentError` with all duplicate keys, references to nothing, equations with
+    is its title. Raises `DocumentError` with all duplicate keys, references to nothing, equations with
     a key that nothing refers to, and headings that skip a level.
     """
     count = _Count()

@@ -1,6 +1,6 @@
 """Proof sheet of a language: its texts beside those of the reference language, numbered for a proofreader's remarks.
 
-Every section is printed with all its conditions and, where possible, with the data of one machine.  A value that this
+Every section is printed with all its conditions and, where possible, with the data of one machine. A value that this
 machine does not have is printed as the template names it.
 """
 

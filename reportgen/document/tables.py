@@ -48,7 +48,7 @@ def side_by_side(
 ) -> tuple[Table, ...]:
     """Columns beside one of titles, each with its `heads` on top; several tables where there are too many.
 
-    Each table has at most so many columns, and keeps so many `together`; the key names the first.  The columns of one
+    Each table has at most so many columns, and keeps so many `together`; the key names the first. The columns of one
     table alone may have `widths` (mm) of their own.
     """
     count = max(-(-len(columns) // most), 1)

@@ -1,7 +1,7 @@
 """The template language: names, members, calls, conditions, loops and included sections; nothing else.
 
-A template is checked when it is read: syntax outside this language is a fault with its line.  The rest works only on
-the values of a template (`values.py`), and loops and texts have size limits.  Functions of this module replace Jinja's
+A template is checked when it is read: syntax outside this language is a fault with its line. The rest works only on
+the values of a template (`values.py`), and loops and texts have size limits. Functions of this module replace Jinja's
 default operations: join texts, iterate over lists, look up a section.
 """
 
@@ -189,7 +189,7 @@ class _Rewriting(NodeTransformer):
 
 
 def short(text: str) -> str:
-    """The text, if it is no longer than a text may be.  Raises `TooMuchError`."""
+    """The text, if it is no longer than a text may be. Raises `TooMuchError`."""
     if len(text) > LONGEST:
         raise TooMuchError
     return text
@@ -254,7 +254,7 @@ def _part(of: tuple[Any, ...]) -> Any:
 
 
 def _whole(value: Any) -> Any:
-    """The value, if no piece of the template is in it, which has marks.  Raises `ValueError`."""
+    """The value, if no piece of the template is in it, which has marks. Raises `ValueError`."""
     if isinstance(value, str) and SECRET in value:
         raise ValueError("a piece of the template is neither cut nor compared")
     return value
@@ -327,7 +327,7 @@ FILTERS: Mapping[str, Callable[..., Any]] = {
 
 
 def numbers(*ends: int) -> tuple[int, ...]:
-    """The whole numbers of a range.  Raises `TooMuchError` for too many."""
+    """The whole numbers of a range. Raises `TooMuchError` for too many."""
     numbers = range(*map(int, ends))
     if len(numbers) > MOST_ITEMS:
         raise TooMuchError

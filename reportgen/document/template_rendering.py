@@ -1,9 +1,9 @@
 """Render templates, plain Markdown with Jinja names, as blocks of the tree.
 
-The text of a template's author and the values inserted into it never mix.  Static text is enclosed in marks that also
-carry its file and line; whatever `{{ … }}` emits goes to a side list and leaves a token behind.  Both survive macros,
+The text of a template's author and the values inserted into it never mix. Static text is enclosed in marks that also
+carry its file and line; whatever `{{ … }}` emits goes to a side list and leaves a token behind. Both survive macros,
 `{% set %}` blocks, `~` and filters: a string made from them still says which part came from where, and all the rest is
-a user's text.  The marks contain a number that each process draws at random, so that no text can imitate them; it never
+a user's text. The marks contain a number that each process draws at random, so that no text can imitate them; it never
 reaches the result.
 """
 
@@ -105,7 +105,7 @@ class Prose:
     """Renders the sections found in `places`; one object serves a whole report.
 
     Every section may call `ref(key, …)`, `key(name)` and `unnumbered()` (at the end of a heading),
-    `blank(label)`, and `inlines(words)` for what a macro or a `{% set %}` block made.  Raises `TemplateError`
+    `blank(label)`, and `inlines(words)` for what a macro or a `{% set %}` block made. Raises `TemplateError`
     for a section of a school that would never be read.
     """
 
@@ -118,7 +118,7 @@ class Prose:
         """The blocks of the section `name` ("foreword") with `names` filled in.
 
         Strings appear as they are, expressions as formulas, numbers with their unit, inlines and blocks
-        as themselves, sequences item by item.  Raises `TemplateError` (`file:line: message`) on any fault.
+        as themselves, sequences item by item. Raises `TemplateError` (`file:line: message`) on any fault.
         """
         outer, steps = held.set(self.values), self.values.steps
         self.values.steps = 0

@@ -1,7 +1,7 @@
 """The values that a template can use: texts, numbers, tuples of these, and tokens for everything else.
 
-A token is a number that also says whether the object behind it counts as true.  The object itself stays in the
-`Values` of the report, which give out only its registered members, its entries and the results of functions.  So a
+A token is a number that also says whether the object behind it counts as true. The object itself stays in the
+`Values` of the report, which give out only its registered members, its entries and the results of functions. So a
 template never holds a reference into the program.
 """
 
@@ -95,7 +95,7 @@ class Values:
         return self._token(value, Token)
 
     def own(self, value: Any) -> Any:
-        """Return the program's value behind a template's value.  Raises `UndefinedError` for an undefined name."""
+        """Return the program's value behind a template's value. Raises `UndefinedError` for an undefined name."""
         if isinstance(value, Token):
             return self._held[value.number]
         if isinstance(value, tuple):
@@ -103,7 +103,7 @@ class Values:
         return str(value) if isinstance(value, Undefined) else value
 
     def member(self, of: Token, name: Any) -> Any:
-        """Return a shown member, or an entry, of a token's value.  Raises `LookupError`."""
+        """Return a shown member, or an entry, of a token's value. Raises `LookupError`."""
         return self.plain(template_access.member(self.own(of), self.own(name)))
 
     def members(self, of: Token) -> Iterable[Any]:
@@ -112,7 +112,7 @@ class Values:
         return held if isinstance(held, Mapping) else template_access.members(type(held)) - {"__str__"}
 
     def items(self, of: Any) -> tuple[Any, ...]:
-        """Return the items that a loop iterates over: those of a list, or the keys of a mapping.  Raises
+        """Return the items that a loop iterates over: those of a list, or the keys of a mapping. Raises
         `TypeError`.
         """
         held = self.own(of) if isinstance(of, Token) else of
@@ -123,11 +123,11 @@ class Values:
         return held
 
     def text(self, value: Any) -> str:
-        """Return a value as text.  Raises `TypeError` for a value that has no text."""
+        """Return a value as text. Raises `TypeError` for a value that has no text."""
         return template_access.text(self.own(value))
 
     def call(self, called: Any, arguments: Iterable[Any], named: Mapping[str, Any]) -> Any:
-        """Call a function.  Raises `SecurityError` if it is not a function, `TypeError` for wrong arguments."""
+        """Call a function. Raises `SecurityError` if it is not a function, `TypeError` for wrong arguments."""
         if not isinstance(called, FunctionToken):
             self.own(called)
             raise SecurityError("not a function")

@@ -1,7 +1,7 @@
 """Check that a language translates everything in the reference language: files, sections and short words.
 
 Sections are compared by what does not depend on a language: the names that they call and show, the figures and sections
-that they refer to, their formulas, the levels of their headings.  Words are compared by their keys and gaps.  Each
+that they refer to, their formulas, the levels of their headings. Words are compared by their keys and gaps. Each
 difference is a fault with its file and line.
 """
 
@@ -56,7 +56,7 @@ MissingLetters = Callable[[str], str]
 def faults(folder: Path, lacking: MissingLetters | None = None) -> Iterator[Fault]:
     """Yield the differences of a language's folder from the language of reference.
 
-    Files of kinds and of topics that are not begun are no fault; one that is begun is compared whole.  Raises
+    Files of kinds and of topics that are not begun are no fault; one that is begun is compared whole. Raises
     `TemplateError` for files that cannot be read.
     """
     letters = frozenset((*read_setting(folder / LANGUAGE_FILE).mobility.letters, *MobilityNotation().letters))
@@ -146,7 +146,7 @@ class SectionContents:
 
     @staticmethod
     def of(section: Passage) -> SectionContents:
-        """The contents of a section.  Raises `TemplateError` for what Jinja cannot read."""
+        """The contents of a section. Raises `TemplateError` for what Jinja cannot read."""
         tree = parsed(section)
         text = "".join(data.data for data in tree.find_all(nodes.TemplateData))
         calls: set[str] = set()
@@ -174,7 +174,7 @@ class SectionContents:
 
 
 def parsed(section: Passage) -> nodes.Template:
-    """A section as Jinja reads it.  Raises `TemplateError` with its line for what it cannot."""
+    """A section as Jinja reads it. Raises `TemplateError` with its line for what it cannot."""
     from jinja2 import TemplateSyntaxError
 
     try:
@@ -236,12 +236,12 @@ def _sound(source: Source, above: int) -> Source:
 
 
 def read_table(file: Path) -> Mapping[str, Any]:
-    """A file of words.  Raises `TemplateError` for what is none."""
+    """A file of words. Raises `TemplateError` for what is none."""
     return _plain(_read(file))
 
 
 def read_words_in(section: Passage) -> Mapping[str, Any]:
-    """The words that a section holds.  Raises `TemplateError` for what are none."""
+    """The words that a section holds. Raises `TemplateError` for what are none."""
     return _plain(_read_in(section))
 
 

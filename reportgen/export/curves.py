@@ -1,4 +1,4 @@
-"""Plot quantities of several files as curves over the way of the driver or over time, beside measured values."""
+"""Plot quantities of several files as curves over the driver's travel or over time, beside measured values."""
 
 from __future__ import annotations
 
@@ -27,13 +27,16 @@ Over = Literal["phi", "time"]
 POINTS = 360
 """Number of points per turn."""
 AXES: Mapping[str, Over] = {"phi": "phi", "φ": "phi", "t": "time"}
-"""Head of a table's first column, and the abscissa that it means."""
+"""Abscissas by the heading of a table's first column."""
 _HEAD = re.compile(r"\s*(.+?)\s*(?:\(([^()]*(?:\([^()]*\)[^()]*)*)\))?\s*")
 """Head of a column: an id, and its unit in parentheses."""
 
 
 def dense(assignment: Assignment, count: int = POINTS) -> Assignment:
-    """An assignment with so many positions a turn, those of its parts too, as far as they count theirs."""
+    """Return an assignment with `count` positions per turn, also in its parts.
+
+    A kind whose positions are not counted per turn is returned unchanged.
+    """
     from reportgen import catalogue
 
     def counted(assignment: Assignment) -> Assignment:
@@ -45,7 +48,10 @@ def dense(assignment: Assignment, count: int = POINTS) -> Assignment:
 
 @dataclass(frozen=True, slots=True)
 class Measured:
-    """A column of a table of measured values: of which quantity, over which angle (rad) or time (s), in SI units."""
+    """A column of a table of measured values of one quantity.
+
+    The `values` (SI) [N] belong to `x` [N]: an angle (rad) or a time (s).
+    """
 
     id: str
     over: Over
@@ -55,7 +61,7 @@ class Measured:
 
 
 def check_turning(cases: Sequence[Case]) -> None:
-    """Raise `NotOfferedError` for a case whose driver, once asked for single instants, does not go all its way."""
+    """Raise `NotOfferedError` for a case that was opened for single instants and cannot go through its cycle."""
     for case in cases:
         if any(one.fault() for one in case.parts.values() or [case]):
             raise NotOfferedError(word("no_turn", cases[0].assignment.language, text=case.assignment.id))
@@ -64,9 +70,9 @@ def check_turning(cases: Sequence[Case]) -> None:
 def diagrams(
     cases: Sequence[Case], of: Sequence[str], over: Over = "phi", measured: Sequence[Measured] = ()
 ) -> dict[str, Diagram]:
-    """A diagram for each unit of the quantities, by the ids that it shows; several cases give several curves each.
+    """Return a diagram for each unit of the quantities, by the ids that it shows, with a curve for each case.
 
-    Raises `UnknownNameError`, `NotOfferedError` for a quantity that is no curve.
+    Raise `UnknownNameError`, or `NotOfferedError` for a quantity that is not a curve.
     """
     by_unit: dict[tuple[str, bool], list[str]] = {}
     for id in dict.fromkeys(quantity(cases[0], one).id for one in of):
@@ -94,8 +100,9 @@ def _diagram(cases: Sequence[Case], ids: Sequence[str], over: Over, measured: Se
 
 
 def curve(source: Found, over: Over, note: str, language: Language) -> PlottedCurve:
-    """Return a quantity over the driver's way (degrees, or mm) or over time (s), for the whole cycle; `note` is
-    appended.
+    """Return a quantity over the driver's travel (degrees, or mm) or over time (s), for the whole cycle.
+
+    A `note` follows the symbol of the quantity.
     """
     motion, values = source.over(language), source.values / source.family.how.scale
     gone = motion.gone
@@ -111,14 +118,17 @@ def _told(symbol: Symbol, name: str) -> Content:
 
 
 def axis_across(motion: DriverMotion, over: Over) -> Chain:
-    """The axis of the driver's way or of time."""
+    """Return the label of the axis of the driver's travel or of time."""
     if over == "time":
         return Chain((Symbol("t"),), "s")
     return Chain((Symbol("s" if motion.slides else "φ"),), motion.called)
 
 
 def axis_up(source: Found, ids: Sequence[str]) -> Content:
-    """The axis of the quantities: the symbol of one, the unit, and in which sense they are positive, if in one."""
+    """Return the label of the axis of the quantities.
+
+    It has the symbol of a single quantity, the unit, and the positive direction if all have the same one.
+    """
     unit, motion = source.family.how.unit, source.case.driver_motion
     ways = {motion.signed[id][1] if motion and id in motion.signed else None for id in ids}
     note, words = unit, source.case.words
@@ -132,7 +142,7 @@ def axis_up(source: Found, ids: Sequence[str]) -> Content:
 
 
 def _across(series: Measured, over: Over, motion: DriverMotion, language: Language) -> np.ndarray:
-    """Measured places on the axis: degrees or seconds."""
+    """Return the abscissas of measured values [N]: degrees or seconds."""
     x = series.x
     if series.over != over:
         speed = _speed(motion, language)
@@ -141,17 +151,17 @@ def _across(series: Measured, over: Over, motion: DriverMotion, language: Langua
 
 
 def _speed(motion: DriverMotion, language: Language) -> float:
-    """The driver's speed; raises `NotOfferedError` where none is given."""
+    """Return the driver's speed (rad/s or m/s); raise `NotOfferedError` if the file gives none."""
     if motion.speed is None:
         raise NotOfferedError(word("no_speed", language))
     return motion.speed
 
 
 def read_measured(path: Path, case: Case, of: Sequence[str]) -> list[Measured]:
-    """The columns of a table (CSV, XLSX) that a plot shows, each headed by an id and its unit, v.E (m/s).
+    """Return the columns of a table (CSV, XLSX) that a plot shows; headings are an id and its unit, v.E (m/s).
 
-    The first column is phi (deg) from position 1, or t (s).  Raises `AssignmentError` for what cannot be read, and for
-    a table without a column that is plotted.
+    The first column is phi (deg) from position 1, or t (s). Raise `AssignmentError` for a file that cannot be read and
+    for a table without a plotted column.
     """
     page = read(path, case.assignment.language)[0]
     head, *rows = page.rows or ((),)
@@ -184,7 +194,7 @@ def _name_and_unit(cell: SheetCell) -> tuple[str, str]:
 def _column(
     head: SheetCell, rows: Sequence[Sequence[SheetCell]], place: int, unit: str, faults: list[Fault]
 ) -> np.ndarray:
-    """The numbers of a column in SI units; an empty cell is a gap."""
+    """Return the numbers of a column in SI units [N]; an empty cell gives NaN."""
     factor, given = 1.0, _name_and_unit(head)[1]
     if unit and not given:
         faults.append(Fault("missing-unit", head.location, {"text": head.text, "unit": unit}))

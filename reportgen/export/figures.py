@@ -1,7 +1,7 @@
-"""Export figures of a case as separate files: those of its report, and the animations of its page.
+"""Export the figures of a case as files: those of its report, and the animations of its page.
 
-The name of a report's figure is its key without the mark of a figure: v.4, motion, cam.law.  An animation has the
-name of its drawing: machine, v, R23; that of a part comes after the part's name: cam.cam.
+A figure of the report is named by its key without the prefix of figures: v.4, motion, cam.law. An animation has the
+name of its drawing: machine, v, R23; the name of a part precedes it: cam.cam.
 """
 
 from __future__ import annotations
@@ -27,32 +27,35 @@ from reportgen.drawing.still_frames import sample_at, stills
 FORMATS = names("figures")
 """File formats of figures."""
 MOVING = tuple(row.name for row in rows("figures") if row.moves)
-"""The formats of what moves alone."""
+"""Formats of animations."""
 STILL = tuple(name for name in FORMATS if name not in MOVING)
 SHOWN = LAYERS[:1]
 """Layers drawn on a machine by default, as its page first shows it."""
 FRAMES = 60
 """Number of frames per turn."""
 MOVING_DPI = 110
-"""Dots an inch of what moves."""
+"""Dots per inch of animations."""
 
 
 @dataclass(frozen=True, slots=True)
 class MovingFigure:
-    """A drawing that moves, by its name."""
+    """A named animation: one pane of an animated panel."""
 
     name: str
     animation: Animation
     pane: Pane
 
     def at(self, label: str, layers: Collection[str]) -> Scene:
-        """It at a position, by its label; at the one that the page opens at where there is none."""
+        """Return its drawing at a position, by the label.
+
+        At the position that the page opens with if `label` is unknown.
+        """
         angles = dict(self.animation.positions)
         angle = angles.get(label, self.animation.positions[self.animation.shown][1])
         return next(stills(self.animation, self.pane, [sample_at(self.animation, angle)], layers))
 
     def frames(self, layers: Collection[str]) -> list[Scene]:
-        """It through a turn, or through the cycle if that is longer for what is shown."""
+        """Return its drawings through a turn, or through the cycle if the visible items need it."""
         turns = self.animation.turns if self._goes_on(layers) else 1
         ends = not self.animation.span
         angles = np.linspace(0.0, 360.0 * turns, FRAMES * turns + (not ends), endpoint=not ends)
@@ -61,7 +64,7 @@ class MovingFigure:
         )
 
     def _goes_on(self, layers: Collection[str]) -> bool:
-        """Return True if something is shown that does not repeat from turn to turn."""
+        """Return True if a visible item does not repeat from turn to turn."""
         visible = (item for item in self.pane.items if not item.layer or item.layer in layers)
         return any(
             track.values.size > self.animation.knots.size
@@ -86,7 +89,7 @@ class FigureQuery:
 
 
 def listed(case: Case) -> tuple[tuple[NamedFigure, ...], tuple[MovingFigure, ...]]:
-    """The figures of the report in their order, and what moves."""
+    """Return the figures of the report in their order, and the animations."""
     return named_figures(case.document()), moving(case)
 
 
@@ -100,10 +103,10 @@ def moving(case: Case) -> tuple[MovingFigure, ...]:
 
 
 def figure_files(case: Case, query: FigureQuery) -> Mapping[str, bytes]:
-    """The figures that are wanted, by the names of their files.
+    """Return the requested figures as files, by file name.
 
-    Raises `UnknownNameError` for a figure or a layer that there is not, `NotOfferedError` for a figure in a format that
-    it cannot have, `TypesetterError`.
+    Raise `UnknownNameError` for an unknown figure or layer, `NotOfferedError` for a figure that cannot have the format,
+    and `TypesetterError`.
     """
     language = case.assignment.language
     still = [name for name in query.formats if name in STILL]
@@ -144,7 +147,7 @@ def _described(svg: bytes, text: str) -> bytes:
 
 
 def animated(scenes: Sequence[Scene], language: Language, format: str, dpi: int = 0) -> bytes:
-    """Scenes one after the other in one of the formats that move."""
+    """Return scenes as successive frames of a file in one of the formats of animations."""
     (row,) = chosen("figures", (format,))
     made: bytes = row.load()(scenes, language, dpi or MOVING_DPI)
     return made

@@ -1,4 +1,4 @@
-"""Quantities of a case by their ids: arrays with their metadata, over the way of the driver."""
+"""Quantities of a case by their ids, as arrays with their metadata, over the driver's travel: `quantity`."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _IN_SI = {"°": "rad", "%": "", "cm": "m", "cm²": "m²", "N/cm²": "Pa", "N/(cm
 
 
 def si_unit(kind: str) -> str:
-    """The unit of a kind's values, which are in SI: m for what is printed in mm."""
+    """Return the SI unit of a kind's values: m if it is printed in mm."""
     unit = KINDS[kind].unit
     return unit if KINDS[kind].scale == 1.0 else _IN_SI.get(unit, unit.replace("mm", "m"))
 
@@ -35,7 +35,7 @@ class QuantityArray(np.ndarray):
 
     @classmethod
     def of(cls, values: np.ndarray, family: Family) -> QuantityArray:
-        """Values of a family, which may be others than its own."""
+        """Return values (SI) as an array with the metadata of a family; they need not be the family's own values."""
         made = np.asarray(values).view(cls)
         made.name, made.symbol, made.unit = family.id, family.symbol, si_unit(family.kind)
         return made
@@ -60,7 +60,7 @@ class QuantityArray(np.ndarray):
 
 @dataclass(frozen=True, slots=True)
 class Found:
-    """A quantity of a case or of one of its parts, `over` the way of that one's driver."""
+    """A quantity of a case, or of one of its parts."""
 
     id: str
     case: Case
@@ -71,7 +71,7 @@ class Found:
 
     @property
     def values(self) -> np.ndarray:
-        """Its values; what moves on a line has its sign along it, as in the report's curves."""
+        """Its values (SI) [N]; motion on a line is signed along it, as in the report's curves."""
         over = self.case.driver_motion
         return over.signed[self.id][0] if over is not None and self.id in over.signed else self.family.values
 
@@ -88,9 +88,9 @@ class Found:
 
 
 def quantity(case: Case, id: str) -> Found:
-    """A quantity by its id, or by its symbol in letters, M.cb for M_cb, that of the machine first.
+    """Return a quantity by its id, or by its symbol as text (M.cb for M_cb); the machine precedes its parts.
 
-    Raises `UnknownNameError`.
+    Raise `UnknownNameError`.
     """
     cases = list(case.parts.values()) or [case]
     for part in cases:
@@ -104,7 +104,7 @@ def quantity(case: Case, id: str) -> Found:
 
 
 def visible_ids(case: Case) -> Iterator[str]:
-    """The ids of what is printed at the positions, numbers of the plane left out."""
+    """Yield the ids of quantities that are printed at the positions and are not vectors of the plane."""
     for part in case.parts.values() or [case]:
         over = part.driver_motion
         for id, family in part.ledger.families.items():

@@ -1,10 +1,9 @@
-"""Quantities over a range of parameters: the ledger is evaluated once with one more axis, in front, for the values.
+"""Compute quantities over a range of parameters: the ledger is evaluated once, with a further first axis.
 
 This requires that every number on which a quantity depends is given, has a formula, or is the same for all values.
-Other dependencies, such as the load of a stroke that becomes longer, have no formula in the ledger: then each value
-has
-a separate case, as a separate file would have.  The scales of plans may be any: lengths are laid off and measured
-to the same scale.
+Other dependencies have no formula in the ledger, for example the load of a stroke that becomes longer. Then each value
+has its own case, as its own file would have. The scales of plans do not matter, because lengths are laid off and
+measured at the same scale.
 """
 
 from __future__ import annotations
@@ -32,15 +31,15 @@ PROBED = 5
 
 @dataclass(frozen=True)
 class Study:
-    """Assignments that differ in values of parameters; None where `check` refuses a value."""
+    """Assignments that differ in values of parameters; None for a value that `check` rejects."""
 
     variants: Sequence[Assignment | None]
     opened: Callable[[Assignment], Case]
 
     def values(self, of: Sequence[str]) -> dict[str, QuantityArray]:
-        """The values in SI units [variants, positions] of some quantities, nan where a value is refused.
+        """Return quantities by id as arrays (SI) [variants, positions], with NaN for rejected values.
 
-        Raises `UnknownNameError` for an id that there is not.
+        Raise `UnknownNameError` for an unknown id.
         """
         quantities = [quantity(self._base, id) for id in of]
         together = [source.id for source in quantities if source.case is self._base and self.is_told(source.id)]

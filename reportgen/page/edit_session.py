@@ -1,6 +1,6 @@
-"""Edit a file on its page: the form of the current file, changes put into its text, undo and redo.
+"""Edit a file on its page: the form of the current file, changes to its text, undo and redo.
 
-The file is the only source.  A change is applied by its place to the newest text, whoever wrote it; if that value has
+The file is the only source. A change is applied by its place to the newest text, whoever wrote it. If that value has
 changed meanwhile, nothing is written and both values are reported.
 """
 
@@ -53,7 +53,7 @@ from reportgen.page.live_view import PART, LiveSession, empty_document
 PART_KEYS = "kind", "parameters"
 """Keys with which a new part begins."""
 MOST_STEPS = 500
-"""So many changes can be undone."""
+"""Largest number of changes that can be undone."""
 REST = 0.3
 """Time (s) without change after which a dragged value is at rest."""
 PATIENCE = 10.0
@@ -71,13 +71,14 @@ class Change:
     before: bytes
     after: bytes
     typing: str = ""
-    """The typing that it belongs to: what is sent in its pauses is undone as a whole."""
+    """The typing that it belongs to: changes sent during one typing are undone together."""
 
 
 class RefusedChangeError(Exception):
-    """Request that cannot be carried out; the key of the words for the reason, and their arguments.
+    """A request that cannot be carried out: the key of the words for the reason, and their arguments.
 
-    For an error of the system, the reason is the name of its number if that has words, else the system's message.
+    For an error of the system, the reason is the name of its number if there are words for it, else the system's
+    message.
     """
 
     def __init__(self, key: str, system: OSError | None = None, /, **arguments: str) -> None:
@@ -85,7 +86,7 @@ class RefusedChangeError(Exception):
         self.key, self.arguments, self.system = key, arguments, system
 
     def in_words(self, words: Mapping[str, Any]) -> str:
-        """The refusal in words, those of the form."""
+        """Return the refusal as text, in the words of the form."""
         arguments = dict(self.arguments)
         if self.system is not None:
             said = self.system.strerror or str(self.system)
@@ -168,7 +169,7 @@ class EditSession(LiveSession):
         return None
 
     def _part_files(self, source: Source | None = None) -> list[Path]:
-        """The files of parts that the text names and that may be opened."""
+        """Return the files of parts that the text names and that may be opened."""
         if source is None:
             with self.lock:
                 text = text_in(self.path)
@@ -176,7 +177,7 @@ class EditSession(LiveSession):
         return [file for file in parts.files(source, self.path) if file.is_file()]
 
     def _pages(self, source: Source) -> Mapping[str, tuple[str, str]]:
-        """The address of each part's own page, or of the coursework's, and the name of its file, by its path."""
+        """Return the address of each part's own page, or of the coursework's, and the name of its file, by path."""
         if self.whole is not None:
             return {str(self.whole): ("../../", self.whole.name)}
         if self.of_part is None:
@@ -194,7 +195,7 @@ class EditSession(LiveSession):
     def numbered_form(self) -> Mapping[str, Any]:
         """Return the form with the number of its revision.
 
-        Forms are made one at a time, so that a page can ignore an answer that is older than what it shows.
+        Forms are made one at a time, so that a page can ignore an answer that is older than its own form.
         """
         with self._forming:
             written = self._written_form()
@@ -240,9 +241,9 @@ class EditSession(LiveSession):
         return written
 
     def owners(self) -> Mapping[str, Any]:
-        """Return each value's own bars and points, by the place of its field; and where fixed points are drawn (mm).
+        """Return the bars and points of each value by the place of its field, and the places of fixed points (mm).
 
-        This can wait: the report is written first, and dragging goes before.  The search ends when the machine is no
+        This can wait: the report is written first, and dragging has priority. The search ends when the machine is no
         longer the newest.
         """
         with self.dragging:
@@ -273,7 +274,7 @@ class EditSession(LiveSession):
         return self.closed or self.revision.moving != number
 
     def _resident_machine(self) -> Resident | None:
-        """The machine of the file as it was right last, ready to be sampled; None for a case of another kind."""
+        """Return the machine of the last valid file, ready to be sampled; None for a case of another kind."""
         now = self.revision
         if now.case is not None and self._resident[0] != now.moving:
             self._resident = now.moving, Resident.of(now.case, now.moving)
@@ -333,13 +334,13 @@ class EditSession(LiveSession):
         return written_at(at(read_text(changed).top, where))
 
     def _same(self, text: str, place: Where, was: str, wanted: str) -> None:
-        """Raise if the value at a place is neither the page's value nor the requested one."""
+        """Raise `RefusedChangeError` if the value at a place is neither the page's value nor the requested one."""
         there = written_at(at(read_text(text).top, place))
         if there not in (was, wanted):
             raise RefusedChangeError("meanwhile", there=there, here=wanted)
 
     def _step(self, operation: str) -> None:
-        """Undo the last change, or redo it: the bytes of the file are those before it, or after it."""
+        """Undo or redo the last change: the file gets the bytes from before it, or from after it."""
         steps = self.done if operation == "undo" else self.undone
         if not steps:
             return
@@ -351,10 +352,10 @@ class EditSession(LiveSession):
         (self.undone if operation == "undo" else self.done).append(steps.pop())
 
     def drag(self, asked: Asked) -> Mapping[str, Any] | bytes:
-        """The samples of what moves with another value at a place, as numbers of four bytes; nothing is written.
+        """Return the samples of everything that moves with another value at a place; write nothing.
 
-        No bytes at all for a value with which there is no such machine; no answer of a kind that is none, which moves
-        when the value is let go.
+        The samples are four-byte numbers. Return no bytes if no machine has that value. For a kind that is not a
+        machine the answer is empty, and the page is renewed when the value is released.
         """
         where, self._drawn = _place(asked["where"]), time.monotonic()
         with self.dragging:
@@ -421,7 +422,7 @@ def _place(steps: Any) -> Where:
 
 
 def _changed(text: str, operation: str, where: Where, asked: Asked) -> str:
-    """The text with a change; raises `EditError`, `KeyError` and `ValueError`."""
+    """Return the text with a change; raise `EditError`, `KeyError` or `ValueError`."""
     match operation:
         case "set":
             return with_value(text, where, _value(text, where, str(asked["value"]), bool(asked.get("list"))))
@@ -441,7 +442,7 @@ def _changed(text: str, operation: str, where: Where, asked: Asked) -> str:
 
 
 def _item(asked: Asked) -> Node:
-    """A new item of a list: a part with the data of its kind to begin with, else a table that is still empty."""
+    """Return a new item of a list: a part with the first data of its kind, else an empty table."""
     if "kind" not in asked:
         return MappingNode((), HERE)
     kind = str(asked["kind"])
@@ -454,7 +455,7 @@ def _item(asked: Asked) -> Node:
 
 @cache
 def part_kinds() -> tuple[str, ...]:
-    """The kinds that can be a part of a coursework."""
+    """Return the kinds that can be a part of a coursework."""
     return tuple(kind for kind in kinds() if catalogue.kind(kind).part)
 
 
@@ -479,7 +480,7 @@ def _value(text: str, where: Where, typed: str, as_items: bool) -> Node:
 
 
 def converted(text: str, unit: str) -> str:
-    """A quantity in another unit of the same dimension, with three figures; "" for one of any other."""
+    """Return a quantity in another unit of the same dimension, to three figures; "" if the dimension differs."""
     try:
         return f"{read_quantity(text, unit).si / read_unit(unit, unit):.3g} {unit}"
     except QuantityFault:

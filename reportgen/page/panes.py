@@ -1,4 +1,4 @@
-"""Panes of a panel as they are shown: drawings and charts under their titles, numbers in their units."""
+"""Make the panes of a panel, and the numbers below them in their units."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from reportgen.formula import Symbol
 from reportgen.formula.vocabulary import KINDS
 
 DIGITS, MOST_DECIMALS = 5, 5
-"""Figures of the greatest of its values, decimals at most."""
+"""Number of figures of the largest value, and largest number of decimals."""
 
 
 def plan(key: str, title: str, items: list[MovingItem], plan_fitted: Fitted) -> Pane:
@@ -18,6 +18,7 @@ def plan(key: str, title: str, items: list[MovingItem], plan_fitted: Fitted) -> 
 
 
 def value(symbol: Symbol, kind: str, values: np.ndarray) -> MomentValue:
+    """Return a number of the panel from its values (SI) [N], converted to the printed unit of its kind."""
     how = KINDS[kind]
     converted = values / how.scale
     greatest = float(np.nanmax(np.abs(converted), initial=0.0))
