@@ -55,7 +55,7 @@ class LineBreak:
 
 @dataclass(frozen=True, slots=True)
 class Blank:
-    """A place to fill in, by the `name` of what belongs there and how it is `called` where a name holds less."""
+    """A place to fill in, with the `name` of the value and a shorter name `called` for systems with limited names."""
 
     name: str
     called: str

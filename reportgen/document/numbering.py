@@ -27,11 +27,11 @@ ChangeInlines = Callable[[tree.Inlines], tree.Inlines]
 
 
 def number(document: tree.Document) -> tree.Document:
-    """The document with every number and reference filled in.
+    """Return the document with every number and reference filled in.
 
-    An equation's number is "1.2", a reference to it "(1.2)"; a reference to a section without a number
-    is its title. Raises `DocumentError` with all duplicate keys, references to nothing, equations with
-    a key that nothing refers to, and headings that skip a level.
+    An equation's number is "1.2", a reference to it "(1.2)"; a reference to a section without a number is its title.
+    Raise `DocumentError` with all duplicate keys, references to nothing, equations with a key that nothing refers to,
+    and headings that skip a level.
     """
     count = _Count()
     numbered = tuple(count.block(block) for block in document.blocks)
@@ -51,7 +51,7 @@ def number(document: tree.Document) -> tree.Document:
 
 
 def unreferenced(document: tree.Document) -> tuple[str, ...]:
-    """Keys of the figures, plates and tables that no text refers to, in order."""
+    """Return the keys of the figures, plates and tables that no text refers to, in order."""
     used = set(_references(document.blocks))
     kinds = tree.Table, tree.Figure, tree.Plate
     keys = (block.key for block in _walk(document.blocks) if isinstance(block, kinds))
@@ -160,7 +160,7 @@ def _walk(blocks: tuple[tree.Block, ...]) -> Iterator[tree.Block]:
 
 
 def _each(blocks: Blocks, change: ChangeInlines) -> Blocks:
-    """The blocks with `change` applied to every line of text in them."""
+    """Return the blocks with `change` applied to every line of text in them."""
     return tuple(_changed(block, change) for block in blocks)
 
 
@@ -184,7 +184,7 @@ def _changed(block: tree.Block, change: ChangeInlines) -> tree.Block:
 
 
 def _filled(inlines: tree.Inlines, labels: dict[str, str]) -> tree.Inlines:
-    """Inlines with the text of every reference."""
+    """Return inlines with the text of every reference filled in from `labels`."""
     return tuple(
         replace(inline, text=labels[inline.key])
         if isinstance(inline, tree.Reference)
@@ -196,7 +196,7 @@ def _filled(inlines: tree.Inlines, labels: dict[str, str]) -> tree.Inlines:
 
 
 def _references(blocks: tuple[tree.Block, ...]) -> list[str]:
-    """Keys referred to, in order."""
+    """Return the keys referred to, in order."""
     keys: list[str] = []
 
     def note(inlines: tree.Inlines) -> tree.Inlines:

@@ -189,7 +189,7 @@ class _Rewriting(NodeTransformer):
 
 
 def short(text: str) -> str:
-    """The text, if it is no longer than a text may be. Raises `TooMuchError`."""
+    """Return the text; raise `TooMuchError` if it is longer than a text may be."""
     if len(text) > LONGEST:
         raise TooMuchError
     return text
@@ -212,7 +212,7 @@ def _bounded(number: int) -> int:
 
 
 def _sum(of: tuple[Any, Any]) -> Any:
-    """`a + b` of two numbers, two texts, or two lists."""
+    """Return `a + b` of two numbers, two texts, or two lists."""
     match tuple(map(_number, of)):
         case int(a), int(b):
             return _bounded(a + b)
@@ -246,7 +246,7 @@ def _items(of: Any) -> tuple[Any, ...]:
 
 
 def _part(of: tuple[Any, ...]) -> Any:
-    """`a[b:c]` of a text or a list."""
+    """Return `a[b:c]` of a text or a list."""
     value, *ends = of
     if not isinstance(value, (str, tuple)):
         raise TypeError(f"a {_type(value)} has no parts")
@@ -254,7 +254,7 @@ def _part(of: tuple[Any, ...]) -> Any:
 
 
 def _whole(value: Any) -> Any:
-    """The value, if no piece of the template is in it, which has marks. Raises `ValueError`."""
+    """Return the value; raise `ValueError` if it contains a piece of the template, which has marks."""
     if isinstance(value, str) and SECRET in value:
         raise ValueError("a piece of the template is neither cut nor compared")
     return value
@@ -265,12 +265,12 @@ def _type(value: Any) -> str:
 
 
 def _section(name: Any) -> str:
-    """The name of a section that is included."""
+    """Return the name of an included section as text; raise like `Values.text`."""
     return held.get().text(name)
 
 
 def _place(loop: Any) -> Any:
-    """The place in a loop: whether it is the first or the last item, and its number."""
+    """Return the place in a loop as plain values: first, last, index, index0, length."""
     if not isinstance(loop, LoopContext):
         return loop
     return held.get().plain({name: getattr(loop, name) for name in ("first", "last", "index", "index0", "length")})
@@ -327,7 +327,7 @@ FILTERS: Mapping[str, Callable[..., Any]] = {
 
 
 def numbers(*ends: int) -> tuple[int, ...]:
-    """The whole numbers of a range. Raises `TooMuchError` for too many."""
+    """Return the whole numbers of a range; raise `TooMuchError` for too many."""
     numbers = range(*map(int, ends))
     if len(numbers) > MOST_ITEMS:
         raise TooMuchError

@@ -1,4 +1,4 @@
-"""Display text of numbers that are codes in a spreadsheet: 125040 in the number format `00000000` is 00125040."""
+"""Display text of numbers that are codes in a spreadsheet: 125040 in the format `00000000` is 00125040."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from reportgen.workbook.zip_package import number_text
 
 LARGEST = 1e15
-"""From here on a spreadsheet does not keep every digit."""
+"""Number from which a spreadsheet does not keep every digit."""
 _TOKEN = re.compile(r'"([^"]*)"|\\(.)|_(.)|\*.|\[[^\]]*\]|([0#?])|([-+(): $!^&\'~{}<>=])|(.)', re.DOTALL)
 
 
@@ -38,8 +38,9 @@ def displayed(value: float, number_format: str) -> str:
 
 
 def _first_section(number_format: str) -> str:
-    """Return the part of a format for numbers that are not negative, up to the first semicolon outside
-    quotation marks.
+    """Return the part of a format for numbers that are not negative.
+
+    It ends at the first semicolon outside quotation marks.
     """
     match = re.match(r'(?:"[^"]*"|\\.|[^;"])*', number_format)
     return match[0] if match else ""

@@ -52,13 +52,13 @@ GENERAL = "General"
 _ESCAPE = re.compile(r"_x([0-9A-Fa-f]{4})_")
 
 CellRow = tuple[Any, ...]
-"""The cells of a row as openpyxl gives them."""
+"""The cells of a row as openpyxl returns them."""
 Marks = Callable[[int, int], CellLocation]
-"""Gives the mark of a cell of one sheet by its row and column."""
+"""Returns the location of a cell of one sheet by its row and column."""
 
 
 def read_xlsx(data: bytes, file: str) -> tuple[Page, ...]:
-    """Return the sheets of a workbook in their order; raises `RefusedError`."""
+    """Return the sheets of a workbook in their order; raise `RefusedError` for a file that is refused."""
     copy, counts, formulas = _judged(Package(data, file))
     with warnings.catch_warnings(), redirect_stdout(io.StringIO()):
         # openpyxl warns of, and even prints, the parts that it ignores: looks and rules, but never the value of a cell.
@@ -77,10 +77,9 @@ def read_xlsx(data: bytes, file: str) -> tuple[Page, ...]:
 
 
 def _judged(package: Package) -> tuple[bytes, list[int], bool]:
-    """Return a copy with the parts that openpyxl is to read; the number of cells of each sheet; whether any is a
-    formula.
+    """Return a copy with the parts that openpyxl reads, the number of cells of each sheet, and True for any formula.
 
-    Raises `RefusedError` where a sheet cannot be found or a part has too much in it.
+    Raise `RefusedError` if a sheet cannot be found or a part is too large.
     """
     root = next((r.target for r in package.relations("_rels/.rels").values() if r.kind == "officeDocument"), "")
     workbook = root.lstrip("/")
@@ -217,7 +216,7 @@ def _cell(typed: Any, stored: Any, location: CellLocation) -> SheetCell:
 
 
 def _format(cell: Any) -> str:
-    """Return the number format of a cell; that of any number where the workbook names one that it does not have."""
+    """Return the number format of a cell, or `GENERAL` if the workbook names a format that it does not have."""
     try:
         return str(cell.number_format or GENERAL)
     except (IndexError, KeyError):
@@ -248,8 +247,9 @@ def _value(value: object, type: str, location: CellLocation) -> tuple[str | floa
 
 
 def _date(value: object) -> str:
-    """Return a day as 2011-03-24, a moment as 2011-03-24T08:30:00, a time of day as 08:30:00, hours passed as
-    36:00:00.
+    """Return a day as 2011-03-24, a moment as 2011-03-24T08:30:00, a time of day as 08:30:00.
+
+    A duration is written in hours: 36:00:00.
     """
     match value:
         case datetime.datetime() if value.time() == datetime.time():
@@ -265,7 +265,7 @@ def _date(value: object) -> str:
 
 
 LARGEST = 10_000_000
-"""Bytes of a file."""
+"""Largest size of a file in bytes."""
 BOOKS = frozenset({".xlsx", ".xlsm", ".xltx", ".xltm", ".xls", ".xlsb", ".ods"})
 _BINARY = (b"PK\x03\x04", b"\xd0\xcf\x11\xe0")
 
