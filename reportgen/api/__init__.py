@@ -190,7 +190,7 @@ def made_of(
     return provenance.made_of(assignment, engine, spoken, templates_hash(), version(), **more)
 
 
-# --- products: what a batch makes of an assignment file -----------------------------------------------
+# --- products that a batch makes of an assignment file ------------------------------------------------
 
 
 Maker = Callable[..., Mapping[str, bytes]]

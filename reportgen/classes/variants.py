@@ -325,7 +325,7 @@ def _effort_of(file: StudentFile) -> Effort | None:
 
 
 def effort(assignment: Assignment) -> Effort:
-    """Return the figures of an assignment, from what is derived at each of its positions."""
+    """Return the figures of an assignment, from the values derived at its positions."""
     case = opened(assignment)
     balance = case.balance
     derived = [

@@ -96,7 +96,7 @@ class ProofReader:
         """
         try:
             value = self.environment.compile_expression(expression, undefined_to_none=False)(**self.names)
-            # What is referred to stands in no proof sheet.
+            # A proof sheet has no targets of references.
             printed = inlines(value)
             return tuple(Text(f"@{one.key}") if isinstance(one, Reference) else one for one in printed)
         except Exception:

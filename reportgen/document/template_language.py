@@ -185,7 +185,7 @@ class _Rewriting(NodeTransformer):
         return self._by("place", node) if node.name == "loop" and node.ctx == "load" else node
 
 
-# --- what is done with values -----------------------------------------------------------------------
+# --- operations on values ---------------------------------------------------------------------------
 
 
 def short(text: str) -> str:

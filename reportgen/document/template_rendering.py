@@ -105,7 +105,7 @@ class Prose:
     """Renders the sections found in `places`; one object serves a whole report.
 
     Every section may call `ref(key, …)`, `key(name)` and `unnumbered()` (at the end of a heading),
-    `blank(label)`, and `inlines(words)` for what a macro or a `{% set %}` block made. Raises `TemplateError`
+    `blank(label)`, and `inlines(words)` for the result of a macro or a `{% set %}` block. Raises `TemplateError`
     for a section of a school that would never be read.
     """
 
@@ -244,13 +244,13 @@ def _told(error: Exception, places: tuple[Path, ...]) -> str:
             return error.message or type(error).__name__
         case SecurityError() | UnknownSignError():
             return word("template_unsafe", _language(places))
-        case RecursionError() | SyntaxError():  # Python sets in one another no more than so much either
+        case RecursionError() | SyntaxError():  # Python has a similar limit of nesting
             return word("template_depth", _language(places))
         case TooMuchError():
             return _too_much(places)
         case MemoryError() | LimitError():
             return word("template_limits", _language(places), **asdict(TEMPLATES))
-    # What else an error holds may be a value of the program.
+    # Any other argument of an error may be a value of the program.
     reason = str(error) if all(type(one) in PLAIN for one in error.args) else ""
     return f"{type(error).__name__}: {reason[:LONGEST_TOLD]}"
 
@@ -276,7 +276,7 @@ def _excerpt(fragment: str) -> Rendered:
         _values.reset(outer)
 
 
-# --- what a template may emit ---------------------------------------------------------------------
+# --- values that a template may emit --------------------------------------------------------------
 
 
 @pass_context  # keeps Jinja from folding constants, which would fill the side list while compiling
@@ -378,7 +378,7 @@ GLOBALS: Mapping[str, Callable[..., Any]] = {
 
 _WHITE = {ord(letter): " " for letter in "\n\t"}
 _MATH = re.compile(r"\$([^\W\d_][\w.]*)\$")
-# Letters of Chinese end a key: no blank stands behind it there.
+# A Chinese letter ends a key, because Chinese has no blank after it.
 _REFERENCE = re.compile(r"@((?:eq|fig|tab)(?:\.[^\W\u2e80-\U0010ffff]+)+)")
 
 

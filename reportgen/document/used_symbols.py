@@ -29,7 +29,7 @@ LEAST_WORD = 4
 def used_symbols(blocks: Iterable[Block]) -> frozenset[Symbol]:
     """Return the symbols of texts, equations, tables and figures; a vector counts as the symbol of its magnitude."""
     rest = list(_expressions(blocks))
-    # Most symbols are met many times as one object: these are told apart without a look inside.
+    # Most symbols occur many times as one object, so comparing identities is faster than comparing contents.
     symbols: dict[int, Symbol] = {}
     while rest:
         node = rest.pop()

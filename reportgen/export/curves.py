@@ -138,7 +138,7 @@ def axis_up(source: Found, ids: Sequence[str]) -> Content:
     return Chain((source.family.symbol,), note) if len(ids) == 1 else note
 
 
-# --- what was measured ------------------------------------------------------------------------------
+# --- measured values --------------------------------------------------------------------------------
 
 
 def _across(series: Measured, over: Over, motion: DriverMotion, language: Language) -> np.ndarray:

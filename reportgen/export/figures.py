@@ -111,7 +111,7 @@ def figure_files(case: Case, query: FigureQuery) -> Mapping[str, bytes]:
     language = case.assignment.language
     still = [name for name in query.formats if name in STILL]
     moved = [name for name in query.formats if name in MOVING]
-    # Opening what moves takes as long as all else.
+    # Opening the animations takes as long as everything else.
     movable = cache(partial(moving, case))
     if query.layers != SHOWN:
         _check_layers(query, movable(), language)
@@ -190,9 +190,9 @@ def _wanted(case: Case, query: FigureQuery, movable: Sequence[MovingFigure]) -> 
         raise NotOfferedError(word("nothing_moves", language))
     for name in query.names or by_name:
         if name not in by_name:
-            stands = any(name in (one.name, one.kind) for one in named_figures(case.document()))
+            in_report = any(name in (one.name, one.kind) for one in named_figures(case.document()))
             known = list(by_name)
-            if stands:
+            if in_report:
                 raise NotOfferedError(word("figure_stands", language, text=name, known=", ".join(known)))
             raise UnknownNameError(unknown("no_figure", name, known, language))
         yield by_name[name]

@@ -80,7 +80,7 @@ def without_cells(submission: Submission, places: Container[Place]) -> Submissio
 
 
 def charged_for_scales(working: Working, cells: Cells) -> dict[Place, Marked]:
-    """Return the first value of each plan that goes on with a wrong scale, if the scale itself earns no marks.
+    """Return the first value of each plan that is drawn at a wrong scale, if the scale itself earns no marks.
 
     A slip in the scale is one mistake: it costs one mark, in the first value that it spoils.
     """

@@ -141,7 +141,7 @@ def task_of(case: Case, key: Key, by_section: bool = False, self_check: bool = T
     if isinstance(case, CaseOfParts):
         pages = zip(case.parts.values(), key.pages, strict=True)
         return case.joined_task([task_of(part, page, by_section, self_check) for part, (_, page) in pages])
-    assert isinstance(case, LoadedAssignment), "what has no parts is a work by itself"
+    assert isinstance(case, LoadedAssignment), "a case without parts is a single work"
     return case.bounded(partial(_task, key=key, by_section=by_section, self_check=self_check))
 
 
@@ -172,7 +172,7 @@ def given_of(case: Case, key: Key) -> Document:
 
 
 def _bare(case: Case, key: Key) -> Document:
-    assert isinstance(case, LoadedAssignment), "what has no parts is a work by itself"
+    assert isinstance(case, LoadedAssignment), "a case without parts is a single work"
     return case.bounded(partial(_given, key=key))
 
 

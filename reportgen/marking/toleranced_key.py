@@ -181,9 +181,9 @@ NOT = "-"
 
 DEFAULT = (
     "*",
-    # How it was drawn: lengths and angles on paper, scales, arms.
+    # Results of drawing: lengths and angles on paper, scales, arms.
     *("-drawn.*", "-seg.*", "-mu.*", "-h.*", "-ic.*"),
-    # Second ways to the same result.
+    # Second methods for the same result.
     *("-formulas", "-l.*K[0-9]*", "-e.Pqt*", "-M.*.p", "-T.*", "-J.I", "-J.0", "-J.rest", "-psi.*"),
     *("-run.Mc*", "-run.slip*", "-run.step", "-run.mean*"),
     # Values read from a force plan in addition to the size of a reaction.

@@ -128,7 +128,7 @@ class EditSession(LiveSession):
         self.maker.close()
         super().close()
 
-    # --- what is served
+    # --- requests of the page
 
     def made(self, name: str) -> bytes | None:
         file = self.maker.files.get(name)
@@ -209,7 +209,7 @@ class EditSession(LiveSession):
         given = catalogue.with_taken(source, self.path, self.whole)
         problems, pages = catalogue.problems_of(given, self.path, language), self._pages(source)
         inputs = given, tuple(problems), language, undo, redo, tuple(pages.items())
-        # The page that has made a change asks again when it hears of that.
+        # The page that made a change requests the form again when it receives the news.
         if self._form[0] == inputs:
             return self._form[1]
         kind = at(source.top, ("kind",))
@@ -283,7 +283,7 @@ class EditSession(LiveSession):
     def _spoken(self) -> tuple[Language, Mapping[str, Any]]:
         return self.revision.language, self.revision.words
 
-    # --- what is asked
+    # --- changes and drags
 
     def edit(self, asked: Asked) -> Mapping[str, Any]:
         """Make a change and return the form as it then is, with `written`, the value that is now at its place.
@@ -320,7 +320,7 @@ class EditSession(LiveSession):
             changed = _changed(text, operation, where, asked)
         except EditError as error:
             raise RefusedChangeError(error.key, **error.arguments) from error
-        # Only a text of that many characters can hold more than a file may: of another no form could be made.
+        # Only a long text can exceed the limits of a file, for which no form could be made.
         if len(changed) > MOST_TOKENS and read_text(changed).faults:
             raise RefusedChangeError("too_large")
         if changed != text:
@@ -412,7 +412,7 @@ class EditSession(LiveSession):
             raise RefusedChangeError("unwritten", error) from error
 
 
-# --- what is meant ------------------------------------------------------------------------------------
+# --- operations on the text -----------------------------------------------------------------------------
 
 
 def _place(steps: Any) -> Where:

@@ -135,7 +135,7 @@ def _with_parts(path: Path, opens: Opener, language: Language | None, products: 
     with ExitStack() as followed:
 
         def of_part(file: Path) -> EditSession:
-            # It is told in the language of the coursework, which its file need not say.
+            # The part's file need not say its language, so faults are reported in that of the coursework.
             spoken = language or language_of(read_source(path))
             part = EditSession(
                 partial(opens, file, spoken, path), spoken, path=file, products=products(file), whole=path

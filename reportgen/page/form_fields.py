@@ -282,7 +282,7 @@ class Form:
                 made.append(FieldGroup(where, called, entries=entries, file=file.text, of_list=True))
             elif isinstance(kind, Scalar) and kind.text in kinds():
                 given = parts.taking(Source("", top=item), self.top, index, catalogue.kind).top
-                assert isinstance(given, MappingNode), "what is taken is put into the table"
+                assert isinstance(given, MappingNode), "entries that are taken from the machine are put into the table"
                 inner = Form(catalogue.kind(kind.text), self.language, given, item)
                 data = (group for group in inner.groups if group.where[:1] == ("parameters",))
                 entries = (

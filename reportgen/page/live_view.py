@@ -135,7 +135,7 @@ class LiveSession:
                 if self.closed or self._to_write is None:
                     return
                 wanted = self._to_write
-                # The moving part goes to the page first.
+                # The animation is sent to the page first.
                 if self.changed.wait_for(partial(self._overtaken, wanted), AHEAD):
                     continue
                 self._to_write = None
@@ -168,7 +168,7 @@ class LiveSession:
             return str(error)
         return unexpected(error, self.language or self.revision.language)
 
-    # --- what is served
+    # --- requests of the page
 
     def made(self, name: str) -> bytes | None:
         """Return the content of a file that was made on the page, by its name; None for any other name."""

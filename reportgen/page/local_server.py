@@ -113,7 +113,7 @@ class _Request(BaseHTTPRequestHandler):
 
     def handle_one_request(self) -> None:
         self._incoming.begin()
-        # Nobody is told: what takes too long ends, as what is closed does.
+        # A request that takes too long ends silently, like a connection that was closed.
         with suppress(ConnectionError):
             super().handle_one_request()
 

@@ -163,7 +163,7 @@ class Samples:
     @cached_property
     def corners(self) -> dict[str, np.ndarray]:
         """The corners of all plans (mm) at the samples [N], and their scales (SI per mm), by id."""
-        # Each plan is drawn as large as its panel holds it.
+        # Each plan is drawn as large as fits its panel.
         sheet, _ = enter_plans(self.analysis, scaled=False)
         drawn = ids.plan_point, ids.force_corner, ids.force_scale, ids.centre
         scales = [ids.scale("v"), ids.scale("a")]
@@ -179,13 +179,13 @@ class Samples:
         layers = {item.layer for item in panes[0].items}
         of_topics = (layer for hooks in self._topics for layer in hooks.layers)
         places = self.knots[:-1] if machine.instants else machine.cycle_angles
-        stands = machine.angles(machine.cycle_angles) if machine.instants else np.empty(0)
+        instants = machine.angles(machine.cycle_angles) if machine.instants else np.empty(0)
         return Animation(
             knots=np.degrees(self.knots),
             turns=1 if machine.instants else machine.turns,
             span=machine.span * MM,
             positions=tuple((str(machine.position(k + 1)), float(angle)) for k, angle in enumerate(np.degrees(places))),
-            instants=tuple(map(float, stands * MM if machine.span else np.degrees(stands))),
+            instants=tuple(map(float, instants * MM if machine.span else np.degrees(instants))),
             shown=self.case.assignment.worked_positions[0] - 1,
             panes=panes,
             charts=() if machine.instants else tuple(self.charts()),

@@ -164,7 +164,7 @@ class Painter:
                 yield from head(triangle, stroke)
             case Polyline(points, outline, closed, fill):
                 if points:
-                    # A filled shape covers what is drawn before it, so it is an element of its own.
+                    # A filled shape covers what is drawn before it, so it has its own element.
                     yield self.pens.name(outline, fill), fill is None, self._closed(path(points), closed, outline, fill)
             case Hatch(points, spacing, stroke, turn):
                 yield self.pens.name(stroke), True, "".join(path(pair) for pair in clip_hatch(points, spacing, turn))
@@ -304,7 +304,7 @@ def _script(text: str, drop: float) -> Iterator[Run]:
 
 # --- formulas as MathML Core ----------------------------------------------------------------------
 # The part of MathML that every browser sets by itself.
-# Attributes hold no style, since the page's security policy lets none in; what it looks like is in the frame's CSS.
+# Attributes have no style, because the page's security policy forbids it; the looks are in the frame's CSS.
 
 WHITE: Mapping[Role, tuple[str, str]] = {"sum": (" ", " "), "product": (" ", " "), "bound": ("", " ")}
 """Spaces before and after a sign; no page shows them, but copied text has them."""

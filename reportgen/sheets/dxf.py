@@ -92,7 +92,7 @@ def write_sheet(sheet: DrawingSheet, language: Language) -> bytes:
     document.header["$INSUNITS"] = 4
     document.header["$MEASUREMENT"] = 1
     document.header["$LTSCALE"] = 1.0
-    # LibreCAD takes the style's name for that of a stroke font of its own. Its usual one lacks most letters of
+    # LibreCAD takes the style's name for the name of one of its stroke fonts. Its usual one lacks most letters of
     # Vietnamese, which are in the file of that name in `templates/frames/letters`; all other programs take the font.
     letters = setting_of(language).drawing
     document.styles.add(letters.style, font=letters.font)
@@ -169,7 +169,7 @@ def _entities(document: Drawing, item: Item, part: PlacedScene, texts: MText) ->
         case Line(start, end, stroke):
             yield line(start, end, stroke)
         case Arrow(start, end, stroke, length):
-            # The shaft goes on to the tip, so that a distance query finds the vector's own length.
+            # The shaft continues to the tip, so that a distance query finds the vector's own length.
             yield line(start, end, stroke)
             yield from head(start, end, length)
         case Circle(centre, radius, outline, fill):
@@ -285,7 +285,7 @@ class MText(Plain):
 
     def symbol(self, node: Symbol) -> str:
         # Without the arrow of a vector: overlining is an order that not every program knows and some print.
-        # Digits within an index stand in its line: stacks do not nest.
+        # Digits within an index stay on its line, because stacks cannot be nested.
         return self.lowered(runs(node.base), self.text) + _stacked(self.text(node.sub), self.text(node.sup))
 
 
