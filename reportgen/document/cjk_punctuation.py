@@ -53,7 +53,7 @@ def _set(line: str, symbols: set[str]) -> str:
 
     def parenthesis(match: re.Match[str]) -> str:
         around = line[: match.start()][-1:] + match[1] + line[match.end() :][:1]
-        # A blank before it makes it a remark; with a sum or a product in it, it is part of a formula, whatever surrounds it.
+        # A blank before it makes it a remark; with a sum or a product in it, it is part of a formula.
         remark = match[0][0] == " " or _WIDE_LETTER.search(around)
         formula = _TERMS.search(match[1]) and not _WIDE_LETTER.search(match[1])
         return f"（{match[1]}）" if remark and not formula else match[0]

@@ -166,7 +166,10 @@ def leads(block: Block, following: Block | None, language: Language) -> bool:
 
 
 def held(table: Table) -> tuple[int, ...]:
-    """Return the number of rows of each group that stays on one page: a short table, or a heading with the rows below it."""
+    """Return the number of rows of each group that stays on one page.
+
+    A group is a short table, or a heading with the rows below it.
+    """
     count = len(table.rows)
     if count <= max(WHOLE_TABLE, TOGETHER + table.last):
         return (count,)

@@ -70,7 +70,10 @@ def _open(marking: Marking, said: Mapping[str, Any]) -> Iterator[str]:
 
 
 def unmarked_comment(student: Unmarked) -> Iterator[str]:
-    """Yield the lines for a student whose own files were read too incompletely for a mark: the share read and the open values."""
+    """Yield the lines for a student whose own files were read too incompletely for a mark.
+
+    They say how much was read, and which values are open.
+    """
     key, submission = student.key, student.unsettled
     assert submission is not None, "only read work is unsettled"
     said = words_of(key)["comment"]
