@@ -69,7 +69,7 @@ def plot_list(path: Path | str, language: Language | None = None) -> tuple[tuple
     """Return the id, the symbol with its unit, and the name in words of each quantity that can be plotted."""
     case = open_case(path, language)
     spoken = case.assignment.language
-    listed = [quantities.quantity(case, id) for id in quantities.shown(case)]
+    listed = [quantities.quantity(case, id) for id in quantities.visible_ids(case)]
     return tuple(
         (
             one.id,
