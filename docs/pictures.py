@@ -7,13 +7,14 @@ by chromium, and left as it is where there is none.
 from __future__ import annotations
 
 import json
+import os
 import shutil
 import signal
 import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import replace
 from io import BytesIO
@@ -35,6 +36,14 @@ CAPTION = ". Velocity plan at"
 """A part of the text of the page that the README shows, the number of the figure before it."""
 SHOWN_IN_WORD = ". Steps in drawing the velocity plan"
 """A part of the text of the page of the Word file."""
+TUTORIALS: Mapping[str, tuple[str, str, str, str]] = {
+    "en": ("", "Lan Pham", CAPTION, SHOWN_IN_WORD),
+    "vi": ("-vi", "Phạm Thị Lan", ". Họa đồ vận tốc tại", ". Các b"),
+}
+"""By language: ending of the names of the pictures, the student, the texts of the two pages of the reports.
+
+The PDF of LibreOffice has no text of letters such as ư.
+"""
 
 SHOWN = {
     "plane-motion": ROOT / "assignments" / "plane-motion" / "17.yaml",
@@ -206,11 +215,16 @@ def save_screen(name: str, png: bytes) -> None:
 
 def tutorials() -> None:
     """Save the screens that the tutorials show, and a page of the report that their reader makes."""
-    with browser() as driver, tempfile.TemporaryDirectory() as folder:
-        if driver is None:
-            return
-        report = pymupdf.open(first_report(Screen(driver), Path(folder), save_screen))
-        save(page_with(CAPTION, report), "first-report-page", TUTORIAL_DPI)
+    for language, (ending, _, caption, _) in TUTORIALS.items():
+        with browser() as driver, tempfile.TemporaryDirectory() as folder:
+            if driver is None:
+                return
+
+            def save_shown(name: str, png: bytes, ending: str = ending) -> None:
+                save_screen(f"{name}{ending}", png)
+
+            report = pymupdf.open(first_report(Screen(driver), Path(folder), save_shown, language))
+            save(page_with(caption, report), f"first-report-page{ending}", TUTORIAL_DPI)
 
 
 def followed(tutorial: str, place: str) -> Path:
@@ -226,12 +240,38 @@ def hand_in() -> None:
     """Save the papers that the tutorial of the hand-in shows."""
     with tempfile.TemporaryDirectory() as place:
         own = followed("hand-in", place) / "tasks" / "S01"
-        task = pymupdf.open(own / "task.pdf")
-        save(task[0], "hand-in-task", TUTORIAL_DPI)
-        save(task[-1], "hand-in-sheet", TUTORIAL_DPI, task[-1].rect - (0, 0, 0, task[-1].rect.height / 2))
-        save(pymupdf.open(own / "hand-in" / "sheet-1.pdf")[0], "hand-in-drawing", SHEET_DPI)
-        if (pages := in_word(own / "hand-in" / "report.docx")) is not None:
-            save(page_with(SHOWN_IN_WORD, pages), "hand-in-word", TUTORIAL_DPI)
+        hand_in_papers(own, own / "hand-in", "en")
+
+
+def hand_in_in_vietnamese() -> None:
+    """Save the same papers for the Vietnamese page, whose commands are not played."""
+    with tempfile.TemporaryDirectory() as place:
+        folder = Path(place)
+        (folder / "roster.csv").write_text(f"id,name\nS01,{TUTORIALS['vi'][1]}\n", encoding="utf-8")
+        command("new", "slider-crank", "-o", "machine.yaml", "--lang", "vi", cwd=folder)
+        command("variants", "machine.yaml", "roster.csv", "-o", "given", cwd=folder)
+        command("batch", "roster.csv", "--assignments", "given", "--make", "task", "--out", "tasks", cwd=folder)
+        own = folder / "tasks" / "S01"
+        command("sheet", "assignment.yaml", "--format", "pdf", cwd=own)
+        command("build", "assignment.yaml", "--format", "docx", cwd=own)
+        hand_in_papers(own, own / "out" / "assignment", "vi")
+
+
+def hand_in_papers(own: Path, made: Path, language: str) -> None:
+    """Save pages of a student's task in the folder `own`, and of the drawing and the report in `made`."""
+    ending, _, _, caption = TUTORIALS[language]
+    task = pymupdf.open(own / "task.pdf")
+    save(task[0], f"hand-in-task{ending}", TUTORIAL_DPI)
+    save(task[-1], f"hand-in-sheet{ending}", TUTORIAL_DPI, task[-1].rect - (0, 0, 0, task[-1].rect.height / 2))
+    save(pymupdf.open(made / "sheet-1.pdf")[0], f"hand-in-drawing{ending}", SHEET_DPI)
+    if (pages := in_word(made / "report.docx")) is not None:
+        save(page_with(caption, pages), f"hand-in-word{ending}", TUTORIAL_DPI)
+
+
+def command(*words: str, cwd: Path) -> None:
+    """Run `reportgen` with these arguments in a folder."""
+    path = {**os.environ, "PYTHONPATH": str(ROOT)}
+    subprocess.run([sys.executable, "-m", "reportgen.cli", *words], cwd=cwd, env=path, check=True, capture_output=True)
 
 
 def class_of_60() -> None:
@@ -290,6 +330,7 @@ def main() -> None:
     form()
     tutorials()
     hand_in()
+    hand_in_in_vietnamese()
     class_of_60()
     curves()
     for kind in kinds():

@@ -31,7 +31,8 @@ def screens() -> ModuleType:
 @pytest.mark.parametrize("page", [page for page in PAGES if page.startswith("docs/tutorials/")])
 def test_every_picture_of_a_tutorial_is_drawn_by_a_script(page: str) -> None:
     scripts = text_of("docs/pictures.py") + text_of("docs/screens.py")
-    assert [name for name in _PICTURE.findall(text_of(page)) if f'"{name}"' not in scripts] == []
+    drawn = {name for name in _PICTURE.findall(text_of(page)) if f'"{name.removesuffix("-vi")}' in scripts}
+    assert set(_PICTURE.findall(text_of(page))) == drawn
 
 
 @proof
@@ -47,3 +48,12 @@ def test_the_first_report_is_made_in_the_form_as_described(tmp_path: Path) -> No
     (page,) = (page for page in report if page.search_for(". Velocity plan at"))
     assert page.search_for("0.02")
     assert report[0].search_for("Lan Pham")
+
+
+def test_the_vietnamese_first_report_names_the_words_of_the_form() -> None:
+    """Its screens are those of the English page; the words of buttons are in the templates."""
+    labels = screens().LABELS["vi"]
+    assert set(_BOLD.findall(text_of("docs/tutorials/first-report.vi.md"))) <= {*labels.values(), "PDF"}
+    words = text_of("templates/vi/words.yaml")
+    for name in ("which machine", "moving", "play", "pause", "not right", "saved", "ready"):
+        assert re.search(rf"\b{re.escape(labels[name])}", words), name
