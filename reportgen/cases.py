@@ -154,11 +154,11 @@ class MachineCase(MachineAnalysis):
             for rate, name in ids.POINT_RATE.items()
         }
         slides = bool(machine.span)
-        gone = machine.cycle_angles * (machine.way / (machine.turns * FULL_TURN) if slides else 1.0)
+        gone = machine.cycle_angles * (machine.cycle_travel / (machine.turns * FULL_TURN) if slides else 1.0)
         called = self.words["figure"]["way" if slides else "cycle_angle"]
         # A speed given separately for each position determines no time.
         speed = None if machine.acceleration else abs(machine.speed)
-        return DriverMotion(gone, machine.way, called, speed, slides=slides, signed=signed)
+        return DriverMotion(gone, machine.cycle_travel, called, speed, slides=slides, signed=signed)
 
     @property
     def balance(self) -> np.ndarray | None:

@@ -39,6 +39,9 @@ PUBLIC = {
     # keys of title blocks
     "reportgen.sheets.title_block": {"other"},
     # members that templates read
+    "reportgen.derivation.equation_sides": {"shown", "way"},
+    "reportgen.exercise.solution_page": {"way"},
+    "reportgen.exercise.views": {"one", "other", "way"},
     "reportgen.catalogue.linkage_words": {"way"},
     "reportgen.report.link_views": {"one"},
 }

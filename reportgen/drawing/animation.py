@@ -178,8 +178,8 @@ def scale_bars(pane: Pane, units: Mapping[str, str]) -> tuple[complex, list[tupl
         start = pane.low + (column * room + enlargement) - 1j * ((strip + 1) * STRIP - UP) * enlargement
         end = start + length
         strokes = ((start, end), (start - tick, start + tick), (end - tick, end + tick))
-        shown = Label(start + 1.5 * tick, value, "bottom-left", style.SMALL * enlargement)
-        bars.append((scale, (*(Line(*ends, stroke) for ends in strokes), shown)))
+        label = Label(start + 1.5 * tick, value, "bottom-left", style.SMALL * enlargement)
+        bars.append((scale, (*(Line(*ends, stroke) for ends in strokes), label)))
     strips = 1 if pane.finer else math.ceil(len(pane.scales) / BARS)
     return pane.low - 1j * strips * STRIP * enlargement, bars
 
@@ -255,7 +255,7 @@ class Animation:
     """The way (mm) of a sliding driver, which takes the place of the turn; 0 for a crank."""
     positions: tuple[tuple[str, float], ...]
     """Label and cycle angle (degrees) of each numbered position."""
-    shown: int
+    opening: int
     """The position (from 0) that the page opens at."""
     panes: tuple[Pane, ...]
     charts: tuple[Chart, ...]

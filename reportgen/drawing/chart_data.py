@@ -86,8 +86,8 @@ class Diagram:
         for level, name in self.levels:
             axes.axhline(level, **MEAN)
             axes.annotate(label(name), (1.0, level), xycoords=("axes fraction", "data"), ha="right", va="bottom")
-        for one in self.inclinations:
-            axes.annotate(label(one.label), (one.x, one.y), **BESIDE)
+        for inclination in self.inclinations:
+            axes.annotate(label(inclination.label), (inclination.x, inclination.y), **BESIDE)
         axes.set(xlabel=label(self.x), ylabel=label(self.y))
         axes.grid(visible=True, linewidth=0.3)
         axes.yaxis.set_major_formatter(lambda value, _: write(float(f"{value:.10g}"), None, language))

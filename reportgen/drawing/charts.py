@@ -255,14 +255,14 @@ def _window(
 def _scale(label: Content, ends: tuple[float, float], length: float, mm: str, degrees: bool = False) -> Content:
     """The scale of an axis: μ_M = 2 N·m/mm, for the name of the axis "M (N·m; positive: …)"."""
     named = label.parts[0] if isinstance(label, Chain) else None
-    shown = Symbol("μ", named.base) if isinstance(named, Symbol) else Symbol("μ")
+    symbol = Symbol("μ", named.base) if isinstance(named, Symbol) else Symbol("μ")
     text = label.note if isinstance(label, Chain) else str(label)
     unit = "°" if degrees else re.split("[;；]", text)[0].replace("，", ", ").rpartition(", ")[2]
     above, stroke, below = unit.partition("/")
     below = below.strip("()")
     # A figure in the unit would read as one more of the number.
     per_mm = f"{above}/({below}·{mm})" if stroke else f"{above}/{mm}" if above else f"{mm}⁻¹"
-    return Chain((shown, Number(float(f"{(ends[1] - ends[0]) / length:.9g}"), unit=per_mm)))
+    return Chain((symbol, Number(float(f"{(ends[1] - ends[0]) / length:.9g}"), unit=per_mm)))
 
 
 def _beside(x_ticks: Sequence[float], y_ticks: Sequence[float]) -> float:

@@ -56,8 +56,8 @@ def fact(phrase: str, *values: Told) -> Fact:
 def enlarged(description: Description, by: float) -> Description:
     """Return the description of a drawing enlarged by a factor."""
     return tuple(
-        replace(one, values=tuple(PaperLength(v.value * by) if isinstance(v, PaperLength) else v for v in one.values))
-        for one in description
+        replace(fact, values=tuple(PaperLength(v.value * by) if isinstance(v, PaperLength) else v for v in fact.values))
+        for fact in description
     )
 
 

@@ -50,18 +50,18 @@ class FigureSize:
         """Return the scale as printed below the figure; on a sheet also as a ratio of lengths, and the report's
         scale.
         """
-        shown = self.scale(usual)
-        return self.told(symbol, _number(shown, unit), _number(usual, unit), _ratio(shown) if unit == RATIO else 0)
+        drawn = self.scale(usual)
+        return self.compared(symbol, _number(drawn, unit), _number(usual, unit), _ratio(drawn) if unit == RATIO else 0)
 
-    def told(self, symbol: Expression, shown: Number, usual: Number, ratio: float = 0) -> Chain:
-        """A scale as it is `shown`, with what the report has."""
+    def compared(self, symbol: Expression, drawn: Number, usual: Number, ratio: float = 0) -> Chain:
+        """A scale as it is `drawn`, with what the report has."""
         if not self.beside:
-            return Chain((symbol, shown))
+            return Chain((symbol, drawn))
         parts = [self.beside.format(scale=quantity(usual, self.language))]
         if ratio:
             above, below = (formula(_number(max(one, 1.0)), self.language) for one in (ratio, 1 / ratio))
             parts.insert(0, f"{above}:{below}")
-        return Chain((symbol, shown), "; ".join(parts))
+        return Chain((symbol, drawn), "; ".join(parts))
 
 
 IN_REPORT = FigureSize()

@@ -195,14 +195,14 @@ def link_and_plan(what: Literal["v", "a"]) -> tuple[Scene, Scene]:
     link = (*style.body(tuple(TRIANGLE.values())), *(style.point(place) for place in TRIANGLE.values()))
     named = tuple(label(place, Symbol(name), gap=1.0) for name, place in TRIANGLE.items())
     prime, pole = ("", Symbol("p")) if what == "v" else ("′", Symbol("π"))
-    shown = ("B", "C") if what == "v" else tuple(TRIANGLE)
-    plan: list[Item] = [Arrow(0j, places[name], style.KNOWN, style.HEAD) for name in shown]
+    drawn = ("B", "C") if what == "v" else tuple(TRIANGLE)
+    plan: list[Item] = [Arrow(0j, places[name], style.KNOWN, style.HEAD) for name in drawn]
     sides = tuple(combinations(places, 2))
-    plan += [Line(places[one], places[other], style.RELATIVE) for one, other in sides]
+    plan += [Line(places[start], places[end], style.RELATIVE) for start, end in sides]
     if what == "v":
         plan.append(Arrow(0j, places["E"], style.FOUND, style.HEAD))
         plan += [
-            Line(places[one], places["E"] + 6 * unit(places["E"] - places[one]), style.CONSTRUCTION) for one in "BC"
+            Line(places[name], places["E"] + 6 * unit(places["E"] - places[name]), style.CONSTRUCTION) for name in "BC"
         ]
     ends = {name: Symbol(name.lower(), "", prime) for name in places}
     letters = [label(place, ends[name], gap=0.8) for name, place in places.items()]
@@ -229,13 +229,13 @@ def draw_forces(
     would lie on another force beside it, a thin line from its point.
     """
     printed = {arm.force: arm for arm in arms if arm.length is not None}
-    shown = [_as_printed(force, printed.get(force.id)) for force in forces if force.direction != 0]
+    directed = [_as_printed(force, printed.get(force.id)) for force in forces if force.direction != 0]
     items: list[Item] = []
     requests: list[Request] = []
     facts: list[Fact] = []
     shafts: dict[str, tuple[complex, complex]] = {}
     drawn: list[tuple[complex, complex]] = []
-    for force, tip in zip(shown, _tips(shown), strict=True):
+    for force, tip in zip(directed, _tips(directed), strict=True):
         start, end = force.at, tip
         if _lies_along(force, bars):
             start, end = force.at - (tip - force.at), force.at
@@ -305,7 +305,7 @@ def _tips(forces: Sequence[Force]) -> list[complex]:
     tips: list[complex] = []
     for n, force in enumerate(forces):
         before = sum(
-            abs(other.at - force.at) < 1.0 and _parallel(force.direction, other.direction) for other in forces[:n]
+            abs(earlier.at - force.at) < 1.0 and _parallel(force.direction, earlier.direction) for earlier in forces[:n]
         )
         length = min(SHORTEST + STEP * before, LONGEST + 2 * before)
         tips.append(force.at + length * unit(force.direction))

@@ -150,10 +150,10 @@ def all_numbered(
     groups = clusters(readings, TOGETHER, frame.of)
     while True:
         scene = draw(groups)
-        shown = {item.content for item in scene.items if isinstance(item, Label)}
-        placed = [list(group) for group in groups if group[0].label in shown]
+        labelled = {item.content for item in scene.items if isinstance(item, Label)}
+        placed = [list(group) for group in groups if group[0].label in labelled]
         left = []
-        for missing in (group for group in groups if group[0].label not in shown):
+        for missing in (group for group in groups if group[0].label not in labelled):
             fitting = [group for group in placed if len(group) + len(missing) <= MOST_TOGETHER]
             if not fitting:
                 left.append(missing)

@@ -46,9 +46,9 @@ class Box:
     height: float
     depth: float
 
-    def beside(self, other: Box) -> Box:
+    def beside(self, box: Box) -> Box:
         """Both boxes on one baseline."""
-        return Box(self.width + other.width, max(self.height, other.height), max(self.depth, other.depth))
+        return Box(self.width + box.width, max(self.height, box.height), max(self.depth, box.depth))
 
 
 NOTHING = Box(0.0, 0.0, 0.0)

@@ -36,9 +36,9 @@ def mirrored(plans: Mapping[int, Plan]) -> Mirrored:
     """
     ends = {k: np.array([end for v in plan.vectors for end in (v.start, v.end)]) for k, plan in plans.items()}
     turns = [
-        (one, other, turn)
-        for one, other in combinations(sorted(ends), 2)
-        if (turn := _turn(ends[one], ends[other])) is not None
+        (earlier, later, turn)
+        for earlier, later in combinations(sorted(ends), 2)
+        if (turn := _turn(ends[earlier], ends[later])) is not None
     ]
     best: dict[int, int] = {}
     for *_, line in turns:

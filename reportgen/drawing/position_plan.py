@@ -108,8 +108,8 @@ def position_plan(
                 label([complex(p) for p in curve[far][:: max(1, len(curve) // 10)]], vocabulary.point(name))
             )
     if reached:
-        shown = shows.emphasised if shows.emphasised is not None and every[shows.emphasised].reached else None
-        turning = driver_arrow(linkage, motion, every[shown] if shown is not None else reached[0])
+        emphasised = shows.emphasised if shows.emphasised is not None and every[shows.emphasised].reached else None
+        turning = driver_arrow(linkage, motion, every[emphasised] if emphasised is not None else reached[0])
         items += turning.items
         requests += turning.requests
     for name in reached[0].pivots if reached else ():
@@ -313,16 +313,16 @@ def _links(bones: Skeleton, pen: Pen, further: Sequence[str] = ()) -> list[Item]
 
 def _numbers(every: Sequence[Skeleton], numbers: Sequence[int], shows: PositionPlan) -> Canvas:
     """Dots at the numbered positions and their names, one label for points that coincide."""
-    shown = [
+    dots = [
         (every[k].points[name], Symbol(vocabulary.point(name).base, shows.label(k)))
         for name in shows.numbered
         for k in numbers
         if every[k].reached
     ]
-    middle = sum(at for at, _ in shown) / len(shown) if shown else 0j
+    middle = sum(at for at, _ in dots) / len(dots) if dots else 0j
     items: list[Item] = []
     requests: list[Request] = []
-    for group in coincident(shown, TOGETHER / shows.enlarged, lambda one: one[0]):
+    for group in coincident(dots, TOGETHER / shows.enlarged, lambda one: one[0]):
         at, names = group[0][0], [name for _, name in group]
         items.append(Circle(at, DOT, Pen(0.2), style.PAPER))
         out = (float(np.angle(at - middle)),) if abs(at - middle) > 1 else ()

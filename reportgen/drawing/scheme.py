@@ -227,7 +227,7 @@ def thumbnail(linkage: Linkage, motion: Motion, index: int) -> Canvas:
     return settle(Canvas(tuple(items), names, (fact("beside"),)))
 
 
-def mechanism(bones: Skeleton, shown: Sequence[int], looks: Looks) -> Canvas:
+def mechanism(bones: Skeleton, links: Sequence[int], looks: Looks) -> Canvas:
     """The shown links with their joints, names and numbers; with link 0 its pivots and guides."""
     rails: list[Item] = []
     bars: list[Item] = []
@@ -235,43 +235,43 @@ def mechanism(bones: Skeleton, shown: Sequence[int], looks: Looks) -> Canvas:
     requests: list[Request] = []
     for slide in bones.slides:
         size = looks.block(slide.link)
-        if slide.on in shown and (slide.on != GROUND or slide.link in shown):
-            rails += _rail(slide, size, _bars(bones, shown, looks))
-        if slide.link in shown:
+        if slide.on in links and (slide.on != GROUND or slide.link in links):
+            rails += _rail(slide, size, _bars(bones, links, looks))
+        if slide.link in links:
             # Where a group is drawn alone, a short piece of its axis stands for the guide.
-            if slide.on not in shown:
+            if slide.on not in links:
                 on = polar(slide.angle) * (size[0] / 2 + 5)
                 rails.append(Line(slide.at - on, slide.at + on, style.AXIS))
             blocks.append(style.block(slide.at, slide.angle, size))
     names: list[str] = []
     marked: list[str] = []
-    for link in shown:
+    for link in links:
         joints = bones.bars.get(link, ())
         own = _marked(bones, link, looks)
         marked += own
         bars += style.body([*_body_points(bones, link), *(bones.points[name] for name in own)])
         names += [name for name in joints if name not in names]
         if link != GROUND:
-            requests += _number(bones, link, looks, [slide for slide in bones.slides if slide.link in shown])
-    names += [name for name in bones.joints if name not in names and _on_block(bones, name, shown)]
+            requests += _number(bones, link, looks, [slide for slide in bones.slides if slide.link in links])
+    names += [name for name in bones.joints if name not in names and _on_block(bones, name, links)]
     # A block that does not turn has no joint in its middle, only a point.
-    marked += [s.name for s in bones.slides if s.link in shown and not s.turns and s.name not in names]
-    standing = [name for name in bones.pivots if GROUND in shown and (len(shown) > 2 or name in names)]
+    marked += [s.name for s in bones.slides if s.link in links and not s.turns and s.name not in names]
+    standing = [name for name in bones.pivots if GROUND in links and (len(links) > 2 or name in names)]
     names += [name for name in standing if name not in names]
     pins: list[Item] = []
     for name in names:
         at = bones.points[name]
         pins += style.pivot(at) if name in standing else (style.joint(at),)
-    centres = [name for name in looks.centres if bones.owners.get(name) in shown]
+    centres = [name for name in looks.centres if bones.owners.get(name) in links]
     marks = [item for name in centres for item in style.mass_centre(bones.points[name])]
     marks += [style.point(bones.points[name]) for name in marked]
     requests += _names([*names, *centres, *marked], bones)
-    return Canvas((*rails, *bars, *blocks, *pins, *marks), tuple(requests), tuple(link_facts(bones, shown)))
+    return Canvas((*rails, *bars, *blocks, *pins, *marks), tuple(requests), tuple(link_facts(bones, links)))
 
 
-def link_facts(bones: Skeleton, shown: Sequence[int]) -> Iterator[Fact]:
+def link_facts(bones: Skeleton, links: Sequence[int]) -> Iterator[Fact]:
     """Yield the facts of the shown links: their bars from joint to joint, blocks and ways, the pivots on the ground."""
-    for link in shown:
+    for link in links:
         first, *others = bones.bars.get(link, ()) or ("",)
         for name in others:
             bar = bones.points[name] - bones.points[first]
@@ -283,7 +283,7 @@ def link_facts(bones: Skeleton, shown: Sequence[int]) -> Iterator[Fact]:
                 yield fact("slider", str(link), vocabulary.point(slide.name), along)
             else:
                 yield fact("slider-on", str(link), vocabulary.point(slide.name), str(slide.on), along)
-    standing = listed(vocabulary.point(name) for name in bones.pivots if GROUND in shown)
+    standing = listed(vocabulary.point(name) for name in bones.pivots if GROUND in links)
     if standing:
         yield fact("pivots", standing)
 
@@ -356,11 +356,11 @@ def driver_arrow(linkage: Linkage, motion: Motion, bones: Skeleton) -> Canvas:
     return Canvas((arrow,), (omega,), (turning(name, sense),))
 
 
-def _bars(bones: Skeleton, shown: Sequence[int], looks: Looks) -> list[tuple[complex, complex]]:
+def _bars(bones: Skeleton, links: Sequence[int], looks: Looks) -> list[tuple[complex, complex]]:
     """The straight lines between the joints of the links, and the guides that they carry."""
-    joints = [[bones.points[name] for name in bones.bars.get(link, ())] for link in shown]
+    joints = [[bones.points[name] for name in bones.bars.get(link, ())] for link in links]
     bars = [bar for ends in joints for bar in combinations(ends, 2)]
-    return bars + [_carried(slide, looks.block(slide.link)) for slide in bones.slides if slide.on in shown and slide.on]
+    return bars + [_carried(slide, looks.block(slide.link)) for slide in bones.slides if slide.on in links and slide.on]
 
 
 def _carried(slide: Slide, size: tuple[float, float]) -> tuple[complex, complex]:
@@ -406,9 +406,9 @@ def _marked(bones: Skeleton, link: int, looks: Looks) -> list[str]:
     return [name for name in owned if name not in {*bones.joints, *looks.centres}]
 
 
-def _on_block(bones: Skeleton, name: str, shown: Sequence[int]) -> bool:
+def _on_block(bones: Skeleton, name: str, links: Sequence[int]) -> bool:
     """Return True if a joint is the middle of a block that is shown."""
-    return any(slide.name == name and slide.link in shown and slide.turns for slide in bones.slides)
+    return any(slide.name == name and slide.link in links and slide.turns for slide in bones.slides)
 
 
 def _number(bones: Skeleton, link: int, looks: Looks, slides: Sequence[Slide]) -> list[Request]:

@@ -52,9 +52,9 @@ def named(coil: Coil) -> Symbol:
 def mounts(coil: Coil, linkage: Linkage, start: complex, end: complex, pivots: Collection[str]) -> list[Item]:
     """The ground at the ends (mm) of a spring that are fixed and no pivots."""
     items: list[Item] = []
-    for anchor, at, other in zip(coil.ends, (start, end), (end, start), strict=True):
+    for anchor, at, opposite in zip(coil.ends, (start, end), (end, start), strict=True):
         if not anchor.name or (anchor.name in linkage.ground and anchor.name not in pivots):
-            along = -1j * unit(at - other) if at != other else 1.0
+            along = -1j * unit(at - opposite) if at != opposite else 1.0
             items += style.ground(at - MOUNT * along, at + MOUNT * along, 1)
             items.append(Circle(at, style.POINT, style.VISIBLE, style.PAPER))
     return items

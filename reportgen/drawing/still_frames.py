@@ -75,7 +75,7 @@ def stills(animation: Animation, pane: Pane, samples: Sequence[int], layers: Col
     """A pane at samples, with the layers that are shown; letters, heads and pens of arrows as large as on a page."""
     low, bars = scale_bars(pane, animation.units)
     size, foot = pane.high - low, complex(pane.high.real, pane.low.imag)
-    shown = [item for item in pane.items if not item.layer or item.layer in layers]
+    visible = [item for item in pane.items if not item.layer or item.layer in layers]
     # Where each label was, by the place of its item.
     last: dict[int, int] = {}
     for sample in samples:
@@ -84,7 +84,7 @@ def stills(animation: Animation, pane: Pane, samples: Sequence[int], layers: Col
         zoom = pane.scales[0].per / pane.scales[number].per if pane.finer else 1.0
         labels = _Labels(pane.low, pane.high, last)
         items: list[Item] = []
-        for place, item in enumerate(shown):
+        for place, item in enumerate(visible):
             items += _drawn(item, now, zoom, pane.enlargement)
             if request := _request(item, now, zoom, pane.enlargement):
                 labels.requests[place] = request

@@ -51,7 +51,7 @@ class MovingFigure:
         At the position that the page opens with if `label` is unknown.
         """
         angles = dict(self.animation.positions)
-        angle = angles.get(label, self.animation.positions[self.animation.shown][1])
+        angle = angles.get(label, self.animation.positions[self.animation.opening][1])
         return next(stills(self.animation, self.pane, [sample_at(self.animation, angle)], layers))
 
     def frames(self, layers: Collection[str]) -> list[Scene]:

@@ -83,7 +83,7 @@ def given_entry(row: KeyRow, position: int) -> Entry | None:
     if row.role is not Role.given or not row.has(position):
         return None
     value = float(row.printed[row.at(position)])
-    return Entry(shown_number(row, value).shown, format=number_format(row)) if value == value else None
+    return Entry(shown_number(row, value).printed, format=number_format(row)) if value == value else None
 
 
 def grid(

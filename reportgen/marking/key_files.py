@@ -101,7 +101,7 @@ def _book_pages(key: Key, number: int, title: str) -> Iterator[WorksheetData]:
 def _value_entry(row: KeyRow, index: int) -> Entry:
     """Return a number as the report prints it, or an empty cell if it does not exist."""
     value = float(row.printed[index])
-    return Entry(shown_number(row, value).shown, format=number_format(row)) if value == value else Entry()
+    return Entry(shown_number(row, value).printed, format=number_format(row)) if value == value else Entry()
 
 
 def key_rows(key: Key) -> tuple[tuple[str | float | None, ...], ...]:
@@ -119,7 +119,7 @@ def key_rows(key: Key) -> tuple[tuple[str | float | None, ...], ...]:
             plain(row.described, key.language),
             row.unit,
             "" if row.single else key.label(index + 1, row.id),
-            shown_number(row, float(value)).shown if value == value else None,
+            shown_number(row, float(value)).printed if value == value else None,
             row.sense[index],
             band(row, float(row.drawn[index])),
             band(row, float(row.computed[index])),
@@ -292,4 +292,4 @@ def _band_number(row: KeyRow, width: float) -> Number | str:
         return DASH
     decimals = min(band_decimals(printed), FINEST if row.decimals is None else row.decimals + FINER)
     number = Number(printed, decimals)
-    return number if number.shown else Number(0.0)
+    return number if number.printed else Number(0.0)

@@ -188,7 +188,7 @@ class PanelWriter:
             **({"instants": self.instants()} if animation.instants else {}),
             "decimal": decimal_mark(self.language),
             "positions": [[label, float(f"{angle:.9g}")] for label, angle in animation.positions],
-            "shown": animation.shown,
+            "shown": animation.opening,
             "items": self.items,
             "spots": [
                 {

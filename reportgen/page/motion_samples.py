@@ -186,7 +186,7 @@ class Samples:
             span=machine.span * MM,
             positions=tuple((str(machine.position(k + 1)), float(angle)) for k, angle in enumerate(np.degrees(places))),
             instants=tuple(map(float, instants * MM if machine.span else np.degrees(instants))),
-            shown=self.case.assignment.worked_positions[0] - 1,
+            opening=self.case.assignment.worked_positions[0] - 1,
             panes=panes,
             charts=() if machine.instants else tuple(self.charts()),
             values=tuple(self.values()),
@@ -481,7 +481,7 @@ class Samples:
         steps = np.diff(self.angles)
         wide = steps > 4 * BESIDE
         between, at = analyse(self.machine, middles), self.analysis
-        rate = FULL_TURN * self.machine.speed / (self.machine.way / self.machine.turns)
+        rate = FULL_TURN * self.machine.speed / (self.machine.cycle_travel / self.machine.turns)
         bound = 0.0
         for name, moved in at.motion.points.items():
             here = np.abs(np.concatenate((moved.a, between.motion.points[name].a)))

@@ -165,7 +165,7 @@ def _drawn_series(sources: Sources, series: PlanSeries, usual: float, of: Drawn,
     (symbol, number), (_, in_report) = series.note(share).parts, series.note(usual).parts
     assert isinstance(number, Number)
     assert isinstance(in_report, Number)
-    larger = on_sheet(sources.report.case, 1).told(symbol, number, in_report)
+    larger = on_sheet(sources.report.case, 1).compared(symbol, number, in_report)
     return replace(
         of,
         scenes=tuple(replace(series, report=sources.small).scenes(share)),
