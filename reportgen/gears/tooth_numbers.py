@@ -327,7 +327,9 @@ def turned(train: Train, satellites: int) -> tuple[float, tuple[float | None, ..
     z, scheme = train.teeth, SCHEMES[train.scheme]
 
     def at_mesh(inner: bool, γ: float, wheel: float, number: int) -> tuple[float, float]:
-        """Return the direction (rad) from the satellite's axis to the mesh, and how far (pitches) a tooth is before it."""
+        """Return the direction (rad) from the satellite's axis to the mesh, and how far (pitches) a tooth is
+        before it.
+        """
         passed = (γ - wheel) * number / math.tau
         return (γ, passed - 0.5) if inner else (γ + math.pi, 0.5 - passed)
 
