@@ -284,6 +284,31 @@ def class_of_60() -> None:
         save(feedback, "class-of-60-feedback", TUTORIAL_DPI, feedback.rect - (0, 0, 0, feedback.rect.height / 3))
 
 
+def notebook_study() -> None:
+    """Save what the cells of the tutorial of the notebook show: a plan and two charts."""
+    import matplotlib
+
+    matplotlib.use("agg")
+    with tempfile.TemporaryDirectory() as place:
+        folder = followed("notebook-study", place)
+        from tests.documents import cells
+
+        done = cells("docs/tutorials/notebook-study.md", folder)
+        plan = next(cell.value for cell in done if "m.figure" in cell.code)
+        plan.save(folder / "plan.pdf")
+        save(pymupdf.open(folder / "plan.pdf")[0], "notebook-study-plan", PAGE_DPI)
+        rods, curves = done[-1].names["fig"], next(cell.names["fig"] for cell in done if "fig" in cell.names)
+        save_chart(curves, "notebook-study-curves")
+        save_chart(rods, "notebook-study-rods")
+
+
+def save_chart(figure: Any, name: str) -> None:
+    """Save a figure of matplotlib as `docs/pictures/NAME.png`."""
+    stream = BytesIO()
+    figure.savefig(stream, dpi=CURVES_DPI)
+    save_screen(name, stream.getvalue())
+
+
 def in_word(file: Path) -> pymupdf.Document | None:
     """Return the pages of a Word file as LibreOffice lays them out; None, with a message, where it is missing."""
     office = shutil.which("soffice")
@@ -313,11 +338,7 @@ def curves() -> None:
     for cell in json.loads((ROOT / "docs" / "variants.ipynb").read_text(encoding="utf-8"))["cells"]:
         if cell["cell_type"] == "code" and "ax2" not in (code := "".join(cell["source"])):
             exec(code, names)
-    stream = BytesIO()
-    names["fig"].savefig(stream, dpi=CURVES_DPI)
-    Image.open(stream).convert("RGB").quantize(COLOURS, Image.Quantize.FASTOCTREE).save(
-        PICTURES / "curves.png", optimize=True
-    )
+    save_chart(names["fig"], "curves")
 
 
 def main() -> None:
@@ -332,6 +353,7 @@ def main() -> None:
     hand_in()
     hand_in_in_vietnamese()
     class_of_60()
+    notebook_study()
     curves()
     for kind in kinds():
         file = SHOWN.get(kind) or min(SAMPLE.parent.glob(f"{kind}-*.yaml"))

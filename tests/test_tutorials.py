@@ -7,10 +7,13 @@ import re
 from pathlib import Path
 from types import ModuleType
 
+import matplotlib
 import pymupdf
 import pytest
+from matplotlib import pyplot
 
-from tests.documents import PAGES, ROOT, text_of
+from reportgen import catalogue
+from tests.documents import PAGES, ROOT, agrees, cells, text_of
 from tests.lanes import proof
 from tests.page.browser import opened
 
@@ -57,3 +60,17 @@ def test_the_vietnamese_first_report_names_the_words_of_the_form() -> None:
     words = text_of("templates/vi/words.yaml")
     for name in ("which machine", "moving", "play", "pause", "not right", "saved", "ready"):
         assert re.search(rf"\b{re.escape(labels[name])}", words), name
+
+
+def test_the_cells_of_the_notebook_print_what_the_page_shows(tmp_path: Path) -> None:
+    """The formula of the last step agrees with the study; both figures are saved."""
+    matplotlib.use("agg")
+    sample = catalogue.sample("slider-crank", "en")
+    (tmp_path / "slider-crank.yaml").write_text(sample, encoding="utf-8")
+    done = cells("docs/tutorials/notebook-study.md", tmp_path)
+    assert [cell.printed for cell in done if not (cell.shown == cell.printed or agrees(cell.shown, cell.printed))] == []
+    assert [cell.value is not None for cell in done].count(True) == 1
+    assert sum(map(bool, (cell.shown for cell in done))) == 4
+    for name in ("rods.pdf", "velocity-plan.pdf"):
+        assert (tmp_path / name).read_bytes().startswith(b"%PDF")
+    pyplot.close("all")
