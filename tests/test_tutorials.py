@@ -70,7 +70,7 @@ def test_the_cells_of_the_notebook_print_what_the_page_shows(tmp_path: Path) -> 
     done = cells("docs/tutorials/notebook-study.md", tmp_path)
     assert [cell.printed for cell in done if not (cell.shown == cell.printed or agrees(cell.shown, cell.printed))] == []
     assert [cell.value is not None for cell in done].count(True) == 1
-    assert sum(map(bool, (cell.shown for cell in done))) == 4
+    assert sum(map(bool, (cell.shown for cell in done))) == 5
     for name in ("rods.pdf", "velocity-plan.pdf"):
         assert (tmp_path / name).read_bytes().startswith(b"%PDF")
     pyplot.close("all")
