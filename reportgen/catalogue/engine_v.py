@@ -102,7 +102,7 @@ def _check_assembly(given: Parameters) -> Iterator[Finding]:
         yield Finding("out-of-range", ("parameters", "BD"), {"text": given.BD.text, "range": most})
         return
     members = {(2, 3): Member("BC", ("parameters", "BC")), (4, 5): Member(f"{given.joint}E", ("parameters", "DE"))}
-    linkage = _linkage(given, _sheet(given))
+    linkage = _linkage(given, _calculation(given))
     if obstacles := list(assembly_checks.findings(linkage, members)):
         yield from obstacles
         return
@@ -128,8 +128,8 @@ WARNINGS = (_idle_engine,)
 # --- the machine ----------------------------------------------------------------------------------
 
 
-def _sheet(given: Parameters, turn: int = 1, crank: Given | None = None) -> GivenData:
-    """Return the sheet: given data, λ = R/L, the angle between the cylinders, masses, moments of inertia, a
+def _calculation(given: Parameters, turn: int = 1, crank: Given | None = None) -> GivenData:
+    """Return the calculation: given data, λ = R/L, the angle between the cylinders, masses, moments of inertia, a
     piston's area.
     """
     q, rod = GivenData(given), f"{given.joint}E"
@@ -176,7 +176,7 @@ def machine(assignment: Assignment) -> Machine:
     """Return the engine of an assignment: linkage, forces on the pistons, closed formulas."""
     given: Parameters = assignment.parameters
     positions, turn = assignment.positions, assignment.positions.sign
-    q = _sheet(given, turn, assignment.drawing.crank)
+    q = _calculation(given, turn, assignment.drawing.crank)
     linkage, start = _linkage(given, q), positions.start_or()
     for link, axis in ((3, q["alpha"]), (5, q["beta"])):
         outwards = q.construct(ids.guide(link), cis(axis))

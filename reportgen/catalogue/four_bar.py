@@ -312,8 +312,8 @@ class Parameters(Driven, masses=(1, 2, 3), moments=(1, 2, 3), shares=(1, 2, 3), 
         return 1 if self.branch == "open" else -1
 
 
-def _sheet(given: Parameters, crank: Given | None = None) -> GivenData:
-    """Return the sheet of given data, coupler points, mass centres, masses and moments of inertia, Grashof's sums."""
+def _calculation(given: Parameters, crank: Given | None = None) -> GivenData:
+    """Return the calculation of given data, coupler points, mass centres, masses and moments of inertia, Grashof's sums."""
     q = GivenData(given)
     for id, length in {"AB": given.AB, "BC": given.BC, "DC": given.CD, "AD": given.AD}.items():
         q.datum(ids.length(id), length, Symbol("l", "CD" if id == "DC" else id))
@@ -358,7 +358,7 @@ def _linkage(given: Parameters, q: GivenData) -> Linkage:
 @of_turning
 def _check_turning(given: Parameters) -> Iterator[Finding]:
     """Yield faults unless the crank turns fully, without dead points, and link 3 moves as the file says."""
-    linkage = _linkage(given, _sheet(given))
+    linkage = _linkage(given, _calculation(given))
     obstacles = list(
         assembly_checks.findings(linkage, {(2, 3): assembly_checks.Member("BC, CD", ("parameters", "BC"))})
     )
@@ -377,7 +377,7 @@ def machine(assignment: Assignment) -> Machine:
     """Return the four-bar linkage of an assignment: linkage, loads, analytic method."""
     given: Parameters = assignment.parameters
     positions, turn = assignment.positions, assignment.positions.sign
-    q = _sheet(given, assignment.drawing.crank)
+    q = _calculation(given, assignment.drawing.crank)
     linkage, frame, force = _linkage(given, q), given.frame.si, given.force
     q.fix("p.D", linkage.ground["D"], q["l.AD"])
     start = positions.start_or(frame)

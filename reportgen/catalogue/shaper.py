@@ -56,8 +56,8 @@ class Parameters(Driven, masses=(2, 3, 4, 5), moments=(3, 4), loads=("cutting",)
     s4: Share = Given(0.5, 0.5, "", "0.5")
 
 
-def _sheet(given: Parameters, crank: Given | None = None) -> GivenData:
-    """Return the sheet: given data and the synthesis l₁ = aH/(2 l₃); mass centres, masses, moments of inertia; the
+def _calculation(given: Parameters, crank: Given | None = None) -> GivenData:
+    """Return the calculation: given data and the synthesis l₁ = aH/(2 l₃); mass centres, masses, moments of inertia; the
     drawn crank.
     """
     q = GivenData(given)
@@ -102,7 +102,7 @@ def _check_assembly(given: Parameters) -> Iterator[Finding]:
     """Yield faults unless the rocker swings, the block stays in it, and link 4 reaches from D to the ram's line all
     through the turn.
     """
-    geometry = _geometry(given, _sheet(given), 1)
+    geometry = _geometry(given, _calculation(given), 1)
     crank = geometry.crank.r
     block = {"block": "2", "link": "3", "group": "(2, 3)", "pivot": "C"}
     if crank >= given.a.si:
@@ -135,7 +135,7 @@ def machine(assignment: Assignment) -> Machine:
     """Return the shaper of an assignment: linkage, cutting force, closed formulas."""
     given: Parameters = assignment.parameters
     positions, cutting = assignment.positions, given.cutting
-    q = _sheet(given, assignment.drawing.crank)
+    q = _calculation(given, assignment.drawing.crank)
     geometry = _geometry(given, q, positions.sign)
     start = 0.0 if positions.first is None else geometry.crank.phi(positions.first.si)
     course = geometry.course(start)
