@@ -29,7 +29,7 @@ from reportgen.machine.load_laws import ConstantLaw
 from reportgen.machine.loads import Applied, Piston, course, crank_motion, fixed, gas_forces
 
 TURNS = 1
-"""Four strokes take two, where there is an indicator diagram."""
+"""Turns of a cycle without an indicator diagram; with one, four strokes take two turns."""
 
 Indicator = given_loads.Diagram
 INDICATOR_OPTIONAL = True
@@ -94,8 +94,8 @@ def _check_loads(draft: Draft) -> Iterator[Finding]:
 
 @of_parameters
 def _check_assembly(given: Parameters) -> Iterator[Finding]:
-    """Yield faults unless both pistons follow the crank through a whole turn and turn back twice; the articulation
-    is on the main rod.
+    """Yield faults unless both pistons follow the crank through a whole turn and reverse twice, with D on the
+    main rod.
     """
     if given.BD.si >= given.BC.si:
         most = f"< BC = {given.BC.si * 1e3:g} mm"
@@ -129,9 +129,7 @@ WARNINGS = (_idle_engine,)
 
 
 def _calculation(given: Parameters, turn: int = 1, crank: Given | None = None) -> GivenData:
-    """Return the calculation: given data, λ = R/L, the angle between the cylinders, masses, moments of inertia, a
-    piston's area.
-    """
+    """Return the given data, λ = R/L, the angle between the cylinders, masses, moments of inertia, a piston's area."""
     q, rod = GivenData(given), f"{given.joint}E"
     for id, length in {"AB": given.AB, "BC": given.BC, "BD": given.BD, rod: given.DE}.items():
         if length.si:

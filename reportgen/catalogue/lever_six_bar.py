@@ -48,9 +48,9 @@ class SliderForce(Part):
 
 
 class Swing(Part):
-    """Requested motion of the rocker: its angle of swing and the ratio K of the times of its two ways.
+    """Requested motion of the rocker: its angle of swing and the time ratio K of its two strokes.
 
-    The crank's centre B lies `beyond` the chord of both ends of the pin's way, seen from D, or `before` it.
+    The crank's centre B lies `beyond` the chord of the ends of the pin's path, seen from D, or `before` it.
     """
 
     angle: SwingAngle
@@ -78,7 +78,7 @@ class Parameters(Driven, masses=(1, 2, 3, 4, 5), moments=(1, 2, 3, 4), shares=(1
 
 
 def _calculation(given: Parameters, crank: Given | None = None) -> GivenData:
-    """Return the calculation of given data, the place of E, mass centres, masses and moments of inertia."""
+    """Return the given data, the place of E, mass centres, masses and moments of inertia."""
     q = GivenData(given)
     if given.AB and given.AC:
         q.datum("l.BA", given.AB, Symbol("l", "AB"))
@@ -110,8 +110,8 @@ def _calculation(given: Parameters, crank: Given | None = None) -> GivenData:
 
 
 def _synthesis(q: GivenData, asked: Swing) -> None:
-    """Enter crank and coupler from the swing ψ and K: B sees both ends C₁, C₂ of the pin's way under θ = 180°(K −
-    1)/(K + 1).
+    """Enter crank and coupler from the swing ψ and K: B sees both ends C₁, C₂ of the pin's path at θ = 180°(K − 1)/(K +
+    1).
 
     B lies on the circle about O with radius ρ from which this angle is seen, and at its distance from D: ρ = l_CD
     sin(ψ/2)/sin θ,  DO = l_CD cos(ψ/2) ± ρ cos θ,  AB = (BC₁ − BC₂)/2,  AC = (BC₁ + BC₂)/2.

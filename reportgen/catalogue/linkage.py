@@ -37,7 +37,7 @@ from reportgen.machine.load_laws import FULL_TURN, GasLaw, MotionAt, TableLaw, b
 from reportgen.machine.loads import Applied, LoadsByKind, Torque, course, fixed, rails
 
 TURNS = 1
-"""A cycle of two turns counts the second turn's positions among those added to the first."""
+"""In a cycle of two turns, the positions of the second turn count among the further ones."""
 
 LARGEST_CRANK = 0.05
 """A crank is drawn no longer than this (m on paper)."""
@@ -142,7 +142,7 @@ def _motion_at(machine: Machine) -> MotionAt:
 
 
 def _calculation(given: Parameters, linkage: Linkage, built: Machine, drawn: float | None) -> GivenData:
-    """Return the calculation of fixed points, lengths, speed, drawn length, masses and moments of inertia."""
+    """Return the fixed points, lengths, speed, drawn length, masses and moments of inertia."""
     q, driver = GivenData(), given.driver
     for name, place in linkage.ground.items():
         x, y = (

@@ -43,7 +43,7 @@ class Parameters(Driven, masses=(2, 3, 4, 5), moments=(2, 3, 4), shares=(2, 3, 4
 
 
 def _calculation(given: Parameters, crank: Given | None = None) -> GivenData:
-    """Return the calculation of given data, mass centres, masses and moments of inertia."""
+    """Return the given data, mass centres, masses and moments of inertia."""
     q = GivenData(given)
     for id, length in {"OA": given.OA, "AB": given.AB, "DB": given.BD, "BC": given.BD}.items():
         q.datum(ids.length(id), length, Symbol("l", "BD" if id == "DB" else id))
@@ -72,8 +72,8 @@ def _linkage(given: Parameters, q: GivenData) -> Linkage:
 
 @of_parameters
 def _check_turning(given: Parameters) -> Iterator[Finding]:
-    """Yield faults unless the crank turns fully, without dead points, B stays below D, and the slider goes once down
-    and up.
+    """Yield faults unless the crank turns fully, without dead points, B stays below D, and the slider moves down and up
+    once.
     """
     linkage = _linkage(given, _calculation(given))
     members = {
