@@ -119,7 +119,7 @@ class MachineCase(MachineAnalysis):
         return Span(labels, machine.count, tuple(self.assignment.worked_positions), printed)
 
     def sense(self, id: str) -> str:
-        return positive_sense(id, self.ledger, self.words, self._ways)
+        return positive_sense(id, self.ledger, self.words, self._slide_directions)
 
     @property
     def _report(self) -> ReportContext:
@@ -130,7 +130,7 @@ class MachineCase(MachineAnalysis):
         return ReportContext(self)
 
     @cached_property
-    def _ways(self) -> Mapping[str, str]:
+    def _slide_directions(self) -> Mapping[str, str]:
         """The positive directions of the motion of its sliders, in words, by their points."""
         from reportgen.report.template_equations import heading_words
 

@@ -35,7 +35,7 @@ from reportgen.base.yaml_values import at, path_text, put, quoted, text_of, with
 from reportgen.cases import opened
 from reportgen.classes.earlier_draw import DROPPED, MARKED, REDRAWN, read_earlier, students_named
 from reportgen.classes.roster import comparable, read_roster
-from reportgen.classes.variant_draw import Draw, DrawnVariant, judge_of, shared
+from reportgen.classes.variant_draw import Draw, DrawnVariant, fault_finder, shared
 from reportgen.classes.variant_spec import Spec, assembled, read_spec
 from reportgen.classes.worker_pool import each_within
 from reportgen.workbook import write_csv
@@ -168,7 +168,7 @@ def make_variants(
     for name, content in words_beside(spec_path).items():
         (out / name).parent.mkdir(parents=True, exist_ok=True)
         put_file(out / name, content)
-    draw, files, everyone = Draw(spec, judge_of(spec)), list[StudentFile](), list[StudentFile]()
+    draw, files, everyone = Draw(spec, fault_finder(spec)), list[StudentFile](), list[StudentFile]()
 
     def each() -> Iterator[StudentFile]:
         for drawn in draw.each(roster, earlier.redrawn, anew):

@@ -398,7 +398,7 @@ def cluster(address: str, language: Language | None) -> Pool:
                 for job in suspects:
                     retried(job)
                     (future,) = _first_done(client, [client.submit(_run, job, pure=False)])
-                    outcome = _told(job, future)
+                    outcome = _received(job, future)
                     yield job, outcome or failed(word("worker_died", job.making.language))
             except WorkersLostError as error:
                 raise ClusterError(word("workers_lost", language, address=address)) from error
@@ -420,7 +420,7 @@ def _results(client: Any, jobs: Iterator[Job], suspect: Callable[[Job], None]) -
     while handed_out:
         for future in _first_done(client, list(handed_out)):
             job = handed_out.pop(future)
-            outcome = _told(job, future)
+            outcome = _received(job, future)
             hand_out()
             if outcome is None:
                 suspect(job)
@@ -446,7 +446,7 @@ def _first_done(client: Any, futures: Sequence[Any]) -> set[Any]:
             raise WorkersLostError
 
 
-def _told(job: Job, future: Any) -> Outcome | None:
+def _received(job: Job, future: Any) -> Outcome | None:
     """Return the outcome of a job, which the cluster may then forget; None if its workers died.
 
     Raises `OSError` or `FutureCancelledError` if the scheduler has gone.

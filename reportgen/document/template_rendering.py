@@ -221,7 +221,7 @@ def _render(places: tuple[Path, ...], name: str, names: Mapping[str, object]) ->
         raise
     except Exception as error:
         file, line = _origin(error, places, name)
-        raise TemplateError(f"{file}:{line}: {_told(error, places)}") from error
+        raise TemplateError(f"{file}:{line}: {_reason(error, places)}") from error
     finally:
         _values.reset(outer)
     return _assemble(output, name, values, places)
@@ -238,7 +238,7 @@ def _within(pieces: Iterable[str]) -> str:
     return "".join(rendered)
 
 
-def _told(error: Exception, places: tuple[Path, ...]) -> str:
+def _reason(error: Exception, places: tuple[Path, ...]) -> str:
     match error:
         case TemplateSyntaxError() if not isinstance(error, UnknownSignError):
             return error.message or type(error).__name__

@@ -18,7 +18,7 @@ from reportgen.base.units import MM, Language, QuantityFault, read_number, read_
 from reportgen.base.words import as_error, word
 from reportgen.case import Case, DriverMotion
 from reportgen.drawing import Content, Diagram, PlottedCurve
-from reportgen.export.quantities import Found, quantity
+from reportgen.export.quantities import CaseQuantity, quantity
 from reportgen.formula import Chain, Symbol
 from reportgen.report.template_equations import heading_of
 from reportgen.workbook import SheetCell, read
@@ -94,12 +94,12 @@ def _diagram(cases: Sequence[Case], ids: Sequence[str], over: Over, measured: Se
         if series.id in ids:
             symbol, how = first.case.ledger.symbol(series.id), first.case.ledger[series.id].how
             x = _across(series, over, motion, cases[0].assignment.language)
-            curves.append(PlottedCurve(_told(symbol, series.name), x, series.values / how.scale, dots=True))
+            curves.append(PlottedCurve(_labelled(symbol, series.name), x, series.values / how.scale, dots=True))
     turn = over == "phi" and not motion.slides
     return Diagram(tuple(curves), axis_across(motion, over), axis_up(first, ids), turn=turn)
 
 
-def curve(source: Found, over: Over, note: str, language: Language) -> PlottedCurve:
+def curve(source: CaseQuantity, over: Over, note: str, language: Language) -> PlottedCurve:
     """Return a quantity over the driver's travel (degrees, or mm) or over time (s), for the whole cycle.
 
     A `note` follows the symbol of the quantity.
@@ -110,10 +110,10 @@ def curve(source: Found, over: Over, note: str, language: Language) -> PlottedCu
         # A cycle ends where it begins.
         gone, values = np.append(gone, motion.whole), np.append(values, values[0])
     per = _speed(motion, language) if over == "time" else 1 / MM if motion.slides else math.pi / 180
-    return PlottedCurve(_told(source.family.symbol, note), gone / per, values)
+    return PlottedCurve(_labelled(source.family.symbol, note), gone / per, values)
 
 
-def _told(symbol: Symbol, name: str) -> Content:
+def _labelled(symbol: Symbol, name: str) -> Content:
     return Chain((symbol,), name) if name else symbol
 
 
@@ -124,7 +124,7 @@ def axis_across(motion: DriverMotion, over: Over) -> Chain:
     return Chain((Symbol("s" if motion.slides else "φ"),), motion.called)
 
 
-def axis_up(source: Found, ids: Sequence[str]) -> Content:
+def axis_up(source: CaseQuantity, ids: Sequence[str]) -> Content:
     """Return the label of the axis of the quantities.
 
     It has the symbol of a single quantity, the unit, and the positive direction if all have the same one.

@@ -56,14 +56,14 @@ class MovingFigure:
 
     def frames(self, layers: Collection[str]) -> list[Scene]:
         """Return its drawings through a turn, or through the cycle if the visible items need it."""
-        turns = self.animation.turns if self._goes_on(layers) else 1
+        turns = self.animation.turns if self._needs_cycle(layers) else 1
         ends = not self.animation.span
         angles = np.linspace(0.0, 360.0 * turns, FRAMES * turns + (not ends), endpoint=not ends)
         return list(
             stills(self.animation, self.pane, [sample_at(self.animation, float(one)) for one in angles], layers)
         )
 
-    def _goes_on(self, layers: Collection[str]) -> bool:
+    def _needs_cycle(self, layers: Collection[str]) -> bool:
         """Return True if a visible item does not repeat from turn to turn."""
         visible = (item for item in self.pane.items if not item.layer or item.layer in layers)
         return any(

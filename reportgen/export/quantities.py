@@ -59,7 +59,7 @@ class QuantityArray(np.ndarray):
 
 
 @dataclass(frozen=True, slots=True)
-class Found:
+class CaseQuantity:
     """A quantity of a case, or of one of its parts."""
 
     id: str
@@ -87,7 +87,7 @@ class Found:
         return over
 
 
-def quantity(case: Case, id: str) -> Found:
+def quantity(case: Case, id: str) -> CaseQuantity:
     """Return a quantity by its id, or by its symbol as text (M.cb for M_cb); the machine precedes its parts.
 
     Raise `UnknownNameError`.
@@ -95,11 +95,11 @@ def quantity(case: Case, id: str) -> Found:
     cases = list(case.parts.values()) or [case]
     for part in cases:
         if id in part.ledger:
-            return Found(id, part)
+            return CaseQuantity(id, part)
     for part in cases:
         for own, family in part.ledger.families.items():
             if not family.hidden and id == f"{family.symbol.base}.{family.symbol.sub}":
-                return Found(own, part)
+                return CaseQuantity(own, part)
     raise UnknownNameError(unknown("no_quantity", id, list(visible_ids(case)), case.assignment.language))
 
 

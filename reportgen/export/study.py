@@ -42,7 +42,7 @@ class Study:
         Raise `UnknownNameError` for an unknown id.
         """
         quantities = [quantity(self._base, id) for id in of]
-        together = [source.id for source in quantities if source.case is self._base and self.is_told(source.id)]
+        together = [source.id for source in quantities if source.case is self._base and self.is_determined(source.id)]
         values = self._evaluated(together)
         for source in quantities:
             if source.id not in values:
@@ -106,7 +106,7 @@ class Study:
         rate, point = next((rate, read["point"]) for rate, name in ids.POINT_RATE.items() if (read := name.read(id)))
         return ids.plan_point(rate, image(point)), ids.scale(rate), motion.signed[id][1]
 
-    def is_told(self, id: str) -> bool:
+    def is_determined(self, id: str) -> bool:
         """Return True if formulas and given data determine a quantity for every value, without other changing
         numbers.
         """

@@ -48,7 +48,7 @@ def asked_positions(key: Key) -> tuple[int, ...]:
     return tuple(sorted({k for row in key.asked for k in row.positions if k}))
 
 
-def rows_shown(key: Key) -> tuple[KeyRow, ...]:
+def sheet_rows(key: Key) -> tuple[KeyRow, ...]:
     """Return the rows of the sheet: given, asked and scales; given data of formulas only if formulas are asked for."""
     formulas = any(row.part is KeyChapter.formulas for row in key.asked)
     given = (row.id for row in key.rows if row.role is Role.given and (formulas or row.part is not KeyChapter.formulas))
@@ -174,7 +174,7 @@ def _answer_page(key: Key, name: str, note: str, by_section: bool) -> WorksheetD
             return Entry(None, "input", unlocked=True)
         return given_entry(row, position)
 
-    rows = grid(key, sheet["title"], note, filling, rows_shown(key), asked_positions(key))
+    rows = grid(key, sheet["title"], note, filling, sheet_rows(key), asked_positions(key))
     return page(name, rows, by_section)
 
 

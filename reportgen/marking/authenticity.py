@@ -83,7 +83,7 @@ class Classmate:
     submission: Submission | None = None
 
 
-def guard(
+def check_authenticity(
     scheme: MarkingScheme, cells: Cells, classmates: Sequence[Classmate]
 ) -> tuple[dict[Place, Marked], tuple[Notice, ...]]:
     """Return the cells after the policy's deductions, and all notices."""
@@ -146,16 +146,22 @@ def _same_columns(scheme: MarkingScheme, cells: Cells) -> Iterator[Notice]:
     positions = sorted({position for _, position in _filled(cells) if position})
     copies: set[int] = set()
     for first, second in combinations(positions, 2):
-        telling = [id for id, position in cells if position == first and _differ(cells, (id, first), (id, second))]
-        same = [id for id in telling if cells[id, first].written == cells[id, second].written]
-        if len(telling) < FEWEST_ROWS or len(same) < FOREIGN_SHARE * len(telling) or {first, second} <= copies:
+        distinguishing = [
+            id for id, position in cells if position == first and _differ(cells, (id, first), (id, second))
+        ]
+        same = [id for id in distinguishing if cells[id, first].written == cells[id, second].written]
+        if (
+            len(distinguishing) < FEWEST_ROWS
+            or len(same) < FOREIGN_SHARE * len(distinguishing)
+            or {first, second} <= copies
+        ):
             continue
         right = {k: sum(cells[id, k].verdict is Verdict.right for id in same) for k in (first, second)}
         copy = first if first in copies or (second not in copies and right[first] < right[second]) else second
         copies.add(copy)
         # Values that are right all the same keep their points.
         spoiled = tuple(place for place in cells if place[1] == copy and cells[place].verdict is Verdict.follows)
-        yield Notice("columns", tuple((id, copy) for id in same), spoiled, classmate="", count=len(telling))
+        yield Notice("columns", tuple((id, copy) for id in same), spoiled, classmate="", count=len(distinguishing))
 
 
 def _differ(cells: Cells, first: Place, second: Place) -> bool:
@@ -183,7 +189,7 @@ def _other_data(scheme: MarkingScheme, cells: Cells, classmates: Sequence[Classm
     if classmate_id or len(misread) + len(unnamed) >= (OTHER_DATA if len(misread) >= NAMED else INVENTED):
         causes = {*named, *unnamed}
         follows = (place for place, cell in cells.items() if cell.verdict is Verdict.follows)
-        spoiled = (one for one in follows if scheme.stands_on(one, causes) or misread & {*scheme.before[one[0]]})
+        spoiled = (one for one in follows if scheme.depends_on(one, causes) or misread & {*scheme.before[one[0]]})
         # In the order of the sheet, so that every run gives the same result.
         yield Notice(
             "other-data", tuple(place for place in first if place in causes), tuple(spoiled), classmate=classmate_id
@@ -192,16 +198,16 @@ def _other_data(scheme: MarkingScheme, cells: Cells, classmates: Sequence[Classm
 
 def _is_right_for(scheme: MarkingScheme, cells: Cells, classmate: Classmate) -> bool:
     """Return True if nearly all values that distinguish a classmate's assignment from this one are the classmate's."""
-    telling = met = 0
+    distinguishing = met = 0
     for cell in cells.values():
         row = _row(classmate, cell)
         if cell.written is None or row is None or _is_drawn(row):
             continue
         theirs = float(row.values[row.at(cell.position)])
         if _apart(scheme, cell, theirs, cell.on_sheet.expected) >= APART * cell.on_sheet.band:
-            telling += 1
+            distinguishing += 1
             met += _apart(scheme, cell, cell.written, theirs) <= cell.on_sheet.band
-    return telling >= FEWEST_ROWS and met >= ALL * telling
+    return distinguishing >= FEWEST_ROWS and met >= ALL * distinguishing
 
 
 # --- classmates -----------------------------------------------------------------------------------
@@ -229,11 +235,11 @@ def _copied(scheme: MarkingScheme, cells: Cells, classmates: Sequence[Classmate]
         chance = 1.0
         wrong = [[place for place in part if not _is_near(own[place])] for part in parts]
         for part in (*parts, *wrong):
-            telling = [place for place in part if meets[place] is not None]
-            met = [place for place in telling if meets[place]]
-            if len(met) < max(FEWEST, FOREIGN_SHARE * len(telling)):
+            distinguishing = [place for place in part if meets[place] is not None]
+            met = [place for place in distinguishing if meets[place]]
+            if len(met) < max(FEWEST, FOREIGN_SHARE * len(distinguishing)):
                 continue
-            by_chance = compared * _tail([NEAR if _is_near(own[place]) else FAR for place in telling], len(met))
+            by_chance = compared * _tail([NEAR if _is_near(own[place]) else FAR for place in distinguishing], len(met))
             if by_chance < CHANCE:
                 copied |= dict.fromkeys(met)
                 chance = min(chance, by_chance)
@@ -266,21 +272,21 @@ def _of_key(scheme: MarkingScheme, cells: Cells, own: Cells, classmate: Classmat
     causes = {place for place, met in meets.items() if met}
     follows = [place for place, cell in cells.items() if cell.verdict is Verdict.follows and cell.written is not None]
     return tuple(
-        place for place in follows if scheme.stands_on(place, causes) and _meets(scheme, cells[place], classmate)
+        place for place in follows if scheme.depends_on(place, causes) and _meets(scheme, cells[place], classmate)
     )
 
 
 def _is_whole(scheme: MarkingScheme, cells: Cells, classmate: Classmate) -> bool:
     """Return True if a sheet has nearly all those values of a classmate's that are wrong on it."""
-    telling = [
+    distinguishing = [
         cell
         for place, cell in cells.items()
         if cell.written is not None
         and (theirs := _theirs(classmate, place)) is not None
         and _apart(scheme, cell, theirs, cell.on_sheet.expected) > cell.on_sheet.band
     ]
-    met = sum(_equal(cell, _theirs(classmate, (cell.id, cell.position))) for cell in telling)
-    return len(telling) > FEWEST_ROWS and met >= FOREIGN_SHARE * len(telling)
+    met = sum(_equal(cell, _theirs(classmate, (cell.id, cell.position))) for cell in distinguishing)
+    return len(distinguishing) > FEWEST_ROWS and met >= FOREIGN_SHARE * len(distinguishing)
 
 
 def _is_source(scheme: MarkingScheme, right: Sequence[Marked], classmate: Classmate) -> bool:
@@ -406,7 +412,7 @@ def not_from_own(working: Working, cells: Cells) -> frozenset[Place]:
 
 
 def _differs(working: Working, cell: Marked) -> bool:
-    ledger, world = working.scheme.ledger, working.world
+    ledger, all_values = working.scheme.ledger, working.all_values
     id = ledger.size_of(cell.id)
     definition = ledger[id].definition
     assert cell.written is not None, "only a given value is right"
@@ -418,7 +424,7 @@ def _differs(working: Working, cell: Marked) -> bool:
     index = working.scheme.rows[cell.id].at(cell.position)
 
     def at(name: str) -> float:
-        values = world[name]
+        values = all_values[name]
         return float(values[index if len(values) > 1 else 0].real)
 
     inputs = {name: at(name) for name in ledger.inputs[id]}
@@ -441,12 +447,12 @@ def _differs(working: Working, cell: Marked) -> bool:
 def _differs_on_plan(working: Working, cell: Marked) -> bool:
     """Return True if a length on a force plan disagrees with the student's own forces, all of them on the sheet."""
     scheme, plan = working.scheme, vocabulary.plan(cell.id)
-    if scheme.ledger[plan].kind != "force scale" or not _stands(working, plan, cell.position):
+    if scheme.ledger[plan].kind != "force scale" or not _is_filled_in(working, plan, cell.position):
         return False
     known = (scheme.ledger[one.of].of for id, one in scheme.ledger.families.items() if vocabulary.plan(id) == plan)
     laid = [id for id in known if id in scheme.rows and plan not in scheme.before[id]]
     assert cell.written is not None, "only a given value is right"
-    if not all(_stands(working, id, cell.position) for id in laid):
+    if not all(_is_filled_in(working, id, cell.position) for id in laid):
         return False
     apart = abs(abs(cell.written) - abs(cell.on_sheet.own))
     # On a large plan, the rounding of the forces is visible too.
@@ -457,7 +463,7 @@ def _differs_on_plan(working: Working, cell: Marked) -> bool:
     return bool(apart > CLOSES * error + rounding)
 
 
-def _stands(working: Working, id: str, position: int) -> bool:
+def _is_filled_in(working: Working, id: str, position: int) -> bool:
     """Return True if a requested value was filled in."""
     row = working.scheme.rows.get(id)
     return row is not None and (id, working.scheme.place(row, position)) in working.submission.values

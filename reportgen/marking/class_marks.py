@@ -63,7 +63,7 @@ def grade_rows(
     rows: list[tuple[CellValue, ...]] = [head]
     rows += [
         (
-            *who(marking.key),
+            *identity_of(marking.key),
             round(marking.points, 2),
             round(marking.out_of, 2),
             round(100 * marking.share, 1),
@@ -83,7 +83,7 @@ def grade_rows(
     ]
     rows += [
         (
-            *who(student.key),
+            *identity_of(student.key),
             *(None,) * 4,
             *(None for _ in (*parts, *owners)),
             "",
@@ -171,7 +171,7 @@ def _words(places: tuple[Path, ...]) -> Mapping[str, Any]:
     return load_words(places)
 
 
-def who(key: Key) -> tuple[str, str, str]:
+def identity_of(key: Key) -> tuple[str, str, str]:
     """Return id (or else the assignment's id), name and class of a student, as far as they are known."""
     student = key.student
     return (student.get("id", key.id), student.get("name", ""), student.get("class", ""))

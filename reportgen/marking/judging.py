@@ -19,7 +19,7 @@ from reportgen.case import Case
 from reportgen.case.answer_key import KeyRow, Role
 from reportgen.formula.ledger import Ledger
 from reportgen.marking.answer_sheet import read_submission
-from reportgen.marking.authenticity import Classmate, guard, not_from_own, unseen_text
+from reportgen.marking.authenticity import Classmate, check_authenticity, not_from_own, unseen_text
 from reportgen.marking.coursework_marking import joined, sheets_of
 from reportgen.marking.exchanged_positions import Exchange, possible_exchanges
 from reportgen.marking.marking_data import Cells, Marked, Marking, Notice, Place, Submission, Verdict, points_of
@@ -57,7 +57,7 @@ def mark(scheme: MarkingScheme, submission: Submission, classmates: Sequence[Cla
     cells |= {place: replace(cells[place], elsewhere=True) for place in not_from_own(working, cells)}
     flags: tuple[Notice, ...] = ()
     if scheme.policy.guard:
-        cells, flags = guard(scheme, cells, classmates)
+        cells, flags = check_authenticity(scheme, cells, classmates)
     if exchange:
         cells, flags = exchange.as_handed_in(cells), exchange.noticed(flags)
     order = {row.id: index for index, row in enumerate(scheme.key.rows)}
@@ -67,19 +67,19 @@ def mark(scheme: MarkingScheme, submission: Submission, classmates: Sequence[Cla
 
 
 @np.errstate(all="ignore")
-def own_worlds(scheme: MarkingScheme, submission: Submission) -> tuple[Values, ...]:
+def following_values(scheme: MarkingScheme, submission: Submission) -> tuple[Values, ...]:
     """Return all values (SI) [N] that follow from the student's wrong entries, and again with the misread data.
 
     Return () if nothing is wrong. For a coursework, these are the values of its machine.
     """
     if scheme.parts:
         machine = next(iter(sheets_of(scheme, submission, ())))
-        return own_worlds(machine.scheme, machine.submission)
+        return following_values(machine.scheme, machine.submission)
     working, _, mistakes, _ = _best_order(scheme, submission)
     changes = {id: change for one in mistakes for id, change in one.changes.items() if not working.shows(id)}
     if not mistakes:
         return ()
-    return (working.world, *([working.world_with(changes)] if changes else []))
+    return (working.all_values, *([working.all_values_with(changes)] if changes else []))
 
 
 def _best_order(
@@ -128,7 +128,7 @@ def _verdicts(working: Working) -> tuple[dict[Place, Marked], list[Mistake]]:
     cells = _judged_cells(working, possible)
     cells |= _by_approximation(working, cells)
     wrong = {place for place, cell in cells.items() if cell.verdict is Verdict.wrong}
-    cells |= {place: replace(cells[place], first=True) for place in wrong if not scheme.stands_on(place, wrong)}
+    cells |= {place: replace(cells[place], first=True) for place in wrong if not scheme.depends_on(place, wrong)}
     named: list[Mistake] = []
     for search in SEARCHES:
         mistakes = search(working, cells)
@@ -176,7 +176,7 @@ def _judged_cells(working: Working, possible: Sequence[Values]) -> dict[Place, M
     wrong = {place for place, cell in cells.items() if cell.verdict is Verdict.wrong}
     for row, at in rows:
         narrow, usual = working.bands[row.id], scheme.bands[row.id]
-        if (row.id, at) in wrong and (narrow < usual).any() and scheme.stands_on((row.id, at), wrong):
+        if (row.id, at) in wrong and (narrow < usual).any() and scheme.depends_on((row.id, at), wrong):
             cells[row.id, at] = _judged(working, row, at, possible, np.maximum(narrow, usual))
     return cells
 
@@ -199,7 +199,7 @@ def _judged(working: Working, row: KeyRow, position: int, possible: Sequence[Val
     band = float(bands[index if len(bands) > 1 else 0])
     key = float(family.at(position).real)
     following = [_own(scheme.ledger, values, row.id, index) for values in possible]
-    following += working.also(row, position)
+    following += working.accepted_alternatives(row, position)
     drawn = submission.measured.get(place)
     if drawn is not None:
         # The drawing's own fitting error counts if it is larger.

@@ -125,19 +125,19 @@ class MarkingScheme:
         return alike
 
     @cached_property
-    def makers(self) -> dict[str, tuple[str, str]]:
+    def scale_definitions(self) -> dict[str, tuple[str, str]]:
         """For each scale of a plan, the size and the length that define it: v_A and pa for μ_v."""
-        ledger, makers = self.ledger, dict[str, tuple[str, str]]()
+        ledger, scale_definitions = self.ledger, dict[str, tuple[str, str]]()
         single = [one for one in ledger.families.values() if len(one.values) == 1 and not (one.hidden or one.is_plane)]
         sizes = [one for one in single if one.kind in ("velocity", "acceleration")]
         for length in single:
             scale = vocabulary.plan(length.id)
-            if scale in ledger and scale not in makers and makes_scale(ledger, length.id, scale):
+            if scale in ledger and scale not in scale_definitions and makes_scale(ledger, length.id, scale):
                 value = ledger[scale].values[0] * length.values[0]
                 size = next((one.id for one in sizes if np.isclose(one.values[0], value, rtol=1e-9)), "")
                 if size:
-                    makers[scale] = size, length.id
-        return makers
+                    scale_definitions[scale] = size, length.id
+        return scale_definitions
 
     @cached_property
     def sizes(self) -> dict[str, set[str]]:
@@ -153,7 +153,7 @@ class MarkingScheme:
                 sizes[id].add(self.ledger[family.of].of)
         return sizes
 
-    def stands_on(self, place: Place, places: Container[Place]) -> bool:
+    def depends_on(self, place: Place, places: Container[Place]) -> bool:
         """Return True if a value on the sheet depends on one at any of `places`."""
         id, position = place
         rows = (self.rows[before] for before in self.before[id] if before in self.rows)

@@ -17,7 +17,7 @@ from reportgen.formula import refs, vocabulary
 from reportgen.formula.evaluation import evaluate
 from reportgen.marking.marking_data import Cells, Marked, Place, Submission, Verdict
 from reportgen.marking.marking_scheme import MarkingScheme, Values
-from reportgen.marking.student_values import CONFIRMED, ScaleReading, Working, lay_out
+from reportgen.marking.student_values import CONFIRMED, ScaleReading, Working, working_of
 
 Fitting = Callable[[Working], tuple[int, int]]
 """Returns the number of values of a sheet that a working explains, and the number of values."""
@@ -30,17 +30,17 @@ def best_working(scheme: MarkingScheme, submission: Submission, fitting: Fitting
     """
     scales = _open_scales(scheme, submission)
     if not scales:
-        return lay_out(scheme, submission)
+        return working_of(scheme, submission)
     stated = _stated(scheme, submission, scales)
-    blank = lay_out(scheme, without_cells(submission, {(id, 0) for id in scales}))
-    possible = _Possible(scheme, blank.world, stated)
+    blank = working_of(scheme, without_cells(submission, {(id, 0) for id in scales}))
+    possible = _Possible(scheme, blank.all_values, stated)
     taken: dict[str, ScaleReading] = {}
     best: Working | None = None
     for index, scale in enumerate(scales):
         candidates = possible.readings(scale, taken)
         tried: list[tuple[int, ScaleReading, Working]] = []
         for reading in candidates if len(candidates) > 1 else ():
-            working = lay_out(scheme, submission, possible.completed({**taken, scale: reading}, scales[index + 1 :]))
+            working = working_of(scheme, submission, possible.completed({**taken, scale: reading}, scales[index + 1 :]))
             explained, count = fitting(working)
             if explained == count:
                 return working
@@ -49,7 +49,7 @@ def best_working(scheme: MarkingScheme, submission: Submission, fitting: Fitting
             _, taken[scale], best = max(tried, key=lambda one: one[0])
         else:
             taken[scale] = candidates[0]
-    return best or lay_out(scheme, submission, taken)
+    return best or working_of(scheme, submission, taken)
 
 
 def optional_scales(working: Working) -> frozenset[Place]:
@@ -103,23 +103,23 @@ def charged_for_scales(working: Working, cells: Cells) -> dict[Place, Marked]:
 class _Possible:
     """The values (SI) that open scales may have for a student.
 
-    `world` has all values (SI) [N] without the scales, `stated` the written scales (SI).
+    `all_values` has all values (SI) [N] without the scales, `stated` the written scales (SI).
     """
 
     scheme: MarkingScheme
-    world: Values
+    all_values: Values
     stated: Mapping[str, float]
 
     def readings(self, scale: str, taken: Mapping[str, ScaleReading]) -> list[ScaleReading]:
         """Return the readings of a scale: from own values by its formula or as v_A/pa, then the written number."""
         definition = self.scheme.ledger[scale].definition
         assert definition is not None, "an open scale is worked out"
-        inputs = {id: np.array([taken[id].value]) if id in taken else self.world[id] for id in refs(definition)}
+        inputs = {id: np.array([taken[id].value]) if id in taken else self.all_values[id] for id in refs(definition)}
         readings = [ScaleReading(float(np.atleast_1d(evaluate(definition, inputs))[0].real), own=True)]
         further = []
-        if scale in self.scheme.makers:
-            size, length = self.scheme.makers[scale]
-            further.append(float((self.world[size] / self.world[length])[0].real))
+        if scale in self.scheme.scale_definitions:
+            size, length = self.scheme.scale_definitions[scale]
+            further.append(float((self.all_values[size] / self.all_values[length])[0].real))
         if scale in self.stated:
             further.append(self.stated[scale])
         for value in further:

@@ -83,7 +83,7 @@ class Working:
         return followed[0]
 
     @cached_property
-    def world(self) -> dict[str, np.ndarray]:
+    def all_values(self) -> dict[str, np.ndarray]:
         """All values (SI) [N] of a student: entered ones and those that follow from them; the key's for blank ones."""
         return self._from_key[1]
 
@@ -91,7 +91,7 @@ class Working:
     def _from_key(self) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
         return self._followed(True, {})
 
-    def world_with(self, changes: Mapping[str, ChangeValue]) -> dict[str, np.ndarray]:
+    def all_values_with(self, changes: Mapping[str, ChangeValue]) -> dict[str, np.ndarray]:
         """Return all values (SI) [N] with changes of quantities that the sheet does not show."""
         return self._followed(True, changes)[1]
 
@@ -113,7 +113,7 @@ class Working:
         values = follow(ledger, {**unseen, **{id: entered(id) for id in self.entered_ids}})
         return result, values
 
-    def also(self, row: KeyRow, position: int) -> list[float]:
+    def accepted_alternatives(self, row: KeyRow, position: int) -> list[float]:
         """Return other accepted values of a quantity (SI): another equal quantity's, or that of another way of drawing.
 
         A student who uses a_C for a_A, or μ_a for a_A/πa′, is not wrong again where a_A was. On the lever, M = F h′ μ_l
@@ -124,10 +124,10 @@ class Working:
         accepted = [
             float(self.values[equal][index].real) for equal in self.scheme.alike[row.id] if equal in self.values
         ]
-        if row.role is Role.scale and row.id in self.scheme.makers:
-            size, length = self.scheme.makers[row.id]
-            if size in self.values and self.world[length][0]:
-                accepted.append(float(self.values[size][0] / self.world[length][0].real))
+        if row.role is Role.scale and row.id in self.scheme.scale_definitions:
+            size, length = self.scheme.scale_definitions[row.id]
+            if size in self.values and self.all_values[length][0]:
+                accepted.append(float(self.values[size][0] / self.all_values[length][0].real))
         accepted += self._by_length_scale(row, index)
         accepted += [self.by_another_way(row, way, index) for way in self.scheme.misconceptions.ways.get(row.id, ())]
         return [
@@ -138,7 +138,7 @@ class Working:
 
     def by_another_way(self, row: KeyRow, definition: Expression, index: int) -> float:
         """Return the value that another definition of a quantity gives from the student's own values."""
-        values = np.atleast_1d(evaluate(definition, {id: self.world[id] for id in refs(definition)}))
+        values = np.atleast_1d(evaluate(definition, {id: self.all_values[id] for id in refs(definition)}))
         return float(np.broadcast_to(values, self.scheme.ledger[row.id].values.shape)[index].real)
 
     def _by_length_scale(self, row: KeyRow, index: int) -> list[float]:
@@ -149,8 +149,12 @@ class Working:
         load, arm = names["force"], ids.lever_arm(names["force"])
         if not {arm, "mu.l"} <= self.values.keys():
             return []
-        drawn = self.world[arm] / self.factors.get("mu.v", np.ones(1))
-        return [float((self.world[load] * drawn)[index].real) * self._stated("mu.l")] if load in self.world else []
+        drawn = self.all_values[arm] / self.factors.get("mu.v", np.ones(1))
+        return (
+            [float((self.all_values[load] * drawn)[index].real) * self._stated("mu.l")]
+            if load in self.all_values
+            else []
+        )
 
     def _stated(self, scale: str) -> float:
         """Return a scale (SI) as it is written, right or not."""
@@ -204,7 +208,7 @@ def last_half_unit(value: float) -> float:
     return float(half_unit(np.array([value]), max(LEAST_FIGURES, len(written)))[0])
 
 
-def lay_out(
+def working_of(
     scheme: MarkingScheme, submission: Submission, readings: Mapping[str, ScaleReading] | None = None
 ) -> Working:
     """Return the working of a submission, with every plan read as it was drawn, or at the scales in `readings`.

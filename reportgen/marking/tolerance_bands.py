@@ -262,5 +262,5 @@ def trapezoid_errors(ledger: Ledger) -> Mapping[str, np.ndarray]:
 def is_workable(ledger: Ledger, id: str, errors: Mapping[str, np.ndarray]) -> bool:
     """Return True if a quantity can be computed from the positions alone, given the `errors` (SI) that this causes."""
     for hooks in MARKS.among(topics()):
-        id = hooks.stands_on(ledger, id)
+        id = hooks.integral_of(ledger, id)
     return id not in errors or bool(np.nanmax(errors[id]) <= LARGE * np.nanmax(np.abs(ledger[id].values)))

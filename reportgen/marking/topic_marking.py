@@ -25,7 +25,7 @@ class MarkHooks:
 
     errors_of_positions: Callable[[Ledger], Mapping[str, np.ndarray]] = _no_errors
     """Returns the distances (SI) of such values from those of the ledger, by id."""
-    stands_on: Callable[[Ledger, str], str] = _itself
+    integral_of: Callable[[Ledger, str], str] = _itself
     """Returns the id of the integral that a quantity is computed from, else its own id."""
 
 

@@ -37,7 +37,7 @@ Bar = tuple[str, str]
 
 
 @dataclass(frozen=True)
-class Owned:
+class ControlledParts:
     """The bars (each by the points at its ends) and the points that one value controls."""
 
     bars: tuple[Bar, ...] = ()
@@ -47,7 +47,7 @@ class Owned:
         return bool(self.bars or self.points)
 
 
-def owners(machine: Machine, top: MappingNode, source: Source) -> Iterator[tuple[Where, Owned]]:
+def owners(machine: Machine, top: MappingNode, source: Source) -> Iterator[tuple[Where, ControlledParts]]:
     """Yield the bars and points that each value of the machine's data controls, by its place in the file.
 
     They are empty if the value moves nothing that is drawn.
@@ -90,16 +90,16 @@ def moved(text: str) -> str | None:
     return f"{number * SHARE if number else STEP:.9g}{typed[2]}"
 
 
-def difference(machine: Machine, changed: Machine) -> Owned:
+def difference(machine: Machine, changed: Machine) -> ControlledParts:
     """Return the difference between two machines of one kind, as bars and points."""
     before, after = machine.linkage, changed.linkage
     bars = [*_bars(before, after)]
     points = [*_points(before, after)]
     if not bars and not points:
         if _differ(machine.speed, changed.speed) and isinstance(before.driver, Crank):
-            return Owned(bars=((before.driver.centre, before.driver.pin),))
+            return ControlledParts(bars=((before.driver.centre, before.driver.pin),))
         points = [*_loaded(machine, changed)]
-    return Owned(tuple(dict.fromkeys(bars)), tuple(dict.fromkeys(points)))
+    return ControlledParts(tuple(dict.fromkeys(bars)), tuple(dict.fromkeys(points)))
 
 
 def _differ(value: complex, other_value: complex) -> bool:

@@ -48,11 +48,11 @@ class Opener(Protocol):
     def __call__(self, path: Path, language: Language | None = None, whole: Path | None = None) -> Case: ...
 
 
-def nobody(case: Case, document: Document) -> None:
+def ignore_report(case: Case, document: Document) -> None:
     """Ignore a finished report."""
 
 
-def nothing(path: Path) -> Mapping[str, Sequence[str]]:
+def no_products(path: Path) -> Mapping[str, Sequence[str]]:
     """Return no products."""
     return {}
 
@@ -61,7 +61,7 @@ def watch(
     path: Path,
     opens: Opener,
     language: Language | None = None,
-    tell: Callable[[Case, Document], None] = nobody,
+    tell: Callable[[Case, Document], None] = ignore_report,
     browser: bool = True,
     port: int = 0,
     stream: TextIO = sys.stdout,
@@ -81,7 +81,7 @@ def edit(
     path: Path,
     opens: Opener,
     language: Language | None = None,
-    products: Products = nothing,
+    products: Products = no_products,
     browser: bool = True,
     port: int = 0,
     stream: TextIO = sys.stdout,
@@ -96,7 +96,7 @@ def edit(
 
 @contextmanager
 def edited(
-    path: Path, opens: Opener, language: Language | None = None, products: Products = nothing, port: int = 0
+    path: Path, opens: Opener, language: Language | None = None, products: Products = no_products, port: int = 0
 ) -> Iterator[Server]:
     """Yield the server of a file's form, which answers requests and is renewed while the context is open."""
     with (
@@ -111,7 +111,7 @@ def choose(
     begins: Callable[[str], Path],
     opens: Opener,
     language: Language | None = None,
-    products: Products = nothing,
+    products: Products = no_products,
     browser: bool = True,
     stream: TextIO = sys.stdout,
 ) -> None:

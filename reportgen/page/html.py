@@ -126,8 +126,8 @@ def write(
     styles += [] if live else rules.values()
     scripts = [read(name) for name in (*SCRIPTS, *moving_scripts)]
     if live and live.form:
-        scripts = [EXTENDED, *(script.replace(GIVES, f"{lean(FEED)}{GIVES}") for script in scripts)]
-    scripts += [lean(name) if live.form else read(name) for name in live.scripts] if live else []
+        scripts = [EXTENDED, *(script.replace(GIVES, f"{minified(FEED)}{GIVES}") for script in scripts)]
+    scripts += [minified(name) if live.form else read(name) for name in live.scripts] if live else []
     style, script = "\n".join(styles), "\n".join(scripts)
     policy = [
         "default-src 'none'",
@@ -188,7 +188,7 @@ def read(name: str) -> str:
         raise TypesetterError(f"{path}: {error.strerror}") from error
 
 
-def lean(name: str) -> str:
+def minified(name: str) -> str:
     """Return a script without indents and comment lines, which only readers of its source need."""
     lines = map(str.lstrip, read(name).splitlines(keepends=True))
     return "".join(line for line in lines if not line.startswith("//"))

@@ -233,7 +233,7 @@ def _judge(root: ElementTree.Element, called: str, package: Package, name: str) 
         raise package.refused("letterhead-part", text=name)
     if any(not len(cell) or cell[-1].tag != f"{_W}p" for cell in root.iter(f"{_W}tc")):
         raise package.refused("letterhead-part", text=name)
-    if any(not _stands_right(child, parent) for parent in root.iter() for child in parent):
+    if any(not _is_allowed(child, parent) for parent in root.iter() for child in parent):
         raise package.refused("letterhead-part", text=name)
     marks = [one.get(f"{_W}fldCharType") for one in root.iter(f"{_W}fldChar")]
     if marks.count("begin") != marks.count("end"):
@@ -245,7 +245,7 @@ def _judge(root: ElementTree.Element, called: str, package: Package, name: str) 
         _judge_styles(root.findall(f"{_W}style"), package, name)
 
 
-def _stands_right(child: ElementTree.Element, parent: ElementTree.Element) -> bool:
+def _is_allowed(child: ElementTree.Element, parent: ElementTree.Element) -> bool:
     """Return True if an element is allowed at its place."""
     local, above = child.tag.removeprefix(_W), parent.tag.removeprefix(_W)
     first = _FIRST.get(local) != above or (parent[0] is child and len(parent.findall(child.tag)) == 1)
