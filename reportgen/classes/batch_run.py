@@ -1,4 +1,7 @@
-"""Run a batch: make the products that are missing or changed and write each one when done; killing it is safe."""
+"""Run a batch (`run_batch`): make the products that are missing or changed and write each one when it is done.
+
+A run can be killed at any time; the next one continues.
+"""
 
 from __future__ import annotations
 
@@ -67,7 +70,7 @@ class Order:
 
 @dataclass(frozen=True, slots=True)
 class Failure:
-    """A product that could not be made; marks name the file by a path that can be opened from here."""
+    """A product that could not be made; its problems name the file by a path that can be opened from here."""
 
     student: str
     product: str

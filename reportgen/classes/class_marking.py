@@ -1,4 +1,4 @@
-"""Mark a whole class: return a marking for each filled sheet, and the reason for each student without one.
+"""Mark a whole class (`grade`): a marking for each filled sheet, and the reason for each student without one.
 
 An unreadable sheet never stops the others, and no student's data are written into another's files.
 """

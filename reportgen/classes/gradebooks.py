@@ -1,4 +1,4 @@
-"""Fill marks into a table exported by a learning platform: Moodle's grading worksheet or Canvas's gradebook.
+"""Fill marks into a table of a learning platform (`read_gradebook`, `Gradebook.filled`): of Moodle or of Canvas.
 
 The rest of the file stays byte for byte. Moodle's worksheet has headings in the teacher's language, so its columns are
 found by position and content. The first column ends in each participant's number. The grade precedes the column of the
@@ -93,7 +93,7 @@ class _Table:
 
 @dataclass(frozen=True, slots=True)
 class Gradebook:
-    """A platform's table: its text after the byte-order `mark`, its encoding, and the cells for its grades."""
+    """A platform's table: its text after the byte order `mark`, its encoding, and the cells for its grades."""
 
     path: Path
     text: str

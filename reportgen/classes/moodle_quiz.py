@@ -1,4 +1,4 @@
-"""Export a class's variants as a question bank for a Moodle quiz, with one cloze question for each variant.
+"""Export a class's variants as questions of a Moodle quiz (`question_bank`), one cloze question for each variant.
 
 A question shows the task without its answer sheet, and asks for the cells that a policy selects. A number is right
 within the wider of the key's two bands. If textbooks differ in the sense, either sign is accepted; a direction may

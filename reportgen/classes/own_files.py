@@ -1,4 +1,4 @@
-"""Assign reports and drawings without a sheet to their students, and read them.
+"""Assign reports and drawings without a sheet to their students, and read them: `own_works`.
 
 Such a file does not name its assignment. Its student is found by its name or folder, by the platform, or by the id of
 exactly one student of the class in its text.

@@ -1,8 +1,9 @@
-"""Find submissions (sheets, reports and drawings) in files, folders and downloads of a learning platform, also zipped.
+"""Find submissions in files, folders and downloads of a learning platform, also zipped: `handed_in`.
 
-Moodle puts a student's files into a folder `Name_4711_assignsubmission_file`, or uses that as a prefix of their names.
-Canvas names each file `name_userid_attachmentid_file`. Files returned to the student must have the same prefix. Moodle
-may hide names (`Participant_4711_assignsubmission_file`); then only the number is known.
+Submissions are sheets, reports and drawings. Moodle puts a student's files into a folder
+`Name_4711_assignsubmission_file`, or uses that as a prefix of their names. Canvas names each file
+`name_userid_attachmentid_file`. Files returned to the student must have the same prefix. Moodle may hide names
+(`Participant_4711_assignsubmission_file`); then only the number is known.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Assign the submitted files to students, one sheet for each, and give a reason for each file that is not used."""
+"""Assign the submitted files to students, one sheet each (`collect`), with a reason for each file that is not used."""
 
 from __future__ import annotations
 

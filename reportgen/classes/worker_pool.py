@@ -332,7 +332,7 @@ def each_within(
 
 
 def _begin(megabytes: int, language: Language) -> None:
-    """Limit the memory of this process, and set the language of the process that reads its results.
+    """Prepare a process: limit its memory, and set the language of the process that reads its results.
 
     The fork server may have been started in another language.
     """
@@ -370,7 +370,7 @@ class ClusterError(ReportgenError):
 
 
 class WorkersLostError(Exception):
-    """There has been no worker for a while."""
+    """No worker was present for `WORKERLESS` seconds."""
 
 
 def cluster(address: str, language: Language | None) -> Pool:

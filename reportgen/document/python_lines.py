@@ -70,7 +70,10 @@ def python_name(id: str, taken: Collection[str]) -> str:
 
 
 def given_values(values: np.ndarray, count: int) -> str:
-    """Return values as a literal; evenly increasing angles of whole turns as a formula."""
+    """Return values [N] or [1] as a Python literal; evenly spaced angles (rad) of whole turns become a formula.
+
+    `count` is the number of positions per turn.
+    """
     if len(values) == 1:
         return repr(float(values[0].real))
     for turn in (1, -1):

@@ -96,11 +96,12 @@ def _is_wordy(content: object) -> bool:
 
 
 def exact(value: float) -> Cell:
+    """Return a cell with a number to ten significant figures."""
     return Cell((Value(Number(float(f"{value:.10g}"))),))
 
 
 def folded(prose: Prose, key: str, caption: str, columns: Sequence[tuple[Expression, Sequence[float]]]) -> Table:
-    """Return long columns folded into sets side by side."""
+    """Return columns of numbers, each with its head, folded into three or four sets side by side."""
     head = tuple(cell(shown) for shown, _ in columns)
     sets = [tuple(map(exact, row)) for row in zip(*(values for _, values in columns), strict=False)]
     beside = 3 if len(columns) > 2 else 4
@@ -116,7 +117,10 @@ def folded(prose: Prose, key: str, caption: str, columns: Sequence[tuple[Express
 def in_blocks(
     prose: Prose, key: str, caption: str, head: tuple[Cell, ...], rows: Sequence[tuple[Cell, ...]], first: float
 ) -> Table:
-    """Return a wide table; more than 13 columns are set in blocks of at most 12 values, one below the other."""
+    """Return a wide table; more than 13 columns are set in blocks of at most 12 values, one below the other.
+
+    `first` is the width (mm) of the first column, which is repeated in each block.
+    """
     most = 12
     width = min((TEXT_WIDTH - first) / min(len(head) - 1, most), 14.0)
     body: list[tuple[Cell, ...]] = []

@@ -35,7 +35,10 @@ class QuantityArray(np.ndarray):
 
     @classmethod
     def of(cls, values: np.ndarray, family: Family) -> QuantityArray:
-        """Return values (SI) as an array with the metadata of a family; they need not be the family's own values."""
+        """Return values (SI) [N] as an array with the metadata of a family.
+
+        They need not be the family's own values.
+        """
         made = np.asarray(values).view(cls)
         made.name, made.symbol, made.unit = family.id, family.symbol, si_unit(family.kind)
         return made
@@ -77,6 +80,7 @@ class CaseQuantity:
 
     @property
     def array(self) -> QuantityArray:
+        """Its values (SI) [N] with their metadata."""
         return QuantityArray.of(self.values, self.family)
 
     def over(self, language: Language) -> DriverMotion:

@@ -1,13 +1,13 @@
-"""Detect sheets that are probably not the student's own work, report the evidence, and deduct marks only if certain.
+"""Detect sheets that are probably not the student's own work: `check_authenticity`.
 
 Five patterns are searched for: one number throughout, rows or columns that do not vary, data of another assignment, and
-values of a classmate. Each result is a `Notice` with its places and its reason. Marks are deducted only for what is
-certain, and only if the policy allows it.
+values of a classmate. Each result is a `Notice` with its places and its reason. Marks are deducted only for a certain
+result, and only if the policy allows it.
 
-Copying shows in personal values: they differ from the key and from what the student's own values give by more than
-rounding. Honest values sometimes equal a classmate's. The number of such matches by chance follows a binomial tail,
-multiplied by the numbers of classmates, chapters and positions compared. A run is reported only if it is rarer than
-`CHANCE`.
+Copying shows in personal values: they differ from the key and from the consequence of the student's own values by more
+than rounding. Honest values sometimes equal a classmate's. The number of such matches by chance follows a binomial
+tail, multiplied by the numbers of classmates, chapters and positions compared. A run is reported only if it is rarer
+than `CHANCE`.
 """
 
 from __future__ import annotations
@@ -86,7 +86,7 @@ class Classmate:
 def check_authenticity(
     scheme: MarkingScheme, cells: Cells, classmates: Sequence[Classmate]
 ) -> tuple[dict[Place, Marked], tuple[Notice, ...]]:
-    """Return the cells after the policy's deductions, and all notices."""
+    """Return the cells after the policy's deductions, and a notice of each pattern found."""
     result, flags = dict(cells), []
     for search in (_one_number, _same_columns, _constant_rows):
         flags += list(search(scheme, cells))

@@ -1,4 +1,4 @@
-"""The frame of a report: its headings, its formulas in symbols, and a named blank for each result.
+"""Make the frame of a report (`frame_of`): its headings, its formulas in symbols, and a named blank for each result.
 
 In a report written into this frame, every number can be assigned to its quantity and position.
 """

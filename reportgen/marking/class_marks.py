@@ -1,4 +1,4 @@
-"""The marks of a class for the instructor: the rows of `grades.csv`."""
+"""The marks of a class as rows of `grades.csv` (`grade_rows`), and texts about students and cells for all outputs."""
 
 from __future__ import annotations
 
@@ -134,7 +134,7 @@ def _read(submission: Submission | None) -> tuple[CellValue, CellValue]:
 
 
 def state(student: Unmarked, words: Mapping[str, Any]) -> str:
-    """Return the reason why a student has no mark: no submission, or one that could not be marked."""
+    """Return the reason why a student has no mark: nothing was submitted, or it could not be marked."""
     states = words["states"]
     if student.unsettled is not None and student.unsettled.is_unrecognised:
         return str(states["unrecognised"])

@@ -1,4 +1,4 @@
-"""The page about a class for the instructor: marks, students without marks, question statistics and first errors."""
+"""Make the page about a class for the instructor (`class_document`): marks, question statistics, first errors."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""The feedback on a marked sheet: the student's own workbook with colours and comments, and a page of text."""
+"""The feedback on a marked sheet: the student's workbook with colours and comments, and a page of text.
+
+`feedback_book` and `feedback_document` make them.
+"""
 
 from __future__ import annotations
 

@@ -75,7 +75,7 @@ def _item(students: Sequence[tuple[Marking, Sequence[Marked]]]) -> Item:
 
 
 def _correlation(x: np.ndarray, y: np.ndarray) -> float:
-    """Return the correlation of two rows [N]; NaN if one of them does not vary."""
+    """Return the correlation of two rows [N]; NaN for fewer than `LEAST` students or if one row does not vary."""
     # 1e-9: floating-point noise is not variation.
     if len(x) < LEAST or np.ptp(x) < 1e-9 or np.ptp(y) < 1e-9:
         return float("nan")

@@ -1,8 +1,8 @@
-"""Judge every value of a sheet: right, following from the student's own earlier values, or wrong.
+"""Judge every value of a sheet (`mark`): right, following from the student's own earlier values, or wrong.
 
 A wrong value costs its own mark once. Values that depend on it are computed again from the student's own values, and
 earn their mark if they agree. A wrong value that depends on no wrong value is the first of its chain, and its mistake
-is searched for by name. A student who compares a sheet before submitting it learns where it first departs from the
+is searched for by name. With `compare`, a student learns before submitting where a sheet first departs from the
 assignment, without marks or answers.
 """
 
@@ -307,7 +307,7 @@ def compare(case: Case, sheet: Path, hint: bool = False) -> tuple[tuple[str, ...
 
 
 def compared(scheme: MarkingScheme, submission: Submission, hint: bool = False) -> tuple[tuple[str, ...], bool]:
-    """Return the same for a submission that has been read; every row of the sheet counts as requested."""
+    """Return the same as `compare` for a submission that has been read; every row of the sheet counts as requested."""
     # A quantity without a row on the sheet is not missing, nor is a scale.
     filled = {id for id, _ in (*submission.values, *submission.problems)}
     rows = {id for id in submission.rows if id in filled or scheme.key.row(id).role is not Role.scale}

@@ -1,4 +1,4 @@
-"""Write the key as files: a workbook laid out as the answer sheet, CSV, JSON, and a document to print."""
+"""Write the key as files: `key_book`, `key_rows` (CSV), `key_json`, and `key_document` to print."""
 
 from __future__ import annotations
 
@@ -51,7 +51,10 @@ FINER, FINEST = 3, 7
 
 
 def band(row: KeyRow, width: float, figures: int = BAND_DIGITS) -> float | None:
-    """Return a band's half width (in the row's unit) to two significant figures; 0 if negligible, None if NaN."""
+    """Return a band's half width `width`, in the row's printed unit, to `figures` significant figures.
+
+    It is 0 if it is negligible, None for NaN.
+    """
     if width != width:
         return None
     return (
@@ -105,7 +108,10 @@ def _value_entry(row: KeyRow, index: int) -> Entry:
 
 
 def key_rows(key: Key) -> tuple[tuple[str | float | None, ...], ...]:
-    """Return the key as rows of CSV: id, part, symbol, unit, position, printed value, direction, both bands."""
+    """Return the key as rows of CSV: id, part, symbol, unit, position, printed value, direction, both bands.
+
+    Values, and half widths of the bands, are in the row's printed unit.
+    """
     words = words_of(key)
     sheet, names = words["answer_sheet"], words["key"]
     sections = {part.name: words_of(part.key)["parts"] for part in key.parts} or {"": words["parts"]}

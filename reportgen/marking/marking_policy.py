@@ -1,4 +1,7 @@
-"""The marking policy of a class: tolerances, points, selection of questions, flags that cost marks, and the mark."""
+"""The marking policy of a class: tolerances, points, selection of questions, flags that cost marks, and the mark.
+
+`read_policy` reads it from a YAML file.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""One assignment prepared for marking: what is asked, the tolerances, and the dependencies between values."""
+"""One assignment prepared for marking (`marking_scheme`): requested cells, tolerances, and dependencies of values."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from reportgen.marking.tolerance_bands import computed_bands, drawn_bands, is_ch
 from reportgen.marking.toleranced_key import key_of
 
 Values = Mapping[str, np.ndarray]
-"""Values (SI) by id, [N] or [1]."""
+"""Values (SI) by id, each [N] over all positions of the cycle, or [1] if it is the same at all of them."""
 
 ALMOST = 1e-12
 """Relative allowance for rounding in a comparison with a band."""
@@ -79,7 +79,10 @@ class MarkingScheme:
         return near
 
     def distance(self, id: str, values: np.ndarray | float, references: np.ndarray | float) -> np.ndarray:
-        """Return the distance between values (SI): around the circle for directions, of absolute values if unsigned."""
+        """Return the distances (SI) between values and references, in their common shape [N].
+
+        Directions are compared around the circle, unsigned quantities by absolute value.
+        """
         if self.is_unsigned(id):
             values, references = np.abs(values), np.abs(references)
         return np.asarray(vocabulary.distance(id, np.asarray(values), np.asarray(references)))
@@ -103,7 +106,7 @@ class MarkingScheme:
 
     @cached_property
     def before(self) -> dict[str, tuple[str, ...]]:
-        """The quantities that each judged one depends on, nearest first."""
+        """The ids of the quantities that each judged one depends on, the nearest first."""
         return {row.id: standing_on(self.ledger, row.id) for row in self.judged}
 
     @cached_property
@@ -126,7 +129,7 @@ class MarkingScheme:
 
     @cached_property
     def scale_definitions(self) -> dict[str, tuple[str, str]]:
-        """For each scale of a plan, the size and the length that define it: v_A and pa for μ_v."""
+        """For each scale of a plan, the ids of the size and the length that define it: v_A and pa for μ_v."""
         ledger, scale_definitions = self.ledger, dict[str, tuple[str, str]]()
         single = [one for one in ledger.families.values() if len(one.values) == 1 and not (one.hidden or one.is_plane)]
         sizes = [one for one in single if one.kind in ("velocity", "acceleration")]
@@ -141,7 +144,10 @@ class MarkingScheme:
 
     @cached_property
     def sizes(self) -> dict[str, set[str]]:
-        """For each length of a plan, the quantities that it represents: μ times it, and the size of its vector."""
+        """For each length of a plan, the ids of the quantities that it represents.
+
+        They are the product of μ and the length, and the size of its vector.
+        """
         sizes: dict[str, set[str]] = {id: set() for id in self.ledger.families if vocabulary.plan(id)}
         for id, family in self.ledger.families.items():
             if isinstance(family.definition, Product) and len(family.definition.factors) == 2:

@@ -1,7 +1,8 @@
-"""Named mistakes in calculations, each defined as a change of the ledger, which is evaluated with it.
+"""Named mistakes in calculations (`mistakes_in`), each defined as a change of the ledger, which is evaluated with it.
 
 A `Mistake` says in which quantity it is made, which quantities of the ledger change, and to which value. The new value
-is computed from the right value and all values before it (SI).
+(SI) is computed from the right value and all values before it. `slips_of_writing` and `mistakes_of_working` name the
+first wrong values of a sheet.
 """
 
 from __future__ import annotations
@@ -53,9 +54,10 @@ class Mistake:
 
 
 def mistakes_in(scheme: MarkingScheme, id: str, scales: Values) -> Iterator[Mistake]:
-    """Yield all mistakes that can be made in computing one quantity; `scales` are the student's own, in SI.
+    """Yield all mistakes that can be made in computing one quantity.
 
-    A value printed for every position (the crank's angle) can only be taken from another position.
+    `scales` (SI) [1] or [N] are the student's own. A value printed for every position (the crank's angle) can only be
+    taken from another position.
     """
     family = scheme.ledger[id]
     if family.exact and len(family.values) > 1:

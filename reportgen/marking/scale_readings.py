@@ -1,4 +1,4 @@
-"""Decide whether the scale of a plan without lengths on the sheet was chosen or computed.
+"""Decide whether the scale of a plan without lengths on the sheet was chosen or computed: `best_working`.
 
 The crank's own plans have a computed scale, μ_v = ω₁μ_l. A number written for it may be a free choice, at which the
 same velocities are drawn longer or shorter. It may also be the result of the student's own wrong ω₁, with which every

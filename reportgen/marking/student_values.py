@@ -1,4 +1,7 @@
-"""A student's values combined with the ledger of an assignment: what follows from the student's own entries."""
+"""A student's values combined with the ledger of an assignment (`Working`): what follows from the student's entries.
+
+`working_of` makes the working of a submission, with every plan read at the scale at which it was drawn.
+"""
 
 from __future__ import annotations
 
@@ -84,7 +87,10 @@ class Working:
 
     @cached_property
     def all_values(self) -> dict[str, np.ndarray]:
-        """All values (SI) [N] of a student: entered ones and those that follow from them; the key's for blank ones."""
+        """All values (SI) [N] of a student by id: entered ones and those that follow from them.
+
+        The key's for blank ones.
+        """
         return self._from_key[1]
 
     @cached_property
@@ -114,11 +120,12 @@ class Working:
         return result, values
 
     def accepted_alternatives(self, row: KeyRow, position: int) -> list[float]:
-        """Return other accepted values of a quantity (SI): another equal quantity's, or that of another way of drawing.
+        """Return other accepted values (SI) of a quantity at a position.
 
-        A student who uses a_C for a_A, or μ_a for a_A/πa′, is not wrong again where a_A was. On the lever, M = F h′ μ_l
-        if pa is the drawn crank, though the report has μ_v/ω₁ for a plan at another scale. A student who computes y
-        from the own centre distance is as right as with the angle.
+        They are those of equal quantities, and results of other methods, from the student's own values. A student who
+        uses a_C for a_A, or μ_a for a_A/πa′, is not wrong again where a_A was. On the lever, M = F h′ μ_l if pa is the
+        drawn crank, though the report has μ_v/ω₁ for a plan at another scale. A student who computes y from the own
+        centre distance is as right as with the angle.
         """
         ledger, index = self.scheme.ledger, row.at(position)
         accepted = [
@@ -137,7 +144,10 @@ class Working:
         ]
 
     def by_another_way(self, row: KeyRow, definition: Expression, index: int) -> float:
-        """Return the value that another definition of a quantity gives from the student's own values."""
+        """Return the value (SI) of another definition of a quantity, from the student's values.
+
+        `index` counts the positions [N] from 0.
+        """
         values = np.atleast_1d(evaluate(definition, {id: self.all_values[id] for id in refs(definition)}))
         return float(np.broadcast_to(values, self.scheme.ledger[row.id].values.shape)[index].real)
 
@@ -203,7 +213,10 @@ class Working:
 
 @lru_cache(maxsize=65536)
 def last_half_unit(value: float) -> float:
-    """Return half a unit of the last figure of a number as it was written, with three figures at least."""
+    """Return half a unit of the last written figure of a number, in its own unit.
+
+    A number counts as written with `LEAST_FIGURES` figures at least.
+    """
     written = f"{abs(value):.11e}".partition("e")[0].replace(".", "").rstrip("0")
     return float(half_unit(np.array([value]), max(LEAST_FIGURES, len(written)))[0])
 
@@ -311,10 +324,11 @@ CONFIRMED = 0.02
 
 
 def in_use(scheme: MarkingScheme, values: Values, scale: str, place: slice, stated: float) -> float | None:
-    """Return the scale (SI) that a plan was drawn at, from the ratios of sizes to their lengths, if most agree.
+    """Return the scale (SI) that a plan was drawn at, from the ratios of sizes to their lengths; None if unclear.
 
-    Only a freely chosen scale can be inferred in this way; `place` is the slice of the columns that is drawn at it. If
-    the ratios agree with the `stated` scale, few are enough: the plan of a crank has two lengths.
+    `values` are those of the sheet (SI) [N]; `place` is the slice of positions drawn at the scale. Most ratios must
+    agree. Only a freely chosen scale can be inferred in this way. If the ratios agree with the `stated` scale (SI), few
+    are enough: the plan of a crank has two lengths.
     """
     if scheme.ledger[scale].definition is not None or scale == "mu.l":
         return None
@@ -339,10 +353,10 @@ def in_use(scheme: MarkingScheme, values: Values, scale: str, place: slice, stat
 def drawn_at(
     scheme: MarkingScheme, values: Values, plan: Sequence[str], tried: Sequence[float], place: slice
 ) -> tuple[float, bool]:
-    """Return the scale of a plan over the report's: the first of `tried` if another confirms it, else the best one.
+    """Return the scale of a plan as a multiple of the report's, and True if the plan shows it.
 
-    Only the lengths of the plan at `place` of their columns count. The second value is True if the scale is shown: by
-    another one, or by half of the lengths.
+    It is the first of `tried` if another one confirms it, else the best one. Only the lengths of the plan (SI) [N] at
+    the slice `place` count. The scale is shown by another one, or by half of the lengths.
     """
 
     def right(factor: float) -> int:

@@ -1,4 +1,4 @@
-"""The summary that a student reads first, in a few lines of plain text.
+"""The summary that a student reads first, in a few lines of plain text: `comment`, `unmarked_comment`.
 
 It fits the comment field of a learning platform, or can be pasted.
 """

@@ -1,4 +1,4 @@
-"""Papers beside the report: their common building blocks, and the task with its empty answer sheet."""
+"""The task of an assignment as a document (`task_of`), and building blocks of all papers beside the report."""
 
 from __future__ import annotations
 

@@ -1,6 +1,7 @@
-"""The answer key: every quantity of a report at every position, with its tolerance bands.
+"""Make the answer key (`key_of`): every quantity of a report at every position, with its tolerance bands.
 
-Its rows are the families of the ledger, so that key, report and marker always agree.
+Its rows are the families of the ledger, so that key, report and marking always agree. `Ask` selects the cells that an
+answer sheet requests.
 """
 
 from __future__ import annotations

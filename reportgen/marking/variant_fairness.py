@@ -1,4 +1,4 @@
-"""Compare the marks of a class by the values of the drawn data, to find variants that were harder than others.
+"""Compare the marks of a class by the values of the drawn data (`groups`), to find variants that were harder.
 
 Students of one variant, or with one value of a datum, are a group. A group is reported as different by a permutation
 test, because marks are not normally distributed. With Bonferroni's bound, the comparison of all groups errs once in 20.

@@ -66,9 +66,10 @@ NOTHING = 2.0**-20
 
 
 def samples(track: Track) -> tuple[np.ndarray, ...]:
-    """Return the real part of a track, and the imaginary part if it has one, as four-byte numbers.
+    """Return the real part of a track, and the imaginary part if it has one, as four-byte numbers [N].
 
-    They are `settled`: otherwise samples would be most of what differs between the pages of two processors.
+    They are in the track's unit (mm, or SI). They are `settled`: otherwise samples would be most of what differs
+    between the pages of two processors.
     """
     values = np.asarray(track.values)
     parts = (values.real, values.imag) if np.iscomplexobj(values) else (np.asarray(values, dtype=np.float64),)
@@ -102,7 +103,7 @@ class Tracks:
 
     @property
     def values(self) -> np.ndarray:
-        """Return all values, one track after the other."""
+        """All values [N], one track after the other, as four-byte numbers."""
         return np.frombuffer(b"".join(self._values), "<f4")
 
     def packed(self) -> str:
@@ -215,7 +216,7 @@ class PanelWriter:
         }
 
     def instants(self) -> list[tuple[str, float]]:
-        """Return the label of each single instant, and the place of the driver."""
+        """Return the label of each single instant, and the place of the driver: degrees, or mm for a slide."""
         unit = " mm" if self.animation.span else "°"
         places = [float(f"{place:.9g}") for place in self.animation.instants]
         labels = (label for label, _ in self.animation.positions)

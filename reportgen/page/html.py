@@ -234,7 +234,7 @@ class Blocks:
         self._places = {id(section): f"s-{index}" for index, section in enumerate(sections)}
 
     def write(self, blocks: Sequence[tree.Block], room: float = tree.TEXT_WIDTH) -> str:
-        """Return the blocks in order; a run-in heading begins the paragraph after it."""
+        """Return the elements of blocks, in order, in a room (mm); a run-in heading begins the paragraph after it."""
         lines: list[str] = []
         run_in = ""
         for block, following in pairwise((*blocks, None)):

@@ -110,7 +110,7 @@ class Samples:
 
     @cached_property
     def knots(self) -> np.ndarray:
-        """The samples of one turn (rad), from 0 to a whole turn."""
+        """The samples of one turn (rad) [knots], from 0 to a whole turn."""
         angles: np.ndarray = self.chosen("knots", self._own_knots)
         return angles
 
@@ -128,10 +128,7 @@ class Samples:
         return angles[np.concatenate(([True], np.diff(angles) > SAME_SAMPLE))]
 
     def _jumps(self) -> np.ndarray:
-        """Return both sides of the angles (rad) at which a load jumps.
-
-        For example, friction jumps where a slider turns back.
-        """
+        """Return both sides of the angles (rad) [2 M] at which a load jumps, as friction does where a slider turns."""
         corners = breaks(self.machine)
         if not corners.size:
             return corners
@@ -144,7 +141,7 @@ class Samples:
 
     @cached_property
     def angles(self) -> np.ndarray:
-        """The cycle angles (rad) of all samples: those of a turn, turn after turn, to the end of the last."""
+        """The cycle angles (rad) [N] of all samples: those of a turn, turn after turn, to the end of the last."""
         if self.machine.instants:
             # The last sample closes the round that the page makes from the last instant to the first.
             return np.append(self.machine.cycle_angles, self.machine.cycle_angles[0])
@@ -440,10 +437,7 @@ class Samples:
             yield from hooks.charts(report)
 
     def values(self) -> Iterator[MomentValue]:
-        """Yield the numbers below the drawing.
-
-        These are positions, sizes of velocities and accelerations of points, rotations, forces and the balancing load.
-        """
+        """Yield the numbers below the drawing: positions, rates and rotations, forces, and the balancing load."""
         motion, analysis, ledger = self._one_turn, self.analysis, self.report.ledger
         moving = [name for name in motion.points if name not in self.machine.linkage.ground]
         for base, kind in (("v", "velocity"), ("a", "acceleration")):
@@ -472,10 +466,11 @@ class Samples:
     # --- what interpolation costs
 
     def errors(self, scale: float) -> Errors:
-        """Return the errors of straight lines between samples.
+        """Return the errors of straight lines between samples, for a drawing of `scale` mm per metre.
 
-        For places, the bound is h²/8 times the largest second derivative by the driver's angle, which is the
-        acceleration over ω². For rates and forces, it is the difference in the middle between samples, without jumps.
+        For places, the bound (mm) is h²/8 times the largest second derivative by the driver's angle, the acceleration
+        over ω². For rates and forces, it is the largest difference (share) in the middle between samples, without
+        jumps.
         """
         middles = (self.angles[1:] + self.angles[:-1]) / 2
         steps = np.diff(self.angles)

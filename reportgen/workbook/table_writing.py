@@ -89,7 +89,7 @@ class Book:
 
 
 def write_csv(rows: Iterable[Sequence[str | float | None]]) -> bytes:
-    """Write rows as UTF-8 CSV with a byte order mark, by which spreadsheets know the encoding."""
+    """Return rows as UTF-8 CSV with a byte order mark, from which spreadsheets recognise the encoding."""
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\r\n")
     for row in rows:
