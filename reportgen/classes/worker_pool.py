@@ -90,7 +90,7 @@ class Job:
 class Outcome:
     """The files of a product by name; or, with an exit code other than 0, the problems that prevented them.
 
-    Marks of `problems` name the assignment file without its folder.
+    Locations of `problems` name the assignment file without its folder.
     """
 
     files: Mapping[str, bytes] = field(default_factory=dict)
@@ -130,7 +130,7 @@ def run_job(job: Job) -> Outcome:
                 Path(scratch, name).write_bytes(content)
             return Outcome(files=dict(job.maker(file, engine, language)))
     except AssignmentError as error:
-        # Its folder is gone, so a mark names the file as the job does.
+        # Its folder is gone, so a location names the file as the job does.
         own = {str(Path(scratch, name)): name for name in job.beside}
         problems = tuple(problem.in_file(own.get(problem.location.file, job.file)) for problem in error.problems)
         return Outcome(problems=problems, exit_code=error.exit_code)

@@ -163,7 +163,7 @@ class _Compiled(BytecodeCache):
 
     def dump_bytecode(self, bucket: Bucket) -> None:
         code = self.codes[bucket.key] = bucket.bytecode_to_string()
-        if NUMBER not in code:  # what a template says of it is no mark
+        if NUMBER not in code:  # the number in the text of a template is not a mark
             keep(self._kept_as(bucket), code.replace(SECRET.encode(), NUMBER))
 
     def _kept_as(self, bucket: Bucket) -> str:

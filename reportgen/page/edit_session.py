@@ -324,9 +324,9 @@ class EditSession(LiveSession):
         if len(changed) > MOST_TOKENS and read_text(changed).faults:
             raise RefusedChangeError("too_large")
         if changed != text:
-            mark, codec = encoding_of(before)
+            bom, codec = encoding_of(before)
             try:
-                after = mark + changed.encode(codec)
+                after = bom + changed.encode(codec)
             except UnicodeEncodeError as error:
                 raise RefusedChangeError("no_letter", codec=codec) from error
             self._write(Change(before, after, str(asked.get("typing", ""))))

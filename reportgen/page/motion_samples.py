@@ -161,10 +161,11 @@ class Samples:
     def corners(self) -> dict[str, np.ndarray]:
         """The corners of all plans (mm) at the samples [N], and their scales (SI per mm), by id."""
         # Each plan is drawn as large as fits its panel.
-        sheet, _ = enter_plans(self.analysis, scaled=False)
+        calculation, _ = enter_plans(self.analysis, scaled=False)
         drawn = ids.plan_point, ids.force_corner, ids.force_scale, ids.centre
         scales = [ids.scale("v"), ids.scale("a")]
-        return {id: sheet.value(id) for id in sheet.families if id in scales or any(id in name for name in drawn)}
+        stored = (id for id in calculation.families if id in scales or any(id in name for name in drawn))
+        return {id: calculation.value(id) for id in stored}
 
     def _sample(self, k: int) -> int:
         """Return the index of the sample at the numbered position `k`."""
@@ -304,8 +305,8 @@ class Samples:
             for name in (link.base, link.point):
                 start = Track(self._one_turn.points[name].p * scale)
                 items.append(MovingVector(start, centre, style.NORMAL, 0.0, layer="centres"))
-            mark = Circle(0j, 0.55, Pen(0.2, style.RED), style.PAPER)
-            items.append(MovingBody((mark,), centre, layer="centres"))
+            dot = Circle(0j, 0.55, Pen(0.2, style.RED), style.PAPER)
+            items.append(MovingBody((dot,), centre, layer="centres"))
             items.append(MovingName(centre_symbol(link.link), centre, (), 1.0, "centres"))
         return items
 

@@ -53,7 +53,7 @@ _ESCAPE = re.compile(r"_x([0-9A-Fa-f]{4})_")
 
 CellRow = tuple[Any, ...]
 """The cells of a row as openpyxl returns them."""
-Marks = Callable[[int, int], CellLocation]
+LocationAt = Callable[[int, int], CellLocation]
 """Returns the location of a cell of one sheet by its row and column."""
 
 
@@ -147,13 +147,15 @@ def _pages(values: Workbook, formulas: Workbook | None, counts: Sequence[int], f
             same = formulas.worksheets[number - 1]
             same.reset_dimensions()
             typed, stored = same.rows, sheet.rows
-        mark = partial(CellLocation, file, sheet=sheet.title, number=number)
-        rows = _rows(zip(typed, stored, strict=True), count, mark)
+        location_at = partial(CellLocation, file, sheet=sheet.title, number=number)
+        rows = _rows(zip(typed, stored, strict=True), count, location_at)
         pages.append(Page(sheet.title, rows, sheet.sheet_state != "visible"))
     return tuple(pages)
 
 
-def _rows(read: Iterator[tuple[CellRow, CellRow]], count: int, mark: Marks) -> tuple[tuple[SheetCell, ...], ...]:
+def _rows(
+    read: Iterator[tuple[CellRow, CellRow]], count: int, location_at: LocationAt
+) -> tuple[tuple[SheetCell, ...], ...]:
     """Return all rows of a sheet from the first on, each up to its last cell with content.
 
     `read` gives each row twice, with formulas as typed and with stored values; `count` cells must be among them.
@@ -162,15 +164,15 @@ def _rows(read: Iterator[tuple[CellRow, CellRow]], count: int, mark: Marks) -> t
 
     cells: dict[int, dict[int, SheetCell]] = {}
     rows_read = 0
-    for number, pair in enumerate(_whole(read, mark), start=1):
+    for number, pair in enumerate(_whole(read, location_at), start=1):
         if number > MOST_GROUPS:
-            raise RefusedError("sheet-damaged", mark(number, 1))
+            raise RefusedError("sheet-damaged", location_at(number, 1))
         for typed, stored in zip(*pair, strict=True):
             if not isinstance(typed, ReadOnlyCell):
                 continue
             rows_read += 1
             row, column = typed.row, typed.column
-            cell = _cell(typed, stored, mark(row, column))
+            cell = _cell(typed, stored, location_at(row, column))
             if cell.blank:
                 continue
             if exceeds(row, column):
@@ -180,21 +182,21 @@ def _rows(read: Iterator[tuple[CellRow, CellRow]], count: int, mark: Marks) -> t
             cells.setdefault(row, {})[column] = cell
     if rows_read != count:
         # openpyxl leaves out rows and cells that are not in order.
-        raise RefusedError("sheet-damaged", mark(1, 1))
+        raise RefusedError("sheet-damaged", location_at(1, 1))
     lengths = {row: max(columns) for row, columns in cells.items()}
     last = max(cells, default=0)
     if exceeds(0, 0, sum(lengths.values())):
-        raise too_large(mark(last, 1))
+        raise too_large(location_at(last, 1))
     return tuple(
         tuple(
-            cells[row].get(column) or SheetCell(None, mark(row, column), "empty")
+            cells[row].get(column) or SheetCell(None, location_at(row, column), "empty")
             for column in range(1, lengths.get(row, 0) + 1)
         )
         for row in range(1, last + 1)
     )
 
 
-def _whole(read: Iterator[tuple[CellRow, CellRow]], mark: Marks) -> Iterator[tuple[CellRow, CellRow]]:
+def _whole(read: Iterator[tuple[CellRow, CellRow]], location_at: LocationAt) -> Iterator[tuple[CellRow, CellRow]]:
     """Yield the rows up to one that openpyxl cannot read, which is refused as the row after the last whole one."""
     last = 0
     try:
@@ -202,7 +204,7 @@ def _whole(read: Iterator[tuple[CellRow, CellRow]], mark: Marks) -> Iterator[tup
             yield pair
             last += 1
     except Exception:
-        raise RefusedError("sheet-damaged", mark(last + 1, 1)) from None
+        raise RefusedError("sheet-damaged", location_at(last + 1, 1)) from None
 
 
 def _cell(typed: Any, stored: Any, location: CellLocation) -> SheetCell:
