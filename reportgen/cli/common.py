@@ -176,6 +176,7 @@ def for_each(files: list[Path], lang: Language | None, work: Callable[[Path], No
 
 
 def complain(text: str) -> None:
+    """Print a message on standard error, after the name of the program."""
     print(f"reportgen: {text}", file=sys.stderr)
 
 

@@ -55,6 +55,8 @@ class Section:
 
 @dataclass(frozen=True, slots=True)
 class Paragraph:
+    """A paragraph of inlines; `align` is "" for the document's usual alignment."""
+
     inlines: Inlines
     align: Literal["", "center", "right"] = ""
 
@@ -89,12 +91,16 @@ FIRST_COLUMN = 16.0
 
 @dataclass(frozen=True, slots=True)
 class Column:
+    """A column of a table: its width (mm) and the alignment of its cells."""
+
     width: float
     align: Literal["left", "center", "right"] = "center"
 
 
 @dataclass(frozen=True, slots=True)
 class Cell:
+    """A cell of a table; `span` is the number of columns that it covers."""
+
     inlines: Inlines = ()
     span: int = 1
 
@@ -196,7 +202,7 @@ class Listing:
 
 @dataclass(frozen=True, slots=True)
 class PageBreak:
-    pass
+    """The end of a page."""
 
 
 Block = (

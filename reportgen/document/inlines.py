@@ -12,16 +12,22 @@ from reportgen.formula import Expression, Number
 
 @dataclass(frozen=True, slots=True)
 class Text:
+    """Plain text."""
+
     text: str
 
 
 @dataclass(frozen=True, slots=True)
 class Emph:
+    """Emphasised inlines, printed in italics."""
+
     of: tuple[Inline, ...]
 
 
 @dataclass(frozen=True, slots=True)
 class Strong:
+    """Strong inlines, printed in bold."""
+
     of: tuple[Inline, ...]
 
 
@@ -50,7 +56,7 @@ class Reference:
 
 @dataclass(frozen=True, slots=True)
 class LineBreak:
-    pass
+    """The end of a line inside a paragraph."""
 
 
 @dataclass(frozen=True, slots=True)

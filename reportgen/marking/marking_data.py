@@ -85,6 +85,8 @@ class Submission:
 
 
 class Verdict(StrEnum):
+    """The judgement of one cell."""
+
     right = "right"
     follows = "follows"
     """The value is wrong, but follows from the student's own earlier values."""

@@ -140,6 +140,8 @@ class _Charted:
 
 
 class PanelWriter:
+    """Writer of one animated panel: its elements, and the data that its script reads."""
+
     def __init__(self, animation: Animation, language: Language, words: Mapping[str, Any]) -> None:
         self.animation, self.language, self.words = animation, language, words["page"]
         self.phrases: Mapping[str, str] = words["told"]

@@ -14,6 +14,7 @@ DIGITS, MOST_DECIMALS = 5, 5
 
 
 def plan(key: str, title: str, items: list[MovingItem], plan_fitted: Fitted) -> Pane:
+    """Return the pane of a plan that was fitted to its panel."""
     return Pane(key, title, tuple(items), -PANEL / 2, PANEL / 2, plan_fitted.scales, finer=plan_fitted.finer)
 
 
@@ -27,4 +28,5 @@ def value(symbol: Symbol, kind: str, values: np.ndarray) -> MomentValue:
 
 
 def scalar(symbol: Symbol) -> Symbol:
+    """Return the symbol of a vector's magnitude."""
     return Symbol(symbol.base, symbol.sub, symbol.sup)

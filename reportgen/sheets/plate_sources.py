@@ -73,6 +73,7 @@ Listed = Callable[[ReportContext], Sequence[str]]
 
 
 def table_of(sources: Sources, name: str, listed: Sequence[Listed], cycle: bool = False) -> Iterator[Drawn]:
+    """Yield a plate of tables of the listed quantities; `name` is its key among the words."""
     yield Drawn(name, "tables", grids(sources.report, listed, cycle))
 
 
@@ -108,6 +109,7 @@ def _quantities(
 
 
 def unit_of(report: ReportContext, id: str) -> str:
+    """Return the printed unit of a quantity."""
     unit = report.ledger[id].how.unit
     return str(report.ledger.units.get(unit, unit))
 

@@ -381,12 +381,14 @@ def exceeds(row: int, column: int, cells: int = 0) -> bool:
 
 
 def too_large(location: Location) -> RefusedError:
+    """Return the error for a table with more rows, columns or cells than the limits."""
     return RefusedError(
         "table-too-large", location, rows=str(MOST_ROWS), columns=str(MOST_COLUMNS), cells=str(MOST_CELLS)
     )
 
 
 def too_long(location: Location) -> RefusedError:
+    """Return the error for a cell with more than `LONGEST_CELL` characters."""
     return RefusedError("text-too-long", location, largest=str(LONGEST_CELL))
 
 
