@@ -1,4 +1,4 @@
-"""Open the case of an assignment: a machine's, unless its kind defines another one.
+"""Open the case of an assignment (`open_case`): a machine's, unless its kind defines another one.
 
 A kind's module defines either `machine`, which makes a `Machine` of an assignment, or `case`, which makes a `Case`.
 """
@@ -78,7 +78,7 @@ def opener() -> Callable[..., Case]:
 
 @dataclass(frozen=True)
 class MachineCase(MachineAnalysis):
-    """A machine, as a `Case`."""
+    """The case of a machine: its analysis, ledger, document, plates and animation."""
 
     @cached_property
     def families(self) -> Mapping[str, Family]:

@@ -1,4 +1,4 @@
-"""Interface for scripts and notebooks: an opened assignment with its arrays, figures, curves and tables."""
+"""Interface for scripts and notebooks: `open` returns a `Model` with arrays, figures, curves and tables."""
 
 from __future__ import annotations
 
@@ -97,7 +97,7 @@ class Model:
 
     @cached_property
     def case(self) -> Case:
-        """All computed results."""
+        """The case with all computed results."""
         return opened(self.assignment)
 
     # --- numbers

@@ -50,7 +50,7 @@ _ID = re.compile(r"\w+\.[\w.]+")
 _OPENED = re.compile(r"(if|elif|for)\s+(.*)", re.DOTALL)
 
 TemplateNames = Callable[[str, Language], Mapping[str, Any]]
-"""The names that templates of a kind see in a language, of one machine; none where there is no such machine."""
+"""Returns the names that templates of a kind see in a language, for one machine; {} if the kind is not a machine."""
 
 
 @dataclass(frozen=True)

@@ -173,7 +173,7 @@ def _differ(cells: Cells, first: Place, second: Place) -> bool:
 
 
 def _other_data(scheme: MarkingScheme, cells: Cells, classmates: Sequence[Classmate]) -> Iterator[Notice]:
-    """Yield a notice if the values belong to other data than the assignment's, so that what follows is other work.
+    """Yield a notice if the values belong to other data than the assignment's.
 
     Two data are enough if the whole sheet is right for a classmate's assignment that has these data.
     """
@@ -343,7 +343,7 @@ def _read_to(scheme: MarkingScheme, cells: Cells) -> float:
 
 
 def _is_personal(scheme: MarkingScheme, cell: Marked, step: float) -> bool:
-    """Return True if a value is neither the key's nor what the student's own values give, to its written precision.
+    """Return True if a value, to its written precision, is neither the key's nor follows from the student's own values.
 
     Two students who read the same length to `step` (mm) write the same number; a short length has not even a second
     figure. A value computed correctly from a wrong one proves nothing, because anybody with the same mistake gets it.
@@ -405,7 +405,7 @@ CLOSES = 1.5
 
 
 def not_from_own(working: Working, cells: Cells) -> frozenset[Place]:
-    """Return the places of right values that differ from what the student's own other values give."""
+    """Return the places of right values that do not follow from the student's own other values."""
     return frozenset(
         place for place, cell in cells.items() if cell.verdict is Verdict.right and _differs(working, cell)
     )

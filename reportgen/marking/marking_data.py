@@ -100,7 +100,7 @@ class Verdict(StrEnum):
 
 
 OPEN = frozenset({Verdict.unreadable, Verdict.unread})
-"""Verdicts on entries of which nobody knows yet whether they are right."""
+"""Verdicts on entries that may be right or wrong, because they could not be read."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -337,7 +337,7 @@ def _misplaced(scheme: MarkingScheme, first: Cells, cells: Cells) -> Iterator[tu
 
 
 def _belongs_to(cell: Marked, neighbour: Marked) -> bool:
-    """Return True if a value is that of another cell, not of its own."""
+    """Return True if a value is the right one of another cell, and not of its own."""
     own, theirs = cell.on_sheet, neighbour.on_sheet
     return own.equals(theirs.expected, theirs.band) and abs(own.expected - theirs.expected) > theirs.band
 
@@ -438,7 +438,10 @@ def _candidates(working: Working, id: str) -> Iterator[Mistake]:
 
 
 def unseen_mistakes(working: Working, id: str) -> Iterator[Mistake]:
-    """Yield mistakes in a quantity that the sheet does not show; nobody draws a plan many times too large."""
+    """Yield mistakes in a quantity that the sheet does not show.
+
+    Lengths on paper and scales have none, because nobody draws a plan many times too large.
+    """
     family = working.scheme.ledger[id]
     drawn = family.kind == "segment" or family.kind.endswith("scale")
     if not (working.shows(id) or family.hidden or family.is_plane or drawn):

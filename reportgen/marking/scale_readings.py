@@ -53,7 +53,7 @@ def best_working(scheme: MarkingScheme, submission: Submission, fitting: Fitting
 
 
 def optional_scales(working: Working) -> frozenset[Place]:
-    """Return the filled-in scales that earn no marks, if any of them is not what the student's own values give."""
+    """Return the filled-in scales that earn no marks, if any of them does not follow from the student's own values."""
     scheme = working.scheme
     places = frozenset(
         (row.id, position)

@@ -1,4 +1,4 @@
-"""A student's values combined with the ledger of an assignment (`Working`): what follows from the student's entries.
+"""Combine a student's values with the ledger of an assignment (`Working`), to compute what follows from them.
 
 `working_of` makes the working of a submission, with every plan read at the scale at which it was drawn.
 """

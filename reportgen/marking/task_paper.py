@@ -157,9 +157,9 @@ def _task(case: LoadedAssignment, key: Key, by_section: bool, self_check: bool) 
 
 
 def given_of(case: Case, key: Key) -> Document:
-    """Return the part of a task before its answer sheet: given data, what is asked, the positions.
+    """Return the part of a task before its answer sheet: given data, requested values, positions.
 
-    It has the blocks of `task_of` without the title, the student and the sheet with its instructions. Raises
+    It has the blocks of `task_of` without the title, the student and the sheet with its instructions. Raise
     `TemplateError`.
     """
     if isinstance(case, CaseOfParts):
@@ -186,7 +186,7 @@ def _given(case: LoadedAssignment, key: Key) -> Document:
 
 
 def _asked_for(case: Case, key: Key, by_section: bool, self_check: bool) -> AskedFor:
-    """Return what the answer sheet of a key asks for, with the values given at the positions."""
+    """Return the requests of a key's answer sheet, with the values given at the positions."""
     asked = asked_positions(key)
     known = range(1, len(case.span.labels) + 1) if case.span.count <= PLATES_UP_TO else asked
     return AskedFor(

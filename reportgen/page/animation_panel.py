@@ -121,7 +121,7 @@ class _Drawn:
     height: str
     box: str
     room: str
-    """Left, upper, right and lower edge of what labels may fill."""
+    """Left, upper, right and lower edge of the area for labels."""
     body: str
     spots: tuple[str, ...]
     reach: str

@@ -102,7 +102,7 @@ class EditSession(LiveSession):
     products: Mapping[str, Sequence[str]] = field(default_factory=dict)
     """The commands that make something of the file, by the names of their products."""
     of_part: Callable[[Path], EditSession] | None = None
-    """Begins the form of a part's file; None where none is opened."""
+    """Begins the form of a part's file; None if parts have no forms."""
     whole: Path | None = None
     """Coursework's file of a part, whose machine gives values to the part."""
     lock: threading.RLock = field(default_factory=threading.RLock)
@@ -135,7 +135,7 @@ class EditSession(LiveSession):
         return file.read_bytes() if file is not None and file.is_file() else None
 
     def make(self, asked: Asked) -> Mapping[str, Any]:
-        """Begin to make a product by its name, or end what is being made."""
+        """Begin to make a product by its name, or end the process that is making one."""
         if asked.get("end"):
             self.maker.end()
             return {}
@@ -307,7 +307,7 @@ class EditSession(LiveSession):
         return {**self.numbered_form(), **said}
 
     def _change(self, operation: str, where: Where, asked: Asked) -> str:
-        """Make a change and return what the file then has at its place."""
+        """Make a change and return the text that the file then has at its place."""
         if not where:
             raise ValueError("the whole file is no value")
         before = self._bytes()

@@ -72,7 +72,7 @@ class Live:
     scripts: Sequence[str] = ("live.js",)
     styles: Sequence[str] = ("live.css",)
     form: str = ""
-    """The elements of a form beside what moves; the page has them as they are."""
+    """The elements of a form beside the animation; the page contains them unchanged."""
 
 
 def report(document: tree.Document) -> WrittenReport:

@@ -141,7 +141,7 @@ class _Request(BaseHTTPRequestHandler):
             self._refuse(HTTPStatus.NOT_FOUND)
 
     def do_POST(self) -> None:
-        """Do what a page of this server asks for: in JSON, of a size that a file may have."""
+        """Answer a message of the page: JSON, not larger than a file may be."""
         folder, _, name = urlsplit(self.path).path[1:].partition("/")
         length, foreign = (
             self.headers.get("Content-Length", ""),

@@ -74,7 +74,7 @@ FAR = 2.5
 FORCES = ("loads", "inertia", "weights", "reactions")
 """Layers of forces, which share one scale."""
 LEVER, LONGER = 0.45, 0.2
-"""Length of the arrows of forces on the lever, and of what is added to one at the place of another, as shares of it."""
+"""Length of the arrows of forces on the lever, and addition for an arrow in the same place: shares of the lever."""
 
 
 def animation(case: MachineAnalysis) -> Animation:

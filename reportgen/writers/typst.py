@@ -106,7 +106,7 @@ def write_sheet(
     author: str = "",
     date: datetime.date | None = None,
 ) -> str:
-    """Return the Typst source of a drawing sheet, one page of its own size; it needs no other file.
+    """Return the Typst source of a drawing sheet, one page in the sheet's size; it needs no other file.
 
     Each plate is a figure with a text alternative made from `phrases`; plates without one are decoration.
     """
