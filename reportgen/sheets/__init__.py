@@ -166,7 +166,11 @@ def _packing(paper: str, form: TitleBlock) -> Packing:
 
 
 def _chosen(plates: Plates, form: TitleBlock, wanted: str, least: str) -> tuple[str, list[Laid]]:
-    """Return a size and the layout of its sheets; for sets that no sheet holds as a whole, the first of `USUAL`."""
+    """Return a paper size and the layout of its sheets; raise `TooLargeError` if no size holds a plate.
+
+    Without a `wanted` size it is the smallest from `least` on that holds each set on one sheet, else the first of
+    `USUAL` that holds the plates.
+    """
     sizes = [(wanted, False)] if wanted else [(paper, True) for paper in BY_SIZE[BY_SIZE.index(least) :]]
     sizes += [] if wanted else [(paper, False) for paper in USUAL]
     too_large: TooLargeError | None = None

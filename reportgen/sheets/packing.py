@@ -182,7 +182,10 @@ class Packing:
         return self._columns[key]
 
     def _spread(self, plates: Sequence[DrawingPlate]) -> Iterator[PlacedScene]:
-        """Yield the scenes of a sheet, in columns of the height that leaves most white space in both directions."""
+        """Yield the scenes of a sheet.
+
+        Its columns have the height at which the smaller of both gaps (between columns and between rows) is largest.
+        """
         every = [self._filled(plates, share) for share in SHARES]
         columns = max(
             (columns for columns in every if _count(columns) == len(plates)),
