@@ -72,11 +72,11 @@ def plot_list(path: Path | str, language: Language | None = None) -> tuple[tuple
     listed = [quantities.quantity(case, id) for id in quantities.visible_ids(case)]
     return tuple(
         (
-            one.id,
-            f"{formula(one.family.symbol, spoken)} ({one.case.ledger.printed_unit(one.family.how.unit)})",
-            phrase(one.id, one.case.ledger, one.case.words),
+            source.id,
+            f"{formula(source.family.symbol, spoken)} ({source.case.ledger.printed_unit(source.family.how.unit)})",
+            phrase(source.id, source.case.ledger, source.case.words),
         )
-        for one in listed
+        for source in listed
     )
 
 

@@ -120,7 +120,8 @@ def _print_list(file: Path, lang: LangOption) -> None:
 
     still, moving = figures.figure_list(file, lang)
     rows = [
-        (one.name, one.number, one.caption + f" ({', '.join(one.positions)})" * bool(one.positions)) for one in still
+        (named.name, named.number, named.caption + f" ({', '.join(named.positions)})" * bool(named.positions))
+        for named in still
     ]
     _print_rows([*rows, *((one.name, "/".join(figures.MOVING), one.pane.title) for one in moving)])
 

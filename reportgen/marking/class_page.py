@@ -144,9 +144,9 @@ def _late(markings: Sequence[Marking], words: PageWords, language: Language, pol
 def _amended(markings: Sequence[Marking], words: PageWords) -> Iterator[Block]:
     """Yield the table of the instructor's corrections."""
     rows = [
-        (*identity_of(marking.key)[:2], amended(marking, one, words))
+        (*identity_of(marking.key)[:2], amended(marking, amendment, words))
         for marking in markings
-        for one in marking.amendments
+        for amendment in marking.amendments
     ]
     yield from _people(words["class_page"]["amended"], (words["grades"]["corrections"],), rows, words)
 
