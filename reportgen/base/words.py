@@ -342,7 +342,7 @@ def as_problem(fault: Fault, language: Language | None, level: Level = "error") 
         if None not in words:
             arguments[name] = "".join(map(str, words)).format_map(arguments)
     message = str(table["faults"][fault.code]).format_map(arguments)
-    # The hint that was asked for, then the code's own and its second form.
+    # The requested hint comes first, then the hint of the code and its second form.
     keys = (fault.arguments.get("hint"), fault.code, f"{fault.code}-otherwise")
     hints = (str(table["hints"][key]) for key in keys if table["hints"].get(key))
     hint = next((hint for hint in hints if gaps(hint) <= arguments.keys()), None)
@@ -379,7 +379,7 @@ def _shown(text: str) -> str:
 
 
 # --- words by sections ----------------------------------------------------------------------------
-# Each stands behind a line `%% name`, in reading order.  The words of a machine or of a school are a file a language,
+# Each follows a line `%% name`, in reading order.  The words of a machine or of a school are one file per language,
 # those of all machines a folder: `report.md` has `foreword`, `dyads.md` the section `RRR-forces` of `dyads/RRR-forces`.
 
 HEADING = "%%"
