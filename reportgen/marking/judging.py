@@ -296,9 +296,9 @@ NEAREST = 4
 
 
 def compare(case: Case, sheet: Path, hint: bool = False) -> tuple[tuple[str, ...], bool]:
-    """Return lines that say where a sheet departs from its assignment, and True if it agrees as far as it is filled in.
+    """Return lines that say where a sheet departs from its assignment, and True if all its filled cells agree.
 
-    Raises `AssignmentError` if the sheet cannot be read.
+    With `hint`, the lines add where to look. Raise `AssignmentError` if the sheet cannot be read.
     """
     scheme = marking_scheme(case, Policy(guard=False))
     # The file's name does not matter: the given data show whose sheet it is.

@@ -286,10 +286,10 @@ class EditSession(LiveSession):
     # --- changes and drags
 
     def edit(self, asked: Asked) -> Mapping[str, Any]:
-        """Make a change and return the form as it then is, with `written`, the value that is now at its place.
+        """Make a change and return the new form, with `written`, the value that is now at its place.
 
-        If the change cannot be made, `refused` says why; the file stays as it was.
-        Raises `KeyError`, `TypeError` and `ValueError` for what no page of this program asks.
+        If the change cannot be made, `refused` says why, and the file stays as it was. Raise `KeyError`, `TypeError` or
+        `ValueError` for a request that no page of this program makes.
         """
         operation, where = str(asked["op"]), _place(asked.get("where", []))
         said: dict[str, Any] = {}

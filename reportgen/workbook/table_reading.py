@@ -277,9 +277,9 @@ _LINE_END = re.compile(r"\r\n|\r|\n")
 
 
 def read(path: Path, language: Language | None = None, data: bytes | None = None) -> tuple[Page, ...]:
-    """Return the pages of a CSV or XLSX file; raises `AssignmentError` with the fault that stops it, in `language`.
+    """Return the pages of a CSV or XLSX file; raise `AssignmentError` with the fault that stops it, in `language`.
 
-    `data` is its content where it does not lie on disk; `path` then only names it.
+    `data` is the content of a file that is not on disk; `path` then only names it.
     """
     try:
         return _read(path, data)

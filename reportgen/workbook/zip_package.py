@@ -343,7 +343,7 @@ class SheetCell:
 
     @property
     def text(self) -> str:
-        """The value as a reader of the table sees it: whole numbers without a decimal point, empty as ""."""
+        """The value as a reader of the table sees it: whole numbers without a decimal point, "" for an empty cell."""
         if self.value is None:
             return ""
         return self.value if isinstance(self.value, str) else number_text(self.value)
@@ -393,7 +393,7 @@ def too_long(location: Location) -> RefusedError:
 
 
 def number_text(value: float) -> str:
-    """Return a number as short as it can be read back from: 195520103001, 0.35, 1e-20."""
+    """Return a number in the shortest form that reads back as the same number: 195520103001, 0.35, 1e-20."""
     return str(int(value)) if value.is_integer() and abs(value) < 1e16 else repr(value)
 
 
