@@ -7,7 +7,6 @@ by chromium, and left as it is where there is none.
 from __future__ import annotations
 
 import json
-import os
 import shutil
 import signal
 import subprocess
@@ -37,10 +36,10 @@ CAPTION = ". Velocity plan at"
 SHOWN_IN_WORD = ". Steps in drawing the velocity plan"
 """A part of the text of the page of the Word file."""
 TUTORIALS: Mapping[str, tuple[str, str, str, str]] = {
-    "en": ("", "Lan Pham", CAPTION, SHOWN_IN_WORD),
-    "vi": ("-vi", "Phạm Thị Lan", ". Họa đồ vận tốc tại", ". Các b"),
+    "en": ("", "", CAPTION, SHOWN_IN_WORD),
+    "vi": ("-vi", ".vi", ". Họa đồ vận tốc tại", ". Các b"),
 }
-"""By language: ending of the names of the pictures, the student, the texts of the two pages of the reports.
+"""By language: endings of the names of pictures and pages, the texts of the two pages of the reports.
 
 The PDF of LibreOffice has no text of letters such as ư.
 """
@@ -236,52 +235,29 @@ def followed(tutorial: str, place: str) -> Path:
     return Path(place)
 
 
-def hand_in() -> None:
+def hand_in(language: str) -> None:
     """Save the papers that the tutorial of the hand-in shows."""
+    ending, page, _, caption = TUTORIALS[language]
     with tempfile.TemporaryDirectory() as place:
-        own = followed("hand-in", place) / "tasks" / "S01"
-        hand_in_papers(own, own / "hand-in", "en")
+        own = followed(f"hand-in{page}", place) / "tasks" / "S01"
+        task = pymupdf.open(own / "task.pdf")
+        save(task[0], f"hand-in-task{ending}", TUTORIAL_DPI)
+        save(task[-1], f"hand-in-sheet{ending}", TUTORIAL_DPI, task[-1].rect - (0, 0, 0, task[-1].rect.height / 2))
+        save(pymupdf.open(own / "hand-in" / "sheet-1.pdf")[0], f"hand-in-drawing{ending}", SHEET_DPI)
+        if (pages := in_word(own / "hand-in" / "report.docx")) is not None:
+            save(page_with(caption, pages), f"hand-in-word{ending}", TUTORIAL_DPI)
 
 
-def hand_in_in_vietnamese() -> None:
-    """Save the same papers for the Vietnamese page, whose commands are not played."""
-    with tempfile.TemporaryDirectory() as place:
-        folder = Path(place)
-        (folder / "roster.csv").write_text(f"id,name\nS01,{TUTORIALS['vi'][1]}\n", encoding="utf-8")
-        command("new", "slider-crank", "-o", "machine.yaml", "--lang", "vi", cwd=folder)
-        command("variants", "machine.yaml", "roster.csv", "-o", "given", cwd=folder)
-        command("batch", "roster.csv", "--assignments", "given", "--make", "task", "--out", "tasks", cwd=folder)
-        own = folder / "tasks" / "S01"
-        command("sheet", "assignment.yaml", "--format", "pdf", cwd=own)
-        command("build", "assignment.yaml", "--format", "docx", cwd=own)
-        hand_in_papers(own, own / "out" / "assignment", "vi")
-
-
-def hand_in_papers(own: Path, made: Path, language: str) -> None:
-    """Save pages of a student's task in the folder `own`, and of the drawing and the report in `made`."""
-    ending, _, _, caption = TUTORIALS[language]
-    task = pymupdf.open(own / "task.pdf")
-    save(task[0], f"hand-in-task{ending}", TUTORIAL_DPI)
-    save(task[-1], f"hand-in-sheet{ending}", TUTORIAL_DPI, task[-1].rect - (0, 0, 0, task[-1].rect.height / 2))
-    save(pymupdf.open(made / "sheet-1.pdf")[0], f"hand-in-drawing{ending}", SHEET_DPI)
-    if (pages := in_word(made / "report.docx")) is not None:
-        save(page_with(caption, pages), f"hand-in-word{ending}", TUTORIAL_DPI)
-
-
-def command(*words: str, cwd: Path) -> None:
-    """Run `reportgen` with these arguments in a folder."""
-    path = {**os.environ, "PYTHONPATH": str(ROOT)}
-    subprocess.run([sys.executable, "-m", "reportgen.cli", *words], cwd=cwd, env=path, check=True, capture_output=True)
-
-
-def class_of_60() -> None:
+def class_of_60(language: str) -> None:
     """Save the marks of the class and the feedback for a student that the tutorial of the class shows."""
+    ending, page, _, _ = TUTORIALS[language]
     with tempfile.TemporaryDirectory() as place:
-        marked = followed("class-of-60", place) / "marked"
-        marks = pymupdf.open(marked / "class.pdf")[1]
-        save(marks, "class-of-60-marks", TUTORIAL_DPI)
+        marked = followed(f"class-of-60{page}", place) / "marked"
+        save(pymupdf.open(marked / "class.pdf")[1], f"class-of-60-marks{ending}", TUTORIAL_DPI)
         feedback = pymupdf.open(marked / "S05" / "feedback.pdf")[0]
-        save(feedback, "class-of-60-feedback", TUTORIAL_DPI, feedback.rect - (0, 0, 0, feedback.rect.height / 3))
+        save(
+            feedback, f"class-of-60-feedback{ending}", TUTORIAL_DPI, feedback.rect - (0, 0, 0, feedback.rect.height / 3)
+        )
 
 
 def notebook_study() -> None:
@@ -350,9 +326,9 @@ def main() -> None:
     moving()
     form()
     tutorials()
-    hand_in()
-    hand_in_in_vietnamese()
-    class_of_60()
+    for language in TUTORIALS:
+        hand_in(language)
+        class_of_60(language)
     notebook_study()
     curves()
     for kind in kinds():
