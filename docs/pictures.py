@@ -13,7 +13,7 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import replace
 from io import BytesIO
@@ -35,6 +35,14 @@ CAPTION = ". Velocity plan at"
 """A part of the text of the page that the README shows, the number of the figure before it."""
 SHOWN_IN_WORD = ". Steps in drawing the velocity plan"
 """A part of the text of the page of the Word file."""
+TUTORIALS: Mapping[str, tuple[str, str, str, str]] = {
+    "en": ("", "", CAPTION, SHOWN_IN_WORD),
+    "vi": ("-vi", ".vi", ". Họa đồ vận tốc tại", ". Các b"),
+}
+"""By language: endings of the names of pictures and pages, the texts of the two pages of the reports.
+
+The PDF of LibreOffice has no text of letters such as ư.
+"""
 
 SHOWN = {
     "plane-motion": ROOT / "assignments" / "plane-motion" / "17.yaml",
@@ -206,11 +214,16 @@ def save_screen(name: str, png: bytes) -> None:
 
 def tutorials() -> None:
     """Save the screens that the tutorials show, and a page of the report that their reader makes."""
-    with browser() as driver, tempfile.TemporaryDirectory() as folder:
-        if driver is None:
-            return
-        report = pymupdf.open(first_report(Screen(driver), Path(folder), save_screen))
-        save(page_with(CAPTION, report), "first-report-page", TUTORIAL_DPI)
+    for language, (ending, _, caption, _) in TUTORIALS.items():
+        with browser() as driver, tempfile.TemporaryDirectory() as folder:
+            if driver is None:
+                return
+
+            def save_shown(name: str, png: bytes, ending: str = ending) -> None:
+                save_screen(f"{name}{ending}", png)
+
+            report = pymupdf.open(first_report(Screen(driver), Path(folder), save_shown, language))
+            save(page_with(caption, report), f"first-report-page{ending}", TUTORIAL_DPI)
 
 
 def followed(tutorial: str, place: str) -> Path:
@@ -222,26 +235,54 @@ def followed(tutorial: str, place: str) -> Path:
     return Path(place)
 
 
-def hand_in() -> None:
+def hand_in(language: str) -> None:
     """Save the papers that the tutorial of the hand-in shows."""
+    ending, page, _, caption = TUTORIALS[language]
     with tempfile.TemporaryDirectory() as place:
-        own = followed("hand-in", place) / "tasks" / "S01"
+        own = followed(f"hand-in{page}", place) / "tasks" / "S01"
         task = pymupdf.open(own / "task.pdf")
-        save(task[0], "hand-in-task", TUTORIAL_DPI)
-        save(task[-1], "hand-in-sheet", TUTORIAL_DPI, task[-1].rect - (0, 0, 0, task[-1].rect.height / 2))
-        save(pymupdf.open(own / "hand-in" / "sheet-1.pdf")[0], "hand-in-drawing", SHEET_DPI)
+        save(task[0], f"hand-in-task{ending}", TUTORIAL_DPI)
+        save(task[-1], f"hand-in-sheet{ending}", TUTORIAL_DPI, task[-1].rect - (0, 0, 0, task[-1].rect.height / 2))
+        save(pymupdf.open(own / "hand-in" / "sheet-1.pdf")[0], f"hand-in-drawing{ending}", SHEET_DPI)
         if (pages := in_word(own / "hand-in" / "report.docx")) is not None:
-            save(page_with(SHOWN_IN_WORD, pages), "hand-in-word", TUTORIAL_DPI)
+            save(page_with(caption, pages), f"hand-in-word{ending}", TUTORIAL_DPI)
 
 
-def class_of_60() -> None:
+def class_of_60(language: str) -> None:
     """Save the marks of the class and the feedback for a student that the tutorial of the class shows."""
+    ending, page, _, _ = TUTORIALS[language]
     with tempfile.TemporaryDirectory() as place:
-        marked = followed("class-of-60", place) / "marked"
-        marks = pymupdf.open(marked / "class.pdf")[1]
-        save(marks, "class-of-60-marks", TUTORIAL_DPI)
+        marked = followed(f"class-of-60{page}", place) / "marked"
+        save(pymupdf.open(marked / "class.pdf")[1], f"class-of-60-marks{ending}", TUTORIAL_DPI)
         feedback = pymupdf.open(marked / "S05" / "feedback.pdf")[0]
-        save(feedback, "class-of-60-feedback", TUTORIAL_DPI, feedback.rect - (0, 0, 0, feedback.rect.height / 3))
+        save(
+            feedback, f"class-of-60-feedback{ending}", TUTORIAL_DPI, feedback.rect - (0, 0, 0, feedback.rect.height / 3)
+        )
+
+
+def notebook_study() -> None:
+    """Save what the cells of the tutorial of the notebook show: a plan and two charts."""
+    import matplotlib
+
+    matplotlib.use("agg")
+    with tempfile.TemporaryDirectory() as place:
+        folder = followed("notebook-study", place)
+        from tests.documents import cells
+
+        done = cells("docs/tutorials/notebook-study.md", folder)
+        plan = next(cell.value for cell in done if "m.figure" in cell.code)
+        plan.save(folder / "plan.pdf")
+        save(pymupdf.open(folder / "plan.pdf")[0], "notebook-study-plan", PAGE_DPI)
+        rods, curves = done[-1].names["fig"], next(cell.names["fig"] for cell in done if "fig" in cell.names)
+        save_chart(curves, "notebook-study-curves")
+        save_chart(rods, "notebook-study-rods")
+
+
+def save_chart(figure: Any, name: str) -> None:
+    """Save a figure of matplotlib as `docs/pictures/NAME.png`."""
+    stream = BytesIO()
+    figure.savefig(stream, dpi=CURVES_DPI)
+    save_screen(name, stream.getvalue())
 
 
 def in_word(file: Path) -> pymupdf.Document | None:
@@ -273,11 +314,7 @@ def curves() -> None:
     for cell in json.loads((ROOT / "docs" / "variants.ipynb").read_text(encoding="utf-8"))["cells"]:
         if cell["cell_type"] == "code" and "ax2" not in (code := "".join(cell["source"])):
             exec(code, names)
-    stream = BytesIO()
-    names["fig"].savefig(stream, dpi=CURVES_DPI)
-    Image.open(stream).convert("RGB").quantize(COLOURS, Image.Quantize.FASTOCTREE).save(
-        PICTURES / "curves.png", optimize=True
-    )
+    save_chart(names["fig"], "curves")
 
 
 def main() -> None:
@@ -289,8 +326,10 @@ def main() -> None:
     moving()
     form()
     tutorials()
-    hand_in()
-    class_of_60()
+    for language in TUTORIALS:
+        hand_in(language)
+        class_of_60(language)
+    notebook_study()
     curves()
     for kind in kinds():
         file = SHOWN.get(kind) or min(SAMPLE.parent.glob(f"{kind}-*.yaml"))

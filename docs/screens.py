@@ -11,7 +11,7 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -26,14 +26,54 @@ return [...document.querySelectorAll("button[data-kind] .scheme")].every((one) =
 """
 """True if the page shows the scheme of every kind."""
 
+LABELS: Mapping[str, Mapping[str, str]] = {
+    "en": {
+        "which machine": "Which machine?",
+        "machine": "Four-bar linkage",
+        "moving": "The machine in motion",
+        "play": "Play",
+        "pause": "Pause",
+        "crank": "Crank AB",
+        "coupler": "Coupler BC",
+        "not right": "This is not right yet",
+        "no unit": "“95” has no unit",
+        "use": "Use 95 mm",
+        "student": "Student",
+        "name": "Name",
+        "Lan": "Lan Pham",
+        "saved": "saved",
+        "ready": "The report is up to date.",
+        "made": "PDF: made: out/four-bar/report.pdf",
+    },
+    "vi": {
+        "which machine": "Chọn máy",
+        "machine": "Cơ cấu bốn khâu bản lề",
+        "moving": "Cơ cấu chuyển động",
+        "play": "Chạy",
+        "pause": "Dừng",
+        "crank": "Tay quay AB",
+        "coupler": "Thanh truyền BC",
+        "not right": "Tệp chưa đúng",
+        "no unit": "“95” thiếu đơn vị",
+        "use": "Dùng 95 mm",
+        "student": "Sinh viên",
+        "name": "Họ và tên",
+        "Lan": "Phạm Thị Lan",
+        "saved": "đã lưu",
+        "ready": "Bản thuyết minh đã được cập nhật.",
+        "made": "PDF: đã tạo: out/four-bar/report.pdf",
+    },
+}
+"""What the screens of the first report show, by language."""
+
 Save = Callable[[str, bytes], None]
 """Stores a screenshot (PNG) as the picture with this name."""
 
 
 @contextmanager
-def served(folder: Path) -> Iterator[str]:
-    """Start `reportgen edit --lang en` in an empty folder; yield the address of its page."""
-    command = [sys.executable, "-m", "reportgen.cli", "edit", "--lang", "en", "--no-open"]
+def served(folder: Path, language: str) -> Iterator[str]:
+    """Start `reportgen edit --lang LANGUAGE` in an empty folder; yield the address of its page."""
+    command = [sys.executable, "-m", "reportgen.cli", "edit", "--lang", language, "--no-open"]
     path = os.pathsep.join(filter(None, (str(ROOT), os.environ.get("PYTHONPATH"))))
     server = subprocess.Popen(
         command, cwd=folder, env={**os.environ, "PYTHONPATH": path}, stdout=subprocess.PIPE, text=True
@@ -103,10 +143,10 @@ class Screen:
         self.used.add(words)
         self.wait(f"“{words}”", lambda: words in self.driver.find_element("css selector", place).text)
 
-    def at_rest(self) -> None:
+    def at_rest(self, labels: Mapping[str, str] = LABELS["en"]) -> None:
         """Wait until the file is saved and the machine and the report follow it."""
-        self.says("saved", "#saved")
-        self.says("The report is up to date.")
+        self.says(labels["saved"], "#saved")
+        self.says(labels["ready"])
         self.driver.execute_script("moving.pause(); scrollTo(0, 0); document.activeElement.blur();")
         time.sleep(0.3)
 
@@ -115,37 +155,37 @@ class Screen:
         return png
 
 
-def first_report(screen: Screen, folder: Path, save: Save) -> Path:
+def first_report(screen: Screen, folder: Path, save: Save, language: str = "en") -> Path:
     """Take the steps of docs/tutorials/first-report.md in the form; return the report."""
-    driver = screen.driver
-    with served(folder) as address:
+    driver, labels = screen.driver, LABELS[language]
+    with served(folder, language) as address:
         driver.get(address)
-        screen.says("Which machine?")
+        screen.says(labels["which machine"])
         screen.wait("the pictures of the kinds", lambda: driver.execute_script(DRAWN))
         save("first-report-kinds", screen.picture())
-        screen.press("Four-bar linkage")
-        screen.says("The machine in motion")
-        screen.at_rest()
+        screen.press(labels["machine"])
+        screen.says(labels["moving"])
+        screen.at_rest(labels)
         save("first-report-form", screen.picture())
         assert (folder / "four-bar.yaml").is_file()
-        screen.press("Play")
-        screen.press("Pause")
-        screen.type("Crank AB", "95")
-        screen.says("This is not right yet")
-        screen.says("“95” has no unit")
+        screen.press(labels["play"])
+        screen.press(labels["pause"])
+        screen.type(labels["crank"], "95")
+        screen.says(labels["not right"])
+        screen.says(labels["no unit"])
         driver.execute_script("moving.seek(45);")
         save("first-report-error", screen.picture())
-        screen.press("Use 95 mm")
-        screen.at_rest()
-        assert screen.field("Crank AB").get_attribute("value") == "95 mm"
-        screen.type("Coupler BC", "320 mm")
-        screen.says("Student")
-        screen.type("Name", "Lan Pham")
-        screen.at_rest()
+        screen.press(labels["use"])
+        screen.at_rest(labels)
+        assert screen.field(labels["crank"]).get_attribute("value") == "95 mm"
+        screen.type(labels["coupler"], "320 mm")
+        screen.says(labels["student"])
+        screen.type(labels["name"], labels["Lan"])
+        screen.at_rest(labels)
         screen.press("PDF")
-        screen.says("PDF: made: out/four-bar/report.pdf")
+        screen.says(labels["made"])
         driver.execute_script("moving.seek(45); document.getElementById('undo').scrollIntoView({block: 'end'});")
         save("first-report-made", screen.picture())
     text = (folder / "four-bar.yaml").read_text(encoding="utf-8")
-    assert all(line in text for line in ("AB: 95 mm", "BC: 320 mm", "name: Lan Pham"))
+    assert all(line in text for line in ("AB: 95 mm", "BC: 320 mm", f"name: {labels['Lan']}"))
     return folder / "out" / "four-bar" / "report.pdf"

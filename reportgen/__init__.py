@@ -1,4 +1,7 @@
-"""Coursework reports in the Theory of Machines from one assignment file."""
+"""Make coursework reports in the Theory of Machines from one assignment file.
+
+`open` opens a file for a notebook or a script; `load`, `check`, `solve` and `build` are the steps of the command line.
+"""
 
 from __future__ import annotations
 
@@ -13,13 +16,13 @@ PLACES = {
     "reportgen.base.errors": ("AssignmentError", "ReportgenError"),
     "reportgen.notebook": ("Model", "open"),
 }
-"""Where the names are that the package offers; a module is loaded when the first of them is asked for."""
+"""Modules that define the public names of the package; each is loaded when one of its names is first used."""
 
 __all__ = ["AssignmentError", "Model", "ReportgenError", "analyse", "build", "check", "load", "open", "solve"]
 
 
 def __getattr__(name: str) -> object:
-    """The functions and classes of `PLACES`, and the errors."""
+    """Return a function or class of `PLACES`, or an error class; load its module on demand."""
     from importlib import import_module
 
     for module, names in PLACES.items():
@@ -29,5 +32,5 @@ def __getattr__(name: str) -> object:
 
 
 def __dir__() -> list[str]:
-    """The names of the module with those that are loaded when they are asked for."""
+    """Return the names of the module, including those that are loaded on demand."""
     return sorted({*globals(), *__all__})

@@ -1,4 +1,4 @@
-"""Open the case of an assignment: a machine's, unless its kind defines another one.
+"""Open the case of an assignment (`open_case`): a machine's, unless its kind defines another one.
 
 A kind's module defines either `machine`, which makes a `Machine` of an assignment, or `case`, which makes a `Case`.
 """
@@ -78,7 +78,7 @@ def opener() -> Callable[..., Case]:
 
 @dataclass(frozen=True)
 class MachineCase(MachineAnalysis):
-    """A machine, as a `Case`."""
+    """The case of a machine: its analysis, ledger, document, plates and animation."""
 
     @cached_property
     def families(self) -> Mapping[str, Family]:
@@ -119,7 +119,7 @@ class MachineCase(MachineAnalysis):
         return Span(labels, machine.count, tuple(self.assignment.worked_positions), printed)
 
     def sense(self, id: str) -> str:
-        return positive_sense(id, self.ledger, self.words, self._ways)
+        return positive_sense(id, self.ledger, self.words, self._slide_directions)
 
     @property
     def _report(self) -> ReportContext:
@@ -130,7 +130,7 @@ class MachineCase(MachineAnalysis):
         return ReportContext(self)
 
     @cached_property
-    def _ways(self) -> Mapping[str, str]:
+    def _slide_directions(self) -> Mapping[str, str]:
         """The positive directions of the motion of its sliders, in words, by their points."""
         from reportgen.report.template_equations import heading_words
 
@@ -149,16 +149,16 @@ class MachineCase(MachineAnalysis):
 
         machine, points = self.analysis.machine, self.analysis.motion.points
         signed = {
-            name(pin): (np.real(np.conj(way) * getattr(points[pin], rate)), way)
-            for pin, way in self._report.slider_senses.items()
+            name(pin): (np.real(np.conj(direction) * getattr(points[pin], rate)), direction)
+            for pin, direction in self._report.slider_senses.items()
             for rate, name in ids.POINT_RATE.items()
         }
         slides = bool(machine.span)
-        gone = machine.cycle_angles * (machine.way / (machine.turns * FULL_TURN) if slides else 1.0)
+        gone = machine.cycle_angles * (machine.cycle_travel / (machine.turns * FULL_TURN) if slides else 1.0)
         called = self.words["figure"]["way" if slides else "cycle_angle"]
         # A speed given separately for each position determines no time.
         speed = None if machine.acceleration else abs(machine.speed)
-        return DriverMotion(gone, machine.way, called, speed, slides=slides, signed=signed)
+        return DriverMotion(gone, machine.cycle_travel, called, speed, slides=slides, signed=signed)
 
     @property
     def balance(self) -> np.ndarray | None:
@@ -174,9 +174,9 @@ class MachineCase(MachineAnalysis):
             _wrong_readings(analysis),
             _whole_rods(analysis.machine, tuple(self.ledger.families)),
             changed={
-                id: other
+                id: definition
                 for hooks in LEDGER.among(analysis.machine.topics)
-                for id, other in hooks.mistakes(self.ledger, analysis.machine).items()
+                for id, definition in hooks.mistakes(self.ledger, analysis.machine).items()
             },
         )
 

@@ -1,4 +1,4 @@
-"""Interface for scripts and notebooks: an opened assignment with its arrays, figures, curves and tables."""
+"""Interface for scripts and notebooks: `open` returns a `Model` with arrays, figures, curves and tables."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ from reportgen.drawing.drawing_sheet import sheets
 from reportgen.export import curves, figures
 from reportgen.export.curves import Over
 from reportgen.export.figures import MovingFigure
-from reportgen.export.quantities import QuantityArray, quantity, shown
+from reportgen.export.quantities import QuantityArray, quantity, visible_ids
 from reportgen.export.study import Study
 
 PARAMETERS = "parameters"
@@ -97,7 +97,7 @@ class Model:
 
     @cached_property
     def case(self) -> Case:
-        """All computed results."""
+        """The case with all computed results."""
         return opened(self.assignment)
 
     # --- numbers
@@ -105,7 +105,7 @@ class Model:
     @property
     def ids(self) -> list[str]:
         """The ids of quantities that vary from position to position, as in answer sheets and keys."""
-        return list(shown(self.case))
+        return list(visible_ids(self.case))
 
     def __getitem__(self, id: str) -> QuantityArray:
         """Return a quantity [N], or [1] if it is the same at all positions; motion on a line is signed along it.
@@ -147,7 +147,7 @@ class Model:
         unit = ""
         for step in where:
             fields = {
-                (one.alias or name): (name, one) for name, one in getattr(type(known), "model_fields", {}).items()
+                (info.alias or name): (name, info) for name, info in getattr(type(known), "model_fields", {}).items()
             }
             name, field = fields.get(step, (step, None))
             unit = _unit_of(field.annotation, *field.metadata) if field is not None else ""
@@ -172,8 +172,8 @@ class Model:
         ranges = {name: [*np.atleast_1d(np.asarray(row, dtype=object))] for name, row in values.items()}
         lengths = [len(row) for row in ranges.values()]
         if not ranges or not all(lengths) or (not grid and len(set(lengths)) > 1):
-            told = ", ".join(f"{name}: {len(row)}" for name, row in ranges.items()) or "–"
-            raise RangesError(word("study_ranges", self.assignment.language, ranges=told))
+            listed = ", ".join(f"{name}: {len(row)}" for name, row in ranges.items()) or "–"
+            raise RangesError(word("study_ranges", self.assignment.language, ranges=listed))
         combined = product(*ranges.values()) if grid else zip(*ranges.values(), strict=True)
         rows = [dict(zip(ranges, row, strict=True)) for row in combined]
         variants: list[Assignment | None] = []
@@ -186,11 +186,11 @@ class Model:
                 variants.append(None)
         if refused is not None and not any(variants):
             raise refused
-        found = Study(variants, opened).values(of)
+        arrays = Study(variants, opened).values(of)
         if not grid:
-            return found
+            return arrays
         shaped: dict[str, QuantityArray] = {}
-        for id, array in found.items():
+        for id, array in arrays.items():
             shaped[id] = array.reshape(*lengths, *array.shape[1:]).view(QuantityArray)
         return shaped
 
@@ -208,10 +208,10 @@ class Model:
 
         Raises `UnknownNameError`, `NotOfferedError` for a quantity that is not a curve, `ValueError` for several units.
         """
-        found = curves.diagrams([self._dense], of, over)
-        if len(found) != 1:
-            raise ValueError(f"one unit a chart, not {len(found)}")
-        (diagram,) = found.values()
+        diagrams = curves.diagrams([self._dense], of, over)
+        if len(diagrams) != 1:
+            raise ValueError(f"one unit a chart, not {len(diagrams)}")
+        (diagram,) = diagrams.values()
         if label:
             diagram = replace(diagram, curves=tuple(replace(one, label=label) for one in diagram.curves))
         return diagram
@@ -274,10 +274,10 @@ class RangesError(UnknownNameError, ValueError):
 
 def _unit_of(annotation: Any, *metadata: Any) -> str:
     """Return the unit of a key of the assignment file by the type of its field, "" if it is not a quantity."""
-    inner = (one for part in get_args(annotation) for one in (part, *getattr(part, "__metadata__", ())))
-    for one in (*metadata, *inner):
-        if isinstance(one, Quantity):
-            return one.unit
+    inner = (candidate for part in get_args(annotation) for candidate in (part, *getattr(part, "__metadata__", ())))
+    for candidate in (*metadata, *inner):
+        if isinstance(candidate, Quantity):
+            return candidate.unit
     return next((unit for part in get_args(annotation) if (unit := _unit_of(part))), "")
 
 

@@ -31,7 +31,7 @@ from reportgen.case import MachineAnalysis
 from reportgen.case.answer_key import Key
 from reportgen.cases import MachineCase, open_case
 from reportgen.classes.roster import read_roster
-from reportgen.classes.variant_draw import Draw, judge_of
+from reportgen.classes.variant_draw import Draw, fault_finder
 from reportgen.classes.variant_spec import read_spec
 from reportgen.document import Figure, Plate
 from reportgen.document.template_rendering import Prose
@@ -146,7 +146,7 @@ def _spec(number: int, chance: random.Random, folder: Path) -> None:
     text = _text(DEMO / "spec.yaml") + (f"\nvariants: {chance.choice(TABLES)}\n" if number % 4 == 0 else "")
     _put(file, spoilt(text, chance))
     spec = read_spec(file)
-    list(Draw(spec, judge_of(spec)).each(read_roster(DEMO / "roster.csv")))
+    list(Draw(spec, fault_finder(spec)).each(read_roster(DEMO / "roster.csv")))
 
 
 def _policy(number: int, chance: random.Random, folder: Path) -> None:

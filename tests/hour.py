@@ -109,6 +109,16 @@ def a_report(new: Newcomer) -> None:
     watched(new, file)
 
 
+def pages(new: Newcomer) -> None:
+    """Check that the installed program has its documentation, as text and for a browser, in two languages."""
+    wanted("all pages are listed", "  first-report " in new.reportgen("docs"))
+    wanted("a page is readable", new.reportgen("docs", "machines").startswith("# The machines"))
+    opened = new.reportgen("docs", "edit", "--open", "--lang", "vi").splitlines()
+    place = Path(opened[0]).parent
+    for name in ("edit.vi.html", "edit.html", "pictures/page.png"):
+        wanted(f"the pages for a browser have {name}", (place / name).is_file(), place)
+
+
 def watched(new: Newcomer, file: Path) -> None:
     """Check that the page is served, and that Ctrl-C ends it."""
     print("$ reportgen watch", file.name, "--no-open")
@@ -184,6 +194,7 @@ def main(arguments: Sequence[str]) -> int:
             done([programs / "python", "-m", "pip", "install", "--quiet", "--dry-run", f"{wheel}[cluster]"], place)
             (place / "desk").mkdir()
             new = Newcomer(programs, place / "desk")
+            pages(new)
             a_report(new)
             an_example(new)
             a_class(new)

@@ -2,8 +2,8 @@
 
     python -m tests.house
 
-prints every figure beside its limit and exits with code 1 if a figure exceeds it.  Numbers of rooms, floors,
-arrows and vague names are printed without a limit: a cap that equals today's figure punishes any good addition, too.
+prints every figure beside its limit and exits with code 1 if a figure exceeds it.  Numbers of rooms, floors
+and arrows are printed without a limit: a cap that equals today's figure punishes any good addition, too.
 
 A room is a folder of `reportgen` with all that is in it, or a module beside those folders.  An arrow runs from a room
 to another one that it imports from, wherever the import stands.  A room is a floor above the highest that it imports.
@@ -36,7 +36,12 @@ PUBLIC = {
     # keys of assignment files
     "reportgen.catalogue.declared_loads": {"way"},
     "reportgen.springs.topic": {"other"},
+    # keys of title blocks
+    "reportgen.sheets.title_block": {"other"},
     # members that templates read
+    "reportgen.derivation.equation_sides": {"shown", "way"},
+    "reportgen.exercise.solution_page": {"way"},
+    "reportgen.exercise.views": {"one", "other", "way"},
     "reportgen.catalogue.linkage_words": {"way"},
     "reportgen.report.link_views": {"one"},
 }
@@ -356,7 +361,7 @@ LIMITS: Mapping[Callable[[House], Counted], int | None] = {
     type_aliases_twice: 0,
     topic_names_elsewhere: 0,
     longest_positional_call: 6,
-    vague_names: None,
+    vague_names: 0,
 }
 """Limit of each figure; `None`: printed for information, without a limit."""
 

@@ -230,10 +230,10 @@ def figure(at: Desk) -> None:
 
 def plot(at: Desk) -> None:
     """Check the first quantity that is a curve; a kind without curves reports it."""
-    from reportgen.export.quantities import shown
+    from reportgen.export.quantities import visible_ids
 
     case = open_case(at.file, at.language or None)
-    id = next(shown(case), None)
+    id = next(visible_ids(case), None)
     if id is None:
         with pytest.raises(SystemExit) as end:
             app(["plot", str(at.file), "--of", next(iter(case.ledger.families)), "--out", str(at.out)])

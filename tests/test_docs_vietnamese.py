@@ -25,8 +25,10 @@ _INLINE = re.compile(r"`(reportgen [^`\n]+)`")
 def shown_commands(page: str) -> Iterator[str]:
     """Yield the calls of `reportgen` on a page, in code blocks and in its sentences, each up to a pipe or a `>`."""
     text = text_of(page)
-    lines = [line for name, body in FENCE.findall(text) if name in ("sh", "console") for line in body.splitlines()]
-    for line in (*(line.removeprefix("$ ") for line in lines), *_INLINE.findall(text)):
+    marks = {"sh": "", "console": "$ "}
+    blocks = [(marks[name], body.splitlines()) for name, body in FENCE.findall(text) if name in marks]
+    shown = [line.removeprefix(mark) for mark, lines in blocks for line in lines if line.startswith(mark)]
+    for line in (*shown, *_INLINE.findall(text)):
         # An upper-case word stands for any command.
         if line.startswith("reportgen ") and not line.split()[1].isupper():
             yield re.split(r" (?:\||\d?>) ", line)[0]

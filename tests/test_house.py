@@ -110,6 +110,20 @@ def test_a_vague_name_counts_where_it_is_bound_and_lives_longer_than_a_line(tmp_
 
 
 @pytest.mark.proof
+def test_every_vague_name_that_is_allowed_exists(monkeypatch: pytest.MonkeyPatch) -> None:
+    allowed = {(module, name) for module, names in house.PUBLIC.items() for name in names}
+    monkeypatch.setattr(house, "PUBLIC", {})
+    counted = house.vague_names(house.House(house.ROOT))
+    assert isinstance(counted, list)
+    places = [place.rsplit(":", 1) for place in counted]
+    bound = {
+        (Path(path).relative_to(house.ROOT).with_suffix("").as_posix().replace("/", "."), rest.split()[1])
+        for path, rest in places
+    }
+    assert bound == allowed
+
+
+@pytest.mark.proof
 def test_a_limit_that_is_passed_is_a_fault(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     monkeypatch.setattr(house, "LIMITS", {house.circles: 0, house.rooms: 1000})
     assert house.main() == 0

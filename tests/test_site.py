@@ -14,6 +14,7 @@ from pathlib import Path
 from types import ModuleType
 
 import pytest
+from markdown_it import MarkdownIt
 
 from tests.documents import PAGES, ROOT
 from tests.lanes import proof
@@ -68,6 +69,25 @@ def test_the_site_makes_no_request_to_another_host(site: Path) -> None:
         assert not [address for address in loads.addresses if re.match(r"(https?:)?//", address)], file
     for file in site.rglob("*.css"):
         assert not re.search(r"(url\(|@import)[\"' ]*(https?:)?//", file.read_text(encoding="utf-8")), file
+
+
+SHAPES = ("li", "ol", "ul", "table", "tr", "pre", "h2", "h3", "img", "strong", "em")
+"""Elements that both writers of HTML make of the same Markdown."""
+
+
+@proof
+def test_the_site_reads_each_page_as_commonmark(site: Path) -> None:
+    for page in PAGES:
+        if page.startswith("docs/"):
+            name = Path(page.replace(".vi.md", ".md")).relative_to("docs").with_suffix(".html")
+            html = (site / ("vi" if page.endswith(".vi.md") else "") / name).read_text(encoding="utf-8")
+            article = html[html.index("<article") : html.index("</article>")]
+            plain = MarkdownIt("commonmark").enable("table").render((ROOT / page).read_text(encoding="utf-8"))
+            assert _counts(article) == _counts(plain), page
+
+
+def _counts(html: str) -> dict[str, int]:
+    return {shape: len(re.findall(rf"<{shape}[ >]", html)) for shape in SHAPES}
 
 
 @proof

@@ -65,11 +65,11 @@ def solve(assignment: Assignment, positions: int | None = None, printed: bool = 
         raise NotOfferedError(word("no_positions", assignment.language, kind=assignment.kind))
     chosen = assignment if positions is None else assignment.with_positions(positions)
     case = opened(chosen)
-    found = results(case)
+    solution = results(case)
     if printed:
         with suppress(NotOfferedError):
-            found["printed"] = printed_values(case.printed)
-    return found
+            solution["printed"] = printed_values(case.printed)
+    return solution
 
 
 def print_tables(results: Mapping[str, Any], language: Language) -> None:
@@ -98,7 +98,10 @@ def result_files(
     files = {f"results.{row.suffix}": row.load()(results) for row in rows}
     parts = results.get("parts", {}).items()
     return files | {
-        f"results-{part}.{row.suffix}": row.load()(one) for row in rows if row.per_part for part, one in parts
+        f"results-{part}.{row.suffix}": row.load()(part_results)
+        for row in rows
+        if row.per_part
+        for part, part_results in parts
     }
 
 
@@ -187,7 +190,7 @@ def made_of(
     return provenance.made_of(assignment, engine, spoken, templates_hash(), version(), **more)
 
 
-# --- products: what a batch makes of an assignment file -----------------------------------------------
+# --- products that a batch makes of an assignment file ------------------------------------------------
 
 
 Maker = Callable[..., Mapping[str, bytes]]

@@ -69,14 +69,14 @@ def plot_list(path: Path | str, language: Language | None = None) -> tuple[tuple
     """Return the id, the symbol with its unit, and the name in words of each quantity that can be plotted."""
     case = open_case(path, language)
     spoken = case.assignment.language
-    listed = [quantities.quantity(case, id) for id in quantities.shown(case)]
+    listed = [quantities.quantity(case, id) for id in quantities.visible_ids(case)]
     return tuple(
         (
-            one.id,
-            f"{formula(one.family.symbol, spoken)} ({one.case.ledger.printed_unit(one.family.how.unit)})",
-            phrase(one.id, one.case.ledger, one.case.words),
+            source.id,
+            f"{formula(source.family.symbol, spoken)} ({source.case.ledger.printed_unit(source.family.how.unit)})",
+            phrase(source.id, source.case.ledger, source.case.words),
         )
-        for one in listed
+        for source in listed
     )
 
 
@@ -99,11 +99,13 @@ def plot_files(
     points = curves.read_measured(measured, cases[0], of) if measured is not None else ()
     spoken = cases[0].assignment.language
     made = {
-        safe(name): matplotlib_figures.chart(one, spoken)
-        for name, one in curves.diagrams(cases, of, over, points).items()
+        safe(name): matplotlib_figures.chart(diagram, spoken)
+        for name, diagram in curves.diagrams(cases, of, over, points).items()
     }
     rows = chosen("plots", formats)
-    return {f"{name}.{row.suffix}": row.load()(one, row.name, dpi) for name, one in made.items() for row in rows}
+    return {
+        f"{name}.{row.suffix}": row.load()(diagram, row.name, dpi) for name, diagram in made.items() for row in rows
+    }
 
 
 def worked_at(assignment: Assignment, at: str) -> tuple[Case, tuple[str, ...]]:

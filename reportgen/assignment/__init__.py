@@ -1,4 +1,4 @@
-"""Read assignment files: text with places → sections → an `Assignment` in SI, or all faults in words."""
+"""Read assignment files: nodes with locations → sections → an `Assignment` in SI units, or all faults with messages."""
 
 from reportgen.assignment.common import Assignment
 

@@ -1,7 +1,6 @@
-"""Checks that any kind can use, of several values together; rules that a schema can express are also kept as data.
+"""Checks of several values together, for any kind; rules that a schema can express are also kept as data.
 
-They read the plain content, not the models, wherever they can, so that they also work if another value of the file
-is wrong.
+They read the plain content rather than the models where possible, so that they also work if another value is wrong.
 """
 
 from __future__ import annotations
@@ -41,9 +40,7 @@ def of_turning(look: Callable[[Any], Iterator[Finding]]) -> Check:
 
 
 def instants(draft: Draft) -> Iterator[Finding]:
-    """Yield faults if an instant is repeated, or if instants are combined with the number or start of evenly
-    spaced positions.
-    """
+    """Yield faults if an instant is repeated, or combined with the number or start of evenly spaced positions."""
     positions = draft.at("positions")
     if not isinstance(positions, dict) or positions.get("at") is None:
         return
@@ -92,7 +89,7 @@ def one_of(section: str, *names: str, required: bool = True, form: tuple[str, st
 
 @dataclass(frozen=True, slots=True)
 class SameLength:
-    """The check that rows have as many values as the list `key`: those that differ from most of them are at fault."""
+    """Check that rows have as many values as the list `key`; those that differ from most of them are at fault."""
 
     section: str
     key: str
@@ -119,7 +116,7 @@ def same_length(section: str, key: str, rows: Sequence[str]) -> SameLength:
 
 @dataclass(frozen=True, slots=True)
 class Increasing:
-    """The check that a list grows strictly from `first` to `last` (in `unit`)."""
+    """Check that a list increases strictly from `first` to `last` (in `unit`)."""
 
     section: str
     key: str
@@ -146,7 +143,7 @@ class Increasing:
 
 
 def increasing(section: str, key: str, first: float, last: float, unit: str = "") -> Increasing:
-    """Return an `Increasing` check."""
+    """Return an `Increasing` check from `first` to `last` (in `unit`)."""
     return Increasing(section, key, first, last, unit)
 
 
@@ -163,7 +160,7 @@ def _size(text: Any, unit: str) -> float | None:
 
 
 def worked_positions(turns: int, names: Labels | None = None) -> Check:
-    """Return a check that worked positions lie in the cycle of `turns` turns, and that each is named once."""
+    """Return a check that worked positions lie in the cycle of `turns` turns and are not repeated."""
 
     def check(draft: Draft) -> Iterator[Finding]:
         report, positions = draft.sections.get("report"), draft.sections.get("positions")
@@ -186,7 +183,9 @@ def worked_positions(turns: int, names: Labels | None = None) -> Check:
 
 
 def school_of(path: Path) -> Check:
-    """Return a check that the school's folder of the file at `path` exists beside it or below, and has words in it."""
+    """Return a check that the school's folder of the file at `path` exists beside or below the file and
+    contains words.
+    """
 
     def check(draft: Draft) -> Iterator[Finding]:
         named, where = draft.at("report", "templates"), ("report", "templates")

@@ -30,7 +30,7 @@ from reportgen.base.units import Given, Language
 from reportgen.base.words import named_school, unknown
 
 POSITIONS = "positions"
-"""The section, or the parameter, that says how many positions a turn has."""
+"""The section or parameter with the number of positions of a turn."""
 FEWEST_POSITIONS, MOST_POSITIONS = 4, 360
 Count = Annotated[int, Whole(FEWEST_POSITIONS, MOST_POSITIONS)]
 MOST_INSTANTS = 24
@@ -66,12 +66,12 @@ class Student(Part):
 
 
 class ReportSection(Part):
-    """The report's language, cover and the positions written out in full, by number or label (None: all).
+    """The report's language, cover and the positions calculated in full, by number or label (None: all).
 
-    `extent` is the amount that the report of a machine contains; an exercise has one extent and ignores it.
-    `school` names a folder of templates whose words override the common ones, `templates` one beside the file.
-    `sheets` is the size of the drawing sheets that are handed in with the report; `listing` adds a program of the
-    closed formulas. The text is set in letters of a `font` in a `size`.
+    `extent` is the amount that the report of a machine contains; an exercise has one extent and ignores it. `school`
+    names a folder of templates whose words override the common ones, `templates` one beside the file. `sheets` is the
+    paper size of the drawing sheets that are handed in with the report; `listing` adds a program of the closed
+    formulas.  `font` and `size` are those of the text.
     """
 
     language: Annotated[Language, LanguageName()] = DEFAULT_LANGUAGE
@@ -96,8 +96,8 @@ class ReportSection(Part):
 class Positions(Part):
     """Number of positions of a turn, sense of the driver, and start.
 
-    `start` is the driver's angle from +x; None is the natural start of the kind. If instants `at` places of the
-    driver (angles of a crank from +x, ways of a slider) are given, they replace the evenly spaced positions.
+    `start` is the driver's angle from +x; None is the usual start of the kind.  Instants `at` places of the driver
+    (angles of a crank from +x, displacements of a slider) replace the evenly spaced positions.
     """
 
     count: Count = 8
@@ -112,13 +112,11 @@ class Positions(Part):
 
     @property
     def first(self) -> Given | None:
-        """The driver's place in position 1, None for the natural start of the kind."""
+        """The driver's angle or displacement in position 1; None for the usual start of the kind."""
         return self.at[0] if self.at else self.start
 
     def instants(self, turns: int = 1) -> tuple[float, ...]:
-        """Return the angles (rad) that a crank has turned from the first instant to each, within a cycle of so
-        many turns.
-        """
+        """Return the angles (rad) of a crank from the first instant to each, within a cycle of `turns` turns."""
         whole = turns * 2 * math.pi
         at = self.at or ()
         return tuple(self.sign * (one.si - at[0].si) % whole if one is not at[0] else 0.0 for one in at)
@@ -129,7 +127,7 @@ class Positions(Part):
         return 1 if self.direction == "anticlockwise" else -1
 
     def start_or(self, natural: float = 0.0) -> float:
-        """Return the driver's angle in position 1 (rad): as given, else its natural one."""
+        """Return the driver's angle in position 1 (rad): as given, else the `natural` one."""
         return natural if self.first is None else self.first.si
 
 
@@ -148,13 +146,13 @@ class SheetSection(Part):
 
 @dataclass(frozen=True, slots=True)
 class Draft:
-    """An assignment during checking: plain content, and the sections that are valid by themselves."""
+    """An assignment during checking: plain content, and the sections that are valid on their own."""
 
     raw: Mapping[str, Any]
     sections: Mapping[str, Any]
 
     def at(self, *where: str) -> Any:
-        """Return the content of the file at a place; None if there is none."""
+        """Return the content of the file at a path; None if there is none."""
         content: Any = self.raw
         for key in where:
             content = content.get(key) if isinstance(content, dict) else None
@@ -172,12 +170,12 @@ Labels = Callable[[Any, Positions], Sequence[str]]
 class Kind:
     """Data of a kind of machine that the reader needs.
 
-    `base` are the parameters of the kind itself, to which `topics` add sections: `extended` gives the parameters
-    with the sections of some topics, and their checks. `turns` of the driver make a cycle; `indicator` is the type
-    of the section of that name, None for a machine without one; `checks` examine several values together. `labels`
-    are given by a kind that adds positions to the evenly spaced ones. A kind that is a single instant of a motion
-    has no positions, and nothing is drawn to a chosen length. `part` is the prefix of the ids of a kind that can be
-    a part of a coursework; "" for other kinds.
+    `base` are the parameters of the kind itself, to which `topics` add sections: `extended` returns the parameters with
+    the sections of some topics, and their checks. `turns` of the driver make a cycle; `indicator` is the type of the
+    section of that name, None for a machine without one; `checks` examine several values together. `labels` exists for
+    a kind that adds positions to the evenly spaced ones. A kind that is a single instant of a motion has no positions
+    and no chosen drawn length. `part` is the prefix of the ids of a kind that can be a part of a coursework; "" for
+    other kinds.
     """
 
     name: str
@@ -203,12 +201,12 @@ class Kind:
         return self.checks if self.extended is None else (*self.checks, *self.extended(self.base, self.topics)[1])
 
     def asking(self, keys: Collection[str]) -> Kind:
-        """Return the same with those of its topics that a file has a section of, by the keys of its parameters."""
+        """Return the same kind with only those topics that are among the keys of a file's parameters."""
         return replace(self, topics=tuple(topic for topic in self.topics if topic in keys))
 
     @property
     def counts_positions(self) -> bool:
-        """True if a turn may have another number of positions, given in a section or among the parameters."""
+        """True if the number of positions of a turn can be chosen, in a section or among the parameters."""
         return self.has_positions or POSITIONS in self.base.model_fields
 
 
@@ -242,7 +240,7 @@ class Assignment:
 
     @property
     def school(self) -> Path | None:
-        """The folder of a school's own words: one named for the run, else the file's own, else its name among all."""
+        """The folder of a school's templates: the one named for the run, else the file's own, else that of its name."""
         report = self.report
         if (named := named_school()) is not None:
             return named
@@ -257,26 +255,27 @@ class Assignment:
 
     @property
     def cycle_positions(self) -> int:
-        """Positions of a whole cycle."""
+        """Number of positions of a whole cycle."""
         return len(self.labels)
 
     @property
     def worked_positions(self) -> tuple[int, ...]:
-        """Numbers, 1…`cycle_positions`, of the positions written out in full."""
+        """Numbers, 1…`cycle_positions`, of the positions calculated in full."""
         worked = named_worked(self.report, self.positions)
         if worked is None:
             return tuple(range(1, self.cycle_positions + 1))
         return tuple(self.labels.index(one) + 1 if isinstance(one, str) else one for one in worked)
 
     def position(self, named: str) -> int:
-        """Return the number of the position of a label or a number; raises `UnknownNameError` where there is none."""
+        """Return the number of the position with a label or number; raises `UnknownNameError` if there is none."""
         position = number_of(named, self.labels) or (number_of(int(named), self.labels) if named.isdecimal() else 0)
         if not position:
             raise UnknownNameError(unknown("no_position", named, self.labels, self.language))
         return position
 
     def with_positions(self, count: int) -> Assignment:
-        """Return the same with `count` positions a turn; worked positions beyond the new cycle are dropped.
+        """Return the same assignment with `count` positions per turn; worked positions beyond the new cycle are
+        dropped.
 
         Raises `ValueError` for a count outside 4…360.
         """
@@ -291,25 +290,25 @@ class Assignment:
         return replace(counted, report=self.report.model_copy(update={"worked_positions": kept}))
 
     def with_worked(self, position: int) -> Assignment:
-        """Return the same with one position worked out, by its number."""
+        """Return the same assignment with a single worked position, by its number."""
         return replace(self, report=self.report.model_copy(update={"worked_positions": (position,)}))
 
     def with_language(self, language: Language) -> Assignment:
-        """Return the same, reported in another language."""
+        """Return the same assignment in another language."""
         return replace(self, report=self.report.model_copy(update={"language": language}))
 
     def with_extent(self, extent: Extent) -> Assignment:
-        """Return the same, reported to another extent."""
+        """Return the same assignment with another extent of the report."""
         return replace(self, report=self.report.model_copy(update={"extent": extent}))
 
     def with_listing(self) -> Assignment:
-        """Return the same, with the program of its closed formulas in the report."""
+        """Return the same assignment with the program of its closed formulas in the report."""
         return replace(self, report=self.report.model_copy(update={"listing": True}))
 
 
 @dataclass(frozen=True, slots=True)
 class TakenDatum:
-    """A value of a part that is the machine's: its key, the place of the machine's value, the ratio as typed."""
+    """A value that a part takes from the machine: its key, the path of the machine's value, the ratio as typed."""
 
     key: str
     of: str
@@ -318,10 +317,10 @@ class TakenDatum:
 
 @dataclass(frozen=True, slots=True)
 class AssignedPart:
-    """A part of a coursework, with an assignment.
+    """A part of a coursework with its assignment.
 
-    Its ids begin with `head`, like those of its kind; in the coursework they begin with `name`, which is unique
-    among the parts. Without a `title` it has that of its kind.
+    Its ids begin with `head`, like those of its kind; in the coursework they begin with `name`, which is unique among
+    the parts. Without a `title` it has that of its kind.
     """
 
     name: str
@@ -331,7 +330,7 @@ class AssignedPart:
     taken: tuple[TakenDatum, ...] = ()
 
     def within(self, whole: Assignment) -> Assignment:
-        """Return the part as the coursework of `whole` has it: with its cover, its language and its extent."""
+        """Return the part's assignment in the coursework of `whole`: with its cover, its language and its extent."""
         settings = {key: getattr(whole.report, key) for key in whole.report.model_fields_set - {"worked_positions"}}
         report = ReportSection.model_construct(**settings)
         return replace(self.alone, report=report, variant=whole.variant, id=whole.id, is_part=True)
@@ -389,7 +388,7 @@ def file_model(kind: Kind) -> type[Part]:
 
 
 def named_worked(report: ReportSection, positions: Positions) -> tuple[int | str, ...] | None:
-    """Return the positions written out in full as the file names them (None: all); all instants, if it names none."""
+    """Return the positions calculated in full as the file names them (None: all); all instants if it names none."""
     untold = "worked_positions" not in report.model_fields_set
     return None if positions.at and untold else report.worked_positions
 

@@ -1,7 +1,7 @@
 """Types of the values in assignment files: one small reader per kind of value, with its part of the JSON Schema.
 
-A reader is pydantic metadata: `Length = Annotated[Given, Quantity("mm", above=0, below=100)]`. It takes the text of
-the file and returns a value or raises a `PydanticCustomError` with a message's code.
+A reader is pydantic metadata: `Length = Annotated[Given, Quantity("mm", above=0, below=100)]`. It takes the text of the
+file and returns a value or raises a `PydanticCustomError` with a message's code.
 """
 
 from __future__ import annotations
@@ -23,19 +23,19 @@ from reportgen.base.units import NUMBER, Given, QuantityFault, grouped, read_qua
 from reportgen.base.yaml_source import STRANGE, Quoted
 
 UNIT_KEY, RANGE_KEY, UNIT_NAME_KEY = "x-unit", "x-range", "x-unit-name"
-"""Extensions of the schema standard: the unit of a quantity, its bounds in it, a unit that names one like it."""
+"""Extensions of the schema standard: the unit of a quantity, its bounds in that unit, and the unit of a unit's name."""
 LONGEST_TEXT = 300
 MOST_WORKED = 720
 _UNIT_PATTERN = r"[A-Za-zµ°ºđ][^,]*"
 _SLUG = r"[a-z0-9][a-z0-9-]{0,60}"
 RESERVED = re.compile(r"(CON|PRN|AUX|NUL|CLOCK|CONIN|CONOUT|COM[0-9]|LPT[0-9])")
-"""Names, in capitals, that some systems keep for devices."""
+"""Upper-case names that some systems reserve for devices."""
 _INTEGER = re.compile(r"[+-]?[0-9]{1,9}")
 _LABEL = re.compile(r"[a-z]|[0-9]{1,3}|[IVX]{1,5}")
 
 
 def fault(code: str, **arguments: str) -> PydanticCustomError:
-    """Return the fault `code` of the message table, as pydantic carries it."""
+    """Return the fault `code` of the message table as a pydantic error."""
     return PydanticCustomError("fault", "{code}", {"code": code, **arguments})
 
 
@@ -77,7 +77,7 @@ class Interval:
 
     @property
     def words(self) -> dict[str, str]:
-        """Arguments of a message about it: the name of its phrase, and the numbers in it."""
+        """Arguments of a message about the interval: the name of its phrase, and its numbers."""
         low, high = max(self.above, self.least), min(self.below, self.most)
         about_zero = low < 0
         ends = ("above" if self.above > -math.inf else "from") + ("_below" if self.below < math.inf else "_to")
@@ -281,7 +281,7 @@ class Day(Reader):
 
 @dataclass(frozen=True, slots=True)
 class Until(Reader):
-    """A moment until which something lasts, `2026-11-20 23:59`; a day alone lasts to its end."""
+    """A moment until which something is valid, `2026-11-20 23:59`; a date alone means the end of that day."""
 
     def read(self, value: object) -> datetime.datetime:
         text = _text(value, "moment")
@@ -346,7 +346,7 @@ def quantity(unit: str, **ends: float) -> Quantity:
 
 @dataclass(frozen=True, slots=True)
 class Either(Reader):
-    """A quantity of one dimension or of another: the angle of a crank, or the way of a slider."""
+    """A quantity of one dimension or of another: the angle of a crank, or the displacement of a slider."""
 
     first: Quantity
     second: Quantity

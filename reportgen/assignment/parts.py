@@ -1,8 +1,8 @@
 """The further parts of a coursework: assignments in files or in place, with data of the machine.
 
-A part is one table, whether it is in a separate file or in the coursework's. Each of its nodes keeps the place
-where it was written, so that a fault is reported there. Values that it takes `from` the machine are put among its
-parameters before it is read.
+A part is one table, in a separate file or in the coursework's. Each of its nodes keeps the location where it was
+written, so that a fault is reported there. Values that it takes `from` the machine are inserted into its parameters
+before it is read.
 """
 
 from __future__ import annotations
@@ -98,14 +98,14 @@ def taking(source: Source, top: MappingNode, index: int, find: Callable[[str], K
 
 
 def _no_part(source: Source, find: Callable[[str], Kind]) -> Iterator[Fault]:
-    """Yield the fault of a kind that cannot be a part, as a machine, which could name parts itself."""
+    """Yield a fault for a kind that cannot be a part, such as a machine, which could itself have parts."""
     name = at(source.top, ("kind",))
     if isinstance(name, Scalar) and name.text in kinds() and not find(name.text).part:
         yield Fault("no-part", name.location, {"text": name.text})
 
 
 def numbered(head: str, number: int) -> str:
-    """Return the name of a part: that of its kind, with a number behind it from the second of a kind on."""
+    """Return the name of a part: that of its kind, with a number from the second part of a kind on."""
     return f"{head}{number if number > 1 else ''}"
 
 
@@ -124,7 +124,9 @@ def _named(top: Node | None, path: Path) -> Iterator[tuple[int, Path]]:
 
 
 def in_place(top: MappingNode, path: Path) -> tuple[MappingNode, dict[int, Source], list[Fault]]:
-    """Return a coursework's table with its parts in place of their files; these files by part number; the faults."""
+    """Return a coursework's table with its parts in place of their files, these files by part number, and the
+    faults.
+    """
     whole: Node = top
     listed = at(top, (PARTS,))
     sources: dict[int, Source] = {}
@@ -145,7 +147,7 @@ def in_place(top: MappingNode, path: Path) -> tuple[MappingNode, dict[int, Sourc
 
 
 def named(top: MappingNode, find: Callable[[str], Kind]) -> dict[int, str]:
-    """Return the names of parts in place by number: each is that of its kind, numbered from the second on."""
+    """Return the names of parts by number: each is that of its kind, numbered from the second on."""
     listed, met = at(top, (PARTS,)), Counter[str]()
     names: dict[int, str] = {}
     for index, item in enumerate(listed.items if isinstance(listed, SequenceNode) else ()):
@@ -158,7 +160,7 @@ def named(top: MappingNode, find: Callable[[str], Kind]) -> dict[int, str]:
 
 
 def frozen(stem: str, name: str) -> str:
-    """Return the file of a student's part, beside the machine's: K1.cam.yaml beside K1.yaml."""
+    """Return the name of the file of a student's part, beside the machine's: K1.cam.yaml beside K1.yaml."""
     return f"{stem}.{name}.yaml"
 
 
@@ -197,9 +199,7 @@ def _completed(
     factors: Mapping[str, float | None],
     find: Callable[[str], Kind],
 ) -> tuple[Source, list[Fault]]:
-    """Return the part with the values it takes, multiplied by key, and with the driver's sense if it is on
-    that shaft.
-    """
+    """Return the part with the values it takes, multiplied, and with the driver's sense if it is on that shaft."""
     source, faults = _with_taken(source, top, index, taken, factors)
     if not faults and any((datum.key, datum.of, datum.times) == ON_SHAFT for datum in taken):
         return _with_direction(source, top, find)
@@ -232,9 +232,7 @@ def _with_taken(
 
 
 def _with_direction(source: Source, top: MappingNode, find: Callable[[str], Kind]) -> tuple[Source, list[Fault]]:
-    """Return a part that sits on the driver's shaft, with the driver's sense of rotation if its kind has one of its
-    own.
-    """
+    """Return a part on the driver's shaft with the driver's sense of rotation, if its kind has a sense."""
     node, name = source.top, at(source.top, ("kind",))
     if node is None or not isinstance(name, Scalar) or name.text not in kinds():
         return source, []
@@ -250,15 +248,13 @@ def _with_direction(source: Source, top: MappingNode, find: Callable[[str], Kind
 
 
 def place_of(name: str) -> Where:
-    """Return the place of a quantity in the machine's file: among its parameters, or in the section that its
-    name says.
-    """
+    """Return the path of a quantity in the machine's file: among its parameters, or in the section of its name."""
     steps = tuple(name.split("."))
     return steps if len(steps) > 1 else ("parameters", *steps)
 
 
 def scaled(text: str, times: float) -> str:
-    """Return a quantity as typed, multiplied, in its own unit; any other text stays unchanged."""
+    """Return a quantity as typed, multiplied by `times`, in the same unit; any other text stays unchanged."""
     typed = _TYPED.fullmatch(text)
     return f"{float(typed[1]) * times:.12g}{typed[2]}" if typed else text
 

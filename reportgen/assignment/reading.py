@@ -33,7 +33,7 @@ _WHOLE = "file"
 MISTYPED = frozenset(
     {"unknown-key", "unknown-kind", "wrong-type", "choice", "not-a-number", "unknown-unit", "date", "moment"}
 )
-"""Faults that a slip of typing may be behind."""
+"""Faults that may be caused by a typing mistake."""
 _CONTROLS = {"Cc", "Cf", "Cs", "Zl", "Zp"}
 
 
@@ -74,9 +74,7 @@ def assess(
 
 
 def name_faults(path: Path) -> Iterator[Fault]:
-    """Yield faults unless the name of a file, without its ending, is that of a folder too: one that any system has,
-    and that lies below.
-    """
+    """Yield faults unless a file's name, without its ending, is a valid folder name on any system and lies below."""
     stem = path.stem
     printable = "".join(character for character in stem if unicodedata.category(character) not in _CONTROLS)
     if os.path.isdir(path):
@@ -100,7 +98,7 @@ def inputs(path: Path) -> tuple[bytes, dict[str, bytes]]:
 
 
 def words_beside(path: Path) -> dict[str, bytes]:
-    """Return the files of the school's folder that an assignment file names beside itself, by their ways from there."""
+    """Return the files of the school's folder that an assignment file names beside itself, by their relative paths."""
     named = at(read_source(path).top, ("report", "templates"))
     if not isinstance(named, Scalar) or named.null or leads_out(path.parent / named.text, path.parent):
         return {}
@@ -125,7 +123,7 @@ def read_model(path: Path, model: type[Model], language: Language | None = None)
 
 
 def placed(source: Source, findings: Iterable[Finding]) -> list[Fault]:
-    """Return findings with their marks in a file that was read."""
+    """Return findings with their locations in a file that was read."""
     top = _top(source)[0]
     return [] if top is None else [_placed(finding, top) for finding in findings]
 
@@ -140,7 +138,7 @@ WORDED = frozenset({"kind", "variant", "report", "sheet", "title", "file", "salt
 
 
 def doubtful(source: Source) -> Iterator[Fault]:
-    """Yield notes on keys without a value, and on numbers that may be meant as thousands, 1.400 N, with their
+    """Yield notes on keys without a value, and on numbers that may be meant as thousands (1.400 N), with their
     reading.
     """
     yield from _doubtful(source.top)
@@ -194,7 +192,7 @@ def _no_kind(name: object, kinds: Collection[str]) -> Finding:
 
 
 def _sections(raw: dict[str, Any], kind: Kind | None) -> tuple[list[Finding], Draft]:
-    """Read each section by itself, so that the checks can examine valid ones even if others are faulty."""
+    """Read each section on its own, so that the checks can examine valid ones even if others are faulty."""
     known, whole = sections(None if kind is None else _asking(kind, raw)), partial(sections, kind)
     findings: list[Finding] = []
     valid: dict[str, Any] = {}
@@ -250,13 +248,13 @@ def _section(
 
 
 def _telling(details: list[ErrorDetails]) -> list[ErrorDetails]:
-    """Return the faults without those of a list's length that only follow from faults anywhere in its items."""
+    """Return the faults without those of a list's length that only follow from faults of its items."""
     inner = {detail["loc"][:depth] for detail in details for depth in range(len(detail["loc"]))}
     return [one for one in details if one["type"] != "too_short" or one["loc"] not in inner]
 
 
 def _finding(key: str, detail: ErrorDetails, content: Any, schema: dict[str, Any]) -> Finding:
-    """Return a fault of pydantic's as a finding; its own types of fault get our codes."""
+    """Return a pydantic fault as a finding with one of this program's codes."""
     where = (key, *_real(detail["loc"], content))
     context = detail.get("ctx", {})
     match detail["type"]:
@@ -321,7 +319,7 @@ def _real(location: Where, content: Any) -> Iterator[str | int]:
 
 
 def _placed(finding: Finding, top: MappingNode) -> Fault:
-    """Return the finding with its mark; a missing value is reported at the key it is missing under."""
+    """Return the finding with its location; a missing value is reported at the key of its table."""
     node: Node = top
     key_location = top.location
     for step in finding.where:

@@ -26,7 +26,7 @@ _FORMS = {"object": "table", "array": "list"}
 
 
 _GENERAL = frozenset({"file", "topic"})
-"""Names of modules that several packages have: a definition is called by the package, too."""
+"""Names of modules that several packages have: a definition then includes the name of the package."""
 
 
 class _Generator(GenerateJsonSchema):
@@ -59,8 +59,8 @@ def file_schema(kind: Kind) -> Schema:
 
 
 def schema_of(kinds: Iterable[Kind], words: Callable[[str], Mapping[str, FieldWords]]) -> Schema:
-    """Return the JSON Schema (draft-07, which every editor knows) of a file of any of the kinds, with the words of
-    each.
+    """Return the JSON Schema (draft-07, which every editor supports) of files of any of the kinds, with their
+    labels.
     """
     # All together: models with one name in different kinds get different names.
     models: dict[Kind, tuple[type[BaseModel], JsonSchemaMode]] = {
@@ -75,9 +75,7 @@ def schema_of(kinds: Iterable[Kind], words: Callable[[str], Mapping[str, FieldWo
 
 
 def _as_draft_07(part: Any) -> Any:
-    """Return a schema of draft 2020-12 in the words of draft-07; the models use but one that the drafts do not
-    share.
-    """
+    """Return a schema of draft 2020-12 converted to draft-07; only one keyword of the models differs."""
     match part:
         case dict():
             return {"definitions" if key == "$defs" else key: _as_draft_07(value) for key, value in part.items()}
@@ -127,7 +125,7 @@ def _add(table: Schema, key: str, rule: Any) -> None:
 
 
 def _tell_words(part: Schema, root: Schema, words: Mapping[str, FieldWords], path: tuple[str, ...]) -> None:
-    """Name and describe the keys of a schema, and all that is in them."""
+    """Label and describe the keys of a schema, and everything in them."""
     for schema in alternatives(part, root):
         for inner in _unnamed(schema):
             _tell_words(inner, root, words, path)
@@ -174,14 +172,14 @@ def allowed_forms(kind: Kind, where: Where) -> frozenset[str]:
 
 
 def choices_of(schema: Schema) -> list[str]:
-    """Return the values among which one alternative at a place lets a file choose."""
+    """Return the values allowed by one alternative of the schema."""
     if schema.get("type") == "boolean":
         return ["true", "false"]
     return [str(value) for value in (*schema.get("enum", ()), *([schema["const"]] if "const" in schema else ()))]
 
 
 def alternatives_to(kind: Kind, path: Sequence[str]) -> list[str]:
-    """Return the other keys with the same meaning as that of a path."""
+    """Return the other keys with the same meaning as the key of a path."""
     checks = (check for check in kind.all_checks if isinstance(check, OneOf) and check.where == tuple(path[:-1]))
     return [name for check in checks if path[-1] in check.names for name in check.names if name != path[-1]]
 
@@ -216,7 +214,7 @@ def _inside(schema: Schema, step: str | int) -> Iterator[Schema]:
 
 
 def alternatives(schema: Schema, root: Schema) -> Iterator[Schema]:
-    """Yield a part of a JSON Schema with references followed and `oneOf`, `anyOf` taken apart."""
+    """Yield the alternatives of a JSON Schema, with references followed and `oneOf`, `anyOf` split."""
     if "$ref" in schema:
         yield from alternatives(root["$defs"][schema["$ref"].rsplit("/", 1)[-1]], root)
     elif choices := [*schema.get("oneOf", ()), *schema.get("anyOf", ())]:

@@ -1,4 +1,4 @@
-"""The assignment that a student gets beside the task, to check a sheet with: its data, without other files."""
+"""The copy of an assignment that a student gets with the task, for checking a sheet: its data, without other files."""
 
 from __future__ import annotations
 
@@ -10,14 +10,15 @@ from reportgen.base.yaml_values import at, put, text_of, without
 
 REPORT = ("report",)
 LOOK = ("school", "templates", "font", "size")
-"""Keys of a report's appearance, whose files another computer need not have."""
+"""Keys of a report's appearance, whose files another computer may not have."""
 
 
 def handed_out(path: Path) -> str:
-    """Return the assignment of a file without comments and without a school's look, its parts in place of their files.
+    """Return the text of an assignment without comments and a school's appearance, with its parts inserted from their
+    files.
 
-    What `variants` writes above an assignment (spec, salt) is a comment, and so are an instructor's notes.  The file
-    has been read without a fault.  Raises `OSError` for a file that cannot be read.
+    Comments include what `variants` writes above an assignment (spec, salt) and an instructor's notes.  The file has
+    been read without a fault.  Raises `OSError` for a file that cannot be read.
     """
     top = read_source(path).top
     assert isinstance(top, MappingNode), "a file without a fault is a table"

@@ -169,7 +169,7 @@ class EngineCalculation:
                 size = K * mean if order == 1 else K * q[names.factor(order)] * mean
                 A = 1.0 if order == 1 else abs(q.si(names.factor(order)))
                 of_all = q.si(K) * A * sum(q.families[part.id].scale for part in parts) / len(parts)
-                # A₄ is negative: the size is asked for.
+                # A₄ is negative, but the report needs the size.
                 q.set_out(line, q.define(family(order), abs_of(order, size), scale=of_all))
 
     def _enter_counterweight(self) -> None:

@@ -82,7 +82,7 @@ def animation(case: SolvedEngine) -> Animation:
         turns=1,
         span=0.0,
         positions=(("1", 0.0),),
-        shown=0,
+        opening=0,
         panes=(_engine(case, φ, per), *(_plan(case, one) for one in _shaking(case, φ))),
         charts=tuple(_charts(case, φ)),
         values=tuple(_values(case, φ)),

@@ -104,4 +104,4 @@ def values(report: ReportContext, motion: Motion) -> Iterator[tuple[Symbol, str,
     yield ledger.symbol(balance_ids.MOMENT), "torque", shaking_moment(turn.machine.linkage, motion)
 
 
-HOOKS = LayerHooks(layers=LAYERS, shown=shaking_items, room=with_room, values=values)
+HOOKS = LayerHooks(layers=LAYERS, with_bars=shaking_items, room=with_room, values=values)

@@ -20,7 +20,7 @@ def mistakes(ledger: Ledger, machine: Machine) -> Changed:
             continue
         angle = balance_ids.rule_angle.read(id)
         if angle is not None:
-            # An applied counterweight has the angle of its rule, or of its own components.
+            # An applied counterweight has the angle of its rule, or the angle of its components.
             own = definition.id.removeprefix("balance.psi.") if isinstance(definition, Ref) else angle["rule"]
             parts = [balance_ids.rule_component(own, axis) for axis in AXES]
             x, y = (Ref(part) if part in ledger else None for part in parts)

@@ -37,7 +37,7 @@ def at_position(analysis: Analysis, k: int, entry: dict[str, Any]) -> None:
 
 
 def besides(analysis: Analysis) -> Entries:
-    """Return the force over the turn without a counterweight and by each rule, and the counterweights carried out."""
+    """Return the force over the turn without a counterweight and by each rule, and the applied counterweights."""
     turn = balanced_in(analysis)
     speed2 = turn.machine.speed**2
 

@@ -147,7 +147,7 @@ class RotorPage(PlacesPage[SolvedRotor]):
                 pairs.append((rotor_ids.direction(plane), rotor_ids.by_components("alpha", plane)))
             for read, computed in pairs:
                 pair = printed.number(read), printed.number(computed)
-                off = Number(pair[0].shown - pair[1].shown, max(pair[0].decimals or 0, 1), pair[0].unit)
+                off = Number(pair[0].printed - pair[1].printed, max(pair[0].decimals or 0, 1), pair[0].unit)
                 rows.append(((InlineMath(printed.symbol(read)),), *((Value(one),) for one in (*pair, off))))
         heads = [(Text(one),) for one in words]
         return self.table("compared", (Column(25.0), *(Column(42.0) for _ in range(3))), (heads,), rows)

@@ -64,7 +64,7 @@ def animation(case: SolvedRotor) -> Animation:
         turns=1,
         span=0.0,
         positions=(("1", 0.0),),
-        shown=0,
+        opening=0,
         panes=(_across(case, turn, drawn / far), _along(case, turn)),
         charts=tuple(_charts(case, knots)),
         values=tuple(_values(case, turn)),

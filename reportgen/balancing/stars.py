@@ -21,7 +21,7 @@ BEYOND = 3.0
 
 
 def star(vectors: Sequence[complex], names: Sequence[Content], total: Content, title: str = "") -> Scene:
-    """Draw vectors of length 1 from one pole with their labels, and their sum, labelled `total`."""
+    """Draw dimensionless unit vectors (x + iy) from one pole with their labels, and their sum, labelled `total`."""
     reach = RAY + BEYOND
     items: list[Item] = [Line(-reach + 0j, reach + 0j, style.AXIS), Line(-1j * reach, 1j * reach, style.AXIS)]
     items.append(Circle(0j, RAY, style.THIN))

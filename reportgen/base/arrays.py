@@ -1,6 +1,6 @@
-"""Types of the arrays that the computations pass to one another.
+"""Types of the arrays that computations pass to one another.
 
-Only modules that compute import this one: it loads NumPy.
+Only modules that compute import this one, since it loads NumPy.
 """
 
 from __future__ import annotations

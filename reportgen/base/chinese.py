@@ -9,11 +9,13 @@ from __future__ import annotations
 import re
 
 CODEC = "gb18030"
-"""It has all letters of GBK, and of GB 2312 before it."""
+"""Encoding that contains all characters of GBK and of GB 2312."""
 COMMON = 0.8
 """Smallest share of common letters among the Han letters of a GBK text; random bytes reach about a third."""
 EXPECTED = frozenset("学号姓名班级代符数值单位的机理")
-"""Letters of which every roster, sheet and assignment file has one: number, name, class, symbol, value, unit."""
+"""Characters one of which occurs in every roster, sheet and assignment file: number, name, class, symbol,
+value, unit.
+"""
 _HAN = "\u3400-\u4dbf\u4e00-\u9fff"
 _LETTERS = re.compile(f"[{_HAN}]")
 _BETWEEN = re.compile(f"(?<=[{_HAN}])[ \u3000]+(?=[{_HAN}])")
@@ -51,5 +53,5 @@ def full_name(*parts: str) -> str:
 
 
 def narrow(text: str) -> str:
-    """Return a text with digits, letters and marks of the width of Han as those of a keyboard: －０．５ as -0.5."""
+    """Return a text with full-width digits, letters and signs replaced by those of a keyboard: －０．５ as -0.5."""
     return text.translate(_WIDE)

@@ -12,7 +12,7 @@ _MIXED = re.compile(f"[A-Za-z]{_LETTER}|{_LETTER}[A-Za-z]")
 _SIGNS = frozenset("«»№–—…“”„’‘°\u00a0")
 """Other signs beyond ASCII that a Russian text may contain."""
 _LONG = 0.9
-"""Smallest share of the letters that are in words of two letters or more."""
+"""Smallest share of letters in words of two letters or more."""
 
 
 def is_cp1251(data: bytes) -> bool:

@@ -11,7 +11,7 @@ from reportgen.base import documentation
 WIDEST = 100
 """Largest width of a line (characters)."""
 
-_FENCE = re.compile(r"(^```.*?^```$)", re.MULTILINE | re.DOTALL)
+_FENCE = re.compile(r"(^ *```.*?^ *```$)", re.MULTILINE | re.DOTALL)
 _PICTURE = re.compile(r"!\[(?P<text>[^\]]*)\]\([^)\s]+\)")
 _LINK = re.compile(r"(?<!!)\[(?P<text>[^\]]+)\]\((?P<link>[^)\s]+)\)")
 _CODE = re.compile(r"(?<!`)`([^`\n]+)`(?!`)")

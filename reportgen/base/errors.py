@@ -63,16 +63,16 @@ Where = tuple[str | int, ...]
 
 @dataclass(frozen=True, slots=True)
 class Fault:
-    """A fault at a place in the text; `arguments` fill the message named by `code`.
+    """A fault at a location of a text; `arguments` fill the message named by `code`.
 
-    An argument `hint` names the hint to give instead of the code's own.
+    An argument `hint` names a hint that replaces the code's own.
     """
 
     code: str
     location: Location
     arguments: Mapping[str, str] = field(default_factory=dict)
     where: Where = field(default=(), compare=False)
-    """The place in the content of its file, as far as there is one."""
+    """The path in the content of its file, if there is one."""
 
     @property
     def remedies(self) -> tuple[str, ...]:
@@ -83,13 +83,13 @@ class Fault:
 
     @property
     def wordless(self) -> str:
-        """Text for the case that the words themselves cannot be read."""
+        """Text used if the messages themselves cannot be read."""
         return f"{self.code} {self.arguments.get('reason', '')}".rstrip()
 
 
 @dataclass(frozen=True, slots=True)
 class Finding:
-    """A fault of the content, found where marks are not known: at a value or at its key."""
+    """A fault of the content at a path of the file, before its location is known; `at` its value or its key."""
 
     code: str
     where: Where
@@ -124,9 +124,7 @@ class Problem:
 
 
 class ReportgenError(Exception):
-    """Base of all exceptions that this package raises on purpose; `exit_code` is the exit status of the
-    command line.
-    """
+    """Base of all exceptions that this package raises on purpose; `exit_code` is that of the command line."""
 
     exit_code = 1
 

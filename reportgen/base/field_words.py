@@ -49,9 +49,9 @@ class FieldWords:
 
 
 def field_words(kind: str, language: Language) -> Mapping[str, FieldWords]:
-    """Return the words of all keys of a kind's file, by their paths, in the order of a form.
+    """Return the labels of all keys of a kind's file, by their paths, in the order of a form.
 
-    A kind without the section has the common ones. Raises `TemplateError` for a section that is not a table.
+    A kind without the section has only the common ones.  Raises `TemplateError` for a section that is not a table.
     """
     own, common = told_in(language, f"{MACHINES}/{kind}.md"), told_in(language, FILE)
     of_topics = _of_topics(language)
@@ -59,7 +59,7 @@ def field_words(kind: str, language: Language) -> Mapping[str, FieldWords]:
 
 
 def shared_keys(language: Language) -> frozenset[str]:
-    """Return the parameters that are called alike in every kind that has them."""
+    """Return the parameters that have the same label in every kind that has them."""
     common = told_in(language, FILE)
     tables = [_common(common, common.stat().st_mtime_ns)[PARAMETERS], *map(_own, _of_topics(language))]
     return frozenset(key for groups in tables for keys in groups.values() for key in keys)
@@ -75,7 +75,7 @@ def choice_words(language: Language) -> Mapping[str, str]:
 
 
 def group_titles(language: Language) -> list[str]:
-    """Return the titles of groups in the order in which a form has them."""
+    """Return the titles of groups in the order of a form."""
     common = told_in(language, FILE)
     return list(_common(common, common.stat().st_mtime_ns)["groups"].values())
 
@@ -87,7 +87,7 @@ def also(language: Language) -> str:
 
 
 def _of_topics(language: Language) -> tuple[Path, ...]:
-    """Return the files of words of all topics; those of the reference language where the language has none."""
+    """Return the template files of all topics; those of the reference language where the language has none."""
     files = (told_in(language, topic_file(topic)) for topic in topics())
     return tuple(file for file in files if file.is_file())
 

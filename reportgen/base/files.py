@@ -1,5 +1,6 @@
-"""Write files atomically: a reader sees the old content or the new, never a part. Also locks, run folders and the
-cache.
+"""Write files atomically, read them safely; locks, run folders and the cache.
+
+A reader of a file sees the old content or the new, never a part.
 """
 
 from __future__ import annotations
@@ -29,7 +30,7 @@ _UNFINISHED = re.compile(rf"\..+\.(?:{'|'.join(endings())})\.[a-z0-9_]{{8}}")
 
 
 def put_files(folder: Path, files: Mapping[str, bytes], gone: Collection[Path] = ()) -> list[Path]:
-    """Put files by name into a folder, and take the ones `gone` away, together or not at all.  Raises `OutputError`."""
+    """Write files by name into a folder and remove the files `gone`, together or not at all.  Raises `OutputError`."""
     with reported():
         folder.mkdir(parents=True, exist_ok=True)
         written = {folder / name: content for name, content in files.items()}
@@ -44,7 +45,7 @@ def put_files(folder: Path, files: Mapping[str, bytes], gone: Collection[Path] =
 
 
 def put_file(target: Path, content: bytes) -> None:
-    """Put `content` in place of a file in one step: a reader sees the old or the new, never a half."""
+    """Replace a file by `content` in one step: a reader sees the old content or the new, never a part."""
     put_set({target: content})
 
 
@@ -67,8 +68,8 @@ def renew_file(target: Path, content: bytes) -> None:
 def put_set(files: Mapping[Path, bytes], gone: Collection[Path] = ()) -> None:
     """Write files and remove the files `gone`, together or not at all: after a failure everything is as before.
 
-    All files are written before the first is moved into place. Until the last one is, each old file keeps a second
-    name.
+    All files are written before the first is moved into place.  Until the last one is moved, each old file keeps a
+    second name.
     """
     with ExitStack() as temporary, ExitStack() as undo:
         written = {}
@@ -106,7 +107,7 @@ def is_stream(target: Path) -> bool:
 
 
 def write_stream(target: Path, content: bytes) -> None:
-    """Write into a pipe or a device of characters, as a redirection would.  Raises `OSError`, for a disk, too."""
+    """Write to a pipe or character device like a redirection.  Raises `OSError`, also for a disk."""
     with _named(target):
         if stat.S_ISBLK(target.stat().st_mode):
             raise NotRegularError(errno.EINVAL, "no regular file", str(target))
@@ -115,7 +116,7 @@ def write_stream(target: Path, content: bytes) -> None:
 
 
 def _beside(target: Path, until: ExitStack) -> Path:
-    """Return an empty file beside the one that it is to become, with the rights of a new file; it goes with `until`."""
+    """Return an empty file in the folder of its target, with the permissions of a new file; `until` deletes it."""
     handle, name = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.")
     os.close(handle)
     until.callback(Path(name).unlink, missing_ok=True)
@@ -126,7 +127,7 @@ def _beside(target: Path, until: ExitStack) -> Path:
 
 
 def _second_name(target: Path, until: ExitStack) -> Path:
-    """Return a second name of a file; a copy where a file cannot have two."""
+    """Return a second name of a file; a copy if the file system cannot give one."""
     name = _beside(target, until)
     name.unlink()
     try:
@@ -158,7 +159,7 @@ def _named(target: Path) -> Iterator[None]:
 
 @contextmanager
 def reported(about: Path | None = None) -> Iterator[None]:
-    """Report a full disk or a forbidden folder as a fault in one line, which names its path, or else `about`."""
+    """Report a full disk or a forbidden folder as a fault in one line, with its path, or else with `about`."""
     try:
         yield
     except OSError as error:
@@ -174,12 +175,14 @@ class NotRegularError(OSError):
 
 
 def cause(error: OSError) -> str:
-    """Return why the system refused a file: the name of a kind of fault, which has words, else the system's message."""
+    """Return the reason why the system refused a file: the name of the error, which has a message, or the system's
+    text.
+    """
     return error.strerror if type(error) is OSError and error.strerror else type(error).__name__
 
 
 def contents(path: Path, most: int = -1) -> bytes:
-    """Return the bytes of a file, at most `most` if that is not negative. Raises `OSError`; never waits for a pipe."""
+    """Return the bytes of a file, at most `most` unless that is negative.  Raises `OSError`; never waits for a pipe."""
     mode = path.stat().st_mode
     if not (stat.S_ISREG(mode) or stat.S_ISDIR(mode)):
         raise NotRegularError(errno.EINVAL, "no regular file", str(path))
@@ -205,7 +208,7 @@ def standing(folder: Path, kind: str, below: str = "") -> set[Path]:
 
 
 def overwritten(outputs: Iterable[Path], inputs: Iterable[Path]) -> Iterator[Fault]:
-    """Yield a fault for each output that is an input, by whatever name: a link, another path, another case."""
+    """Yield a fault for each output that is also an input, under any name: a link, another path, another case."""
     known = {identity: path for path in inputs for identity in _identities(path)}
     for output in outputs:
         if same := [known[identity] for identity in _identities(output) if identity in known]:
@@ -229,7 +232,7 @@ def _identities(path: Path) -> list[str | tuple[int, int]]:
 
 PREFIX = ".reportgen-"
 MOST_SWEPT = 1000
-"""So many folders in a row are swept by others before they are locked, at most; one is rare."""
+"""Largest number of new folders in a row that another run may sweep before they are locked; one is rare."""
 _NO_LOCKS = frozenset({errno.EBADF, errno.EINVAL, errno.ENOLCK, errno.EOPNOTSUPP, errno.ENOSYS})
 """Error codes of network folders that do not support locks."""
 
@@ -286,7 +289,7 @@ def sweep(out: Path) -> None:
 
 @contextmanager
 def held(folder: Path) -> Iterator[bool]:
-    """Lock a folder in this context, without leaving a trace; yield False if the system or file system has no locks.
+    """Lock a folder in this context without leaving a trace; yield False if the system or file system has no locks.
 
     Raises `BlockingIOError` if another process has the lock, `OSError` if the folder cannot be opened.
     """

@@ -36,7 +36,7 @@ class TypstSetting:
 
 @dataclass(frozen=True, slots=True)
 class WordSetting:
-    """The letters of a Word file: size in points, font, and the one of letters of East Asia."""
+    """Fonts of a Word file: size in points, font, and font for East Asian characters."""
 
     size: float = 12.0
     font: str = "Times New Roman"
@@ -45,7 +45,7 @@ class WordSetting:
 
 @dataclass(frozen=True, slots=True)
 class DrawingSetting:
-    """The letters of DXF files: the style's name, which is a stroke font to LibreCAD, and the font to all others."""
+    """Fonts of DXF files: `style` is a stroke font in LibreCAD, `font` the font in all other programs."""
 
     style: str = "lc_opengost-ar"
     font: str = "arial.ttf"
@@ -68,7 +68,7 @@ class PageMargins:
 
 @dataclass(frozen=True, slots=True)
 class MobilityNotation:
-    """Notation of the degree of freedom: 3n − (2t + c) + r − s, or `apart`, 3n − 2t − c, with r and s unless zero.
+    """Notation of the degree of freedom: 3n − (2t + c) + r − s; or `apart`, 3n − 2t − c, with r and s unless zero.
 
     The letters are for the freedom, moving links, lower and higher pairs, passive constraints, redundant freedoms.
     """
@@ -181,10 +181,10 @@ def decimal_mark(language: Language) -> DecimalMark:
 
 
 class UnitNames(dict[str, str]):
-    """Units as a language prints them: whole ones by name, any other by the letters in it, m/s as м/с."""
+    """Units as a language prints them: some as a whole, others letter by letter, m/s as м/с."""
 
     def get(self, unit: str, default: object = None) -> str:
-        """Return the unit as it is printed; a unit without another name stays unchanged."""
+        """Return the printed form of a unit; a unit without another form stays unchanged."""
         return self[unit] if unit in self else _LETTERS.sub(lambda found: dict.get(self, found[0], found[0]), unit)
 
 
@@ -196,7 +196,7 @@ def unit_names(language: Language) -> UnitNames:
 
 @lru_cache(maxsize=1024)
 def common_unit(text: str) -> str:
-    """Return a unit as typed in any language, with the letters that all of them read: м/с as m/s."""
+    """Return a unit typed in any language in the common spelling: м/с as m/s."""
     if text.isascii():
         return text
     names = _typed_names()

@@ -13,13 +13,13 @@ from reportgen.base.errors import Location
 FILLS = (str, Real)
 """Types of the values that a placeholder accepts."""
 NO_LETTER = "\0"
-"""Letter that marks a placeholder whose place is searched for; it occurs in no word."""
+"""Character that marks a placeholder whose place is searched for; it does not occur in any text."""
 _ENTRY = re.compile(r"\{[^{}]*[.\[!]")
 """Pattern of a placeholder that requests more than a plain value."""
 
 
 def gaps(template: str) -> set[str]:
-    """Return the names of the placeholders of a text."""
+    """Return the names of the placeholders in a text."""
     return {name for _, name, _, _ in Formatter().parse(template) if name}
 
 
@@ -46,7 +46,7 @@ def filled(text: str, values: Sequence[Any], named: Mapping[str, Any]) -> str:
 
 
 def place_of(text: str, words: Any) -> Location | None:
-    """Return the place of a text among words that know their places; None if it is not among them."""
+    """Return the location of a text among words that know their locations; None if it is not among them."""
     if isinstance(words, str):
         return getattr(words, "mark", None) if words == text else None
     inner = words.values() if isinstance(words, Mapping) else words if isinstance(words, list) else ()

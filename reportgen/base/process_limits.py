@@ -26,13 +26,15 @@ Argument = TypeVar("Argument")
 Result = TypeVar("Result")
 
 PATIENCE = 3
-"""Largest ratio of elapsed time to processor time, on a machine that does other work, too."""
+"""Largest ratio of elapsed time to processor time, since the machine may do other work."""
 GRACE = 2
-"""Seconds of the processor between the word that time is up and the end of the process."""
+"""Seconds of processor time between the time limit and the end of the process."""
 LARGEST_ANSWER = 30_000_000
-"""Bytes that may come back."""
+"""Largest size of the result (bytes)."""
 ONE_THREAD = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"), "1")
-"""A library's threads would each count, and would not survive a fork."""
+"""Settings that limit libraries to one thread, since threads share the limit of processor time and do not survive a
+fork.
+"""
 _BEGIN = "import sys; sys.path[:] = sys.argv[1:]; from reportgen.base.process_limits import serve; serve()"
 
 
@@ -54,7 +56,7 @@ M_TRIM_THRESHOLD, KEPT_FREE = -1, 128 * 1024
 
 @cache
 def give_memory_back() -> None:
-    """Make glibc return freed memory to the system; by default it keeps more, the more was in use."""
+    """Make glibc return freed memory to the system, which it does less and less by default."""
     import ctypes
 
     # Other libraries of C have no such option, and some systems no library that can be asked.
@@ -63,7 +65,7 @@ def give_memory_back() -> None:
 
 
 class LimitError(Exception):
-    """A call took more time or memory than it may, or its process died."""
+    """A call exceeded its time or memory, or its process died."""
 
 
 _bounded = False
@@ -129,7 +131,7 @@ def _group(command: Sequence[str]) -> Iterator[subprocess.Popen[bytes]]:
 
 
 def _await(process: subprocess.Popen[bytes]) -> None:
-    """Wait for the end of a process; where the system can, its number stays its own, by which its group is ended."""
+    """Wait for the end of a process; if possible without releasing its number, by which its group is ended."""
     if hasattr(os, "waitid"):
         os.waitid(os.P_PID, process.pid, os.WEXITED | os.WNOWAIT)
     else:
@@ -137,7 +139,7 @@ def _await(process: subprocess.Popen[bytes]) -> None:
 
 
 def _end(process: subprocess.Popen[bytes]) -> None:
-    """End a process with all of its group."""
+    """Kill a process and its group."""
     if process.returncode is None:
         _end_group(process.pid)
 
@@ -152,7 +154,7 @@ def _end_group(number: int) -> None:
 
 
 def serve() -> None:
-    """Serve one `call_within` in the subprocess: read the call from standard input, write its outcome to standard
+    """Run one `call_within` in the subprocess: read the call from standard input, write its result to standard
     output.
     """
     global _bounded
@@ -181,7 +183,7 @@ def serve() -> None:
 
 
 def _end_alone() -> None:
-    """End this process and its group when the calling process has ended, since nobody waits for an answer then."""
+    """Kill this process and its group after the calling process has ended, since nobody waits for the result."""
     with suppress(OSError):
         while os.read(0, 1):
             pass
@@ -190,7 +192,7 @@ def _end_alone() -> None:
 
 
 def limit_memory(megabytes: int) -> None:
-    """Let this process take so much more memory than it has; where the system cannot say that, time is the limit."""
+    """Limit this process to `megabytes` more memory than it has; without system support only time is limited."""
     with suppress(ImportError, OSError, ValueError):
         import resource
 
@@ -200,7 +202,7 @@ def limit_memory(megabytes: int) -> None:
 
 
 def _limit_time(seconds: float) -> None:
-    """Raise `LimitError` after so much more of the processor's time, and end this process if that does not help."""
+    """Raise `LimitError` after this much more processor time (s), and kill this process if that has no effect."""
     with suppress(ImportError, OSError, ValueError):
         import resource
 

@@ -8,10 +8,10 @@ import sys
 ASKED = "REPORTGEN_STEPS"
 """Environment variable that requests progress events."""
 MARK = "\x1e"
-"""A line of the error stream that begins so names a step."""
+"""First character of a line of standard error that names a step."""
 
 
 def step(name: str) -> None:
-    """Tell that a step begins: `solve`, `compose`, `typeset`, `page`, `word`."""
+    """Print that a step begins (`solve`, `compose`, `typeset`, `page`, `word`), if progress events are requested."""
     if os.environ.get(ASKED):
         print(f"{MARK}{name}", file=sys.stderr, flush=True)

@@ -22,7 +22,7 @@ MADE_OF = ("assignment", "engine", "language", "templates", "version")
 MadeOf = Mapping[str, str | None]
 
 RECORD = ".reportgen.json"
-"""The record of a folder, among the files that it vouches for."""
+"""Name of the record in a folder."""
 FORMAT = "reportgen-made/1"
 LARGEST = 1_000_000
 """Bytes of a record."""
@@ -30,13 +30,13 @@ LARGEST = 1_000_000
 
 @dataclass(frozen=True, slots=True)
 class Made:
-    """Files of a folder by name, with the SHA-256 that they were written with, and the inputs they were made from."""
+    """Files of a folder by name, with the SHA-256 of their written contents, and the inputs they were made from."""
 
     made_of: MadeOf = field(default_factory=dict)
     files: Mapping[str, str] = field(default_factory=dict)
 
     def edited(self, folder: Path) -> Iterator[Path]:
-        """Yield the files that were changed since they were made, an answer sheet that is filled in."""
+        """Yield the files that were changed after they were made, for example a filled-in answer sheet."""
         for name, known in self.files.items():
             if hash_of(folder / name) not in ("", known):
                 yield folder / name

@@ -29,7 +29,9 @@ def settled(values: complex, step: float = STEP) -> complex: ...
 @overload
 def settled(values: Array, step: float = STEP) -> Array: ...
 def settled(values: Any, step: float = STEP) -> Any:
-    """Return a number, a complex number or an array of them rounded to whole steps; never a negative zero."""
+    """Return a number, complex number or array (any shape and unit) rounded to whole multiples of `step`; never a
+    negative zero.
+    """
     if isinstance(values, np.ndarray):
         if np.iscomplexobj(values):
             return settled(values.real, step) + 1j * settled(values.imag, step)
@@ -40,7 +42,7 @@ def settled(values: Any, step: float = STEP) -> Any:
 
 
 def significant(value: float, figures: int) -> float:
-    """Return a number rounded half up, as by hand, to so many significant figures."""
+    """Return a number (any unit) rounded half up, as by hand, to `figures` significant figures."""
     if value == 0 or not math.isfinite(value):
         return value + 0.0
     decimals = significant_decimals(value, figures)
@@ -48,7 +50,7 @@ def significant(value: float, figures: int) -> float:
 
 
 def first_greatest(values: ArrayLike) -> int:
-    """Return the index of the first value that equals the greatest up to rounding; ignore nan.
+    """Return the index of the first value [N] (any unit) that equals the greatest up to rounding; ignore nan.
 
     Raises `ValueError` if there is no value.
     """
@@ -62,5 +64,5 @@ def first_greatest(values: ArrayLike) -> int:
 
 
 def first_least(values: ArrayLike) -> int:
-    """Return the index of the first value that equals the least up to rounding; ignore nan."""
+    """Return the index of the first value [N] (any unit) that equals the least up to rounding; ignore nan."""
     return first_greatest(-np.asarray(values, dtype=np.float64))

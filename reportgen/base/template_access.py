@@ -21,7 +21,7 @@ _ALL: dict[type, frozenset[str]] = {}
 
 
 def template_members(*names: str) -> Callable[[Registered], Registered]:
-    """Register members of a class that templates may read."""
+    """Register the members of a class that templates may read."""
 
     def entered(of: Registered) -> Registered:
         MEMBERS[of] = frozenset(names)
@@ -31,7 +31,7 @@ def template_members(*names: str) -> Callable[[Registered], Registered]:
 
 
 def view(*names: str) -> Callable[[Registered], Registered]:
-    """Register the fields of a dataclass that is made for templates, and these further members."""
+    """Register the fields of a dataclass that is made for templates, and further members."""
 
     def entered(of: Registered) -> Registered:
         listed: Iterable[str] = getattr(of, FIELDS, ())

@@ -15,7 +15,7 @@ DEFAULT_LANGUAGE: Language = "vi"
 REFERENCE: Language = "en"
 """Reference language, whose words replace those missing in another language."""
 LANGUAGE_FILE = "language.yaml"
-"""By this file a folder of templates is a language."""
+"""Name of the file that makes a folder of templates a language."""
 
 MACHINES = "catalogue"
 """The folder beside `report.md` with a file for each kind of machine or exercise."""
@@ -37,12 +37,12 @@ def languages() -> tuple[Language, ...]:
 
 
 def samples() -> Path:
-    """Return the folder of examples, in the same way."""
+    """Return the folder of examples: packed into the package, or beside it in a checkout."""
     return _packed("samples", "assignments")
 
 
 def documentation() -> Path:
-    """Return the folder of the documentation, in the same way."""
+    """Return the folder of the documentation: packed into the package, or beside it in a checkout."""
     return _packed("docs", "docs")
 
 
@@ -91,9 +91,9 @@ def school_folder(school: Path | str) -> Path:
 def search_path(
     language: Language, kind: str = "", school: Path | str = "", root: Path | None = None
 ) -> tuple[Path, ...]:
-    """Return the places in which sections and words are looked for; the first that has a name wins.
+    """Return the places in which sections and words are looked up; the first that has a name wins.
 
-    The file of a school (its folder, or its name among the templates), then that of one kind of machine, then the
+    The places are the file of a school (its folder, or its name among the templates), the file of the kind, and the
     folder of the language.
     """
     root = root or templates()

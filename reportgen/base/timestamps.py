@@ -26,7 +26,7 @@ CENTURY = 2000
 
 
 def moment(text: str, *, end: bool = False) -> datetime.datetime | None:
-    """Return the moment that a text names, None if it names none; a date alone is the day's begin, or with `end`
+    """Return the moment that a text names, None if it names none; a date alone means its start, or with `end`
     its end.
     """
     said = re.sub(r"(?<=\d)t(?=\d)", " ", " ".join(unicodedata.normalize("NFC", text).casefold().split()))
@@ -57,7 +57,7 @@ def _time(said: str) -> tuple[datetime.time | None, str]:
 
 
 def _day(said: str) -> datetime.date | None:
-    """Return the date that a text names; raises `ValueError` for one that no calendar has."""
+    """Return the date that a text names; raises `ValueError` for an impossible date."""
     if match := _ISO.search(said):
         return datetime.date(int(match[1]), int(match[2] or match[4]), int(match[3] or match[5]))
     if match := _FIGURES.search(said):

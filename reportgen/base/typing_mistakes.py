@@ -32,7 +32,7 @@ def in_quotes(text: str) -> str | None:
 
 
 def meant(key: str) -> str:
-    """Return the key that a text was meant to be, the text itself without a slip."""
+    """Return the key that a text was probably meant to be; the text itself if it has no typing mistake."""
     unparted = _UNPARTED.fullmatch(key)
     return unparted["key"] if unparted else in_quotes(key) or _ODD_BLANK.sub("", key)
 
@@ -47,7 +47,7 @@ def slip(text: str, location: Location) -> Fault | None:
 
 
 def slips_above(lines: list[str], line: int, file: str) -> list[Fault]:
-    """Return the slips of the line (from 1) where YAML stumbles, or else of the lines right above it."""
+    """Return the typing mistakes in the line (from 1) at which YAML fails, or else in the lines directly above it."""
     faults: list[Fault] = []
     for number in range(min(line, len(lines)), 0, -1):
         if not _bare(lines[number - 1]).strip():
@@ -68,7 +68,7 @@ def open_quote(lines: list[str], file: str) -> Location | None:
 
 
 def misplaced(lines: list[str], location: Location) -> Location:
-    """Return the mark of a line or of the line above it, whichever has the indentation that is unusual in this file."""
+    """Return the location of a line or of the one above it, whichever has an unusual indentation for this file."""
     indents = {number: len(line) - len(line.lstrip(" ")) for number, line in enumerate(lines, 1) if _bare(line).strip()}
     usual = Counter(filter(None, indents.values())).most_common(1)
     above = max((number for number in indents if number < location.line), default=0)

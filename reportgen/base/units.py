@@ -118,13 +118,13 @@ _NOT_FINITE = re.compile(r"[+-]?\.?(?:inf|infinity|nan)\b.*", re.IGNORECASE | re
 _JOINED = re.compile(r"(?<![A-Za-z])(k?N|kg)(?=[mc]?m)")
 _LONGEST = 60
 _TOWER = re.compile(r"[0-9]{2}|[0-9²³⁴¹][\s)]*(?:\^|\*\s*\*|[²³⁴⁻¹])")
-"""Powers no unit has: of two digits, or of a power, which take for ever to work out (m^9^9^9)."""
+"""Powers that no unit has, of two digits or of a power (m^9^9^9), which would take too long to evaluate."""
 
 
 @template_members("si")
 @dataclass(frozen=True, slots=True)
 class Given:
-    """A quantity as it was given: `si` for computing; `value`, `unit` and `text` as typed."""
+    """A quantity as given: `si` is its value in SI units; `value`, `unit` and `text` are as typed."""
 
     si: float
     value: float
@@ -184,10 +184,9 @@ def read_quantity(text: str, unit: str) -> Given:
 
 
 def two_readings(text: str) -> tuple[str, str] | None:
-    """Return a number that is read as decimals and may be meant as thousands, written both ways: 1.4 N and 1400 N
-    for 1.400 N.
+    """Return a number with its unit, read as decimals and as thousands: 1.4 N and 1400 N for 1.400 N.
 
-    None for any other text; 1.375 mm and 0.350 leave no doubt.
+    Return None for any other text; 1.375 mm and 0.350 have only one reading.
     """
     match = _MARKED.fullmatch(text.strip().replace("\N{MINUS SIGN}", "-"))
     if match is None or "," in match[2] or not _THOUSANDS.fullmatch(match[2]):
@@ -311,16 +310,18 @@ TIE = 1e-9
 
 
 def rounded(values: Numbers, decimals: int) -> Numbers:
-    """Return a number, or each of an array, rounded half up as by hand, 2.675 to 2.68; never a negative zero."""
+    """Return a number, or an array of any shape, rounded half up as by hand to `decimals`, 2.675 to 2.68; never a
+    negative zero.
+    """
     step = 10.0**decimals
     return (abs(values) * step + 0.5 + TIE) // 1 / step * (1 - 2 * (values < 0)) + 0.0
 
 
 def write(value: float, decimals: int | None, language: Language) -> str:
-    """Return the text of a number: fixed `decimals`, or the shortest exact form when None.
+    """Return the text of a number (any unit) with fixed `decimals`, or in the shortest exact form if None.
 
-    Its decimal mark is that of the language; it has a true minus sign and no thousands mark.  What is very large or
-    very small is written with a power of ten.
+    It has the language's decimal mark, a true minus sign and no thousands mark.  Very large or small numbers have a
+    power of ten.
     """
     if not math.isfinite(value):
         return "–"
@@ -333,14 +334,14 @@ def write(value: float, decimals: int | None, language: Language) -> str:
 
 
 LARGE = 1e7
-"""From here on a number has no figures to spare: it is rounded to those it has, and written with a power of ten."""
+"""From this size on a number is rounded to its significant figures and written with a power of ten."""
 MOST_DECIMALS = 8
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 @dataclass(frozen=True, slots=True)
 class PowerOfTen:
-    """A number as `factor`·10^`exponent`, the factor with its `decimals` (None: as it is)."""
+    """A number as `factor`·10^`exponent`, the factor with `decimals` (None: unchanged)."""
 
     factor: float
     decimals: int | None
@@ -348,7 +349,7 @@ class PowerOfTen:
 
 
 def by_power_of_ten(value: float, decimals: int | None) -> PowerOfTen | None:
-    """Return a number with so many decimals as factor and power of ten; None if it is written without a power."""
+    """Return a number (any unit) with `decimals` as factor and power of ten; None if it is written without a power."""
     fixed = decimals is not None and 0 <= decimals <= MOST_DECIMALS
     if abs(value) < 1e9 and (fixed or (decimals is None and (abs(value) >= 1e-6 or value == 0))):
         return None
@@ -368,7 +369,7 @@ def power_of_ten(exponent: int) -> str:
 
 
 def grouped(value: float) -> str:
-    """Return a bound for a message: 0.000001, 10 000 000, with the decimal point of the file; beyond that 10⁹."""
+    """Return a bound (any unit) for a message: 0.000001, 10 000 000, with a decimal point; beyond that 10⁹."""
     if parts := by_power_of_ten(value, None):
         return f"{parts.factor:g}·{power_of_ten(parts.exponent)}".removeprefix("1·").replace("-1·", MINUS)
     whole, point, decimals = f"{Decimal(repr(float(value))).normalize():f}".partition(".")
@@ -377,7 +378,7 @@ def grouped(value: float) -> str:
 
 
 def significant_decimals(value: float, digits: int) -> int:
-    """Return the decimals that show `value` with `digits` significant figures; 0 for a value of zero.
+    """Return the decimals that show `value` (any unit) with `digits` significant figures; 0 for a value of zero.
 
     A value that is a power of ten up to its last binary digits counts as that power.
     """
@@ -387,8 +388,8 @@ def significant_decimals(value: float, digits: int) -> int:
 
 
 def figure_decimals(largest: float, digits: int) -> int:
-    """Return the decimals that show numbers up to the `largest` with its `digits` significant figures; whole ones to
-    `LARGE`.
+    """Return the decimals that show numbers up to `largest` (any unit) with `digits` significant figures; at least 0
+    below `LARGE`.
     """
     decimals = significant_decimals(largest, digits)
     return decimals if abs(largest) >= LARGE else max(decimals, 0)

@@ -56,7 +56,7 @@ FILE = "words.yaml"
 SECTION = "words"
 MESSAGES_FILE, MESSAGES_SECTION = "messages.yaml", "messages"
 LONGEST = 2000
-"""Characters of a school's word; the program's own have up to 340."""
+"""Largest number of characters of a school's phrase; the program's own have up to 340."""
 FILES = 32
 """Largest number of cached tables of words."""
 
@@ -108,7 +108,7 @@ def load_words(places: Sequence[Path]) -> Mapping[str, Any]:
 
 
 def _words_in(place: Path, of_others: bool) -> Mapping[str, Any] | None:
-    """Return the words of a file of sections, perhaps not the program's own, or of a folder."""
+    """Return the words of a file of sections, which may not be the program's own, or of a folder."""
     if place.suffix == ".md":
         section = sections(place).get(SECTION)
         return None if section is None else _as_written(section, place, of_others)
@@ -116,7 +116,7 @@ def _words_in(place: Path, of_others: bool) -> Mapping[str, Any] | None:
 
 
 def words_alone(language: Path) -> Mapping[str, Any]:
-    """Return the words of the folder of a language without those that topics add."""
+    """Return the words in the folder of a language, without those that topics add."""
     return _read(language / FILE)
 
 
@@ -169,7 +169,7 @@ def _as_written(section: Passage, place: Path, of_others: bool) -> Mapping[str, 
 
 
 class _Word(str):
-    """A word that knows its place: a placeholder in it that cannot be filled is a fault there."""
+    """A text that knows its location, at which a placeholder that cannot be filled is reported."""
 
     mark = Location("")
 
@@ -236,7 +236,7 @@ def _over(below: Mapping[str, Any], above: Mapping[str, Any], place: Path, where
 
 
 def _alike(present: Any, standing_in: Any) -> bool:
-    """Return True if a word can replace another one: both are tables, or texts, or lists of equal length whose
+    """Return True if a word can replace another: both are tables, or texts, or lists of equal length whose
     items can.
     """
     if isinstance(present, list) and isinstance(standing_in, list):
@@ -245,9 +245,9 @@ def _alike(present: Any, standing_in: Any) -> bool:
 
 
 def language_of(source: Source) -> Language:
-    """Return the language a file asks for, found by its line so that faulty syntax does not matter.
+    """Return the language that a file requests, found by its line so that faulty syntax does not matter.
 
-    A file that asks for none is reported in the default language; one that cannot be read gives no language.
+    A file that requests none is reported in the default language; one that cannot be read gives no language.
     """
     known = "|".join(languages())
     asked = re.search(rf"^[^#\n]*[\s{{]language:\s*['\"]?({known})\b", source.text, re.MULTILINE)
@@ -333,7 +333,7 @@ def unexpected(error: BaseException, language: Language | None) -> str:
 
 
 def as_problem(fault: Fault, language: Language | None, level: Level = "error") -> Problem:
-    """Return the fault in words; its hint is given when the arguments it speaks of are known."""
+    """Return the fault with its message; it has a hint if the arguments of the hint are known."""
     table = messages(language or spoken())
     # The list of known names comes from the program, so it is shown in full.
     arguments = {name: text if name in {"known", "place"} else _shown(text) for name, text in fault.arguments.items()}
@@ -342,7 +342,7 @@ def as_problem(fault: Fault, language: Language | None, level: Level = "error") 
         if None not in words:
             arguments[name] = "".join(map(str, words)).format_map(arguments)
     message = str(table["faults"][fault.code]).format_map(arguments)
-    # The hint that was asked for, then the code's own and its second form.
+    # The requested hint comes first, then the hint of the code and its second form.
     keys = (fault.arguments.get("hint"), fault.code, f"{fault.code}-otherwise")
     hints = (str(table["hints"][key]) for key in keys if table["hints"].get(key))
     hint = next((hint for hint in hints if gaps(hint) <= arguments.keys()), None)
@@ -353,7 +353,7 @@ def as_problem(fault: Fault, language: Language | None, level: Level = "error") 
 
 
 def as_error(faults: Iterable[Fault], language: Language | None) -> AssignmentError:
-    """Return the error that carries these faults in words, each once."""
+    """Return the error with the messages of these faults, each once."""
     return AssignmentError(list(dict.fromkeys(as_problem(fault, language) for fault in faults)))
 
 
@@ -366,9 +366,7 @@ def close_or_known(key: str, known: Sequence[str]) -> dict[str, str]:
 
 
 def unknown(key: str, text: str, known: Sequence[str], language: Language | None) -> str:
-    """Return a text of the command line about an unknown name, with the known one it was probably meant to be,
-    or all.
-    """
+    """Return a message about an unknown name, with the known name that was probably meant, or all known names."""
     near = close_or_known(text, known)
     hint = messages(language or spoken())["hints"]["unknown-key" if "close" in near else "unknown-key-otherwise"]
     return f"{word(key, language, text=_shown(text))}: {hint.format(**near)}"
@@ -381,7 +379,7 @@ def _shown(text: str) -> str:
 
 
 # --- words by sections ----------------------------------------------------------------------------
-# Each stands behind a line `%% name`, in reading order.  The words of a machine or of a school are a file a language,
+# Each follows a line `%% name`, in reading order.  The words of a machine or of a school are one file per language,
 # those of all machines a folder: `report.md` has `foreword`, `dyads.md` the section `RRR-forces` of `dyads/RRR-forces`.
 
 HEADING = "%%"
@@ -391,7 +389,7 @@ KEPT_FILES = 128
 
 @dataclass(frozen=True, slots=True)
 class Passage:
-    """The words of a section, which begin on the line below its heading in line `line` of the file."""
+    """The template text of a section, which begins below its heading in line `line` of the file."""
 
     file: Path
     line: int
@@ -444,7 +442,7 @@ def of_school(places: Sequence[Path]) -> list[Path]:
 def refuse_strangers(places: Sequence[Path]) -> None:
     """Raise `TemplateError` for a section of a school that no report in the language (the last place) has.
 
-    It would never be read: its name is misspelt, or is that of an older version.
+    Such a section would never be used: its name is misspelt, or from an older version.
     """
     language = places[-1]
     for file in of_school(places):

@@ -24,7 +24,7 @@ BRACKETS = 2000
 
 
 class EditError(ValueError):
-    """A change that a text cannot take; has the key of the message and its arguments."""
+    """A change that is impossible in a text; has the key of the message and its arguments."""
 
     def __init__(self, key: str, /, **arguments: str) -> None:
         super().__init__(key)
@@ -57,9 +57,9 @@ def with_value(text: str, where: Where, value: Node) -> str:
 
 
 def without(text: str, where: Where) -> str:
-    """Return the text without a key or an item. A key with its value in one line becomes a comment, which keeps both.
+    """Return the text without a key or an item.  A key and value in one line become a comment.
 
-    Raises `EditError` if there is nothing at that place.
+    Raises `EditError` if there is nothing at that path.
     """
     top = _top(text)
     above, node = at(top, where[:-1]), at(top, where)
@@ -105,9 +105,7 @@ def with_key(text: str, where: Where, key: str, value: Scalar) -> str:
 
 
 def exchanged(text: str, where: Where, first: int) -> str:
-    """Return the text with the item `first` of the list at a place behind the one that follows it; raises
-    `EditError`.
-    """
+    """Return the text with the item `first` of the list at a path moved after its successor; raises `EditError`."""
     top = _top(text)
     listed = at(top, where)
     if not isinstance(listed, SequenceNode) or not 0 <= first < len(listed.items) - 1:
@@ -132,9 +130,7 @@ def as_list(text: str) -> SequenceNode:
 
 
 def _read(text: str) -> Source:
-    """Return the nodes of a text: by libyaml, which takes a tenth of the time, unless it may be set in itself very
-    deep.
-    """
+    """Return the nodes of a text, by libyaml, which takes a tenth of the time, unless it may be deeply nested."""
     return read_own(text) if text.count("[") + text.count("{") < BRACKETS else read_text(text)
 
 
@@ -189,8 +185,7 @@ def _content_end(text: str, index: int) -> int:
 
 
 def _behind(text: str, index: int, depth: int) -> int:
-    """Return the begin of the line after an entry that ends at an index, skipping comments indented deeper than the
-    entry.
+    """Return the start of the line after an entry that ends at an index, after comments indented deeper than the entry.
 
     Such comments belong to the table in the entry, as `# G3: 200 N` below the last of the `parameters`.
     """
@@ -248,7 +243,7 @@ def _with_entry(text: str, table: MappingNode, key: str, value: Node) -> str:
 
 
 def _remarks(text: str, top: MappingNode, table: MappingNode) -> Iterator[tuple[int, re.Match[str]]]:
-    """Yield the remarks among the entries of a table and right behind them that look like entries, at its very
+    """Yield the comments between and directly after the entries of a table that look like entries, in the same
     column.
     """
     depth = table.span[0] - _line_start(text, table.span[0])

@@ -38,9 +38,9 @@ FILE_STARTS = {
 PACKAGES = {b"word/": "Word (.docx)", b"xl/": "Excel (.xlsx)", b"content.xml": "OpenDocument"}
 """Names inside a zip package by which its format is recognised."""
 LARGEST = 400_000
-"""Bytes of a file."""
+"""Largest size of a file (bytes)."""
 MOST_TOKENS = 30_000
-"""Values, keys and signs of a file; a table of 5 rows of 2000 values has two thirds of them."""
+"""Largest number of values, keys and signs in a file; a table of 5 rows of 2000 values has two thirds of it."""
 DEEPEST = 12
 MOST_KEYS = 200
 MOST_FAULTS = 100
@@ -113,7 +113,7 @@ Node = Scalar | SequenceNode | MappingNode
 
 @dataclass(frozen=True, slots=True)
 class Source:
-    """A file as read: its top node (None if it could not be read) and the faults met on the way."""
+    """A file as read: its top node (None if it could not be read) and the faults found while reading."""
 
     file: str
     text: str = ""
@@ -122,7 +122,7 @@ class Source:
 
 
 def in_a_line(text: str) -> str:
-    """Return a text in one line that was typed in several."""
+    """Return a text that was typed in several lines as one line."""
     return " ".join(text.rstrip("\n").split("\n")) if "\n" in text else text
 
 
@@ -196,7 +196,7 @@ def decoded(data: bytes, file: str) -> str | Fault:
 
 
 def read_text(text: str, file: str = "") -> Source:
-    """Parse a text that is already in memory; like `read_source`."""
+    """Parse a text that is already in memory, like `read_source`."""
     tabs = tuple(islice(_tabs(text, file), MOST_FAULTS))
     if tabs:
         return Source(file, text, faults=tabs)
@@ -270,7 +270,7 @@ def plain(node: Node, said: Callable[[Scalar], str] = attrgetter("text")) -> Any
 
 
 class _StoppedError(Exception):
-    """A file that is read no further; why is among the loader's faults."""
+    """Reading of the file stops; the reason is among the loader's faults."""
 
 
 class _Loader(yaml.SafeLoader):
@@ -375,8 +375,8 @@ def _rejoined(node: yaml.MappingNode) -> list[tuple[yaml.Node, yaml.Node]]:
 
 
 def _is_parted(before: yaml.Node, key: yaml.Node, value: yaml.Node) -> bool:
-    """Return True if a value and the key without a value after it are the parts before and behind a comma in a
-    number.
+    """Return True if a value and the next key, which has no value, are the parts of a number before and after a
+    comma.
     """
     ends = before.end_mark.index, key.start_mark.index, key.end_mark.index, value.end_mark.index
     numbers = all(isinstance(one, yaml.ScalarNode) and not one.style for one in (before, key))
@@ -416,5 +416,5 @@ def _syntax(fault: yaml.MarkedYAMLError, file: str, lines: list[str]) -> Fault:
 
 
 def mark_after(before: str, file: str) -> Location:
-    """Return the place right after a piece of text from the beginning of a file."""
+    """Return the location directly after a piece of text from the beginning of a file."""
     return Location(file, before.count("\n") + 1, len(before) - before.rfind("\n"))

@@ -29,7 +29,7 @@ def at(node: Node | None, where: Where) -> Node | None:
 
 
 def put(node: Node, where: Where, value: Node) -> Node:
-    """Return the node with `value` at a place; missing tables on the way are made, lists are not made longer."""
+    """Return the node with `value` at a path; missing tables on the way are created, lists are not extended."""
     if not where:
         return value
     step, rest = where[0], where[1:]
@@ -49,7 +49,7 @@ def without(table: MappingNode, keys: Collection[str]) -> MappingNode:
 
 
 def path_text(where: Where) -> str:
-    """Return a place as users write it: parameters.H, parameters.groups.0.length."""
+    """Return a path as users write it: parameters.H, parameters.groups.0.length."""
     return ".".join(map(str, where))
 
 
@@ -62,7 +62,7 @@ def text_of(table: MappingNode, source: str, original: MappingNode) -> str:
 
 
 def quoted(text: str, always: bool = False) -> str:
-    """Return a scalar of YAML that is read as exactly this text."""
+    """Return a YAML scalar that is read as exactly this text."""
     if not always and _PLAIN.fullmatch(text) and not _RESERVED.fullmatch(text):
         return text
     return f'"{"".join(map(_escaped, text))}"'
@@ -144,7 +144,7 @@ def entry_text(key: Scalar, value: Node, depth: int) -> str:
 
 
 def item_lines(item: Node, depth: int) -> list[str]:
-    """Return an item of a list, so far to the right, in one line; a long table with tables in it by its entries."""
+    """Return an item of a list at an indentation, in one line; a long table with inner tables by its entries."""
     line = flow(item)
     nested = isinstance(item, MappingNode) and any(isinstance(value, MappingNode) for _, value in item.entries)
     if depth + 2 + len(line) <= WIDTH or not isinstance(item, MappingNode) or not nested:

@@ -1,1 +1,1 @@
-"""Cams: from the law of motion to the profile, as a kind of work that follows the case protocol."""
+"""Cams: from the law of motion to the profile, as a case."""

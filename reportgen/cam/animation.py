@@ -1,4 +1,4 @@
-"""Animation of a cam for a page: the cam turns, the follower moves, with contact and normal."""
+"""Animation of a cam: the cam turns, the follower moves, with the point of contact and the normal."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ SAMPLES = 360
 ROOM = 120 + 110j
 """Largest width and height of cam and follower (mm)."""
 NORMAL = 30.0
-"""The length of the normal that is drawn (mm)."""
+"""The drawn length of the normal (mm)."""
 CENTRE = Track(np.zeros(1, complex))
 """The cam's axis."""
 DIGITS, MOST_DECIMALS = 5, 4
@@ -58,7 +58,7 @@ def animation(case: SolvedCam) -> Animation:
         turns=1,
         span=0.0,
         positions=tuple((str(k), angle) for k, angle in enumerate(case.solution.degrees, start=1)),
-        shown=case.worked[0] - 1,
+        opening=case.worked[0] - 1,
         panes=(pane,),
         charts=tuple(_charts(case, profile)),
         values=tuple(_values(case, profile)),
@@ -69,7 +69,7 @@ def animation(case: SolvedCam) -> Animation:
 
 
 def _knots(case: SolvedCam) -> Floats:
-    """Even samples of a turn, the positions, and both sides of each jump."""
+    """Return the sampled angles (rad) [N]: equal steps of a turn, the positions, and both sides of each jump."""
     grid = np.linspace(0, 2 * math.pi, SAMPLES + 1)
     jumps = np.array([one.angle for one in case.solution.motion.impacts])
     wanted = np.concatenate((case.solution.φ, *((np.mod(jumps + side * BESIDE, 2 * math.pi)) for side in (-1, 1))))
@@ -88,7 +88,7 @@ def _scale(case: SolvedCam) -> float:
 
 
 def _pane(case: SolvedCam, profile: CamProfile) -> Pane:
-    """The cam on its shaft with its follower, the point of contact and the common normal there."""
+    """Return the cam on its shaft with its follower, the point of contact and the common normal."""
     cam = case.solution.cam
     at = 1 / _scale(case)
     turn = Track(cam.turn * profile.φ)
@@ -123,7 +123,7 @@ def _pane(case: SolvedCam, profile: CamProfile) -> Pane:
 
 
 def _contact(profile: CamProfile, roller: float, turn: int) -> tuple[Complexes, Complexes]:
-    """The point of contact and the outward normal in the fixed frame."""
+    """Return the point of contact (m) and the outward unit normal in the fixed frame, each [N]."""
     turned = np.exp(1j * turn * profile.φ)
     normal = profile.normal * turned
     return profile.at - roller * normal, normal
@@ -153,12 +153,12 @@ def _follower(case: SolvedCam, profile: CamProfile, at: float) -> Iterator[Movin
 def _charts(case: SolvedCam, profile: CamProfile) -> Iterator[Chart]:
     sampled = case.solution.cam.sampled()
     for (symbol, unit, values), now in zip(motion_charts(case), (profile.s, profile.ds, profile.dds), strict=True):
-        shown = plotted(
+        plot = plotted(
             Diagram((PlottedCurve(symbol, np.degrees(sampled.φ), values),), angle_axis(case), axis(symbol, unit)),
             half=True,
         )
         scale = np.abs(values).max() / max(float(np.abs(now).max()), NODE)
-        yield Chart(shown, (Curve(symbol, Track(now * scale)),))
+        yield Chart(plot, (Curve(symbol, Track(now * scale)),))
     if not case.solution.cam.flat:
         yield Chart(pressure_chart(case, half=True), (Curve(Symbol("α"), Track(np.degrees(profile.alpha))),))
 
@@ -177,13 +177,13 @@ def _values(case: SolvedCam, profile: CamProfile) -> Iterator[MomentValue]:
 
 def _value(symbol: Symbol, kind: str, values: Floats) -> MomentValue:
     how = KINDS[kind]
-    shown = values / how.scale
-    decimals = min(max(significant_decimals(float(np.abs(shown).max()), DIGITS), 0), MOST_DECIMALS)
-    return MomentValue(symbol, how.unit, Track(shown), decimals)
+    displayed = values / how.scale
+    decimals = min(max(significant_decimals(float(np.abs(displayed).max()), DIGITS), 0), MOST_DECIMALS)
+    return MomentValue(symbol, how.unit, Track(displayed), decimals)
 
 
 def _errors(case: SolvedCam, knots: Floats, at: float) -> Errors:
-    """Return the errors of straight lines between samples, measured at the middles between them; jumps are left out."""
+    """Return the errors of straight lines between samples, measured at their middles; jumps are left out."""
     cam = case.solution.cam
     wide = np.diff(knots) > 4 * BESIDE
     here, between = cam.profile_at(knots), cam.profile_at((knots[1:] + knots[:-1]) / 2)

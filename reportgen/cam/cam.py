@@ -1,4 +1,4 @@
-"""The kind `cam`: faults of impossible cams, and warnings of improbable ones."""
+"""The kind `cam`: its case, faults of impossible cams, and warnings about unusual ones."""
 
 from __future__ import annotations
 
@@ -34,14 +34,14 @@ SUM = 1e-6
 
 
 def case(assignment: Assignment) -> CamCase:
-    """The case of an assignment."""
+    """Return the case of an assignment."""
     from reportgen.cam.case import CamCase
 
     return CamCase(assignment)
 
 
 def table_rows(position: Mapping[str, Any]) -> dict[str, dict[str, float | None]]:
-    """The rows that `solve` prints of a position of the results: lengths in mm, pressure angles in degrees."""
+    """Return the rows that `solve` prints for a position of the results: lengths in mm, pressure angles in degrees."""
     radius, (x, y) = position["curvature_radius"], position["profile"]
     angle, lengths = math.degrees(position["pressure_angle"]), {"ρ": radius, "x": x, "y": y}
     return {
@@ -55,14 +55,16 @@ def _in_mm(lengths: Mapping[str, float | None]) -> dict[str, float | None]:
     return {name: None if length is None else length * MM for name, length in lengths.items()}
 
 
-# --- what cannot be -------------------------------------------------------------------------------
+# --- faults -------------------------------------------------------------------------------------
 
 NEEDED = {"translating": ("h",), "oscillating": ("psi_max", "a")}
 IDLE = {"translating": ("psi_max", "arm", "a", "lifts"), "oscillating": ("h", "e")}
 
 
 def _keys(given: Parameters) -> Iterator[Finding]:
-    """Every length that such a follower has is given, and no other."""
+    """Yield findings for lengths that such a follower needs and that are missing, and for lengths that it does not
+    have.
+    """
     keys_given = given.model_fields_set
     needed, idle = list(NEEDED[given.follower]), list(IDLE[given.follower])
     if given.end != "roller":
@@ -100,7 +102,7 @@ def _phases(given: Parameters) -> Iterator[Finding]:
 
 
 def _tables(given: Parameters) -> Iterator[Finding]:
-    """An acceleration given as a graph begins at 0, ends at 1, and brings the follower to rest."""
+    """Yield findings if an acceleration graph does not begin at 0, end at 1, or bring the follower to rest."""
     for key, law in (("rise", given.laws.rise), ("return", given.laws.return_)):
         if isinstance(law, str):
             continue
@@ -117,12 +119,12 @@ def _tables(given: Parameters) -> Iterator[Finding]:
             above, below = AccelerationGraph(np.array(law.x), np.array(law.a)).areas
             if abs(above - below) > SAME_AREA * max(above, below) or above == 0:
                 yield Finding("cam-areas", (*where, "a"), {"above": f"{above:.4g}", "below": f"{below:.4g}"})
-            elif AccelerationGraph(np.array(law.x), np.array(law.a)).way <= 0:
+            elif AccelerationGraph(np.array(law.x), np.array(law.a)).displacement <= 0:
                 yield Finding("cam-backwards", (*where, "a"))
 
 
 def _shape(given: Parameters) -> Iterator[Finding]:
-    """Lengths that make no cam by themselves, then lengths that are sought and cannot be found."""
+    """Yield findings for lengths that make no cam by themselves, then for requested lengths that cannot be found."""
     r0, e, a, arm, roller = (getattr(given, key) for key in ("r0", "e", "a", "arm", "roller"))
     if r0 and e and abs(e.si) >= r0.si:
         yield Finding("cam-offset", (*TOP, "e"), {"e": e.text, "r0": r0.text})
@@ -152,9 +154,11 @@ def _shape(given: Parameters) -> Iterator[Finding]:
 
 
 def _swing(given: Parameters) -> Iterator[Finding]:
-    """A swing that is too fast for the cam, or too far for a face, which must keep short of a right angle."""
+    """Yield findings for a swing that is too fast for the cam, or too far for a face, which must stay short of a right
+    angle.
+    """
     motion, flat = motion_of(given), given.end == "flat"
-    # Where k = 1 ± ψ′ vanishes the point of contact runs off along a face.
+    # Where k = 1 ± ψ′ becomes 0, the point of contact moves off to infinity along the face.
     if given.lifts == "with":
         fastest = touch(motion, "rise", lambda _, ds: ds).bound
     else:
@@ -172,8 +176,8 @@ def _past(angle: float) -> Finding:
 
 
 def check(given: Parameters) -> Iterator[Finding]:
-    """Yield the faults of keys, then of phases and tables, then of lengths: each only if the ones before are in
-    order.
+    """Yield the faults of keys, then of phases and tables, then of lengths: each group only if the ones before have
+    none.
     """
     for look in (_keys, lambda one: (*_phases(one), *_tables(one)), _shape):
         faults = list(look(given))
@@ -183,7 +187,7 @@ def check(given: Parameters) -> Iterator[Finding]:
 
 
 def _worked(draft: Draft) -> Iterator[Finding]:
-    """Positions written out in full are numbers of positions, each once."""
+    """Yield findings if worked positions are not numbers of positions, or are repeated."""
     report, given = draft.sections.get("report"), draft.sections.get("parameters")
     if report is None or given is None or report.worked_positions is None or list(check(given)):
         return
@@ -199,11 +203,11 @@ def _worked(draft: Draft) -> Iterator[Finding]:
 CHECKS = (of_parameters(check), _worked)
 
 
-# --- what is hardly meant -------------------------------------------------------------------------
+# --- warnings -----------------------------------------------------------------------------------
 
 
 def physics(assignment: Assignment) -> Iterator[Finding]:
-    """Rigid impacts, a pressure angle beyond its limit or what is usual, an undercut profile: where, and what helps."""
+    """Yield warnings about rigid impacts, large pressure angles and undercut profiles, with the place and a remedy."""
     given: Parameters = assignment.parameters
     design = designed(given)
     cam, motion = design.cam, design.cam.motion

@@ -1,4 +1,4 @@
-"""Cam as a case: the source of all its outputs."""
+"""`CamCase`: a cam as a `Case`, the source of all its outputs."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from reportgen.drawing.plates import DrawingPlate
 
 @dataclass(frozen=True)
 class CamCase(SolvedCam):
-    """A cam, as a `Case`."""
+    """A solved cam, as a `Case`."""
 
     PAGE = views.CamPage
 
@@ -35,10 +35,10 @@ class CamCase(SolvedCam):
         return self.solution.misconceptions
 
     def fault(self) -> str:
-        found = self.solution.designed
-        if found.cam.undercut:
+        designed = self.solution.designed
+        if designed.cam.undercut:
             return "not-to-be-cut"
-        return "pressure-angle" if any(exceeded(found)) else ""
+        return "pressure-angle" if any(exceeded(designed)) else ""
 
     @property
     def shafts(self) -> Sequence[Shaft]:
@@ -46,8 +46,8 @@ class CamCase(SolvedCam):
 
     @cached_property
     def entries(self) -> ResultEntries:
-        """The choice of the cam, then its motion and its profile position by position."""
-        cam, profile, found = self.solution.cam, self.solution.profile, self.solution.designed
+        """Return the chosen lengths of the cam, then its motion and its profile position by position."""
+        cam, profile, designed = self.solution.cam, self.solution.profile, self.solution.designed
         names = ("s", "ds", "dds", "v", "a") if cam.translating else ("psi", "dpsi", "ddpsi", "omega", "epsilon")
         omega = self.speed
         positions = []
@@ -68,14 +68,16 @@ class CamCase(SolvedCam):
                 }
             )
         sizes = {key: getattr(cam, key) for key in ("r0", "e", "a", "arm", "roller")}
-        least = None if found.least is None else {"r0": found.least.r0, "e": found.least.e, "a": found.least.a}
+        least = (
+            None if designed.least is None else {"r0": designed.least.r0, "e": designed.least.e, "a": designed.least.a}
+        )
         return ResultEntries(positions, {"cam": sizes, "least": least, "undercut": list(cam.undercut)})
 
     def animations(self) -> tuple[Animation, ...]:
         return (animation.animation(self),)
 
     def plates(self, sets: Collection[str] = (), every: bool = False) -> Mapping[str, Sequence[DrawingPlate]]:
-        """There are no sets of them to choose from."""
+        """Return the drawings; there are no sets to choose from."""
         return {"cam": list(sheet_of_cam.plates(self))}
 
     def true_sizes(self) -> Sequence[DrawingSheet]:

@@ -1,4 +1,4 @@
-"""Diagrams over a turn: the motion one below the other with its graphical integration, pressure angle, curvature."""
+"""Diagrams over a turn: the motion with its graphical integration, pressure angle, curvature."""
 
 from __future__ import annotations
 
@@ -38,22 +38,22 @@ from reportgen.formula import Chain, Number, Symbol
 from reportgen.formula.vocabulary import KINDS
 
 STEPS = 6
-"""A phase with motion is integrated in so many steps."""
+"""Number of integration steps of a phase with motion."""
 GAP = 16.0
-"""White between two of the diagrams (mm)."""
+"""Gap between two of the diagrams (mm)."""
 TURN = TURN_ON_PAPER * MM
 """The length of a turn of the report's diagrams (mm)."""
 BESIDE = 0.4
-"""White between the numbers of positions at least (mm)."""
+"""Least gap between the numbers of positions (mm)."""
 DEGREES_PER_MM = (2.5, 2.0, 1.0)
-"""Scales of the angle on drawing sheets, the least first."""
+"""Scales of the angle on drawing sheets, the smallest first."""
 BEYOND = 6.0
 """Length of an axis beyond its end (mm)."""
 RAY, CHORD = Pen(0.1, style.GRAY), Pen(0.2, style.RED)
 CURVE = Pen(0.4, style.BLUE)
 DIVISION = Pen(0.08, style.PALE)
 FARTHEST = 4.0
-"""A radius of curvature of more than so many base circles is left out of its diagram."""
+"""A radius of curvature larger than this many base circles is left out of its diagram."""
 
 
 @dataclass(frozen=True)
@@ -65,15 +65,16 @@ class Graph:
     zero: float
 
     def at(self, y: Floats) -> Floats:
-        """The ordinate (mm) on paper of one of the diagram (mm)."""
+        """Return the ordinates on paper (mm) for ordinates of the diagram (mm), any shape."""
         return self.zero + y
 
 
 @dataclass(frozen=True)
 class LawScales:
-    """A turn of the diagrams on paper (mm), their scales (SI per mm), and the pole distances (mm) of the lower two.
+    """The length of a turn on paper (mm), the scales (SI per mm) of s, s′, s″, and the pole distances (mm) of the lower
+    two.
 
-    K₁ = μ_s′/(μ_s″ μ_φ) is that of s″, K₂ = μ_s/(μ_s′ μ_φ) that of s′.
+    K₁ = μ_s′/(μ_s″ μ_φ) belongs to s″, K₂ = μ_s/(μ_s′ μ_φ) to s′.
     """
 
     turn: float
@@ -81,12 +82,12 @@ class LawScales:
     poles: tuple[float, float]
 
     def shrunk(self, times: float) -> LawScales:
-        """Return the scales of diagrams smaller by a factor."""
-        (s, ds, dds), (one, two) = self.per_mm, self.poles
-        return LawScales(self.turn / times, (s * times, ds * times, dds * times), (one / times, two / times))
+        """Return the scales of diagrams that are smaller by the factor `times`."""
+        (s, ds, dds), (first, second) = self.per_mm, self.poles
+        return LawScales(self.turn / times, (s * times, ds * times, dds * times), (first / times, second / times))
 
     def across(self, φ: Floats) -> Floats:
-        """Abscissae (mm) [N] of angles of the cam (rad)."""
+        """Return the abscissae (mm) [N] of cam angles [N] (rad)."""
         return φ / (2 * math.pi) * self.turn
 
 
@@ -99,7 +100,9 @@ def usual_scales(case: SolvedCam) -> LawScales:
 
 
 def standard_scales(case: SolvedCam, steps: int) -> LawScales:
-    """Return standard scales of a drawing sheet, for its length about as high as in a report; the poles follow."""
+    """Return standard scales of a drawing sheet for a turn of its length, with heights as in a report; the poles
+    follow.
+    """
     turn = 360 / DEGREES_PER_MM[steps]
     profile, μ_φ = case.solution.cam.sampled(), 2 * math.pi / turn
     height = HEIGHT * MM * turn / TURN
@@ -111,7 +114,7 @@ def standard_scales(case: SolvedCam, steps: int) -> LawScales:
 
 
 def law_diagrams(case: SolvedCam, size: FigureSize = IN_REPORT) -> Scene:
-    """s, s′ and s″ one below the other to their scales, each integrated graphically from the one below."""
+    """Return s, s′ and s″ one below the other to their scales, each integrated graphically from the one below."""
     profile = case.solution.cam.sampled(1440)
     names = case.solution.moved
     scales = standard_scales(case, size.steps) if size.beside else usual_scales(case)
@@ -122,7 +125,7 @@ def law_diagrams(case: SolvedCam, size: FigureSize = IN_REPORT) -> Scene:
     for id, values, per_mm in zip(names, (profile.s, profile.ds, profile.dds), scales.per_mm, strict=True):
         up = values / per_mm
         if graphs:
-            # Below the lowest of the one before.
+            # Below the lowest diagram so far.
             zero -= up.max() + GAP - min(float(graphs[-1].up.min()), 0.0)
         graphs.append(Graph(case.ledger.symbol(id), up, zero))
     poles, width = scales.poles, scales.turn
@@ -135,7 +138,7 @@ def law_diagrams(case: SolvedCam, size: FigureSize = IN_REPORT) -> Scene:
         low = min(float(graphs[-1].at(graphs[-1].up).min()), graphs[-1].zero)
         items.append(Line(complex(x, low), complex(x, graphs[0].zero + graphs[0].up.max()), DIVISION))
         half = box(str(k), style.SMALL).width / 2
-        # Of positions close to each other not every one has room for its number.
+        # Of positions close to each other, not all have room for their numbers.
         if x - half > taken:
             items.append(Label(complex(x, graphs[0].zero - 2.6), str(k), size=style.SMALL, background=True))
             taken = x + half + BESIDE
@@ -161,27 +164,27 @@ def law_diagrams(case: SolvedCam, size: FigureSize = IN_REPORT) -> Scene:
 
 
 def _notes(case: SolvedCam, scales: LawScales, size: FigureSize) -> Iterator[Content]:
-    """The scales, on a sheet with those of the report and the pole distances."""
+    """Yield the notes of scales; on a sheet with those of the report and the pole distances."""
     phi = cam_ids.scale("phi")
-    shown = _shown(case, phi, 2 * math.pi / scales.turn)
-    note = size.told(case.printed.symbol(phi), shown, case.printed.number(phi))
+    drawn = _shown(case, phi, 2 * math.pi / scales.turn)
+    note = size.compared(case.printed.symbol(phi), drawn, case.printed.number(phi))
     if size.beside:
         degrees = Number(DEGREES_PER_MM[size.steps], unit="°/mm")
-        note = replace(note, parts=(note.parts[0], degrees, shown))
+        note = replace(note, parts=(note.parts[0], degrees, drawn))
     yield note
     for id, per_mm in zip(case.solution.moved, scales.per_mm, strict=True):
         of = cam_ids.scale(id.removeprefix("cam."))
-        yield size.told(case.printed.symbol(of), _shown(case, of, per_mm), case.printed.number(of))
+        yield size.compared(case.printed.symbol(of), _shown(case, of, per_mm), case.printed.number(of))
     if size.beside:
         for number, pole in enumerate(scales.poles, start=1):
             K = cam_ids.diagram(number)
-            yield size.told(
+            yield size.compared(
                 case.printed.symbol(K), Number(pole, 2, case.printed.printed_unit("mm")), case.printed.number(K)
             )
 
 
 def _shown(case: SolvedCam, id: str, per_mm: float) -> Number:
-    """A scale (SI per mm) as the report would print it."""
+    """Return a scale (SI per mm) as the report prints it."""
     number = case.printed.number(id)
     usual = float(case.printed[id].values[0]) / MM
     if math.isclose(per_mm, usual, rel_tol=1e-12):
@@ -199,7 +202,7 @@ def _phase_ends(case: SolvedCam) -> Iterator[tuple[str, tuple[float, float]]]:
 
 
 def _axes(graph: Graph, width: float, pole: float, order: int, items: list[Item]) -> Iterator[Request]:
-    """The axes of a diagram, and the pole that it is integrated from."""
+    """Add the axes of a diagram, and yield the label of the pole from which it is integrated."""
     low, high = graph.zero + min(float(graph.up.min()), 0.0), graph.zero + float(graph.up.max())
     left = -pole - 3.0 if pole else -3.0
     items.append(Arrow(complex(left, graph.zero), complex(width + BEYOND, graph.zero), style.DIMENSION, 1.8))
@@ -218,9 +221,9 @@ def _axes(graph: Graph, width: float, pole: float, order: int, items: list[Item]
 
 
 def _integrated(case: SolvedCam, graphs: Sequence[Graph], scales: LawScales) -> Iterator[Item]:
-    """Rays from the poles to mean ordinates, and the chords parallel to them, step by step of each moving phase.
+    """Yield rays from the poles to mean ordinates, and the chords parallel to them, for each step of a moving phase.
 
-    The mean ordinate of a step, at which the eye makes two areas equal, is what the diagram above rises by in it.
+    The mean ordinate of a step, which makes two areas equal by eye, is the rise of the diagram above over that step.
     """
     motion = case.solution.motion
     for number, K in zip((2, 1), scales.poles, strict=True):
@@ -251,7 +254,7 @@ def angle_axis(case: SolvedCam) -> Chain:
 
 
 def pressure_chart(case: SolvedCam, half: bool = False, area: Area | None = None) -> Plotted:
-    """The pressure angle over a turn, with its limits."""
+    """Return the pressure angle over a turn, with its limits."""
     profile, limits = case.solution.cam.sampled(), case.solution.designed.limits
     levels = [
         (
@@ -261,14 +264,14 @@ def pressure_chart(case: SolvedCam, half: bool = False, area: Area | None = None
         for phase, limit, sign in (("rise", limits.rise, 1), ("return", limits.back, -1))
         if limit is not None
     ]
-    shown = PlottedCurve(Symbol("α"), np.degrees(profile.φ), np.degrees(profile.alpha))
+    curve = PlottedCurve(Symbol("α"), np.degrees(profile.φ), np.degrees(profile.alpha))
     return plotted(
-        Diagram((shown,), angle_axis(case), axis(Symbol("α"), "°"), levels=tuple(levels)), half=half, area=area
+        Diagram((curve,), angle_axis(case), axis(Symbol("α"), "°"), levels=tuple(levels)), half=half, area=area
     )
 
 
 def curvature_chart(case: SolvedCam, half: bool = False) -> Plotted:
-    """The radius of curvature of the pitch curve, and of the working profile under a roller, over a turn."""
+    """Return the radius of curvature over a turn, of the pitch curve and, under a roller, of the working profile."""
     cam = case.solution.cam
     profile = cam.sampled()
     most = FARTHEST * max(cam.r0, float(np.abs(profile.pitch).max()) / 2)
@@ -291,7 +294,7 @@ def curvature_chart(case: SolvedCam, half: bool = False) -> Plotted:
 
 
 def motion_charts(case: SolvedCam) -> Iterator[tuple[Symbol, str, Floats]]:
-    """s, s′ and s″ (or those of the swing) with their printed units, over `Cam.sampled`."""
+    """Yield s, s′ and s″ (or those of the swing) as symbol, printed unit and values [N], over `Cam.sampled`."""
     profile = case.solution.cam.sampled()
     for id, values in zip(case.solution.moved, (profile.s, profile.ds, profile.dds), strict=True):
         how = KINDS[case.ledger[id].kind]

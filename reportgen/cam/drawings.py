@@ -26,7 +26,7 @@ DIAGRAM_ROOM = 118 + 128j
 """Largest width and height of the S–S′ diagram on a page (mm)."""
 PROFILE_ROOM = 150 + 172j
 FOLLOWER = 26.0
-"""The length of a translating follower that is drawn (mm)."""
+"""The drawn length of a translating follower (mm)."""
 LIMIT = Pen(0.3, style.RED, style.DASHED)
 THIN_LIMIT = Pen(0.12, style.RED, style.DASHED)
 REGION = Pen(0.1, style.GRAY)
@@ -35,22 +35,22 @@ PITCH = Pen(0.25, style.BLUE, style.CHAIN)
 ROLLER = Pen(0.13, style.GRAY)
 RAY = Pen(0.1, style.GRAY)
 NUMBER = 3.2
-"""From a roller's centre to its number (mm)."""
+"""Distance from a roller's centre to its number (mm)."""
 HALF_FACE = 8.0
 CLEAR = 0.6
-"""Part of the base circle that normals of faces leave clear, for the signs at the cam's centre."""
+"""Part of the base circle that normals of faces leave free, for the signs at the cam's centre."""
 FACE_MARGIN = 3.0
 """Length of a flat face beyond its farthest points of contact (mm)."""
 GUIDE = 1.6
-"""From the axis of a translating follower to the walls of its guide (mm)."""
+"""Distance from the axis of a translating follower to the walls of its guide (mm)."""
 LINES = 7
-"""So many limit lines of an oscillating follower are drawn for each piece of a phase."""
+"""Number of limit lines of an oscillating follower for each piece of a phase."""
 Stage = Literal["displacements", "profile by inversion", "cam"]
 SCALE = Symbol("μ", "l")
 
 
 def fitting(points: Sequence[complex], room: complex, size: FigureSize = IN_REPORT) -> tuple[float, float]:
-    """Return the report's scale (mm/mm) at which points (m) fit a room, and the figure's mm per metre."""
+    """Return the report's scale (mm/mm) at which points (m) fit a room (mm), and the figure's mm per metre."""
     usual, at = size.fitting([point * MM for point in points], room)
     return usual, at * MM
 
@@ -59,13 +59,13 @@ def fitting(points: Sequence[complex], room: complex, size: FigureSize = IN_REPO
 
 
 def limit_diagram(case: SolvedCam, size: FigureSize = IN_REPORT) -> Scene:
-    """The region of the cam's centres that keeps both limits of the pressure angle."""
+    """Return the region of the cam's centres that keeps both limits of the pressure angle."""
     cam = case.solution.cam
     return (_of_translating if cam.translating else _of_oscillating)(case, size)
 
 
 def _of_translating(case: SolvedCam, size: FigureSize) -> Scene:
-    """s upwards over s′, both at one scale; the centre at e to the right and s₀ below."""
+    """Return s upwards over s′, both at one scale; the cam's centre is e to the right and s₀ below."""
     design, cam = case.solution.designed, case.solution.cam
     profile = cam.sampled()
     curve = profile.ds + 1j * profile.s
@@ -89,14 +89,14 @@ def _of_translating(case: SolvedCam, size: FigureSize) -> Scene:
     for phase, limit, side, touch in limits:
         if limit is None or touch is None:
             continue
-        # Down the line s grows less and s′ goes with the other sign: the angle to the axis of s is the limit.
+        # Downwards s decreases and s′ has the opposite sign: the angle to the axis of s is the limit.
         down = complex(-side * math.sin(limit), -math.cos(limit))
         lines.append((phase, limit, side, HalfPlane(complex(touch.ds, touch.s) * at, 1j * side * down)))
     allowed = region([plane for *_, plane in lines], box)
     if len(allowed) > 2 and lines:
         items.append(Hatch(tuple(allowed), 2.0, REGION))
     for phase, limit, side, plane in lines:
-        # The plane's edge from the upper edge of the drawing to the lower one.
+        # The edge of the half-plane, from the upper edge of the drawing to the lower one.
         along = plane.inward * -1j * side
         ends = [plane.at + along * (level - plane.at.imag) / along.imag for level in (low, high)]
         start, end = (_within(end, plane.at, left, right) for end in ends)
@@ -153,7 +153,7 @@ def _of_translating(case: SolvedCam, size: FigureSize) -> Scene:
 
 
 def _within(end: complex, start: complex, left: float, right: float) -> complex:
-    """The end of a line from a start, cut at two uprights."""
+    """Return the end of a line from a start, cut at two vertical lines."""
     for edge in (left, right):
         if (end.real - edge) * (start.real - edge) < 0:
             end = start + (end - start) * (edge - start.real) / (end.real - start.real)
@@ -161,22 +161,24 @@ def _within(end: complex, start: complex, left: float, right: float) -> complex:
 
 
 def style_point(at: complex) -> tuple[Item, ...]:
-    """A point of the construction at a place (mm)."""
+    """Return a point of the construction at a place (mm)."""
     return (Circle(at, 0.6, None, style.BLACK),)
 
 
 def _centre(at: complex) -> tuple[Item, ...]:
-    """The cam's shaft."""
+    """Return the cam's shaft at a place (mm)."""
     return Circle(at, 1.4, style.VISIBLE, style.PAPER), Circle(at, 0.4, None, style.BLACK)
 
 
 def _of_oscillating(case: SolvedCam, size: FigureSize) -> Scene:
-    """On each position of the arm l k is laid off along it; a line at 90° − [α] to the arm through its end bounds."""
+    """Return the limit lines: l k is laid off along each position of the arm; a line through its end at 90° − [α]
+    bounds.
+    """
     design, cam = case.solution.designed, case.solution.cam
     σ, pivot = cam.opposite, pivot_of(cam)
     planes: list[HalfPlane] = []
-    shown: list[tuple[complex, complex, HalfPlane, str]] = []
-    for phase, limit, sign, mark in (("rise", design.limits.rise, 1, ""), ("return", design.limits.back, -1, "′")):
+    drawn_limits: list[tuple[complex, complex, HalfPlane, str]] = []
+    for phase, limit, sign, prime in (("rise", design.limits.rise, 1, ""), ("return", design.limits.back, -1, "′")):
         if limit is None:
             continue
         drawn = 0
@@ -189,15 +191,15 @@ def _of_oscillating(case: SolvedCam, size: FigureSize) -> Scene:
                 arm = _arm(cam, float(ψ))
                 end = pivot + arm * cam.arm * (1 + σ * rate)
                 # Into the region: to the cam's side, and along the arm in a rise against the cam or a return with it,
-                # else back along it.
+                # otherwise back along it.
                 aside = arm * 1j * σ * cam.turn
                 plane = HalfPlane(end, sign * σ * arm * math.cos(limit) + aside * math.sin(limit))
                 planes.append(plane)
-                # A piece of a phase begins where the one before ends.
+                # A piece of a phase begins where the previous one ends.
                 if index % (160 // (LINES - 1)) == 0 and (index or not drawn):
                     drawn += 1
-                    shown.append((pivot + arm * cam.arm, end, plane, f"{drawn}{mark}"))
-    places = [pivot, 0j, *(one[0] for one in shown), *(one[1] for one in shown), 0.6 * -1j * cam.r0]
+                    drawn_limits.append((pivot + arm * cam.arm, end, plane, f"{drawn}{prime}"))
+    places = [pivot, 0j, *(one[0] for one in drawn_limits), *(one[1] for one in drawn_limits), 0.6 * -1j * cam.r0]
     usual, at = fitting(places, DIAGRAM_ROOM, size)
     array = np.array(places) * at
     left, right, low, high = array.real.min() - 12, array.real.max() + 12, array.imag.min() - 22, array.imag.max() + 8
@@ -209,13 +211,13 @@ def _of_oscillating(case: SolvedCam, size: FigureSize) -> Scene:
     if len(allowed) > 2:
         items.append(Hatch(tuple(allowed), 2.0, REGION))
         items.append(Polyline(tuple(allowed), REGION, closed=True))
-    for tip, end, plane, mark in shown:
+    for tip, end, plane, prime in drawn_limits:
         items.append(Line(pivot * at, tip * at, RAY))
         along = 1j * unit(plane.inward) * abs(box[2] - box[0])
         if piece := clipped(end * at - along, end * at + along, box[0], box[2]):
             items.append(Line(*piece, THIN_LIMIT))
         items += [Circle(tip * at, 0.5, Pen(0.2), style.PAPER), Circle(end * at, 0.4, None, style.RED)]
-        requests.append(label(end * at, mark, gap=0.6, size=style.SMALL))
+        requests.append(label(end * at, prime, gap=0.6, size=style.SMALL))
     start = pivot + _arm(cam, 0.0) * cam.arm
     items.append(Line(pivot * at, start * at, style.VISIBLE))
     items += [
@@ -232,7 +234,7 @@ def _of_oscillating(case: SolvedCam, size: FigureSize) -> Scene:
         label(pivot * at / 2, case.ledger.symbol("cam.a"), prefer=(-math.pi / 2,)),
     ]
     facts = [
-        fact("limit-lines", Number(len(shown)), Symbol("A"), PaperLength(cam.arm * at)),
+        fact("limit-lines", Number(len(drawn_limits)), Symbol("A"), PaperLength(cam.arm * at)),
         arrow(case.ledger.symbol("cam.a"), pivot * at),
         arrow(case.ledger.symbol("cam.r0"), start * at),
     ]
@@ -243,7 +245,7 @@ def _of_oscillating(case: SolvedCam, size: FigureSize) -> Scene:
 
 
 def _arm(cam: Cam, ψ: float) -> complex:
-    """The direction of the arm from its pivot in the fixed frame."""
+    """Return the unit direction of the arm from its pivot in the fixed frame, at the swing ψ (rad)."""
     q = cam.psi0 + ψ
     return complex(-cam.opposite * cam.turn * math.cos(q), math.sin(q))
 
@@ -254,9 +256,8 @@ def _arm(cam: Cam, ψ: float) -> complex:
 def inversion(case: SolvedCam, stage: Stage = "profile by inversion", size: FigureSize = IN_REPORT) -> Scene:
     """Draw the profile in the cam's frame: the follower carried against the rotation, with numbered positions.
 
-    First its `displacements` are laid off, then the `profile by inversion` is drawn; the `cam` is shown with its
-    follower
-    in the first position.
+    The stage `displacements` lays off the displacements only, `profile by inversion` adds the profile; `cam` is the cam
+    with its follower in the first position.
     """
     cam = case.solution.cam
     outline = cam.outline()
@@ -309,7 +310,7 @@ def _profile_facts(case: SolvedCam, stage: Stage, outline: np.ndarray, base: flo
 
 
 def _positions(case: SolvedCam, stage: Stage, at: float, requests: list[Request]) -> Iterator[Item]:
-    """The follower at all positions, with their numbers."""
+    """Yield the follower at all positions, with their numbers."""
     cam, profile = case.solution.cam, case.solution.profile
     for k in range(profile.φ.size):
         centre = complex(profile.pitch[k]) * at
@@ -325,7 +326,7 @@ def _positions(case: SolvedCam, stage: Stage, at: float, requests: list[Request]
 
 
 def _laid_off(cam: Cam, profile: CamProfile, k: int, at: float) -> Iterator[Item]:
-    """The displacement at a position, from the base circle on along the follower's axis or about its pivot."""
+    """Yield the displacement at a position, from the base circle along the follower's axis or about its pivot."""
     back = complex(np.exp(-1j * cam.turn * profile.φ[k]))
     first = cam.profile_at(np.zeros(1))
     start, end = complex(first.at[0]) * back * at, complex(profile.at[k]) * back * at
@@ -348,12 +349,12 @@ def _laid_off(cam: Cam, profile: CamProfile, k: int, at: float) -> Iterator[Item
 
 
 def pivot_of(cam: Cam) -> complex:
-    """The pivot of an oscillating follower in the fixed frame (m)."""
+    """Return the pivot of an oscillating follower in the fixed frame (m)."""
     return complex(cam.mirrored(np.array([complex(cam.opposite * cam.a, 0)]))[0])
 
 
 def _position(cam: Cam, profile: CamProfile, k: int, at: float) -> Iterator[Item]:
-    """One position of the follower in the cam's frame: its axis or arm, and its roller, edge or face."""
+    """Yield one position of the follower in the cam's frame: its axis or arm, and its roller, edge or face."""
     back = complex(np.exp(-1j * cam.turn * profile.φ[k]))
     centre = complex(profile.pitch[k]) * at
     if cam.translating and not cam.flat:
@@ -377,9 +378,9 @@ def _position(cam: Cam, profile: CamProfile, k: int, at: float) -> Iterator[Item
 
 
 def follower_parts(cam: Cam, tip: complex, at: float, pivot: complex, walls: bool = True) -> Iterator[Item]:
-    """The follower, its tip (centre of the roller, edge, point of contact) at a place of the paper (mm).
+    """Yield the follower, with its tip (centre of the roller, edge, point of contact) at a place of the paper (mm).
 
-    With `walls` what holds it is drawn, too.
+    With `walls`, its guide or support is drawn, too; `at` is the scale (mm per m).
     """
     if cam.translating:
         rise = 1j * cam.motion.stroke * at
@@ -402,7 +403,7 @@ def follower_parts(cam: Cam, tip: complex, at: float, pivot: complex, walls: boo
 
 
 def guide_walls(tip: complex) -> Iterator[Item]:
-    """The guide (mm) of a translating follower whose end is in its highest position."""
+    """Yield the guide (mm) of a translating follower whose end is in its highest position."""
     for side in (-1, 1):
         wall = tip + complex(side * GUIDE, 0.6 * FOLLOWER)
         yield from style.ground(wall - 4j, wall + 4j, 1 if side < 0 else -1)

@@ -1,4 +1,4 @@
-"""File of a cam: its keys, and the resulting cam, with unknown lengths found and rounded."""
+"""The `parameters` of a cam, and the cam that they describe, with unknown lengths found and rounded (`designed`)."""
 
 from __future__ import annotations
 
@@ -32,12 +32,12 @@ from reportgen.cam.profile import Cam
 
 FIND = "find"
 ALLOWED = 1e-9
-"""A pressure angle may pass its limit by what floats do (rad)."""
+"""A pressure angle may exceed its limit by this rounding error (rad)."""
 
 
 @dataclass(frozen=True, slots=True)
 class Sought(Reader):
-    """A quantity, or `find` (None) for one that is to be found."""
+    """A quantity, or None for `find`."""
 
     given: Quantity
 
@@ -57,7 +57,7 @@ class PerPhase:
 
 @dataclass(frozen=True, slots=True)
 class Steps(Reader):
-    """Reader of the positions: a number per turn, a step in degrees, or a number in each phase."""
+    """Reader of the positions: a number per turn, a step in degrees, or a number for each phase."""
 
     def read(self, value: object) -> int | Given | PerPhase:
         if isinstance(value, dict):
@@ -84,7 +84,7 @@ Roller = quantity("mm", least=0.1, below=1e4)
 
 
 class Phases(Part):
-    """The angles of the cam of the four phases; the near dwell is what is left of the turn."""
+    """The cam angles of the four phases; the near dwell is the rest of the turn."""
 
     rise: Moving
     far: Resting = Given(0.0, 0.0, "deg", "0 deg")
@@ -93,7 +93,7 @@ class Phases(Part):
 
 
 class AccelerationTable(Part):
-    """An acceleration as a graph: ordinates in any unit over x from 0 to 1; a repeated x is a jump."""
+    """An acceleration graph: ordinates in any unit over x from 0 to 1; a repeated x is a jump."""
 
     x: Annotated[tuple[Annotated[float, Decimal(Interval(least=0, most=1))], ...], LawNodes]
     a: Annotated[tuple[Ordinate, ...], LawNodes]
@@ -109,17 +109,21 @@ LawOrTable = Annotated[
 
 
 class Laws(Part):
+    """The laws of motion of rise and return."""
+
     rise: LawOrTable
     return_: LawOrTable = Field(alias="return")
 
 
 class PermissibleAngles(Part):
+    """The permissible pressure angles of rise and return."""
+
     rise: Permissible
     return_: Permissible | None = Field(default=None, alias="return")
 
 
 class Parameters(Part):
-    """Cam with its follower; `find` requests that a length is designed."""
+    """A cam with its follower; `find` requests that a length is designed."""
 
     follower: Literal["translating", "oscillating"]
     end: Literal["roller", "flat", "knife"]
@@ -150,7 +154,7 @@ class Parameters(Part):
 
     @property
     def phase_degrees(self) -> tuple[float, float, float, float]:
-        """The four phases as they were typed (degrees)."""
+        """Return the four phases as typed (degrees)."""
         given = (self.phases.rise, self.phases.far, self.phases.return_)
         first, far, back = (round(math.degrees(one.si), 9) for one in given)
         near = self.phases.near
@@ -164,7 +168,7 @@ class Parameters(Part):
 
     @property
     def finds(self) -> tuple[str, ...]:
-        """The lengths that are to be found."""
+        """Return the keys of the lengths that are to be found."""
         return tuple(key for key in ("r0", "e", "a", "roller") if self.seeks(key))
 
 
@@ -173,7 +177,7 @@ class Parameters(Part):
 
 @dataclass(frozen=True)
 class Designed:
-    """A cam with what it was chosen by: the limits, and the least cam within them if there are any."""
+    """A cam with the choices behind it: the limits, and the least cam within them or None."""
 
     cam: Cam
     limits: CamLimits
@@ -181,13 +185,13 @@ class Designed:
     least_r0: float = 0.0
     """The least base circle under a flat face (m)."""
     by_form: bool = False
-    """True if the follower is closed by form, so that the cam drives the return, too."""
+    """True if the follower is form-closed, so that the cam drives the return, too."""
     usual: bool = False
-    """True if the limit of the return is not from the file, but the usual one with a spring."""
+    """True if the limit of the return is not from the file but the usual one with a spring."""
 
 
 def table_of(given: AccelerationTable) -> AccelerationGraph:
-    """The table as the law takes it: both areas made equal, as far as they differ at all."""
+    """Return the table for a law, with areas above and below the axis made exactly equal."""
     x, a = np.array(given.x), np.array(given.a)
     above, below = AccelerationGraph(x, a).areas
     return AccelerationGraph(x, np.where(a < 0, a * above / below, a)) if below > 0 else AccelerationGraph(x, a)
@@ -209,7 +213,7 @@ def motion_of(given: Parameters) -> FollowerMotion:
 
 
 def limits_of(given: Parameters) -> CamLimits:
-    """A follower that is closed by form is driven in the return, too: by the limit of the rise without its own."""
+    """Return the limits; a form-closed follower without a limit of its return takes that of the rise."""
     rise = given.limits.rise.si if given.limits else None
     back = given.limits.return_.si if given.limits and given.limits.return_ else None
     return CamLimits(rise, rise if back is None and given.closed_by == "form" else back, given.rho.si)
@@ -217,7 +221,10 @@ def limits_of(given: Parameters) -> CamLimits:
 
 @lru_cache(maxsize=64)
 def designed(given: Parameters) -> Designed:
-    """The cam of a file, its sought lengths found and rounded; raises `NoCamError` where there is none."""
+    """Return the cam of a file, with requested lengths found and rounded.
+
+    Raises `NoCamError` if there is none.
+    """
     motion, limits = motion_of(given), limits_of(given)
 
     def size(name: str) -> float:
@@ -253,7 +260,7 @@ def designed(given: Parameters) -> Designed:
 
 
 def _with_roller(given: Parameters, cam: Cam, rho: float) -> Cam:
-    """The cam with the roller that is sought; a base circle that is sought grows as far as the curvature wants it."""
+    """Return the cam with the requested roller; a base circle to be found grows as the curvature `rho` (m) requires."""
     if cam.flat:
         return cam
     if not given.seeks("roller"):
@@ -274,7 +281,7 @@ def _with_roller(given: Parameters, cam: Cam, rho: float) -> Cam:
 
 
 def _within(given: Parameters, cam: Cam, limits: CamLimits) -> tuple[Least | None, Cam]:
-    """The least cam within the limits, and one with the sought lengths as a person rounds them."""
+    """Return the least cam within the limits or None, and a cam with the requested lengths rounded."""
     motion = cam.motion
     if cam.translating:
         least = inverse_design.least_translating(motion, limits, None if given.seeks("e") else cam.e)
@@ -300,7 +307,9 @@ def _within(given: Parameters, cam: Cam, limits: CamLimits) -> tuple[Least | Non
 
 
 def positions_of(given: Parameters) -> tuple[float, ...]:
-    """Angles of the cam (degrees, to hundredths) from the start of the rise: evenly, with the ends of every phase."""
+    """Return the cam angles (degrees, to hundredths) from the start of the rise: equal steps, with the ends of every
+    phase.
+    """
     phases = given.phase_degrees
     ends = [sum(phases[:number]) for number in range(4)]
     match given.positions:
@@ -318,11 +327,13 @@ def positions_of(given: Parameters) -> tuple[float, ...]:
     return tuple(sorted({round(one, 2) % 360 for one in (*even, *ends)}))
 
 
-# --- what is judged of it -------------------------------------------------------------------------
+# --- extreme values ------------------------------------------------------------------------------
 
 
 def exceeded(design_found: Designed) -> Iterator[tuple[str, float, float]]:
-    """The phases in which the pressure angle passes its limit: its largest value, at which angle of the cam (rad)."""
+    """Yield the phases in which the pressure angle exceeds its limit, with its largest value and its cam angle
+    (rad).
+    """
     cam, limits = design_found.cam, design_found.limits
     for phase, limit, sign in (("rise", limits.rise, 1), ("return", limits.back, -1)):
         if limit is None or cam.flat:
@@ -333,8 +344,8 @@ def exceeded(design_found: Designed) -> Iterator[tuple[str, float, float]]:
 
 
 def steep(design_found: Designed) -> Iterator[tuple[float, float, float]]:
-    """Yield, without given limits, pressure angles (rad) beyond the usual, by size, with their place and the usual
-    one.
+    """Yield, without given limits, pressure angles beyond the usual, the largest first: value, cam angle and usual
+    limit (rad).
     """
     cam = design_found.cam
     if cam.flat:
@@ -347,7 +358,7 @@ def steep(design_found: Designed) -> Iterator[tuple[float, float, float]]:
 
 
 def extreme(cam: Cam, phase: str, sign: int) -> tuple[float, float]:
-    """Return the place in a phase where ±α is greatest, and its value (rad)."""
+    """Return the cam angle (rad) in a phase where ±α is greatest, and its value (rad)."""
     numbers = [number for number, one in enumerate(cam.motion.intervals) if one.phase == phase]
     return max((cam.worst(number, lambda one: sign * one.alpha) for number in numbers), key=lambda one: one[1])
 
@@ -355,7 +366,7 @@ def extreme(cam: Cam, phase: str, sign: int) -> tuple[float, float]:
 @view()
 @dataclass(frozen=True)
 class Judged:
-    """The largest pressure angles (rad) with where they are, the least radii of curvature (m) and the largest one."""
+    """The largest pressure angles (rad) with their cam angles, the least radii of curvature (m) and the largest one."""
 
     rise: tuple[float, float]
     back: tuple[float, float]
@@ -363,7 +374,9 @@ class Judged:
     least_working: tuple[float, float]
     largest: float
     aside: tuple[float, float]
-    """For a flat face the largest s′ (m) and the largest −s′; for one that swings the nearest and farthest contact."""
+    """For a flat face the largest s′ (m) and the largest −s′ (m); for an oscillating face the nearest and farthest
+    contact.
+    """
 
 
 def judged(cam: Cam) -> Judged:

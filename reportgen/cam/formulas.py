@@ -1,7 +1,7 @@
-"""Formulas of a cam, each written once: a sheet evaluates them over arrays, and the report prints them.
+"""Formulas of a cam, each written once: a calculation evaluates them over arrays, and the report prints them.
 
-The follower's point is the centre of its roller, the edge of a knife or the point of contact of a flat face.  The kind
-of follower and end and the senses of turning select the formulas, before any number is put in.
+The follower's point is the centre of its roller, the edge of a knife or the point of contact of a flat face.  The kinds
+of follower and end and the senses of rotation (`CamKind`) select the formulas.
 """
 
 from __future__ import annotations
@@ -30,12 +30,12 @@ class CamKind:
 
     @property
     def moved(self) -> tuple[str, str, str]:
-        """The ids of s, s′ and s″, or of ψ, ψ′ and ψ″."""
+        """Return the ids of s, s′ and s″, or of ψ, ψ′ and ψ″."""
         return ("cam.s", "cam.ds", "cam.dds") if self.translating else ("cam.psi", "cam.dpsi", "cam.ddpsi")
 
     @property
     def lengths(self) -> tuple[str, ...]:
-        """The ids of the lengths that such a cam has."""
+        """Return the ids of the lengths of such a cam."""
         has = {
             "cam.a": not self.translating,
             "cam.l": not (self.translating or self.flat),
@@ -47,24 +47,24 @@ class CamKind:
 
 
 def enter_lengths(q: Calculation, kind: CamKind, lengths: Mapping[str, float]) -> None:
-    """The lengths (m) that such a cam has, by their ids."""
+    """Enter the lengths (m) of such a cam, by their ids."""
     for id in kind.lengths:
         q.give(id, lengths[id])
 
 
 def enter_lowest(q: Calculation, kind: CamKind) -> None:
-    """s₀ = √(r₀² − e²), the height of the lowest position of a translating follower with a tip."""
+    """Enter s₀ = √(r₀² − e²), the height of the lowest position of a translating follower with a tip."""
     q.define("cam.s0", sqrt(q["cam.r0"] ** 2 - q["cam.e"] ** 2) if kind.offset else q["cam.r0"])
 
 
 def valued(formula: Callable[..., Expression], *numbers: Value) -> Value:
-    """The value of a formula of this module with numbers, or arrays of any shape, in place of its symbols."""
+    """Return the value of a formula of this module with numbers, or arrays of any shape, for its symbols."""
     return evaluate(_written(formula, len(numbers)), {str(place): number for place, number in enumerate(numbers)})
 
 
 @lru_cache(maxsize=64)
 def _written(formula: Callable[..., Expression], count: int) -> Expression:
-    """A formula of so many symbols, each called by its place."""
+    """Return a formula of `count` symbols, each named by its index."""
     return formula(*(Ref(str(place)) for place in range(count)))
 
 
@@ -72,57 +72,57 @@ def _written(formula: Callable[..., Expression], count: int) -> Expression:
 
 
 def rise_intercept(s: Expression, ds: Expression, α: Expression) -> Expression:
-    """c₁ = s′ − s tan [α], greatest where the limit line of the rise touches."""
+    """Return c₁ = s′ − s tan [α], greatest where the limit line of the rise touches."""
     return ds - s * tan(α)
 
 
 def return_intercept(s: Expression, ds: Expression, α: Expression) -> Expression:
-    """c₂ = −s′ − s tan [α′], greatest where the limit line of the return touches."""
+    """Return c₂ = −s′ − s tan [α′], greatest where the limit line of the return touches."""
     return -ds - s * tan(α)
 
 
 def height_by_rise(c: Expression, e: Expression, α: Expression) -> Expression:
-    """The least s₀ that the rise allows at an offset e."""
+    """Return the least s₀ that the rise allows at an offset e."""
     return (c - e) / tan(α)
 
 
 def height_by_return(c: Expression, e: Expression, α: Expression) -> Expression:
-    """The least s₀ that the return allows at an offset e."""
+    """Return the least s₀ that the return allows at an offset e."""
     return (c + e) / tan(α)
 
 
 def apex_height(c1: Expression, c2: Expression, α1: Expression, α2: Expression) -> Expression:
-    """s₀ where both limit lines meet."""
+    """Return s₀ of the intersection of both limit lines."""
     return (c1 + c2) / (tan(α1) + tan(α2))
 
 
 def apex_offset(c1: Expression, high: Expression, α1: Expression) -> Expression:
-    """e where both limit lines meet."""
+    """Return e of the intersection of both limit lines."""
     return c1 - high * tan(α1)
 
 
 def foot_of_rise(c: Expression, α: Expression) -> Expression:
-    """e of the point of the rise's limit line that is nearest to the follower's lowest point."""
+    """Return e of the point of the rise's limit line nearest to the follower's lowest point."""
     return c / (1 + tan(α) ** 2)
 
 
 def foot_of_return(c: Expression, α: Expression) -> Expression:
-    """e of the point of the return's limit line that is nearest to the follower's lowest point."""
+    """Return e of the point of the return's limit line nearest to the follower's lowest point."""
     return -(c / (1 + tan(α) ** 2))
 
 
 def height_on_rise(e: Expression, α: Expression) -> Expression:
-    """s₀ of that nearest point of the rise's line."""
+    """Return s₀ of the point of the rise's limit line at e."""
     return e * tan(α)
 
 
 def height_on_return(e: Expression, α: Expression) -> Expression:
-    """s₀ of that nearest point of the return's line."""
+    """Return s₀ of the point of the return's limit line at e."""
     return -(e * tan(α))
 
 
 def base_radius(s0: Expression, e: Expression) -> Expression:
-    """r₀ = √(s₀² + e²)."""
+    """Return r₀ = √(s₀² + e²)."""
     return sqrt(s0**2 + e**2)
 
 
@@ -130,37 +130,37 @@ def base_radius(s0: Expression, e: Expression) -> Expression:
 
 
 def cosine_aside(arm: Expression, k: Expression, α: Expression, a: Expression) -> Expression:
-    """l k cos [α]/a, the cosine of the angle by which the arm may lie aside of the limit line."""
+    """Return l k cos [α]/a, the cosine of the angle that the arm may deviate from the limit line."""
     return arm * k * cos(α) / a
 
 
 def lowest_against(limit: Expression, aside: Expression, ψ: Expression) -> Expression:
-    """The lowest ψ₀ of a phase in which the arm turns against the cam."""
+    """Return the lowest ψ₀ of a phase in which the arm turns against the cam."""
     return limit - aside - ψ
 
 
 def lowest_with(limit: Expression, aside: Expression, ψ: Expression) -> Expression:
-    """The lowest ψ₀ of a phase in which the arm turns as the cam does."""
+    """Return the lowest ψ₀ of a phase in which the arm turns with the cam."""
     return aside - limit - ψ
 
 
 def highest_against(limit: Expression, aside: Expression, ψ: Expression) -> Expression:
-    """The highest ψ₀ of a phase in which the arm turns against the cam."""
+    """Return the highest ψ₀ of a phase in which the arm turns against the cam."""
     return limit + aside - ψ
 
 
 def highest_with(limit: Expression, aside: Expression, ψ: Expression) -> Expression:
-    """The highest ψ₀ of a phase in which the arm turns as the cam does."""
+    """Return the highest ψ₀ of a phase in which the arm turns with the cam."""
     return 2 * PI - aside - limit - ψ
 
 
 def base_radius_of_arm(a: Expression, arm: Expression, ψ0: Expression) -> Expression:
-    """r₀ = √(a² + l² − 2al cos ψ₀), by the law of cosines."""
+    """Return r₀ = √(a² + l² − 2al cos ψ₀), by the law of cosines."""
     return sqrt(a**2 + arm**2 - 2 * a * arm * cos(ψ0))
 
 
 def lowest_of_face(r0: Expression, a: Expression) -> Expression:
-    """ψ₀ = arcsin(r₀/a), where a flat face touches the base circle."""
+    """Return ψ₀ = arcsin(r₀/a), where a flat face touches the base circle."""
     return asin(r0 / a)
 
 
@@ -168,12 +168,12 @@ def lowest_of_face(r0: Expression, a: Expression) -> Expression:
 
 
 def factor(dψ: Expression, opposite: int) -> Expression:
-    """k = 1 ± ψ′, by which an arm turns against the cam: + where the two turn in opposite senses."""
+    """Return k = 1 ± ψ′, the rate of the arm relative to the cam: + if they turn in opposite senses."""
     return 1 + dψ if opposite > 0 else 1 - dψ
 
 
 def enter_profile(q: Calculation, kind: CamKind) -> None:
-    """Pitch curve by inversion, pressure angle, radius of curvature and profile from the motion at angles φ."""
+    """Enter pitch curve by inversion, pressure angle, radius of curvature and profile from the motion at angles φ."""
     (_enter_under_face if kind.flat else _enter_under_tip)(q, kind)
 
 
@@ -198,7 +198,8 @@ def _enter_under_tip(q: Calculation, kind: CamKind) -> None:
         a, arm, (ψ, dψ, ddψ) = q["cam.a"], q["cam.l"], (q[id] for id in kind.moved)
         ψ0 = q.define("cam.psi0", acos((a**2 + arm**2 - q["cam.r0"] ** 2) / (2 * a * arm)))
         at, k = q.define("cam.q", ψ0 + ψ), q.define("cam.k", factor(dψ, kind.opposite))
-        # Signed from the way in which the arm lifts: N = F + iF′ leans by l k − a cos q, mirrored in the same sense.
+        # The sign depends on the sense in which the arm lifts: N = F + iF′ leans by l k − a cos q, mirrored in that
+        # sense.
         aside = arm * k - a * cos(at) if kind.opposite > 0 else a * cos(at) - arm * k
         α = q.define("cam.alpha", atan(aside / (a * sin(at))), scale=1.0)
         x, y = _inverted(q, kind, a - arm * cos(at), arm * sin(at))
@@ -241,7 +242,9 @@ def _enter_under_face(q: Calculation, kind: CamKind) -> None:
 
 
 def _inverted(q: Calculation, kind: CamKind, across: Expression, up: Expression) -> tuple[Expression, Expression]:
-    """A point of an oscillating follower, so far from the cam's centre towards the pivot and up, turned by −φ."""
+    """Return a point of an oscillating follower, `across` towards the pivot and `up` from the cam's centre, turned by
+    −φ.
+    """
     φ = q["cam.phi"]
     if kind.opposite > 0:
         return up * sin(φ) + across * cos(φ), up * cos(φ) - across * sin(φ)

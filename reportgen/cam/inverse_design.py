@@ -1,10 +1,10 @@
-"""Inverse design: the least cam that keeps the pressure angle within its limits, and a choice as a person rounds it.
+"""Inverse design: the least cam that keeps the pressure angle within its limits, and round lengths above it.
 
-A translating follower is designed on the S–S′ diagram: (s′ − e)/(s₀ + s) ≤ tan [α] in the rise is a straight line above
-whose end the cam's centre lies, −(s′ − e)/(s₀ + s) ≤ tan [α′] in the return another.  Of an oscillating one
-tan α = ±(lk − a cos q)/(a sin q), q = ψ₀ + ψ, k = 1 ± ψ′, with + where cam and arm turn oppositely.  There the rise
-wants cos(q − [α]) ≥ (l k/a) cos [α] and the return cos(q + [α′]) ≤ (l k/a) cos [α′]; where they turn the same way the
-rise wants the second and the return the first.
+A translating follower is designed on the S–S′ diagram: (s′ − e)/(s₀ + s) ≤ tan [α] in the rise is a half-plane for the
+cam's centre, −(s′ − e)/(s₀ + s) ≤ tan [α′] in the return another.  For an oscillating one tan α = ±(lk − a cos q)/(a
+sin q), q = ψ₀ + ψ, k = 1 ± ψ′, with + if cam and arm turn in opposite senses.  Then the rise needs cos(q − [α]) ≥ (l
+k/a) cos [α] and the return cos(q + [α′]) ≤ (l k/a) cos [α′]; if they turn in the same sense, rise and return exchange
+their conditions.
 """
 
 from __future__ import annotations
@@ -26,18 +26,18 @@ from reportgen.formula import Ref
 from reportgen.formula.evaluation import evaluate
 
 LimitingLine = Literal["apex", "rise", "return"]
-"""Deciding limit: both lines together, or that of one phase."""
+"""The deciding limit: both lines together, or that of one phase."""
 SHARE_OF_RHO, SHARE_OF_R0 = 0.8, 0.4
-"""A roller is no larger than these shares of the least radius of curvature and of the base circle."""
+"""A roller is at most these shares of the least radius of curvature and of the base circle."""
 GOLDEN = (math.sqrt(5) - 1) / 2
 USUAL_RISE = {True: math.radians(40), False: math.radians(45)}
-"""The largest pressure angle (rad) that is usual in the rise, of a translating follower (True) and of any other."""
+"""The usual largest pressure angle (rad) in the rise, of a translating follower (True) and of an oscillating one."""
 USUAL_BY_SPRING = math.radians(80)
-"""The largest pressure angle (rad) that is usual in a return that a spring drives."""
+"""The usual largest pressure angle (rad) in a return driven by a spring."""
 TALLEST = 400
-"""So many steps a base circle grows at most until nothing is undercut."""
+"""Largest number of steps by which a base circle grows until nothing is undercut."""
 STEPS = 60
-"""So many base circles under an oscillating face are tried for one that is large enough."""
+"""Number of base circles under an oscillating face that are tried until one is large enough."""
 
 
 @dataclass(frozen=True)
@@ -51,8 +51,8 @@ class CamLimits:
 
 @dataclass(frozen=True)
 class Touch:
-    """Point where the limit line of a phase touches: angle of the cam, s and s′ there, and the resulting bound (c or
-    ψ₀).
+    """Point where the limit line of a phase touches: cam angle (rad), s and s′ there, and the resulting bound (c in m
+    or ψ₀ in rad).
     """
 
     phi: float
@@ -63,7 +63,7 @@ class Touch:
 
 @dataclass(frozen=True)
 class Least:
-    """The least cam within the limits (m, rad): of a translating follower s₀ and e, of an oscillating one a and ψ₀.
+    """The least cam within the limits (m, rad): s₀ and e of a translating follower, a and ψ₀ of an oscillating one.
 
     `most` is the largest ψ₀ within them.
     """
@@ -78,7 +78,7 @@ class Least:
     rise: Touch | None = None
     back: Touch | None = None
     apex: complex | None = None
-    """Intersection of both limit lines, as e + i s₀; a foot on one of them may be nearer to the cam's centre."""
+    """Intersection of both limit lines, as e + i s₀ (m); a foot on one of them may be nearer to the cam's centre."""
 
 
 class NoCamError(ValueError):
@@ -108,10 +108,11 @@ def touch(motion: FollowerMotion, phase: str, of: Callable[[Floats, Floats], Flo
 
 
 def least_translating(motion: FollowerMotion, limits: CamLimits, e: float | None) -> Least:
-    """The least cam of a translating follower with a knife or a roller, at an offset e (m) or at the best one.
+    """Return the least cam of a translating knife or roller follower, at an offset e (m), or at the best one if it is
+    None.
 
-    c₁ = max(s′ − s tan [α]) and c₂ = max(−s′ − s tan [α′]) lead to s₀ ≥ (c₁ − e)/tan [α] and s₀ ≥ (c₂ + e)/tan [α′].
-    Where the limit of the rise alone leaves s₀ free (e ≥ c₁), the return decides by what is usual with a spring.
+    c₁ = max(s′ − s tan [α]) and c₂ = max(−s′ − s tan [α′]) give s₀ ≥ (c₁ − e)/tan [α] and s₀ ≥ (c₂ + e)/tan [α′]. If
+    the limit of the rise alone leaves s₀ free (e ≥ c₁), the return decides, with the usual limit of a spring.
     """
     assert limits.rise is not None
     α1, α2 = limits.rise, limits.back or USUAL_BY_SPRING
@@ -126,7 +127,7 @@ def least_translating(motion: FollowerMotion, limits: CamLimits, e: float | None
         return float(valued(formulas.height_by_rise, c1, offset, α1))
 
     def by_return(offset: float) -> float:
-        # Where nothing limits the return, the follower only stays above the cam's centre.
+        # If nothing limits the return, the follower only has to stay above the cam's centre.
         return 0.0 if back is None else float(valued(formulas.height_by_return, back.bound, offset, α2))
 
     def at(rule: LimitingLine, s0: float, offset: float) -> Least:
@@ -135,7 +136,7 @@ def least_translating(motion: FollowerMotion, limits: CamLimits, e: float | None
 
     if e is not None:
         return at("rise", by_rise(e), e) if by_rise(e) >= by_return(e) else at("return", by_return(e), e)
-    # The nearest point of the region to the origin: the foot on one line, if the other allows it, else the apex.
+    # The point of the region nearest to the origin: the foot on one line, if the other allows it, else the apex.
     foot = float(valued(formulas.foot_of_rise, c1, α1))
     if (s0 := float(valued(formulas.height_on_rise, foot, α1))) >= by_return(foot):
         return at("rise", s0, foot)
@@ -148,10 +149,10 @@ def least_translating(motion: FollowerMotion, limits: CamLimits, e: float | None
 
 
 def least_oscillating(motion: FollowerMotion, limits: CamLimits, arm: float, opposite: int, a: float) -> Least | None:
-    """The least cam of an oscillating follower at a distance a of the pivot (m); None where no ψ₀ keeps the limits.
+    """Return the least cam of an oscillating follower, arm and pivot distance `a` in m; None if no ψ₀ keeps the limits.
 
-    Where the limit of the rise alone leaves ψ₀ free, down to an arm in line with the centres, the return decides by
-    what is usual with a spring.
+    If the limit of the rise alone leaves ψ₀ free, down to an arm in line with the centres, the return decides, with the
+    usual limit of a spring.
     """
     assert limits.rise is not None
     bounds = [bounded(motion, "rise", limits.rise, arm, opposite, a)]
@@ -170,7 +171,8 @@ def least_oscillating(motion: FollowerMotion, limits: CamLimits, arm: float, opp
 def bounded(
     motion: FollowerMotion, phase: str, limit: float, arm: float, opposite: int, a: float
 ) -> tuple[Touch, float]:
-    """Between what ψ₀ (rad) a phase keeps its limit: where the lower bound is touched, and the upper one.
+    """Return the range of ψ₀ (rad) in which a phase keeps its limit: where the lower bound is touched, and the upper
+    bound.
 
     With c = lk cos(limit)/a it is cos(q − limit) ≥ c in the rise against the cam and in the return with it: q from
     limit − arccos c to limit + arccos c; else cos(q + limit) ≤ c: q from arccos c − limit to 2π − arccos c − limit.
@@ -197,9 +199,9 @@ def bounded(
 
 
 def best_distance(motion: FollowerMotion, limits: CamLimits, arm: float, opposite: int) -> Least:
-    """The least cam of an oscillating follower, arm in m, at the best distance a of the pivot: 0.4 to 3 arms.
+    """Return the least cam of an oscillating follower, arm in m, at the best distance a of the pivot: 0.4 to 3 arms.
 
-    The region of the centres is convex, so that r₀ over a has one valley: a golden section finds it.
+    The region of the centres is convex, so r₀ over a has one minimum, which a golden-section search finds.
     """
 
     def of(a: float) -> float:
@@ -213,7 +215,7 @@ def best_distance(motion: FollowerMotion, limits: CamLimits, arm: float, opposit
     if not math.isfinite(size):
         raise NoCamError("cam-no-centre", "limits")
     low, high = float(grid[max(index - 1, 0)]), float(grid[min(index + 1, len(grid) - 1)])
-    # Beyond the ends of the valley there is no cam: the best one so far always stays between.
+    # Beyond the ends of the valley there is no cam: the best one so far always stays within the bracket.
     while high - low > 1e-9 * arm:
         tried = best + (1 - GOLDEN) * (high - best) if high - best > best - low else best - (1 - GOLDEN) * (best - low)
         tried_size = of(tried)
@@ -225,9 +227,10 @@ def best_distance(motion: FollowerMotion, limits: CamLimits, arm: float, opposit
 
 
 def least_flat(cam: Cam, rho: float) -> float:
-    """The least r₀ (m) with which the profile under a flat face is convex, its curvature's radius ρ (m) at least.
+    """Return the least r₀ (m) at which the profile under a flat face is convex with a radius of curvature of at least ρ
+    (m).
 
-    A translating face: r₀ = ρ − min(s + s″).
+    For a translating face: r₀ = ρ − min(s + s″).
     """
 
     def flattest(r0: float) -> float:
@@ -237,7 +240,7 @@ def least_flat(cam: Cam, rho: float) -> float:
 
     if cam.translating:
         return max(rho - flattest(0.0), rho)
-    # The face keeps short of a right angle to the line of centres.
+    # The face stays short of a right angle to the line of centres.
     tried = cam.a * np.sin(np.linspace(0, math.pi / 2 - cam.motion.stroke, STEPS + 2)[1:-1])
     enough = next((i for i, r0 in enumerate(tried) if flattest(float(r0)) >= rho), None)
     if enough is None:
@@ -254,7 +257,7 @@ def reaches(cam: Cam) -> bool:
     return cam.r0 < cam.a and cam.psi0 + cam.motion.stroke < math.pi / 2
 
 
-# --- a choice as a person rounds it ---------------------------------------------------------------
+# --- round lengths -------------------------------------------------------------------------------
 
 
 def step_of(length: float) -> float:
@@ -264,19 +267,19 @@ def step_of(length: float) -> float:
 
 
 def rounded_up(length: float) -> float:
-    """The least round length (m) that is no less."""
+    """Return the least round length (m) that is not below a length."""
     step = step_of(length)
     return round(math.ceil(length / step - 1e-9) * step, 9)
 
 
 def rounded_down(length: float) -> float:
-    """The greatest round length (m) that is no more, to whole millimetres where it has several."""
+    """Return the greatest round length (m) that is not above a length; a multiple of a millimetre if it has several."""
     step = min(step_of(length), 1.0 / MM)
     return round(math.floor(length / step + 1e-9) * step, 9)
 
 
 def round_ups(length: float) -> Iterator[float]:
-    """Lengths that are no less, the roundest first: to its own step, to 1, 0.5 and 0.1 mm, and itself."""
+    """Yield lengths (m) that are not below a length, the roundest first: its own step, 1, 0.5, 0.1 mm, and itself."""
     yield rounded_up(length)
     for step in (1.0 / MM, 0.5 / MM, 0.1 / MM):
         yield round(math.ceil(length / step - 1e-9) * step, 9)
@@ -284,7 +287,7 @@ def round_ups(length: float) -> Iterator[float]:
 
 
 def enlarged_until(cam: Cam, enough: Callable[[Cam], bool], error: NoCamError) -> Cam:
-    """The cam with so large a base circle, by round steps, that it is enough; raises the error where none is."""
+    """Return the cam with a base circle enlarged by round steps until it is `enough`; raise the error if none is."""
     for _ in range(TALLEST):
         if enough(cam):
             return cam
@@ -295,12 +298,16 @@ def enlarged_until(cam: Cam, enough: Callable[[Cam], bool], error: NoCamError) -
 
 
 def least_convex_radius(cam: Cam) -> float:
-    """The least radius of curvature (m) where the working profile is convex; infinite where it nowhere is."""
+    """Return the least radius of curvature (m) where the working profile is convex; infinite if it is convex
+    nowhere.
+    """
     every = range(len(cam.motion.intervals))
     return min(-cam.worst(number, lambda one: -one.effective)[1] for number in every)
 
 
 def largest_roller(cam: Cam, rho: float) -> float:
-    """r_T ≤ 0.8 ρ_min, ≤ 0.4 r₀, leaving ρ of the convex curvature (all m), rounded down; none if ≤ 0."""
+    """Return r_T ≤ 0.8 ρ_min, ≤ 0.4 r₀, leaving ρ of the convex curvature (all m), rounded down; 0 or less if there is
+    none.
+    """
     least = least_convex_radius(replace(cam, roller=0.0))
     return rounded_down(min(SHARE_OF_RHO * least, SHARE_OF_R0 * cam.r0, least - rho))

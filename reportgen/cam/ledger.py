@@ -1,7 +1,7 @@
-"""Cam as a ledger: every number by its id, computed from those above it, as the report prints it.
+"""`CamSolution`: a cam as a ledger, with every number under its id as the report prints it.
 
-Positions are rows.  A quantity with different formulas in each phase is a `branch` of the number of its interval, so
-that the line of a position prints the formula of its own phase.
+A quantity with different formulas in each phase is a `branch` selected by its interval's number, so the line of a
+position prints the formula of its own phase.
 """
 
 from __future__ import annotations
@@ -43,12 +43,12 @@ LINES: Mapping[str, tuple[str, ...]] = {
     "points": ("cam.contact", "cam.pitch.x", "cam.pitch.y", "cam.profile.x", "cam.profile.y"),
     "curvature": ("cam.u", "cam.w", "cam.m.1", "cam.m.2", "cam.rho", "cam.rho.working"),
 }
-"""Quantities that the report sets out together."""
+"""Quantities that the report prints together."""
 MOVING = {"rise": 1, "return": 2}
-"""The numbers of what belongs to each of the two phases with motion."""
+"""The indices of quantities of the two phases with motion."""
 STILL = Number(0.0)
 TURN_ON_PAPER, HEIGHT = 0.120, 0.042
-"""The length of a turn in the diagrams of the motion, and about how high each is (m on paper)."""
+"""The length of a turn in the motion diagrams, and the approximate height of each (m on paper)."""
 LEAST_POLE, MOST_POLE = 5, 30
 """Pole distances (mm)."""
 KINDS_ON_PAPER = ("length on paper", "reduced velocity on paper", "reduced acceleration on paper")
@@ -79,17 +79,17 @@ class CamSolution:
 
     @cached_property
     def φ(self) -> Floats:
-        """The angles of the positions [N] (rad)."""
+        """Return the angles of the positions [N] (rad)."""
         return np.radians(self.degrees)
 
     @cached_property
     def profile(self) -> CamProfile:
-        """The cam at its positions."""
+        """Return the cam at its positions."""
         return self.cam.profile_at(self.φ)
 
     @cached_property
     def intervals(self) -> tuple[LawInterval, ...]:
-        """The interval of each position."""
+        """Return the interval of each position."""
         return tuple(self.motion.intervals[number] for number in self.motion.of(self.φ))
 
     @cached_property
@@ -117,32 +117,32 @@ class CamSolution:
         """
         key, own = "h" if self.cam.translating else "psi_max", self.sheet.families
         try:
-            other = CamSolution(self.given.model_copy(update={key: Given(stroke, stroke)})).sheet.families
+            changed = CamSolution(self.given.model_copy(update={key: Given(stroke, stroke)})).sheet.families
         except NoCamError:
             return ()
         read = {
-            id: other[id].values
-            for id, one in own.items()
-            if one.definition is None and not one.exact and id in other and other[id].definition is None
+            id: changed[id].values
+            for id, family in own.items()
+            if family.definition is None and not family.exact and id in changed and changed[id].definition is None
         }
-        return read, read | {id: other[id].values for id in self.cam.kind.lengths}
+        return read, read | {id: changed[id].values for id in self.cam.kind.lengths}
 
     @property
     def _exchanged(self) -> Mapping[str, list[tuple[str, np.ndarray]]]:
-        """The motion as it is with the angles and the laws of rise and return exchanged."""
+        """Return the motion with the angles and laws of rise and return exchanged."""
         first, far, back, near = self.motion.phases
-        other = FollowerMotion(self.motion.stroke, (back, far, first, near), self.motion.back, self.motion.rise)
-        return {id: [("cam-exchanged", values)] for id, values in zip(self.moved, other(self.φ), strict=True)}
+        exchanged = FollowerMotion(self.motion.stroke, (back, far, first, near), self.motion.back, self.motion.rise)
+        return {id: [("cam-exchanged", values)] for id, values in zip(self.moved, exchanged(self.φ), strict=True)}
 
     @property
     def _changed(self) -> Mapping[str, list[tuple[str, Expression]]]:
-        """Definitions that are often used in place of the right ones."""
-        found: dict[str, list[tuple[str, Expression]]] = {}
+        """Return the mistaken definitions that students often use, by id."""
+        definitions: dict[str, list[tuple[str, Expression]]] = {}
         families = self.sheet.families
 
         def also(name: str, among: Iterable[tuple[str, Expression]]) -> None:
-            for id, other in among:
-                found.setdefault(id, []).append((name, other))
+            for id, definition in among:
+                definitions.setdefault(id, []).append((name, definition))
 
         for id, power in (("cam.ds", 1), ("cam.dds", 2), ("cam.dpsi", 1), ("cam.ddpsi", 2)):
             if id in families and (definition := families[id].definition) is not None:
@@ -158,23 +158,23 @@ class CamSolution:
             limits = {"cam.limit.rise": Ref("cam.limit.return"), "cam.limit.return": Ref("cam.limit.rise")}
             also("cam-limits-exchanged", with_another(families, limits))
         also("cam-roller-outward", with_another(families, {"cam.roller": -Ref("cam.roller")}))
-        return found
+        return definitions
 
     @property
     def moved(self) -> tuple[str, str, str]:
-        """s, s′ and s″ as the ledger calls them."""
+        """Return the names of s, s′ and s″ in the ledger."""
         return self.cam.kind.moved
 
 
 class CamCalculation:
-    """The sheet of a cam while it is written."""
+    """The calculation of a cam while it is filled."""
 
     def __init__(self, of: CamSolution) -> None:
         self.of, self.cam, self.given = of, of.cam, of.given
         self.q = Calculation(len(of.degrees))
         self.σ = of.cam.opposite
 
-    # --- what is given and chosen
+    # --- given and chosen values
 
     def enter_given(self) -> None:
         q, given, cam = self.q, self.given, self.cam
@@ -227,7 +227,7 @@ class CamCalculation:
             q.define(acceleration, omega**2 * dds, scale=motion.stroke)
 
     def enter_scales(self) -> None:
-        """Scales of the diagrams of the motion: μ_s″ is round; with whole pole distances K the others follow."""
+        """Enter the scales of the motion diagrams: μ_s″ is round; the others follow with whole pole distances K."""
         q, turned = self.q, not self.cam.translating
         names = ("psi", "dpsi", "ddpsi") if turned else ("s", "ds", "dds")
         symbols = ("ψ", "ψ′", "ψ″") if turned else ("s", "s′", "s″")
@@ -238,43 +238,43 @@ class CamCalculation:
         μ_φ = q.define(cam_ids.scale("phi"), 2 * PI / L, Symbol("μ", "φ"), "angle on paper", optional=True)
         chosen = nice_up(third / HEIGHT) if third else nice_up(second / HEIGHT / q.si(μ_φ) / HEIGHT)
         above = q.give(cam_ids.scale(names[2]), chosen, Symbol("μ", symbols[2]), kinds[2], optional=True)
-        for number, (name, shown, kind, range_) in enumerate(
+        for number, (name, index, kind, range_) in enumerate(
             ((names[1], symbols[1], kinds[1], second), (names[0], symbols[0], kinds[0], first)), start=1
         ):
             wanted = range_ / HEIGHT / (q.si(above) * q.si(μ_φ)) * MM
             pole = min(max(round(wanted), LEAST_POLE), MOST_POLE) / MM
             K = q.give(cam_ids.diagram(number), pole, Symbol("K", str(number)), optional=True)
-            above = q.define(cam_ids.scale(name), above * μ_φ * K, Symbol("μ", shown), kind, optional=True)
+            above = q.define(cam_ids.scale(name), above * μ_φ * K, Symbol("μ", index), kind, optional=True)
 
-    def _formulas(self, one: LawInterval, x: Ref) -> tuple[Operand, ...]:
-        if one.piece is None:
-            return one.formulas(x, 1.0, self.stroke, self.stroke)
-        arc = self.q[cam_ids.arc(one.phase)]
-        piece = one.piece
+    def _formulas(self, interval: LawInterval, x: Ref) -> tuple[Operand, ...]:
+        if interval.piece is None:
+            return interval.formulas(x, 1.0, self.stroke, self.stroke)
+        arc = self.q[cam_ids.arc(interval.phase)]
+        piece = interval.piece
         if piece.node >= 0:
             z = self.q["cam.z"]
-            table = {"rise": self.cam.motion.rise, "return": self.cam.motion.back}[one.phase].table
+            table = {"rise": self.cam.motion.rise, "return": self.cam.motion.back}[interval.phase].table
             assert table is not None
             named = {
                 cubic.node: cubic
-                for cubic in table.pieces(lambda what, i: self._node(MOVING[one.phase], i, what), lambda *_: z)
+                for cubic in table.pieces(lambda what, i: self._node(MOVING[interval.phase], i, what), lambda *_: z)
             }
             piece = named[piece.node]
-        return LawInterval(one.phase, one.start, one.stop, one.begin, one.angle, piece).formulas(
-            x, arc, self.stroke, self.arc
-        )
+        return LawInterval(
+            interval.phase, interval.start, interval.stop, interval.begin, interval.angle, piece
+        ).formulas(x, arc, self.stroke, self.arc)
 
-    def _beyond(self, one: LawInterval, x: Ref) -> Expression:
+    def _beyond(self, interval: LawInterval, x: Ref) -> Expression:
         """Return the distance of x from the node at the beginning of an interval."""
-        if one.piece is None or one.piece.node < 0:
+        if interval.piece is None or interval.piece.node < 0:
             return STILL
-        return x - self._node(MOVING[one.phase], one.piece.node, "x")
+        return x - self._node(MOVING[interval.phase], interval.piece.node, "x")
 
     def _node(self, phase: int, number: int, what: str) -> Ref:
         return self.q[cam_ids.node(phase, number, what)]
 
     def _enter_nodes(self, phase: int, A: Floats, x: Floats) -> None:
-        """The graph of the acceleration, integrated from node to node."""
+        """Enter the graph of the acceleration, integrated from node to node."""
         q = self.q
         for i, (at, value) in enumerate(zip(x, A, strict=True)):
             here = q.give(cam_ids.node(phase, i, "x"), float(at))
@@ -319,11 +319,11 @@ class CamCalculation:
 
     @property
     def given_rho(self) -> float:
-        """The least radius of curvature that is asked for (m)."""
+        """Return the requested least radius of curvature (m)."""
         return self.of.designed.limits.rho
 
     def _touch(self, phase: str, touch: Touch) -> tuple[Ref, Ref]:
-        """Return the point where a limit line touches, as it is read off the diagram."""
+        """Enter the point where a limit line touches, as read off the diagram; return its coordinates."""
         q, number = self.q, MOVING[phase]
         names = ("s", "ds") if self.cam.translating else ("psi", "dpsi")
         q.give(cam_ids.touch(number, "phi"), touch.phi, exact=False)
@@ -370,11 +370,11 @@ class CamCalculation:
         q.define("cam.least.r0", formulas.base_radius(s0, e))
 
     def _oscillating(self) -> None:
-        """The lowest ψ₀ that each limit allows; the larger one counts."""
+        """Enter the lowest ψ₀ that each limit allows, and the larger one as the result."""
         q, least = self.q, self.of.designed.least
         assert least is not None
         a, arm = q["cam.a"], q["cam.l"]
-        found: dict[str, Expression] = {}
+        lowest_pivot: dict[str, Expression] = {}
         for phase, touch, side in (("rise", least.rise, self.σ), ("return", least.back, -self.σ)):
             if touch is None:
                 continue
@@ -382,6 +382,6 @@ class CamCalculation:
             limit = q[cam_ids.limit(phase)]
             aside = acos(formulas.cosine_aside(arm, factor(dψ, self.σ), limit, a))
             lowest = formulas.lowest_against if side > 0 else formulas.lowest_with
-            found[phase] = lowest(limit, aside, ψ)
-        ψ0 = q.define("cam.least.psi0", found[least.rule])
+            lowest_pivot[phase] = lowest(limit, aside, ψ)
+        ψ0 = q.define("cam.least.psi0", lowest_pivot[least.rule])
         q.define("cam.least.r0", formulas.base_radius_of_arm(a, arm, ψ0))

@@ -1,7 +1,7 @@
-"""Laws of motion, S(x) over x = φ/Φ from 0 to 1, and the motion over a turn that two of them and two dwells make.
+"""Laws of motion S(x), x = φ/Φ from 0 to 1, and the motion over a turn of two laws and two dwells (`FollowerMotion`).
 
-A law is written once, as formulas of a book; they evaluate over arrays, and the ledger prints them with its own
-symbols.  With s = h S the reduced velocity is s′ = ds/dφ = h V/Φ and the reduced acceleration s″ = h A/Φ².
+A law is written once, as textbook formulas; they evaluate over arrays, and the ledger prints them with its own symbols.
+With s = h S the reduced velocity is s′ = ds/dφ = h V/Φ and the reduced acceleration s″ = h A/Φ².
 """
 
 from __future__ import annotations
@@ -21,14 +21,14 @@ from reportgen.formula.evaluation import evaluate
 
 LawFormula = Callable[[Expression], Operand]
 NODE = 1e-12
-"""Places of a turn (rad), or of a law, that are no farther apart are one."""
+"""Places of a turn (rad), or of a law, that are no farther apart coincide."""
 JUMP = 1e-9
-"""A smaller jump of V or A is none."""
+"""A smaller jump of V or A is ignored."""
 
 
 @dataclass(frozen=True)
 class Piece:
-    """S, V and A as formulas of x, from x = `start` to `stop`; `node` is its number among those of a table."""
+    """S, V and A as formulas of x, from x = `start` to `stop`; `node` is the index of a table's node, otherwise −1."""
 
     start: float
     stop: float
@@ -40,14 +40,14 @@ class Piece:
 
 Pieces = tuple[Piece, ...]
 NodeQuantity = Callable[[str, int], Operand]
-"""A value of a node: A, V, S or J."""
+"""Name of a value of a node: A, V, S or J."""
 
 
 @dataclass(frozen=True)
 class AccelerationGraph:
-    """An acceleration given as a graph: ordinates `a` over `x` from 0 to 1, straight between; a repeated x is a jump.
+    """An acceleration graph: ordinates `a` [K] over `x` [K] from 0 to 1, linear in between; a repeated x is a jump.
 
-    Integrated twice it is scaled to end at S = 1: A = c·a with V and S at each node [K].
+    It is integrated twice and scaled to end at S = 1: A = c·a, with V and S at each node [K].
     """
 
     x: Floats
@@ -55,31 +55,36 @@ class AccelerationGraph:
 
     @cached_property
     def nodes(self) -> tuple[Floats, Floats, Floats]:
-        """A, V and S at the nodes [nodes], ratios of no dimension."""
+        """Return A, V and S at the nodes, each [K], dimensionless."""
         V, S = _integrated(self.x, self.a)
         return self.a / S[-1], V / S[-1], S / S[-1]
 
     @property
-    def way(self) -> float:
-        """Displacement of the graph, a ratio; negative if it is backwards."""
+    def displacement(self) -> float:
+        """Return the displacement of the unscaled graph, dimensionless; negative if it is backwards."""
         return float(_integrated(self.x, self.a)[1][-1])
 
     @property
     def areas(self) -> tuple[float, float]:
-        """Areas above and below the axis (no dimension), which must be equal: the follower comes to rest."""
+        """Return the areas above and below the axis, dimensionless; they must be equal for the follower to come to
+        rest.
+        """
         parts = _areas(self.x, self.a)
         return float(parts[parts > 0].sum()), float(-parts[parts < 0].sum())
 
     @property
     def slopes(self) -> Floats:
-        """Slopes of A from each node [nodes − 1] to the next; 0 where it jumps."""
+        """Return the slopes of A from each node to the next [K − 1]; 0 where it jumps."""
         Δ = np.diff(self.x)
         return np.divide(np.diff(self.nodes[0]), Δ, out=np.zeros(Δ.size), where=Δ > NODE)
 
     def pieces(
         self, named: NodeQuantity | None = None, beyond: Callable[[Expression, int], Expression] | None = None
     ) -> Pieces:
-        """A cubic S between each two nodes; `named` are values at nodes as the ledger calls them, `beyond` x − xᵢ."""
+        """Return a cubic S between each two nodes.
+
+        `named` gives the values at nodes as the ledger names them, `beyond` the distance x − xᵢ.
+        """
         A, V, S = self.nodes
         values = {"A": A, "V": V, "S": S, "J": self.slopes}
         at = named or (lambda what, i: float(values[what][i]))
@@ -92,13 +97,13 @@ class AccelerationGraph:
 
 
 def _crossing(start: tuple[float, float], end: tuple[float, float]) -> Floats:
-    """Return the place where a straight piece of a graph crosses the axis."""
+    """Return the place where a straight piece of a graph crosses the axis, as an array of at most one value."""
     (x0, a0), (x1, a1) = start, end
     return np.array([x0 + (x1 - x0) * a0 / (a0 - a1)] if a0 * a1 < 0 and x1 > x0 else [])
 
 
 def _areas(x: Floats, a: Floats) -> Floats:
-    """Areas below a graph with jumps, each straight piece split where it crosses the axis."""
+    """Return the areas below a graph with jumps; each straight piece is split where it crosses the axis."""
     parts: list[float] = []
     for start, end in pairwise(zip(x, a, strict=True)):
         corners = [start, *((float(at), 0.0) for at in _crossing(start, end)), end]
@@ -107,7 +112,9 @@ def _areas(x: Floats, a: Floats) -> Floats:
 
 
 def _integrated(x: Floats, a: Floats) -> tuple[Floats, Floats]:
-    """V and S at the nodes of a graph of A: V grows by (A₁ + A₂)Δ/2 from each to the next, S by VΔ + (2A₁ + A₂)Δ²/6."""
+    """Return V and S [K] at the nodes of a graph of A: V grows by (A₁ + A₂)Δ/2 to the next node, S by VΔ + (2A₁ +
+    A₂)Δ²/6.
+    """
     Δ = np.diff(x)
     V = np.concatenate(([0.0], np.cumsum((a[1:] + a[:-1]) * Δ / 2)))
     return V, np.concatenate(([0.0], np.cumsum(V[:-1] * Δ + (2 * a[:-1] + a[1:]) * Δ**2 / 6)))
@@ -116,7 +123,7 @@ def _integrated(x: Floats, a: Floats) -> tuple[Floats, Floats]:
 def _cubic(
     i: int, start: float, stop: float, at: NodeQuantity, beyond: Callable[[Expression, int], Expression]
 ) -> Piece:
-    """The piece behind node i: with z = x − xᵢ it is A = Aᵢ + Jᵢz, and V and S are its integrals."""
+    """Return the piece behind node i: with z = x − xᵢ it is A = Aᵢ + Jᵢz, and V and S are its integrals."""
 
     def S(x: Expression) -> Operand:
         z = beyond(x, i)
@@ -177,7 +184,7 @@ LAWS = (*SMOOTH, "trapezoidal")
 
 @dataclass(frozen=True)
 class FollowerLaw:
-    """A law by its name, or the table that it is; `pieces` follow one another from 0 to 1."""
+    """A law by its name, or by its acceleration table; its `pieces` follow one another from 0 to 1."""
 
     name: str
     table: AccelerationGraph | None = None
@@ -187,7 +194,7 @@ class FollowerLaw:
         return self.table.pieces() if self.table is not None else SMOOTH[self.name]
 
     def __call__(self, x: Floats) -> tuple[Floats, Floats, Floats]:
-        """S, V and A over x [N]; at a corner those behind it."""
+        """Return S, V and A over x [N], dimensionless; at a corner the values behind it."""
         SVA = np.empty((3, x.size))
         stops = [piece.stop for piece in self.pieces[:-1]]
         inside = np.searchsorted(stops, x, side="right")
@@ -198,13 +205,16 @@ class FollowerLaw:
 
 
 def evaluated(of: LawFormula, x: Floats) -> Floats:
-    """The values of a formula, of no dimension, over x [N]."""
+    """Return the values of a formula over x [N], dimensionless."""
     formula = of(Ref("x"))
     return np.broadcast_to(formula if isinstance(formula, float) else evaluate(formula, {"x": x}), x.shape)
 
 
 def law(name: str) -> FollowerLaw:
-    """A law of `LAWS`; raises `KeyError` for any other."""
+    """Return a law of `LAWS`.
+
+    Raises `KeyError` for any other name.
+    """
     if name not in LAWS:
         raise KeyError(name)
     return FollowerLaw(name, TRAPEZIUM if name == "trapezoidal" else None)
@@ -217,28 +227,30 @@ PHASES = ("rise", "far", "return", "near")
 
 @dataclass(frozen=True)
 class LawInterval:
-    """A piece of a turn (rad): of a phase, moving by a `piece` of its law, or none in a dwell."""
+    """A piece of a turn (rad) in a phase, moving by a `piece` of its law; None in a dwell."""
 
     phase: str
     start: float
     stop: float
     begin: float
     angle: float
-    """Beginning and length of its phase."""
+    """Beginning and length of its phase (rad)."""
     piece: Piece | None
 
     def x(self, φ: Floats) -> Floats:
-        """The share of its phase that angles [N] (rad) lie behind its beginning."""
+        """Return the share x of its phase at angles [N] (rad)."""
         return (φ - self.begin) / self.angle
 
     @cached_property
     def own(self) -> tuple[Expression, ...]:
-        """s, s′ and s″ by x, Φ (rad) and h (SI)."""
+        """Return s, s′ and s″ by x, Φ (rad) and h (SI)."""
         x, Φ, h = Ref("x"), Ref("Φ"), Ref("h")
         return tuple(map(as_expression, self.formulas(x, Φ, h, h)))
 
     def formulas(self, x: Expression, Φ: Operand, h: Expression, of_rates: Expression) -> tuple[Operand, ...]:
-        """s, s′ and s″ by a stroke, a phase angle (rad) and x as they are called; rates by the stroke as an arc."""
+        """Return s, s′ and s″ by the names of stroke, phase angle (rad) and x; rates use the stroke as an arc,
+        `of_rates`.
+        """
         match self.phase, self.piece:
             case "rise", Piece(S=S, V=V, A=A):
                 return _scaled(h, S(x)), _scaled(of_rates / Φ, V(x)), _scaled(of_rates / Φ**2, A(x))
@@ -250,7 +262,7 @@ class LawInterval:
 
 
 def _scaled(rate: Expression, by: Operand) -> Operand:
-    """A rate times a factor, as a person writes it where that is a plain number."""
+    """Return a rate times a factor, with a numeric factor written in front."""
     if not isinstance(by, float):
         return rate * by
     if by < 0:
@@ -264,7 +276,7 @@ def _numbered(by: float, rate: Expression) -> Expression:
 
 @dataclass(frozen=True)
 class Impact:
-    """A jump of velocity (rigid) or of acceleration (soft) at an angle of the cam, by its size in s′ or s″."""
+    """A jump of velocity (rigid) or acceleration (soft) at a cam angle (rad), with its size in s′ or s″."""
 
     kind: str
     angle: float
@@ -282,7 +294,7 @@ class FollowerMotion:
 
     @cached_property
     def starts(self) -> dict[str, float]:
-        """Beginnings of the phases (rad)."""
+        """Return the beginnings of the phases (rad)."""
         return dict(zip(PHASES, np.concatenate(([0.0], np.cumsum(self.phases[:3]))).tolist(), strict=True))
 
     @cached_property
@@ -299,7 +311,7 @@ class FollowerMotion:
                 yield LawInterval(phase, begin + start * angle, begin + stop * angle, begin, angle, piece)
 
     def of(self, φ: Floats) -> NDArray[np.intp]:
-        """The number of the interval that each angle [N] lies in; the ends of a moving phase belong to it."""
+        """Return the index of the interval of each angle [N] (rad); the ends of a moving phase belong to it."""
         φ = np.mod(φ, 2 * math.pi)
         starts = np.array([one.start for one in self.intervals])
         number = np.searchsorted(starts - NODE, φ, side="right") - 1
@@ -312,9 +324,9 @@ class FollowerMotion:
     def __call__(
         self, φ: Floats, of: NDArray[np.intp] | None = None, derivatives: int = 2
     ) -> tuple[Floats, Floats, Floats]:
-        """s, s′ and s″ over angles [N] of the cam; `of` says in which interval each is taken to be.
+        """Return s, s′ and s″ (m or rad) over cam angles [N] (rad); `of` [N] forces the interval of each.
 
-        What is beyond so many `derivatives` is left 0.
+        Beyond the number of `derivatives`, the results are 0.
         """
         numbers = self.of(φ) if of is None else of
         turned = φ if of is not None else np.mod(φ, 2 * math.pi)
@@ -329,7 +341,7 @@ class FollowerMotion:
 
     @cached_property
     def impacts(self) -> tuple[Impact, ...]:
-        """Places where the velocity or the acceleration jumps."""
+        """Return the places where the velocity or the acceleration jumps."""
         impacts = []
         numbers = np.arange(len(self.intervals))
         stops = np.array([one.stop for one in self.intervals])

@@ -1,10 +1,10 @@
 """The profile of a cam by inversion: pitch and working curves, normals, pressure angle, curvature, undercut.
 
-The plane is complex.  F(φ) is the follower's point (centre of the roller, edge of the knife, point of contact of a
-flat face) in the fixed frame of a cam that turns anticlockwise about 0; in the cam's own frame it is F e^(−iφ).  With
-dots for d/dφ the tangent there is (Ḟ − iF) e^(−iφ), so that N = F + iḞ is the outward normal in the fixed frame.  With
-the way t in which the follower lifts, F + iḞ = F + it dS/dφ for a lift S, so that the pressure angle α = arg(N/t) grows
-with the speed of the lift in either sense of an arm.  The profile of a cam that turns clockwise is the mirror image.
+The plane is complex.  F(φ) is the follower's point (centre of the roller, edge of the knife, point of contact of a flat
+face) in the fixed frame of a cam that turns anticlockwise about 0; in the cam's own frame it is F e^(−iφ).  With dots
+for d/dφ the tangent there is (Ḟ − iF) e^(−iφ), so that N = F + iḞ is the outward normal in the fixed frame. If the
+follower lifts in the direction t, F + iḞ = F + it dS/dφ for a lift S, so that the pressure angle α = arg(N/t) grows
+with the speed of the lift in either sense of an arm.  The profile of a clockwise cam is the mirror image.
 """
 
 from __future__ import annotations
@@ -50,17 +50,17 @@ class Cam:
 
     @cached_property
     def kind(self) -> CamKind:
-        """Kind of the cam, which selects its formulas."""
+        """Return the kind of the cam, which selects its formulas."""
         return CamKind(self.translating, self.flat, bool(self.e), bool(self.roller), self.opposite, self.turn)
 
     @property
     def lengths(self) -> Mapping[str, float]:
-        """Its lengths (m) by their ids."""
+        """Return its lengths (m) by their ids."""
         return {"cam.e": self.e, "cam.a": self.a, "cam.l": self.arm, "cam.r0": self.r0, "cam.roller": self.roller}
 
     @cached_property
     def sheet(self) -> Calculation:
-        """Its formulas, by which it is traced: those of the report, at one angle."""
+        """Return the formulas of the report at one angle, which trace the cam."""
         q = Calculation()
         enter_lengths(q, self.kind, self.lengths)
         for id in ("cam.phi", *self.kind.moved):
@@ -72,45 +72,46 @@ class Cam:
 
     @property
     def s0(self) -> float:
-        """s₀, the height of the lowest position of a translating follower with a tip (m)."""
+        """Return s₀ (m), the height of the lowest position of a translating follower with a tip."""
         return self.sheet.si("cam.s0")
 
     @property
     def psi0(self) -> float:
-        """ψ₀ of arm or face and line of centres at the start (rad)."""
+        """Return ψ₀ (rad), the angle between arm or face and line of centres at the start."""
         return self.sheet.si("cam.psi0")
 
     def profile_at(self, φ: Floats, of: Numbers | None = None) -> CamProfile:
-        """The cam at angles [N]; `of` says in which interval of the motion each is taken to be."""
+        """Return the cam at angles [N] (rad); `of` [N] forces the interval of the motion at each."""
         return CamProfile(self, φ, *self.motion(φ, of))
 
     def lifting(self, s: Floats) -> Complexes:
-        """The way in which the follower lifts [N], of length 1 in the fixed frame of a cam that turns anticlockwise."""
+        """Return the unit direction [N] in which the follower lifts, in the fixed frame of an anticlockwise cam."""
         if self.translating:
             return np.full(s.shape, 1j)
         lifting: Complexes = 1j * np.exp(-1j * self.opposite * (self.psi0 + s))
         return lifting
 
     def mirrored(self, points: Complexes) -> Complexes:
-        """Points [N] of a cam that turns anticlockwise as they are at one that turns as this does, in their unit."""
+        """Return points [N] of an anticlockwise cam, mirrored if this cam turns clockwise."""
         return points if self.turn > 0 else -points.conj()
 
     # --- curves
 
     def sampled(self, count: int = 720) -> CamProfile:
-        """A whole turn, both sides of each corner of the motion: evenly spaced within each interval."""
+        """Return a whole turn with both sides of each corner of the motion, in equal steps within each interval."""
         angles, numbers = [], []
         for number, interval in enumerate(self.motion.intervals):
-            # Whole degrees make whole steps, whatever rounding has left of them.
+            # Whole degrees make whole steps, whatever rounding errors remain.
             steps = max(math.ceil(count * (interval.stop - interval.start) / (2 * math.pi) - 1e-6), 8)
             angles.append(np.linspace(interval.start, interval.stop, steps + 1))
             numbers.append(np.full(steps + 1, number))
         return self.profile_at(np.concatenate(angles), np.concatenate(numbers))
 
     def outline(self, count: int = 720, side: int = -1) -> Complexes:
-        """The closed profile that is cut [N], no point twice; with `side` +1 the outer flank of the roller's groove.
+        """Return the closed profile that is cut (m) [N], without repeated points; `side` +1 is the outer flank of the
+        roller's groove.
 
-        Corners that a rigid impact leaves are rounded.
+        Corners left by a rigid impact are rounded.
         """
         profile = self.sampled(count)
         points = profile.pitch + side * self.roller * profile.normal
@@ -120,7 +121,7 @@ class Cam:
         return points[apart > NODE * self.r0]
 
     def _with_arcs(self, profile: CamProfile, points: Complexes, side: int) -> Iterator[Complexes]:
-        """The points with an arc about the roller's centre wherever its normal turns at once."""
+        """Yield the points (m) with an arc about the roller's centre wherever its normal jumps."""
         last = 0
         following = np.roll(profile.normal, -1)
         turned = np.angle(following / profile.normal)
@@ -135,7 +136,7 @@ class Cam:
 
     @cached_property
     def undercut(self) -> tuple[float, ...]:
-        """Angles of the cam (rad) where the working profile has a cusp or is cut away, the worst of each interval."""
+        """Return cam angles (rad) where the working profile has a cusp or is cut away, the worst of each interval."""
         if not (self.flat or self.roller):
             return ()
         angles = []
@@ -143,7 +144,7 @@ class Cam:
             φ, least = self.worst(number, lambda cam: -cam.effective)
             if -least <= 0:
                 angles.append(φ)
-        # Where a uniform law stops at once a convex corner is left.
+        # A convex corner remains where a uniform law stops abruptly.
         angles += [impact.angle for impact in self.motion.impacts if impact.kind == "rigid" and impact.jump < 0]
         return tuple(sorted(set(angles)))
 
@@ -159,9 +160,9 @@ class Cam:
 
 @dataclass(frozen=True)
 class CamProfile:
-    """A cam over angles φ [N] with the follower's motion there; all else [N] is worked out when it is first asked for.
+    """A cam over angles φ [N] (rad) with the follower's motion there; other arrays [N] are computed on first use.
 
-    Points and normals are in the cam's frame, but for `at`.
+    Points and normals are in the cam's frame, except `at`.
     """
 
     cam: Cam
@@ -171,30 +172,32 @@ class CamProfile:
     dds: Floats
 
     def _of(self, *wanted: str) -> list[Floats]:
-        """Some quantities of the cam's sheet, by their ids."""
+        """Return quantities [N] (SI) of the cam's calculation, by their ids."""
         motion = zip(self.cam.kind.moved, (self.s, self.ds, self.dds), strict=True)
         evaluated = model(self.cam.sheet, wanted, **{"cam.phi": self.φ, **dict(motion)})
         return [np.broadcast_to(evaluated[id], self.φ.shape) for id in wanted]
 
     @cached_property
     def alpha(self) -> Floats:
-        """The pressure angle (rad); none under a flat face."""
+        """Return the pressure angle (rad) [N]; 0 under a flat face."""
         return np.zeros(self.φ.shape) if self.cam.flat else self._of("cam.alpha")[0]
 
     @cached_property
     def rho(self) -> Floats:
-        """The radius of curvature (m) of the pitch curve, or of the profile of a face, positive where convex."""
+        """Return the radius of curvature (m) [N] of the pitch curve, or of the profile of a face, positive where
+        convex.
+        """
         return self._of("cam.rho")[0]
 
     @cached_property
     def pitch(self) -> Complexes:
-        """The follower's point (m)."""
+        """Return the follower's point (m) [N]."""
         x, y = self._of(*map(cam_ids.profile if self.cam.flat else cam_ids.pitch, "xy"))
         return x + 1j * y
 
     @cached_property
     def working(self) -> Complexes:
-        """The point of the profile (m)."""
+        """Return the point of the profile (m) [N]."""
         if not self.cam.roller:
             return self.pitch
         x, y = self._of(*map(cam_ids.profile, "xy"))
@@ -202,9 +205,9 @@ class CamProfile:
 
     @property
     def effective(self) -> Floats:
-        """The radius of curvature (m) by which undercut is judged: ρ − r_T where the pitch curve is convex.
+        """Return the radius of curvature (m) [N] that decides on undercut: ρ − r_T where the pitch curve is convex.
 
-        Where it is concave the working one has a larger radius, and nothing is cut away.
+        Where it is concave, the working curve has a larger radius and nothing is cut away.
         """
         if self.cam.flat:
             return self.rho
@@ -212,22 +215,24 @@ class CamProfile:
 
     @cached_property
     def at(self) -> Complexes:
-        """The follower's point in the fixed frame (m)."""
+        """Return the follower's point in the fixed frame (m) [N]."""
         turned: Complexes = np.exp(1j * self.cam.turn * self.φ)
         return self.pitch * turned
 
     @cached_property
     def normal(self) -> Complexes:
-        """The outward normal [N], of length 1: the way in which the follower lifts, turned by the pressure angle."""
+        """Return the outward unit normal [N]: the direction of the lift, turned by the pressure angle."""
         return self.cam.mirrored(self.cam.lifting(self.s) * np.exp(1j * (self.alpha - self.φ)))
 
 
 FLAT = 1e-6
-"""Neighbouring values that differ by less than this share of the greatest show where it is by their bend alone."""
+"""Neighbouring values that differ by less than this share of the greatest locate the maximum only by their
+curvature.
+"""
 
 
 def greatest(of: Callable[[Floats], Floats], low: float, high: float) -> tuple[float, float]:
-    """Return the place in an interval where a function is greatest, and its value in its unit: sampled, then refined.
+    """Return the place in an interval where a function is greatest, and its value: sampled, then refined.
 
     Values that are nearly equal no longer locate the maximum: then the parabola through three of them does.
     """
@@ -244,7 +249,9 @@ def greatest(of: Callable[[Floats], Floats], low: float, high: float) -> tuple[f
 
 
 def _vertex(x: Floats, y: Floats, best: int) -> tuple[float, float]:
-    """The place and the value of the top of the parabola through three even samples, else the best of them."""
+    """Return the top of the parabola through three equally spaced samples, otherwise the best sample: place
+    and value.
+    """
     if len(x) < 3:
         return float(x[best]), float(y[best])
     bend, slope = y[0] - 2 * y[1] + y[2], (y[2] - y[0]) / 2

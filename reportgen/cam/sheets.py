@@ -1,7 +1,6 @@
-"""Drawing sheets of a cam: motion, S–S′ diagram, pressure angle and profile on one, the profile in true size on
-another.
+"""Drawing sheets of a cam: one with motion, S–S′ diagram, pressure angle and construction, one with the profile 1:1.
 
-The second sheet has only the profile 1:1 on separate layers, as a machine that cuts it needs it.
+The second sheet has only the profile on separate layers, as a cutting machine needs it.
 """
 
 from __future__ import annotations
@@ -28,14 +27,14 @@ from reportgen.sheets.plates import on_sheet
 CHORD = 1e-6
 """Largest distance of the profile's polyline from the curve (m)."""
 MARGIN = 15.0
-"""White around the profile that is cut (mm)."""
+"""Margin around the profile that is cut (mm)."""
 AREAS = ((90.0, 45.0), (144.0, 64.0), (180.0, 80.0))
 """Areas of the curve of the pressure angle (mm), the smallest first."""
 AXES = Pen(0.18, "#6b6b6b", (5.0, 1.0, 0.8, 1.0))
 
 
 def plates(case: SolvedCam) -> Iterator[DrawingPlate]:
-    """Diagrams of the motion, of the limits and of the pressure angle, the construction of the profile, the cam."""
+    """Yield diagrams of the motion, the limits and the pressure angle, the construction of the profile, and the cam."""
     design = case.solution.designed
 
     def pressure(case: SolvedCam, size: FigureSize) -> Scene:
@@ -59,7 +58,7 @@ def plates(case: SolvedCam) -> Iterator[DrawingPlate]:
 def _plate(
     case: SolvedCam, name: str, layer: str, draw: Callable[[SolvedCam, FigureSize], Scene], steps: int
 ) -> DrawingPlate:
-    """A figure as sheets show it, by so many standard scales larger than the report; its name is the caption there."""
+    """Return a figure for a sheet, up to `steps` standard scales larger than in the report; its name is its caption."""
     scene = lettered(draw(case, on_sheet(case, steps)))
     return DrawingPlate(str(case.words["cam"]["captions"][f"figure-{name}"]), (), layer, (scene,))
 
@@ -68,7 +67,7 @@ def _plate(
 
 
 def contour(cam: Cam) -> np.ndarray:
-    """The profile (m) as corners of a closed polyline that lies within `CHORD` of it: an arc's sagitta is s²/8ρ."""
+    """Return the profile (m) [N] as corners of a closed polyline within `CHORD` of it: an arc's sagitta is s²/8ρ."""
     count = 720
     points = cam.outline(count)
     while _sagitta(points) > CHORD and count < 50_000:
@@ -78,16 +77,18 @@ def contour(cam: Cam) -> np.ndarray:
 
 
 def _sagitta(points: np.ndarray) -> float:
-    """Return the largest distance of the curve from its chords, by the turning at each corner."""
+    """Return the largest distance of the curve from its chords, from the turning at each corner, in the unit of the
+    points.
+    """
     chords = np.diff(np.append(points, points[0]))
     turned = np.abs(np.angle(np.roll(chords, -1) / chords))
-    # Corners that are meant turn by much.
+    # Intended corners turn by a large angle.
     smooth = turned < 0.1
     return float((np.abs(chords) * np.tan(turned / 4) / 2)[smooth].max(initial=0.0))
 
 
 def true_size(cam: Cam) -> DrawingSheet:
-    """The profile 1:1 with its axes, on paper as large as it needs."""
+    """Return the profile 1:1 with its axes, on paper as large as it needs."""
     points = contour(cam) * MM
     low = complex(points.real.min(), points.imag.min()) - MARGIN * (1 + 1j)
     high = complex(points.real.max(), points.imag.max()) + MARGIN * (1 + 1j)

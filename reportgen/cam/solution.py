@@ -1,4 +1,4 @@
-"""Cam with its words and its numbers: the source of its drawings and texts."""
+"""`SolvedCam`: a cam with its words and its numbers, the source of its drawings and texts."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from reportgen.formula.calculation import Calculation
 
 @dataclass(frozen=True)
 class SolvedCam(DesignCase):
-    """An assignment of a cam with its ledger; each part is computed when it is first asked for."""
+    """An assignment of a cam with its ledger; each value is computed on first use."""
 
     @cached_property
     def solution(self) -> CamSolution:
@@ -28,12 +28,14 @@ class SolvedCam(DesignCase):
 
     @property
     def speed(self) -> float | None:
-        """The cam's speed (rad/s), None where there is none."""
+        """Return the cam's speed (rad/s); None if it is not given."""
         return self.ledger["cam.omega"].at(1) if "cam.omega" in self.ledger else None
 
     @property
     def worked(self) -> tuple[int, ...]:
-        """The positions written out in full: one amid the rise and one amid the return, unless others are named."""
+        """Return the positions worked out in full: one within the rise and one within the return, unless the file names
+        others.
+        """
         report, count = self.assignment.report, self.count
         if report.worked_positions is None:
             return tuple(range(1, count + 1))
@@ -41,6 +43,6 @@ class SolvedCam(DesignCase):
             return tuple(one for one in map(int, report.worked_positions) if one <= count)
         starts, φ = self.solution.motion.starts, self.solution.φ
         phases = self.solution.motion.phases
-        # Well beside the middle, where most laws have no acceleration.
+        # Away from the middle, where most laws have no acceleration.
         wanted = (0.3 * phases[0], starts["return"] + 0.3 * phases[2])
         return tuple(dict.fromkeys(int(np.abs(φ - at).argmin()) + 1 for at in wanted))

@@ -1,4 +1,4 @@
-"""Views of a cam for its report and its task: names for templates, tables, worked lines, figures."""
+"""`CamPage`: names for the templates of a cam's report and task: tables, worked lines, figures."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ NODES = (16.0, 22.0, 28.0, 28.0, 28.0, 28.0)
 @view()
 @dataclass(frozen=True)
 class LawView:
-    """The law of a phase: its words' key, and its formulas piece by piece with the angles between which they hold."""
+    """The law of a phase: the key of its phrase, and its formulas piece by piece with their ranges of angles."""
 
     phase: str
     equation: Equation
@@ -56,7 +56,7 @@ class ImpactView:
 
 @dataclass(frozen=True)
 class RequirementView:
-    """A requirement by its words' key: what is wanted at most or at least, what there is, and whether it holds."""
+    """A requirement: the key of its phrase, the limit with its sign, the actual value, and whether it holds."""
 
     key: str
     sign: str
@@ -67,7 +67,7 @@ class RequirementView:
 
 @dataclass(frozen=True)
 class CamPage(DesignPage[SolvedCam]):
-    """A cam as templates name it."""
+    """A cam as templates read it."""
 
     NAME, TASK, SUMMARY = "cam", "cam-task", "cam-summary"
     SECTIONS = (
@@ -89,13 +89,13 @@ class CamPage(DesignPage[SolvedCam]):
 
     def names(self) -> dict[str, Any]:
         case, cam, given = self.case, self.case.solution.cam, self.case.solution.given
-        found = case.solution.designed
+        designed = case.solution.designed
         exceeded, undercut = self.exceeded, self.undercut
         all_hold = all(one.holds for one in self.required)
         return {
             "words": case.words,
             "full": self.full,
-            # what kind of cam it is
+            # kind of the cam
             "translating": cam.translating,
             "flat": cam.flat,
             "roller": bool(cam.roller),
@@ -108,20 +108,20 @@ class CamPage(DesignPage[SolvedCam]):
             "lifts": self.lifts,
             "clockwise": cam.turn < 0,
             "with_speed": given.n is not None,
-            # what is sought, within what limits
+            # requested values and limits
             "finds": given.finds,
             "several": len(given.finds) > 1,
             "finds_e": given.seeks("e"),
             "finds_roller": given.seeks("roller"),
             "found": listed(InlineMath(case.ledger.symbol(_id(key))) for key in given.finds),
             "chosen": tuple(map(_id, given.finds)),
-            "has_limits": found.limits.rise is not None,
-            "limited": found.limits.rise is not None and not cam.flat,
-            "both_limits": found.limits.back is not None,
-            "usual": found.usual,
-            "least": found.least is not None,
+            "has_limits": designed.limits.rise is not None,
+            "limited": designed.limits.rise is not None and not cam.flat,
+            "both_limits": designed.limits.back is not None,
+            "usual": designed.usual,
+            "least": designed.least is not None,
             "apex": "cam.apex.s0" in case.ledger,
-            "apex_is_least": found.least is not None and found.least.rule == "apex",
+            "apex_is_least": designed.least is not None and designed.least.rule == "apex",
             "deciding": self.deciding,
             # laws, positions, tables
             "laws": self.laws,
@@ -133,7 +133,7 @@ class CamPage(DesignPage[SolvedCam]):
             "data": self.data,
             "motion_table": self.motion_table,
             "profile_table": self.profile_table,
-            # what is judged
+            # checks
             "checks": self.checks,
             "extremes": self.judged,
             "exceeded": exceeded,
@@ -153,7 +153,7 @@ class CamPage(DesignPage[SolvedCam]):
 
     @property
     def deciding(self) -> Mapping[str, str]:
-        """The limit line that decides: its phase in words, and the ids of what is read where it touches."""
+        """Return the deciding limit line: its phase in words, and the ids of the values read where it touches."""
         least = self.case.solution.designed.least
         if least is None:
             return {}
@@ -161,11 +161,11 @@ class CamPage(DesignPage[SolvedCam]):
         read = {name: cam_ids.touch(MOVING[rule], name) for name in ("phi", "psi", "dpsi")}
         return {"phase": str(self.words["phases"][rule]), **read}
 
-    # --- what is given
+    # --- data
 
     @property
     def data(self) -> Table:
-        """The data with their names, symbols and values; what was found is left out."""
+        """Return the table of data with names, symbols and values, without values that were found."""
         case, finds = self.case, self.case.solution.given.finds
         hidden = {_id(key) for key in finds}
         if case.solution.designed.usual:
@@ -179,7 +179,7 @@ class CamPage(DesignPage[SolvedCam]):
         return self.data_table(rows)
 
     def _said(self, key: str) -> tuple[str, str] | None:
-        """A choice of the file in words."""
+        """Return a choice of the file in words; None if it is not printed."""
         given = self.case.solution.given
         if key == "lifts" and given.translating:
             return None
@@ -208,31 +208,31 @@ class CamPage(DesignPage[SolvedCam]):
         )
 
     def _formulas(self, phase: str, law: FollowerLaw) -> Equation:
-        """s, s′ and s″ by x, piece by piece; of a graph one piece by the numbers of its nodes."""
+        """Return s, s′ and s″ by x, piece by piece; for a graph one piece with the indices of its nodes."""
         ledger, names = self.case.printed, self.case.solution.moved
         rows: list[Expression] = []
-        intervals = [one for one in self.case.solution.motion.intervals if one.phase == phase]
-        numbers = [n for n, one in enumerate(self.case.solution.motion.intervals) if one.phase == phase]
-        for n, one in zip(numbers, intervals, strict=True):
-            note = self._between(one.piece) if len(intervals) > 1 and law.table is None else ""
+        intervals = [interval for interval in self.case.solution.motion.intervals if interval.phase == phase]
+        numbers = [n for n, interval in enumerate(self.case.solution.motion.intervals) if interval.phase == phase]
+        for n, interval in zip(numbers, intervals, strict=True):
+            note = self._between(interval.piece) if len(intervals) > 1 and law.table is None else ""
             for id in names:
                 definition = self.case.ledger[id].definition
                 assert isinstance(definition, Call)
                 branch = definition.arguments[1 + n]
-                shown = substitute(branch, lambda ref: ledger.symbol(ref.id))
-                rows.append(Chain((ledger.symbol(id), shown), note if id == names[0] else ""))
+                formula = substitute(branch, lambda ref: ledger.symbol(ref.id))
+                rows.append(Chain((ledger.symbol(id), formula), note if id == names[0] else ""))
             if law.table is not None and len(intervals) > 2:
                 break
         return Equation(tuple(rows))
 
     def _between(self, piece: Piece | None) -> str:
-        """For which x a piece holds."""
+        """Return the range of x in which a piece holds."""
         assert piece is not None
         low, high = (formula(Number(one), self.case.assignment.language) for one in (piece.start, piece.stop))
         return f"{low} ≤ x ≤ {high}"
 
     def _nodes(self, phase: str, law: FollowerLaw) -> tuple[Table, ...]:
-        """The graph of an acceleration, integrated twice at its nodes."""
+        """Return the table of an acceleration graph, integrated twice at its nodes."""
         if law.table is None:
             return ()
         number = MOVING[phase]
@@ -252,13 +252,13 @@ class CamPage(DesignPage[SolvedCam]):
 
     @property
     def impacts(self) -> tuple[ImpactView, ...]:
-        """The kinds of impact with the angles at which they are."""
-        found: dict[str, list[float]] = {}
-        for one in self.case.solution.motion.impacts:
-            found.setdefault(one.kind, []).append(math.degrees(one.angle))
+        """Return the kinds of impact with their angles."""
+        angles_by_kind: dict[str, list[float]] = {}
+        for impact in self.case.solution.motion.impacts:
+            angles_by_kind.setdefault(impact.kind, []).append(math.degrees(impact.angle))
         return tuple(
             ImpactView(kind == "rigid", listed(Value(Number(float(f"{angle:.6g}"), None, "°")) for angle in angles))
-            for kind, angles in found.items()
+            for kind, angles in angles_by_kind.items()
         )
 
     # --- tables of the positions
@@ -271,12 +271,12 @@ class CamPage(DesignPage[SolvedCam]):
     @property
     def profile_table(self) -> Table:
         lines = self.case.printed.lines
-        shown = ("cam.contact", "cam.alpha", *lines["points"], "cam.rho", "cam.rho.working")
+        columns = ("cam.contact", "cam.alpha", *lines["points"], "cam.rho", "cam.rho.working")
         name = "profile_flat" if self.case.solution.cam.flat else "profile"
-        return self._positions(name, ("cam.phi", *self.case.printed.known(shown)))
+        return self._positions(name, ("cam.phi", *self.case.printed.known(columns)))
 
     def _positions(self, name: str, quantities: Sequence[str]) -> Table:
-        """Quantities over the positions, a row each."""
+        """Return the table of quantities over the positions, a row for each position."""
         ledger, words = self.case.printed, self.case.words["table"]
         units = [ledger.units.get(ledger[id].how.unit, ledger[id].how.unit) for id in quantities]
         heads = (
@@ -310,12 +310,12 @@ class CamPage(DesignPage[SolvedCam]):
 
     @cached_property
     def required(self) -> tuple[RequirementView, ...]:
-        """Requirements with the actual values, and whether they are met."""
+        """Return the requirements with the actual values, and whether they are met."""
         return tuple(self._required())
 
     def _required(self) -> Iterator[RequirementView]:
-        found, seen = self.case.solution.designed, self.judged
-        cam, limits, mm = found.cam, found.limits, self.case.ledger.printed_unit("mm")
+        designed, seen = self.case.solution.designed, self.judged
+        cam, limits, mm = designed.cam, designed.limits, self.case.ledger.printed_unit("mm")
         for phase, limit, extreme in (("rise", limits.rise, seen.rise), ("return", limits.back, seen.back)):
             if limit is not None and not cam.flat:
                 size = Number(math.degrees(extreme[1]), ANGLE, "°")
@@ -333,15 +333,15 @@ class CamPage(DesignPage[SolvedCam]):
         words = self.words["checks"]
         rows = [
             (
-                Cell((Text(str(words[one.key])),)),
-                Cell((Text(one.sign), Value(one.wanted))),
-                Cell((Value(one.actual),)),
-                Cell((Text(str(words["yes" if one.holds else "no"])),)),
+                Cell((Text(str(words[requirement.key])),)),
+                Cell((Text(requirement.sign), Value(requirement.wanted))),
+                Cell((Value(requirement.actual),)),
+                Cell((Text(str(words["yes" if requirement.holds else "no"])),)),
             )
-            for one in self.required
+            for requirement in self.required
         ]
-        head = tuple(Cell((Text(str(one)),)) for one in words["head"])
-        widths = (Column(CHECKS[0], "left"), *(Column(one) for one in CHECKS[1:]))
+        head = tuple(Cell((Text(str(requirement)),)) for requirement in words["head"])
+        widths = (Column(CHECKS[0], "left"), *(Column(requirement) for requirement in CHECKS[1:]))
         return Table(widths, (head,), tuple(rows), self.caption("checks"), "tab.checks")
 
     # --- figures
@@ -365,5 +365,5 @@ class CamPage(DesignPage[SolvedCam]):
 
 
 def _id(key: str) -> str:
-    """The id of a length that may be sought."""
+    """Return the id of a length that may be found."""
     return {"r0": "cam.r0", "e": "cam.e", "a": "cam.a", "roller": "cam.roller"}[key]

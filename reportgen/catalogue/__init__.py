@@ -93,7 +93,7 @@ def assess(source: Source, path: Path) -> tuple[Assignment | None, list[Fault]]:
 
 
 def understood(source: Source, path: Path) -> tuple[Assignment | None, list[Fault]]:
-    """Return the same as `assess`, without the check that the machine reaches all its places: faster, for assessed
+    """Return the same as `assess`, without the slow check that the machine reaches all positions, for assessed
     nodes.
     """
     return reading.assess(source, path, kinds(), kind)
@@ -118,7 +118,7 @@ def _misplaced(assignment: Assignment, machine: Machine) -> Iterator[Finding]:
 
 
 def _out_of_reach(machine: Machine) -> Iterator[Finding]:
-    """Yield findings if a machine comes too near to a dead point on its way, or is too large to draw."""
+    """Yield findings if a machine comes too close to a dead point, or is too large to draw."""
     angles, whole = machine.angles(machine.cycle_angles), np.linspace(0.0, FULL_TURN, STEPS + 1)
     if machine.instants:
         beyond = tuple(assembly_checks.at_instants(machine.linkage, angles, not machine.span))
@@ -165,7 +165,7 @@ def _in_order(source: Source, path: Path, language: Language | None) -> Assignme
 
 
 def _untold(assignment: Assignment, language: Language) -> Iterator[Finding]:
-    """Find the kinds and the topics of an assignment that a language has not all words of."""
+    """Yield findings for the kinds and topics of an assignment that a language does not translate completely."""
     for member in (assignment, *(part.within(assignment) for part in assignment.parts)):
         if not is_whole(language, member.kind):
             words = {"kind": member.kind, "language": language, "known": ", ".join(offered(language)) or "–"}
@@ -234,7 +234,7 @@ def example(path: Path, language: Language | None = None) -> str:
 
 
 def _understood_positions(assignment: Assignment) -> Iterator[Finding]:
-    """Yield a note with the positions that are worked out, if their labels differ from their numbers."""
+    """Yield a note with the worked positions, if their labels differ from their numbers."""
     if not kind(assignment.kind).has_positions or named_worked(assignment.report, assignment.positions) is None:
         return
     labels = assignment.labels
@@ -245,7 +245,7 @@ def _understood_positions(assignment: Assignment) -> Iterator[Finding]:
 
 
 def schema(language: Language | None = None) -> dict[str, Any]:
-    """Return the JSON Schema (draft-07, which every editor knows) of a file of any kind, its keys described in a
+    """Return the JSON Schema (draft-07, which every editor supports) of files of all kinds, with keys described in a
     language.
     """
     spoken_in = language or spoken()
@@ -277,7 +277,7 @@ def _more(known: Kind, path: Sequence[str], value: str, language: Language) -> s
 
 
 def _instead(schema: dict[str, Any], path: Sequence[str], value: str) -> str:
-    """Return another key with the same meaning as one with this value; with its own value, if the dimension is the
+    """Return another key with the same meaning as one with this value; with the value itself, if the dimension is the
     same.
     """
     units = [one[UNIT_KEY] for one in places(schema, schema, tuple(path)) if UNIT_KEY in one]

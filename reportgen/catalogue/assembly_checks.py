@@ -1,7 +1,8 @@
-"""Check that a linkage can move all its way: groups that do not assemble, dead points, rockers that are cranks.
+"""Check that a linkage can move through its whole travel: groups that do not assemble, dead points, rockers that turn
+fully.
 
-A group's clearance is sin² of its transmission angle, as a function of its ends alone. It becomes negative where
-the group does not reach, so that minima between the samples are found, too.
+A group's clearance is sin² of its transmission angle, as a function of its ends alone.  It becomes negative where the
+group does not reach, so that minima between the samples are found, too.
 """
 
 from __future__ import annotations
@@ -21,26 +22,28 @@ from reportgen.machine.loads import turning_points
 
 HALVINGS = 40
 SMALL_TRANSMISSION = 0.3
-"""Sine of a group's transmission angle below which its least value is refined."""
+"""Sine of a transmission angle below which the least clearance is refined."""
 ROUND_OF_CLEARANCE = 1e-12
-"""A clearance this little below 0 is rounding."""
+"""A clearance between this value below 0 and 0 is a rounding error."""
 ZOOMS, NODES = 4, 41
 """Number of refinements of a neighbourhood, and of places in each: 20⁴ times finer than the samples."""
 
 
 SHEET = (1.08, 0.70)
-"""Largest extent of a mechanism over all positions on a sheet A0 (m), landscape or portrait; the rest is for labels."""
+"""Largest extent (m on paper) of a mechanism over all positions on paper A0, landscape or portrait; labels take the
+rest.
+"""
 LEAST_ANGLE = 0.1
-"""Angle of transmission (degrees) of a group from which on its forces come out to nine figures and more."""
+"""Transmission angle (degrees) of a group above which its forces are accurate to nine figures or more."""
 
 
 Clear = Callable[[Floats], Floats]
-"""A group's clearance at places of the driver."""
+"""Function that returns a group's clearance [N] at driver coordinates [N]."""
 
 
 @dataclass(frozen=True, slots=True)
 class Member:
-    """Name of a group in messages: its links by their letters ("BC, CD"), and the key at fault in the file."""
+    """A group in messages: its links by their letters ("BC, CD"), and the key of the file that is at fault."""
 
     rods: str
     where: Where
@@ -48,14 +51,14 @@ class Member:
 
 @dataclass(frozen=True, slots=True)
 class DriverTravel:
-    """The driver's coordinates to go through: a whole turn of a crank (rad), or a slide's way (m)."""
+    """The driver's coordinates to examine: a whole turn of a crank (rad), or the travel of a slider (m)."""
 
     start: float = 0.0
     end: float = FULL_TURN
     turning: bool = True
 
     def printed(self, place: float) -> str:
-        """Return a place in degrees, −180…180, or in millimetres, without trailing zeros."""
+        """Return a coordinate in degrees, −180…180, or in millimetres, without trailing zeros."""
         return f"{np.degrees(np.angle(np.exp(1j * place))) if self.turning else place * 1e3:.4g}"
 
 
@@ -65,8 +68,8 @@ WHOLE_TURN = DriverTravel()
 def findings(
     linkage: Linkage, members: Mapping[tuple[int, int], Member], driven: DriverTravel = WHOLE_TURN
 ) -> Iterator[Finding]:
-    """Report the first group that the driver cannot carry through all its way: with its links and the driver's
-    places.
+    """Report the first group that the driver cannot carry through its whole travel, with its links and the driver's
+    coordinates.
     """
     places = np.linspace(driven.start, driven.end, STEPS + 1)
     motion = solve_motion(linkage, places, 1.0)
@@ -101,7 +104,9 @@ def findings(
 
 
 def near_dead_point(linkage: Linkage, driven: DriverTravel, where: Where) -> Iterator[Finding]:
-    """Report the first group that comes so near to a dead point that its accelerations and forces are mere rounding."""
+    """Report the first group that comes so close to a dead point that its accelerations and forces are rounding
+    errors.
+    """
     places = np.linspace(driven.start, driven.end, STEPS + 1)
     motion = solve_motion(linkage, places, 1.0)
     size, of_slide = _size(motion), "" if driven.turning else "-slide"
@@ -126,8 +131,9 @@ def near_dead_point(linkage: Linkage, driven: DriverTravel, where: Where) -> Ite
 
 
 def at_instants(linkage: Linkage, places: Floats, turning: bool) -> Iterator[Finding]:
-    """Report the instants at which a group does not assemble, or is so near to a dead point that its forces are
-    rounding.
+    """Report the instants at which a group does not assemble, or is too close to a dead point for accurate forces.
+
+    `places` [N] are crank angles (rad), or displacements of a slider (m) unless `turning`.
     """
     motion, printed = solve_motion(linkage, places, 1.0), DriverTravel(turning=turning).printed
     size, limit = _size(motion), np.sin(np.radians(LEAST_ANGLE))
@@ -176,9 +182,7 @@ def too_large(linkage: Linkage, angles: Floats, drawn: float, where: Where) -> I
 
 
 def to_and_fro(linkage: Linkage, slider: int, motion_at: MotionAt, where: Where) -> Iterator[Finding]:
-    """Yield faults unless a slider that has dead centres goes once to and fro in a turn, so that it turns back
-    twice.
-    """
+    """Yield faults unless a slider with dead centres moves to and fro once in a turn, so that it reverses twice."""
     count = len(turning_points(linkage, slider, motion_at))
     if count != 2:
         yield Finding("not-to-and-fro", where, {"text": str(slider), "count": str(count)})
@@ -193,9 +197,9 @@ def turns_fully(linkage: Linkage, link: int) -> bool:
 def clearance(dyad: Dyad, motion: Motion, size: float) -> Floats:
     """Return the clearance of a group from a dead point [N], from its ends: negative where it does not assemble.
 
-    sin² of the angle between the rods (RRR), of a rod and the guide's normal (RRP), between pin's way and slot
-    (RPR with an offset, else the square of the pin's distance from the pivot over the linkage's `size` in m), of
-    the two slides (PRP, RPP).
+    It is sin² of the angle between the rods (RRR), between a rod and the guide's normal (RRP), between the pin's path
+    and the slot (RPR with an offset; without one the square of the pin's distance from the pivot over the linkage's
+    `size` in m), or between the two slides (PRP, RPP).
     """
     l1, two = dyad.lengths
     match dyad.kind, dyad.start, dyad.end:
@@ -225,14 +229,16 @@ def _rail(guide: Guide, motion: Motion) -> tuple[Complexes | complex, Complexes]
 
 
 def _size(motion: Motion) -> float:
-    """Return the greatest extent of all places of the linkage's points (m)."""
+    """Return the greatest extent of the paths of the linkage's points (m)."""
     places = np.concatenate([point.p for point in motion.points.values()])
     places = places[np.isfinite(places)]
     return max(float(np.ptp(places.real)), float(np.ptp(places.imag)))
 
 
 def _first_gap(clear: Clear, driven: DriverTravel, places: Floats, inside: np.ndarray) -> tuple[float, float]:
-    """Return the ends of the first range where the group does not assemble; of a turn, the first after it assembles."""
+    """Return the ends of the first range in which the group does not assemble; in a turn, the first after it
+    assembles.
+    """
     if driven.turning:
         places = places + places[int(np.flatnonzero(inside)[0])] - driven.start
         inside = clear(places) >= -ROUND_OF_CLEARANCE
@@ -253,7 +259,7 @@ def _gap(clear: Clear, places: Floats, inside: np.ndarray) -> tuple[float, float
 
 
 def _edge(clear: Clear, inside: float, outside: float) -> float:
-    """Return the place between a reachable and an unreachable one at which the links just reach each other."""
+    """Return the place between a reachable and an unreachable one at which the links just reach."""
 
     def assembles(places: Floats) -> Flags:
         return np.asarray(clear(places.ravel()).reshape(places.shape) >= 0)
@@ -263,7 +269,7 @@ def _edge(clear: Clear, inside: float, outside: float) -> float:
 
 
 def _least(clear: Clear, driven: DriverTravel, places: Floats, clearances: Floats) -> tuple[float, float]:
-    """Return the place and size of the group's least clearance; small clearances are refined."""
+    """Return the place and the value of the group's least clearance; small clearances are refined."""
     best = float(places[np.argmin(clearances)]), float(clearances.min())
     before, after = np.roll(clearances[:-1], 1), np.roll(clearances[:-1], -1)
     if not driven.turning:

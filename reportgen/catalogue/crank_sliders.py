@@ -154,8 +154,8 @@ def second_cylinder(q: Calculation, turn: int, joint: str) -> None:
 
 
 def _joint_of_second_rod(q: Calculation, turn: int, joint: str) -> None:
-    """Enter ξ and η of the joint of the second rod: crank pin B with its rates, or D, whose rates are already
-    entered.
+    """Enter ξ and η of the joint of the second rod: of crank pin B with its rates, or of D, whose rates exist
+    already.
     """
     R, ω1, φ = q["R"], q["omega.1"], q["phi.3"]
     line = partial(q.define, scale=1.0)
@@ -179,7 +179,7 @@ def _joint_of_second_rod(q: Calculation, turn: int, joint: str) -> None:
 
 @dataclass(frozen=True, slots=True)
 class OffsetSlider:
-    """Crank r and rod l (m), offset e (m, along y), the guide's direction `axis` (rad) and the rotation ±1."""
+    """Crank r and rod l (m), offset e (m, along y), the guide's direction `axis` (rad) and the rotation `turn` = ±1."""
 
     r: float
     l: float  # noqa: E741 - the length's own letter
@@ -227,7 +227,9 @@ class OffsetSlider:
         return float(low[0]), float(low[1])
 
     def course(self, start: float, turns: int) -> Stroke:
-        """Return the way of slider 3 in a machine that starts at φ = `start` (rad) and has a cycle of `turns` turns."""
+        """Return the stroke of slider 3 in a machine that starts at φ = `start` (rad) and has a cycle of
+        `turns` turns.
+        """
         return Stroke(
             link=3,
             rod=2,
@@ -246,7 +248,7 @@ class OffsetSlider:
         return self._placed(1j * self.e)
 
     def linkage(self, inertias: Sequence[Inertia], gravity: float, centre: float | None = None) -> Linkage:
-        """Return the mechanism; S2 on the rod at `centre` (m) from B, if it is wanted."""
+        """Return the mechanism (gravity in m/s²), with S2 on the rod at `centre` (m) from B if that is given."""
         return Linkage(
             ground={"A": 0j},
             driver=Crank("A", "B", self.r),
@@ -288,7 +290,7 @@ def offset_slider(q: Calculation, turn: int, angle: Floats, offset: Expression |
 def loop_equations(turn: int, offset: bool, accelerates: float = 0.0) -> dict[str, tuple[Chain, ...]]:
     """Return the closed loop of the links by components, and its first and second derivatives.
 
-    The crank `accelerates` in the sense of ω₁ (> 0), against it (< 0) or not at all.
+    `accelerates` (any unit) is > 0 if the crank accelerates in the sense of ω₁ (> 0), < 0 against it, 0 if it does not.
     """
     r, l, e = Symbol("l", "AB"), Symbol("l", "BC"), Symbol("e")  # noqa: E741
     ω1, ω2, ε2 = Symbol("ω", "1"), Symbol("ω", "2"), Symbol("ε", "2")
@@ -324,5 +326,6 @@ def loop_equations(turn: int, offset: bool, accelerates: float = 0.0) -> dict[st
 
 
 OFFSET_PLANS = ("v.C", "omega.2", "a.C", "eps.2")
+"""Plan quantities that the closed formulas also give; those of S2 only if it exists."""
 CENTRE_PLANS = ("v.S2", "a.S2")
 """Plan quantities that the closed formulas give too, those of S2 where there is one."""

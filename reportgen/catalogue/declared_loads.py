@@ -71,7 +71,9 @@ TorqueOf = Annotated[Given, quantity("N m", least=-1e9, most=1e9, tiny=1e-6)]
 
 
 class Constant(Part):
-    """A force F at a point in a fixed direction, or a torque M; `against` the motion only its size counts."""
+    """A force F at a point in a fixed direction, or a torque M; of a load `against` the motion only the size is
+    used.
+    """
 
     by: Literal["constant"]
     link: Link
@@ -151,7 +153,7 @@ def listed(numbers: Collection[int]) -> str:
 
 
 def on_link(points: Mapping[int, set[str]], link: int, name: str | None, at: Where) -> Iterator[Finding]:
-    """Report a link that is not there, or a point that it does not have; `points` are those of the links."""
+    """Yield faults unless a link exists and has the point `name`; `points` are the points by link."""
     if link not in points:
         yield Finding("no-such-link", (*at, "link"), {"text": str(link), "known": listed(points)})
     elif name is not None and name not in points[link]:
@@ -173,7 +175,7 @@ def faults(load: PlainLoad, points: Mapping[int, set[str]], end: float, at: Wher
 
 
 def sized(load: PlainLoad, at: Where) -> Iterator[Finding]:
-    """Yield faults unless a force has a point and a size in newtons, and a torque no point and its own size."""
+    """Yield faults unless a force has a point and a size in newtons, and a torque has its own size and no point."""
     if isinstance(load, Constant):
         wanted, forbidden = ("F", "M") if load.at else ("M", "F")
         if getattr(load, wanted) is None:
@@ -191,7 +193,7 @@ def sized(load: PlainLoad, at: Where) -> Iterator[Finding]:
 def table(
     at: Where, key: str, nodes: tuple[float, ...], last: float, unit: str = "", **rows: tuple[float, ...]
 ) -> Iterator[Finding]:
-    """Yield faults unless the nodes grow from 0 to `last` and every row has a value for each."""
+    """Yield faults unless the nodes (in `unit`) increase from 0 to `last` and every row has a value for each."""
     for name, row in rows.items():
         if len(row) != len(nodes):
             counts = {"key": name, "given": str(len(row)), "other": key, "wanted": str(len(nodes))}
@@ -222,7 +224,7 @@ def loads(
     *,
     through: bool = True,
 ) -> tuple[Applied | Torque, ...]:
-    """Return the loads in the order of the file; `others` are the kind's own. Faulty loads, which checks report,
+    """Return the loads in the order of the file; `others` are those of the kind.  Faulty loads, which checks report,
     are left out.
 
     If `through` is True, the driver passes through the whole cycle; else it is at single instants.
@@ -254,8 +256,8 @@ def applied(load: PlainLoad, law: Law, others: Iterable[Applied | Torque]) -> Ap
 
 
 def law_of(load: PlainLoad, motion_at: MotionAt, *, through: bool = True, span: float = 0.0) -> Law:
-    """Return the law of a force along its direction, or of a torque if the load has no point; `span` (m) is a
-    slide's way.
+    """Return the law of a force along its direction, or of a torque if the load has no point; `span` (m) is a slider's
+    travel.
     """
     if not isinstance(load, Constant):
         unit = load.torque_unit if load.at is None else load.unit
@@ -277,7 +279,7 @@ def law_of(load: PlainLoad, motion_at: MotionAt, *, through: bool = True, span: 
 
 
 def against(size: float, rate: Callable[[Motion], Floats], motion_at: MotionAt, *, through: bool) -> Law:
-    """Return a law that opposes a `rate` of the motion with a constant size."""
+    """Return a law of constant `size` (N, or N·m for a torque) that opposes a `rate` [N] of the motion."""
     if not through:
         return Resistance(size, rate, ())
     resistance = opposing(size, lambda angle: rate(motion_at(angle)))
@@ -292,7 +294,7 @@ def against(size: float, rate: Callable[[Motion], Floats], motion_at: MotionAt, 
 @view("phrase", "table")
 @dataclass(frozen=True, slots=True)
 class LoadRow:
-    """A load: its link, how it is given, where and in which direction it acts, its size or its table."""
+    """A load for templates: its link, form, place and direction, and its size or table."""
 
     id: str
     link: int
@@ -309,7 +311,7 @@ class LoadRow:
 
     @property
     def phrase(self) -> str:
-        """Key of the phrase that describes it: by its type, what it depends on, and whether it opposes the motion."""
+        """Key of the phrase for this load: by its type, its variable, and whether it opposes the motion."""
         acting = "torque" if self.torque else "force"
         match self.by:
             case "constant":

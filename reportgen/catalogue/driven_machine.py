@@ -22,7 +22,7 @@ CLOSING = ("conclusion", "references", "checks")
 
 @dataclass(frozen=True)
 class KindSections:
-    """The sections of a report that differ from kind to kind, by the names of their words.
+    """Template sections of a report that differ from kind to kind.
 
     `sizes` and `load` explain the lengths and loads; `summary` follows the accelerations, `course` the kinematic
     diagrams; `driver` is the balance of the driver.
@@ -46,8 +46,8 @@ def outline(
 ) -> tuple[str, ...]:
     """Return the report's sections in order; without mass and load it ends with the kinematics.
 
-    The kinematic diagrams are left out without `curves`. `further` is True if there are loads besides those of the
-    kind. The chapters of `topics` are placed as their sections say.
+    Without `curves` it has no kinematic diagrams.  `further` is True if there are loads besides those of the kind.  The
+    chapters of `topics` are placed as their `TopicSection`s say.
     """
     diagrams = ("diagrams", *words.course) if curves else ()
     kinematics = (*OPENING, words.sizes, "positions", "velocity", "acceleration", *words.summary, *diagrams)
@@ -103,8 +103,8 @@ def driven(
 ) -> Machine:
     """Return the machine of an assignment whose crank is at the angle `start` (rad) in position 1.
 
-    `sections` go to `outline`; `formulas`, `compared` and `equations` are its `ClosedFormulas`; all further fields of
-    its `Machine` are given by name.  Loads that are zero throughout are left out.
+    `sections` are passed to `outline`; `formulas`, `compared` and `equations` are its `ClosedFormulas`; all other
+    fields of its `Machine` are given by name.  Loads that are always zero are left out.
     """
     given, positions = assignment.parameters, assignment.positions
     q.set_out("places")

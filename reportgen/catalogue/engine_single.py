@@ -74,9 +74,7 @@ def _special(geometry: OffsetSlider, start: float) -> tuple[float, ...]:
 
 
 def position_labels(parameters: Parameters, positions: Positions) -> tuple[str, ...]:
-    """Return the labels of the positions of the cycle; for an engine with faulty lengths, the most that any
-    engine has.
-    """
+    """Return the labels of the positions of the cycle; for faulty lengths, the largest number that any engine has."""
     if not parameters.has_lengths or _cannot_turn(parameters) is not None:
         return (*map(str, range(TURNS * positions.count)), *ascii_lowercase[: TURNS * MOST_LETTERED])
     geometry = _geometry(parameters, positions)

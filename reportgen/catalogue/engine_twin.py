@@ -37,8 +37,8 @@ CRANK_DRAWN = 0.05
 
 
 class Parameters(Driven, masses=(2, 3, 4, 5), required=(2, 3), moments=(2, 4)):
-    """The stroke, the ratio λ = R/L, the cylinder, the speed, and masses; link 4 is like 2, and 5 like 3,
-    unless given.
+    """The stroke, the ratio λ = R/L, the cylinder, the speed, and masses; link 4 equals 2, and 5 equals 3, unless
+    given.
     """
 
     H: Length
@@ -73,7 +73,7 @@ Indicator = Annotated[IndicatorByStroke | IndicatorByCrankAngle | IndicatorByOrd
 
 
 def possible_phases(crank_angle: float, positions: Positions) -> dict[tuple[Stroke, ...], tuple[float, float]]:
-    """Return the strokes in which pistons 3 and 5 may leave position 1, the default first, and their cycle angles
+    """Return the strokes that pistons 3 and 5 may begin in position 1, the default first, with their cycle angles
     (rad).
 
     Each piston may be a whole turn further on in its cycle than the crank shows.

@@ -29,7 +29,7 @@ from reportgen.machine.load_laws import ConstantLaw
 from reportgen.machine.loads import Applied, Piston, course, crank_motion, fixed, gas_forces
 
 TURNS = 1
-"""Four strokes take two, where there is an indicator diagram."""
+"""Turns of a cycle without an indicator diagram; with one, four strokes take two turns."""
 
 Indicator = given_loads.Diagram
 INDICATOR_OPTIONAL = True
@@ -94,15 +94,15 @@ def _check_loads(draft: Draft) -> Iterator[Finding]:
 
 @of_parameters
 def _check_assembly(given: Parameters) -> Iterator[Finding]:
-    """Yield faults unless both pistons follow the crank through a whole turn and turn back twice; the articulation
-    is on the main rod.
+    """Yield faults unless both pistons follow the crank through a whole turn and reverse twice, with D on the
+    main rod.
     """
     if given.BD.si >= given.BC.si:
         most = f"< BC = {given.BC.si * 1e3:g} mm"
         yield Finding("out-of-range", ("parameters", "BD"), {"text": given.BD.text, "range": most})
         return
     members = {(2, 3): Member("BC", ("parameters", "BC")), (4, 5): Member(f"{given.joint}E", ("parameters", "DE"))}
-    linkage = _linkage(given, _sheet(given))
+    linkage = _linkage(given, _calculation(given))
     if obstacles := list(assembly_checks.findings(linkage, members)):
         yield from obstacles
         return
@@ -128,10 +128,8 @@ WARNINGS = (_idle_engine,)
 # --- the machine ----------------------------------------------------------------------------------
 
 
-def _sheet(given: Parameters, turn: int = 1, crank: Given | None = None) -> GivenData:
-    """Return the sheet: given data, λ = R/L, the angle between the cylinders, masses, moments of inertia, a
-    piston's area.
-    """
+def _calculation(given: Parameters, turn: int = 1, crank: Given | None = None) -> GivenData:
+    """Return the given data, λ = R/L, the angle between the cylinders, masses, moments of inertia, a piston's area."""
     q, rod = GivenData(given), f"{given.joint}E"
     for id, length in {"AB": given.AB, "BC": given.BC, "BD": given.BD, rod: given.DE}.items():
         if length.si:
@@ -176,7 +174,7 @@ def machine(assignment: Assignment) -> Machine:
     """Return the engine of an assignment: linkage, forces on the pistons, closed formulas."""
     given: Parameters = assignment.parameters
     positions, turn = assignment.positions, assignment.positions.sign
-    q = _sheet(given, turn, assignment.drawing.crank)
+    q = _calculation(given, turn, assignment.drawing.crank)
     linkage, start = _linkage(given, q), positions.start_or()
     for link, axis in ((3, q["alpha"]), (5, q["beta"])):
         outwards = q.construct(ids.guide(link), cis(axis))

@@ -102,11 +102,11 @@ def extremes(
     frame: Expression,
     square: Expression,
 ) -> None:
-    """Enter both extreme positions of a rocker, its swing ψ = ψ₁ − ψ₂ and the ratio of times K = (180° + θ)/(180° − θ).
+    """Enter both extreme positions of a rocker, its swing ψ = ψ₁ − ψ₂ and the time ratio K = (180° + θ)/(180° − θ).
 
-    Crank and coupler lie in one line from the crank's centre, θ = α₁ − α₂ is the angle between both lines.  The lines
-    to the rocker's pin there are called `ends`; the angles at the crank's centre are α, at the rocker's ψ.  The frame
-    is given by a formula, with its square: a small angle wants it unrounded.
+    Crank and coupler lie in one line from the crank's centre; θ = α₁ − α₂ is the angle between both lines.  The lines
+    to the rocker's pin are called `ends`; the angles are α at the crank's centre and ψ at the rocker's.  The frame is
+    given by a formula together with its square, since a small angle needs it unrounded.
     """
     angle = partial(q.define, kind="angle", scale=1.0)
     lengths, α, ψ = [], [], []
@@ -232,7 +232,7 @@ def _coupler_point(q: Calculation, point: LinkPoint, turn: int) -> None:
 def equations(turn: int, accelerates: float) -> dict[str, tuple[Chain, ...]]:
     """Return the closed loop by components; the matrix equations in symbols, and `-numbers` with entries to fill in.
 
-    The crank `accelerates` in the sense of ω₁ (> 0), against it (< 0) or not at all.
+    `accelerates` (any unit) is > 0 if the crank accelerates in the sense of ω₁, < 0 against it, 0 if it does not.
     """
     AB, BC, CD, AD = (Symbol("l", name) for name in ("AB", "BC", "CD", "AD"))
     φ1, φ2, φ3 = (Symbol("φ", link) for link in "123")
@@ -274,7 +274,7 @@ def equations(turn: int, accelerates: float) -> dict[str, tuple[Chain, ...]]:
 
 TURNS = 1
 LINKS = {1: ("A", "B"), 2: ("B", "C"), 3: ("D", "C")}
-"""The bars by the pins at their ends."""
+"""The links by the pins at their ends."""
 
 
 class CouplerPoint(Part):
@@ -285,7 +285,7 @@ class CouplerPoint(Part):
 
 
 class LinkForce(Part):
-    """A force on link 3 at C, in a direction fixed in the plane."""
+    """A force on link 3 at C, in a fixed direction of the plane."""
 
     P: ForceSize
     angle: Angle
@@ -308,12 +308,12 @@ class Parameters(Driven, masses=(1, 2, 3), moments=(1, 2, 3), shares=(1, 2, 3), 
 
     @property
     def side(self) -> int:
-        """+1 where C lies to the left of the way from B to D."""
+        """+1 if C lies to the left of the line from B to D, else −1."""
         return 1 if self.branch == "open" else -1
 
 
-def _sheet(given: Parameters, crank: Given | None = None) -> GivenData:
-    """Return the sheet of given data, coupler points, mass centres, masses and moments of inertia, Grashof's sums."""
+def _calculation(given: Parameters, crank: Given | None = None) -> GivenData:
+    """Return the given data, coupler points, mass centres, masses, moments of inertia and Grashof's sums."""
     q = GivenData(given)
     for id, length in {"AB": given.AB, "BC": given.BC, "DC": given.CD, "AD": given.AD}.items():
         q.datum(ids.length(id), length, Symbol("l", "CD" if id == "DC" else id))
@@ -358,7 +358,7 @@ def _linkage(given: Parameters, q: GivenData) -> Linkage:
 @of_turning
 def _check_turning(given: Parameters) -> Iterator[Finding]:
     """Yield faults unless the crank turns fully, without dead points, and link 3 moves as the file says."""
-    linkage = _linkage(given, _sheet(given))
+    linkage = _linkage(given, _calculation(given))
     obstacles = list(
         assembly_checks.findings(linkage, {(2, 3): assembly_checks.Member("BC, CD", ("parameters", "BC"))})
     )
@@ -377,7 +377,7 @@ def machine(assignment: Assignment) -> Machine:
     """Return the four-bar linkage of an assignment: linkage, loads, analytic method."""
     given: Parameters = assignment.parameters
     positions, turn = assignment.positions, assignment.positions.sign
-    q = _sheet(given, assignment.drawing.crank)
+    q = _calculation(given, assignment.drawing.crank)
     linkage, frame, force = _linkage(given, q), given.frame.si, given.force
     q.fix("p.D", linkage.ground["D"], q["l.AD"])
     start = positions.start_or(frame)

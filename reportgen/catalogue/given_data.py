@@ -1,4 +1,5 @@
-"""The first sheet of a machine: its given data as typed, the data of its links, and terms of its crank.
+"""`GivenData`, the calculation with which a machine starts: given data as typed, data of its links, and terms of its
+crank.
 
 ω₁ is the size of the crank's angular velocity, ε₁ that of its acceleration, which is 0 unless it is given.
 """
@@ -27,7 +28,7 @@ MIDDLE = 0.5
 
 
 MOST_FIGURES = 6
-"""A number of more significant figures is not typed but converted."""
+"""A number with more significant figures was not typed but converted."""
 
 
 def _figures(value: float) -> int:
@@ -36,16 +37,17 @@ def _figures(value: float) -> int:
 
 
 class GivenData(Calculation):
-    """The sheet that a machine opens: its given data as typed, and the data of its links in the file."""
+    """The calculation that a machine starts: its given data as typed, and the data of its links in the file."""
 
     def __init__(self, given: Driven | None = None) -> None:
         super().__init__()
         self.given = given
 
     def datum(self, id: str, given: Given, symbol: Symbol | str = "", kind: str = "") -> Ref:
-        """Enter a quantity as typed; a ratio `1/3.6` is worked out on the page.
+        """Enter a quantity as typed; a ratio `1/3.6` is evaluated in the report.
 
-        One that another unit gives more figures than anyone types (6 lb = 2.72155422 kg) is rounded like a result.
+        If the conversion gives more figures than anyone types (6 lb = 2.72155422 kg), the value is rounded like a
+        result.
         """
         top, slash, bottom = given.text.partition("/")
         if slash and not given.unit:
@@ -104,9 +106,10 @@ class GivenData(Calculation):
             self.datum("g", self.given.g)
 
     def mass(self, link: int, weight: Given | None = None, mass: Given | None = None, like: int = 0) -> None:
-        """Enter weight and mass of a link: one as typed, or as that of the link `like`, and the other computed from it.
+        """Enter weight and mass of a link: one as typed, or equal to that of the link `like`, and the other computed
+        from it.
 
-        Nothing is entered if neither is given. Without gravity there is no weight.
+        Nothing is entered if neither is given.  Without gravity there is no weight.
         """
         weight, mass = weight or self.of_link("G", link), mass or self.of_link("m", link)
         G, m = ids.weight(link), ids.mass(link)
@@ -127,9 +130,7 @@ class GivenData(Calculation):
             self.define(G, self.define(m, self[ids.mass(like)]) * self["g"])
 
     def moment(self, link: int, default: Operand | None) -> None:
-        """Enter J about the mass centre: as given, else its `default`, such as m l²/12; nothing if there is no
-        default.
-        """
+        """Enter J about the mass centre: as given, else its `default`, such as m l²/12; nothing without a default."""
         given = self.of_link("J", link)
         if given is not None:
             self.datum(ids.inertia(link), given)
@@ -137,10 +138,10 @@ class GivenData(Calculation):
             self.define(ids.inertia(link), default)
 
     def bar(self, link: int, start: str, end: str, always: bool = False) -> None:
-        """Enter a straight link from pin `start` to pin `end`: the place of its mass centre, l_AS = s·l, its mass,
-        its J.
+        """Enter a straight link from pin `start` to pin `end`: the place of its mass centre l_AS = s·l, its mass, its
+        J.
 
-        The centre of a link without mass is entered only if its place is given, or `always`.
+        The centre of a massless link is entered only if its place is given, or `always`.
         """
         self.set_out("places")
         if not (always or any(self.of_link(letter, link) for letter in "sGmJ")):
@@ -159,14 +160,12 @@ class GivenData(Calculation):
         self.construct(ids.place(name), x + turned(y))
 
     def coordinates(self, name: str) -> tuple[Expression, Expression]:
-        """Return the coordinates of a fixed point; `NOTHING` for one that is not on the sheet or is 0."""
+        """Return the coordinates of a fixed point; `NOTHING` for one that is 0 or not entered."""
         x, y = (self.find(ids.coordinate(name, axis)) or self.find(ids.frame_coordinate(axis, name)) for axis in "xy")
         return x if x and self.si(x) else NOTHING, y if y and self.si(y) else NOTHING
 
     def fix(self, id: str, at: complex, length: Operand) -> None:
-        """Enter a fixed point or a guide's point `at` (m) at a `length` from the origin, so that it follows
-        changes of that length.
-        """
+        """Enter a fixed point or a guide's point `at` (m) so that its distance follows changes of `length`."""
         far = self.construct(ids.far(id), length)
         if self.si(far):
             self.construct(id, far * self.give(ids.unit(id), complex(at / self.si(far)), Symbol(id), "ratio"))
@@ -179,7 +178,7 @@ class GivenData(Calculation):
         self.mass(slider)
 
     def centre_points(self, pins: Mapping[int, str]) -> tuple[LinkPoint, ...]:
-        """Return the mass centres S2, … that are on the sheet, by their links and the pins they are measured from."""
+        """Return the entered mass centres S2, … by their links and the pins from which they are measured."""
         arms = {link: self.find(ids.length(pin, f"S{link}")) for link, pin in pins.items()}
         return tuple(LinkPoint(f"S{link}", link, complex(self.si(arm))) for link, arm in arms.items() if arm)
 
@@ -198,7 +197,7 @@ class GivenData(Calculation):
 def cycle_angles(positions: Positions, turns: int = 1, places: Sequence[float] = ()) -> np.ndarray:
     """Return the cycle angles (rad) of evenly spaced positions [count·turns], or of the instants [N].
 
-    Those of uneven `places` in a turn are the same in each of the turns.
+    The angles of unevenly spaced `places` of a turn are the same in each turn.
     """
     if positions.at:
         return np.array(positions.instants(turns))
@@ -229,15 +228,15 @@ def natural_lines(q: Calculation, crank: str) -> Callable[..., Ref]:
 
 
 def driver_acceleration(q: Calculation, turn: int) -> Expression:
-    """Return ε₁ as a term of formulas, positive in the sense of ω₁ (`turn`); `NOTHING` for a crank that turns
-    evenly.
-    """
+    """Return ε₁ as a term of formulas, positive in the sense of ω₁ (`turn`); `NOTHING` for a constant speed."""
     ε1 = q.find(ids.angular_acceleration(DRIVER))
     return NOTHING if ε1 is None else signed(turn * q.si(ids.signed("eps", DRIVER)), ε1)
 
 
 def accelerating(accelerates: float) -> Expression:
-    """Return ε₁ in an equation, positive in the sense of ω₁; `NOTHING` for a crank that turns evenly."""
+    """Return ε₁ as a term of an equation, positive in the sense of ω₁; `NOTHING` for an acceleration of 0 (any
+    unit).
+    """
     return signed(accelerates, Symbol("ε", str(DRIVER))) if accelerates else NOTHING
 
 

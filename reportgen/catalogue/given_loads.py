@@ -118,7 +118,7 @@ class ConstantForce(Part):
 
 
 class ForceOverStroke(Part):
-    """A row of forces for the way towards the crank and one for the way back, over s/H from the outer end."""
+    """A row of forces for the stroke towards the crank and one for the stroke back, over s/H from the outer end."""
 
     by: Literal["stroke"]
     unit: ForceUnit
@@ -162,7 +162,7 @@ class PressingForce(Part):
 
 
 def stroke_of(force: ConstantForce | ForceOverStroke | ForceOverAngle | None) -> str:
-    """Return the stroke on which a working force acts, both unless it says otherwise."""
+    """Return the stroke on which a working force acts; "both" unless it says otherwise."""
     return force.stroke if isinstance(force, ConstantForce) else "both"
 
 
@@ -184,7 +184,7 @@ TorqueSize = Annotated[Given, quantity("N m", least=0, most=1e9, tiny=1e-6)]
 
 
 class LinkTorque(Part):
-    """A torque on a link, of one sense or against its motion."""
+    """A torque on a link, with a fixed sense or opposed to its motion."""
 
     M: TorqueSize
     sense: Literal["opposing", "anticlockwise", "clockwise"] = "opposing"

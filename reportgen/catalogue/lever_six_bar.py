@@ -48,9 +48,9 @@ class SliderForce(Part):
 
 
 class Swing(Part):
-    """Requested motion of the rocker: its angle of swing and the ratio K of the times of its two ways.
+    """Requested motion of the rocker: its angle of swing and the time ratio K of its two strokes.
 
-    The crank's centre B lies `beyond` the chord of both ends of the pin's way, seen from D, or `before` it.
+    The crank's centre B lies `beyond` the chord of the ends of the pin's path, seen from D, or `before` it.
     """
 
     angle: SwingAngle
@@ -77,8 +77,8 @@ class Parameters(Driven, masses=(1, 2, 3, 4, 5), moments=(1, 2, 3, 4), shares=(1
     force: SliderForce | None = None
 
 
-def _sheet(given: Parameters, crank: Given | None = None) -> GivenData:
-    """Return the sheet of given data, the place of E, mass centres, masses and moments of inertia."""
+def _calculation(given: Parameters, crank: Given | None = None) -> GivenData:
+    """Return the given data, the place of E, mass centres, masses and moments of inertia."""
     q = GivenData(given)
     if given.AB and given.AC:
         q.datum("l.BA", given.AB, Symbol("l", "AB"))
@@ -110,8 +110,8 @@ def _sheet(given: Parameters, crank: Given | None = None) -> GivenData:
 
 
 def _synthesis(q: GivenData, asked: Swing) -> None:
-    """Enter crank and coupler from the swing ψ and K: B sees both ends C₁, C₂ of the pin's way under θ = 180°(K −
-    1)/(K + 1).
+    """Enter crank and coupler from the swing ψ and K: B sees both ends C₁, C₂ of the pin's path at θ = 180°(K − 1)/(K +
+    1).
 
     B lies on the circle about O with radius ρ from which this angle is seen, and at its distance from D: ρ = l_CD
     sin(ψ/2)/sin θ,  DO = l_CD cos(ψ/2) ± ρ cos θ,  AB = (BC₁ − BC₂)/2,  AC = (BC₁ + BC₂)/2.
@@ -168,7 +168,7 @@ def _lengths(given: Parameters) -> Iterator[Finding]:
     """Yield faults unless the requested swing is possible and E lies on the coupler."""
     if given.swing is None and (given.AB is None or given.AC is None):
         return
-    q = _sheet(given)
+    q = _calculation(given)
     if given.swing is not None and not _has_swing(q):
         about = {"swing": given.swing.angle.text, "K": given.swing.K.text}
         yield Finding("no-such-swing", ("parameters", "swing"), about)
@@ -184,7 +184,7 @@ def _check_turning(given: Parameters) -> Iterator[Finding]:
     """Yield faults unless the crank turns fully, without dead points, and CD is a rocker."""
     if (given.swing or (given.AB and given.AC)) is None or list(_lengths(given)):
         return
-    linkage = _linkage(given, _sheet(given))
+    linkage = _linkage(given, _calculation(given))
     members = {
         (2, 3): assembly_checks.Member("AC, CD", ("parameters", "CD")),
         (4, 5): assembly_checks.Member("EF", ("parameters", "EF")),
@@ -222,7 +222,7 @@ def machine(assignment: Assignment) -> Machine:
     """Return the six-link lever mechanism of an assignment: linkage, load, a summary of its velocities."""
     given: Parameters = assignment.parameters
     positions = assignment.positions
-    q = _sheet(given, assignment.drawing.crank)
+    q = _calculation(given, assignment.drawing.crank)
     linkage, start = _linkage(given, q), positions.start_or()
     q.construct("guide.5.at", turned(q["F.y"]))
     q.set_out("extremes")

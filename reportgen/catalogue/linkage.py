@@ -37,7 +37,7 @@ from reportgen.machine.load_laws import FULL_TURN, GasLaw, MotionAt, TableLaw, b
 from reportgen.machine.loads import Applied, LoadsByKind, Torque, course, fixed, rails
 
 TURNS = 1
-"""A cycle of two turns counts the second turn's positions among those added to the first."""
+"""In a cycle of two turns, the positions of the second turn count among the further ones."""
 
 LARGEST_CRANK = 0.05
 """A crank is drawn no longer than this (m on paper)."""
@@ -106,7 +106,7 @@ def machine(assignment: Assignment) -> Machine:
         labels=labels,
     )
     declared = _loads(given, linkage, _motion_at(built), through=not positions.at, span=span)
-    q = _sheet(given, linkage, built, drawn.si if (drawn := assignment.drawing.crank) else None)
+    q = _calculation(given, linkage, built, drawn.si if (drawn := assignment.drawing.crank) else None)
     topics = entered(Opening(given, linkage, q.datum, declared, _motion_at(built)))
     loads = LoadsByKind.of((*declared, *topics.loads))
     acting = tuple(load.name for load in declared if load.name not in loads.idle)
@@ -141,8 +141,8 @@ def _motion_at(machine: Machine) -> MotionAt:
     return motion_at
 
 
-def _sheet(given: Parameters, linkage: Linkage, built: Machine, drawn: float | None) -> GivenData:
-    """Return the sheet of fixed points, lengths, speed, drawn length, masses and moments of inertia."""
+def _calculation(given: Parameters, linkage: Linkage, built: Machine, drawn: float | None) -> GivenData:
+    """Return the fixed points, lengths, speed, drawn length, masses and moments of inertia."""
     q, driver = GivenData(), given.driver
     for name, place in linkage.ground.items():
         x, y = (

@@ -31,7 +31,7 @@ TURNING = ("parameters", ("turns", "also_at"))
 
 
 def check(draft: Draft) -> Iterator[Finding]:
-    """Yield faults of names and numbers first; only a valid linkage is assembled."""
+    """Yield faults of names and numbers; a linkage without such faults is also assembled."""
     given: file.Parameters | None = draft.sections.get("parameters")
     if given is None:
         return
@@ -45,7 +45,7 @@ def check(draft: Draft) -> Iterator[Finding]:
 
 
 def _of_a_crank(draft: Draft, given: file.Parameters) -> Iterator[Finding]:
-    """Yield faults for keys that only a crank has: a sliding driver starts where its way starts and passes it once.
+    """Yield faults for keys that only a crank has: a sliding driver passes its travel once, from its start.
 
     Single instants allow no further positions between them.
     """

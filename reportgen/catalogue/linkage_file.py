@@ -57,7 +57,7 @@ def place(at: tuple[Given, ...]) -> complex:
 class GuideSection(Part):
     """A straight guide through `at` in direction `angle`, on the frame or in the axes of the link `on`.
 
-    `slot` are the least and the greatest way of the slider from `at` in that direction.
+    `slot` are the least and the greatest displacement of the slider from `at` in that direction.
     """
 
     at: PointCoordinates = (NOWHERE, NOWHERE)
@@ -103,7 +103,7 @@ class CrankDriver(Part):
 
 
 class SlideDriver(Part):
-    """Link 1 moves along a guide of the frame from the way `start` to the way `end`.
+    """Link 1 moves along a guide of the frame from displacement `start` to `end`.
 
     Its `acceleration` is positive in the sense of its speed.
     """
@@ -132,7 +132,7 @@ class SlideDriver(Part):
 
     @property
     def span(self) -> float:
-        """The length of the way (m)."""
+        """The length of its travel (m)."""
         return abs(self.end.si - self.start.si)
 
 
@@ -146,7 +146,7 @@ def _pair(links: tuple[int, ...]) -> tuple[int, int]:
 class RRR(Part):
     """Two rods: `joints` are the outer joint of the first, their common joint, the outer joint of the second.
 
-    The common joint lies on one `side` of the way from the first outer joint to the second.
+    The common joint lies on the `side` of the line from the first outer joint to the second.
     """
 
     type: Literal["RRR"]
@@ -166,7 +166,7 @@ class RRR(Part):
 
 
 class RRP(Part):
-    """A rod from the first of `joints` to the pin of a slider, the farther or nearer way along its guide."""
+    """A rod from the first of `joints` to the pin of a slider, at the farther or nearer position along its guide."""
 
     type: Literal["RRP"]
     links: TwoGroupLinks
@@ -277,7 +277,7 @@ class Body(Part):
 
 
 class OverStroke(Part):
-    """A force on a slider along its guide: a row for each way, over s/H from the end farther along the guide."""
+    """A force on a slider along its guide: a row for each stroke, over s/H from the end farther along the guide."""
 
     by: Literal["stroke"]
     link: Link
@@ -304,7 +304,7 @@ Loading = Annotated[Constant | OverAngle | OverWay | OverStroke | Gas, Field(dis
 
 
 class Declared(Part):
-    """Statements of the author about the structure, which are checked against the links."""
+    """Statements of the author about the structure, which the checks compare with the links."""
 
     W: Annotated[int, Whole(0, 9)] | None = None
     class_: Annotated[int, Whole(1, 9)] | None = Field(default=None, alias="class")

@@ -1,4 +1,4 @@
-"""Values that the templates of a declared linkage may name: rows of plain values, quantities as typed."""
+"""Values for the templates of a declared linkage: rows of plain values, with quantities as typed."""
 
 from __future__ import annotations
 
@@ -31,13 +31,13 @@ class GroupRow:
 
     @property
     def drawing(self) -> str:
-        """Key of the words that describe its drawing."""
+        """Key of the phrases for its drawing."""
         return "RPR-offset" if self.offset else self.kind
 
 
 @dataclass(frozen=True, slots=True)
 class GuideRow:
-    """A guide: the link that slides, the link that has it, a point of it, its direction."""
+    """A guide: the link that slides, the link that carries it, a point of it, its direction."""
 
     slider: int
     carrier: int
@@ -48,7 +48,10 @@ class GuideRow:
 
 @dataclass(frozen=True, slots=True)
 class PointRow:
-    """A point of a link by its distances from a joint, along the way to another or along a guide or slot (`way`)."""
+    """A point of a link by its distances from a joint.
+
+    `way` is the joint towards which the axis points, or "guide" or "slot" for the line to which it is parallel.
+    """
 
     name: str
     link: int
@@ -71,7 +74,7 @@ class MotionRow:
 
 
 def facts(given: file.Parameters, loads: tuple[str, ...], acting: Container[str]) -> dict[str, Any]:
-    """Return the values that the kind's templates may name; `loads` are the ids of the loads in the order of the file.
+    """Return the values that the kind's templates may use; `loads` are the ids of the loads in the order of the file.
 
     Only the loads in `acting` are included.
     """
@@ -129,8 +132,8 @@ def _quantities(given: file.Parameters, rows: tuple[GroupRow, ...]) -> Iterator[
 
 
 def _axes(given: file.Parameters) -> dict[int, tuple[str, str]]:
-    """Return the origin of each link's axes, and the joint they point to or what they are parallel to:
-    "guide", "slot".
+    """Return the origin of each link's axes, and the joint to which they point or the line to which they are parallel
+    ("guide", "slot").
     """
     driver = given.driver
     axes = {1: (driver.centre, driver.pin) if isinstance(driver, file.CrankDriver) else (driver.pin, "guide")}

@@ -55,9 +55,9 @@ class UnderGravity(TopicParameters):
 
 
 class Driven(UnderGravity):
-    """The crank's speed in one of two ways and its acceleration, masses if declared.
+    """The crank's speed in one of two forms and its acceleration; masses if declared.
 
-    Of the links `masses` and of the crank the weight or the mass may be given, of those `required` it must be;
+    The weight or the mass of the crank and of the links `masses` may be given, and must be for the links `required`;
     `moments` and `shares` are the links with J and s; the keys `loads` give loads of the kind.
     """
 
@@ -118,7 +118,7 @@ class Driven(UnderGravity):
 
 
 def weightless(weights: Iterable[Where]) -> Check:
-    """Return a check that refuses weights in a horizontal plane: g is 0 there, and no mass follows from a weight."""
+    """Return a check that refuses weights in a horizontal plane: with g = 0 no mass follows from a weight."""
     places = tuple(weights)
 
     def check(draft: Draft) -> Iterator[Finding]:

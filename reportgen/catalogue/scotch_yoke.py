@@ -103,7 +103,10 @@ def machine(assignment: Assignment) -> Machine:
 
 
 def equations(accelerates: float) -> dict[str, tuple[Chain, ...]]:
-    """Return the place of the yoke and of the block in its slot, and their rates, as the crank `accelerates` or not."""
+    """Return the displacements of the yoke and of the block in its slot, and their rates.
+
+    `accelerates` (any unit) is 0 for a crank at constant speed.
+    """
     r, φ, ω1, ε1 = Symbol("l", "OA"), Symbol("φ"), Symbol("ω", "1"), accelerating(accelerates)
     return {
         "closure": (Chain((Symbol("s", "B"), r * cos(φ))), Chain((Symbol("s", "A"), r * sin(φ)))),

@@ -56,9 +56,9 @@ class Parameters(Driven, masses=(2, 3, 4, 5), moments=(3, 4), loads=("cutting",)
     s4: Share = Given(0.5, 0.5, "", "0.5")
 
 
-def _sheet(given: Parameters, crank: Given | None = None) -> GivenData:
-    """Return the sheet: given data and the synthesis l₁ = aH/(2 l₃); mass centres, masses, moments of inertia; the
-    drawn crank.
+def _calculation(given: Parameters, crank: Given | None = None) -> GivenData:
+    """Return the given data and the synthesis l₁ = aH/(2 l₃); mass centres, masses, moments of inertia; the drawn
+    crank.
     """
     q = GivenData(given)
     a, b = q.datum("a", given.a, "a", "length"), q.datum("b", given.b, "b", "length")
@@ -99,10 +99,10 @@ def _geometry(given: Parameters, q: GivenData, turn: int) -> Ram:
 
 @of_parameters
 def _check_assembly(given: Parameters) -> Iterator[Finding]:
-    """Yield faults unless the rocker swings, the block stays in it, and link 4 reaches from D to the ram's line all
-    through the turn.
+    """Yield faults unless the rocker swings, the block stays in it, and link 4 always reaches from D to the
+    ram's line.
     """
-    geometry = _geometry(given, _sheet(given), 1)
+    geometry = _geometry(given, _calculation(given), 1)
     crank = geometry.crank.r
     block = {"block": "2", "link": "3", "group": "(2, 3)", "pivot": "C"}
     if crank >= given.a.si:
@@ -122,7 +122,9 @@ CHECKS = (_check_assembly,)
 
 
 def _cutting_interval(q: Calculation, breaks: Iterable[float], start: float) -> None:
-    """Enter φ₁ at the begin and end of cutting: 360° − θ and 180° + θ, or by the tool's way if it has free ends."""
+    """Enter φ₁ at the start and end of cutting: 360° − θ and 180° + θ, or from the tool's travel if it has free
+    ends.
+    """
     if "free" not in q:
         q.set_out("interval", q.define(ids.angle("in"), slotted.TURN - q["theta"], Symbol("φ", "a")))
         q.set_out("interval", q.define(ids.angle("out"), slotted.STRAIGHT + q["theta"], Symbol("φ", "b")))
@@ -135,7 +137,7 @@ def machine(assignment: Assignment) -> Machine:
     """Return the shaper of an assignment: linkage, cutting force, closed formulas."""
     given: Parameters = assignment.parameters
     positions, cutting = assignment.positions, given.cutting
-    q = _sheet(given, assignment.drawing.crank)
+    q = _calculation(given, assignment.drawing.crank)
     geometry = _geometry(given, q, positions.sign)
     start = 0.0 if positions.first is None else geometry.crank.phi(positions.first.si)
     course = geometry.course(start)

@@ -61,12 +61,12 @@ class SlottedCrank:
 
     @property
     def swings(self) -> bool:
-        """True if the lever swings to and fro, r < d; with r > d it makes whole turns."""
+        """True if the lever swings (r < d), False if it makes whole turns (r > d)."""
         return self.r < self.d
 
     @property
     def half_swing(self) -> float:
-        """θ = arcsin(r/d), the lever's greatest angle from CA (rad); there the crank is square to it."""
+        """θ = arcsin(r/d), the lever's greatest angle from CA (rad), where the crank is perpendicular to it."""
         return math.asin(self.r / self.d)
 
     def place(self, own: complex) -> complex:
@@ -104,7 +104,7 @@ def drawn_crank(crank: float, height: float) -> float:
 
 @dataclass(frozen=True, slots=True)
 class Ram:
-    """The lever's crank, and of lengths (m) the lever's, the link's and the height of the ram's line over C."""
+    """The lever's crank, and the lengths (m) of the lever and of the link, and the height of the ram's line over C."""
 
     crank: SlottedCrank
     lever: float
@@ -113,12 +113,12 @@ class Ram:
 
     @property
     def beginning(self) -> float:
-        """φ₁ (rad) at which the working stroke begins: −θ, the crank square to the lever."""
+        """φ₁ (rad) at which the working stroke begins: −θ, where the crank is perpendicular to the lever."""
         return -self.crank.half_swing
 
     def end(self, side: int) -> complex:
-        """Return the place of E (m) at the beginning (+1) or the end (−1) of the working stroke, from A on the
-        drawing.
+        """Return the place of E (m, from A on the drawing) at the beginning (+1) or the end (−1) of the working
+        stroke.
         """
         theta = self.crank.half_swing
         rise = (self.height - self.lever * math.cos(theta)) / self.link
@@ -126,7 +126,7 @@ class Ram:
         return self.crank.place(complex(along, self.height - self.crank.d))
 
     def course(self, start: float) -> Stroke:
-        """Return the ram's way from the beginning of its working stroke, for a machine that starts at φ₁ = `start`
+        """Return the ram's stroke, from the beginning of its working stroke, for a machine that starts at φ₁ = `start`
         (rad).
         """
         return Stroke(
@@ -147,9 +147,7 @@ class Ram:
         return self.crank.place(1j * (self.height - self.crank.d))
 
     def linkage(self, points: Sequence[LinkPoint], inertias: Sequence[Inertia], gravity: float) -> Linkage:
-        """Return the mechanism (gravity in m/s²); the ram's guide points against its working way, E lies on its side
-        of D.
-        """
+        """Return the mechanism (gravity in m/s²); the ram's guide points against its working stroke."""
         towards = self.crank.place(1 + 0j)
         guide = Guide(self.line, math.atan2(towards.imag, towards.real))
         return Linkage(
@@ -248,8 +246,8 @@ def ram_torque(q: Calculation, turn: int) -> None:
     """Enter the balancing torque `f.M` as a function of φ₁: its power and that of all forces and inertia forces is
     zero.
 
-    Uses the entries of `ram_formulas`, `P.cut`, masses and moments of inertia as far as they are on the sheet; y
-    points up, so that a weight has the power −G v_y and an inertia force −m(a·v), a couple −J ε ω.
+    Uses the entries of `ram_formulas`, `P.cut`, and masses and moments of inertia if they are entered; y points up, so
+    that a weight has the power −G v_y, an inertia force −m(a·v), and a couple −J ε ω.
     """
     line = natural_lines(q, "l.AB")
     ω1, φ1, φ3, φ4 = (q[id] for id in ("omega.1", "phi.A", "phi.3", "phi.4"))
@@ -332,8 +330,10 @@ RAM_COMPARED = (
 
 
 def lever_equations(turn: int, r: Symbol, d: Symbol, accelerates: float) -> dict[str, tuple[Chain, ...]]:
-    """Return the triangle ABC on x and y, along and across the lever, and its derivatives, which give the lever's
+    """Return the triangle ABC along x and y, along and across the lever, and its derivatives, which give the lever's
     motion.
+
+    `accelerates` (any unit) is 0 for a crank at constant speed.
     """
     S, φ1, φ3, ω1, ω3 = Symbol("S"), Symbol("φ", "1"), Symbol("φ", "3"), Symbol("ω", "1"), Symbol("ω", "3")
     v_r, ε3 = Symbol("v", "r"), Symbol("ε", "3")
@@ -348,7 +348,10 @@ def lever_equations(turn: int, r: Symbol, d: Symbol, accelerates: float) -> dict
 
 
 def ram_equations(turn: int, accelerates: float) -> dict[str, tuple[Chain, ...]]:
-    """Return both closed loops by components, and their first and second derivatives."""
+    """Return both closed loops by components, and their first and second derivatives.
+
+    `accelerates` (any unit) is 0 for a crank at constant speed.
+    """
     l1, l3, l4 = (Symbol("l", link) for link in "134")
     φ3, φ4, ω3, ω4, ε3, ε4 = (Symbol(letter, link) for letter in "φωε" for link in "34")
     nothing = Number(0.0)

@@ -42,8 +42,8 @@ class Parameters(Driven, masses=(2, 3, 4, 5), moments=(2, 3, 4), shares=(2, 3, 4
     press: given_loads.PressingForce | None = None
 
 
-def _sheet(given: Parameters, crank: Given | None = None) -> GivenData:
-    """Return the sheet of given data, mass centres, masses and moments of inertia."""
+def _calculation(given: Parameters, crank: Given | None = None) -> GivenData:
+    """Return the given data, mass centres, masses and moments of inertia."""
     q = GivenData(given)
     for id, length in {"OA": given.OA, "AB": given.AB, "DB": given.BD, "BC": given.BD}.items():
         q.datum(ids.length(id), length, Symbol("l", "BD" if id == "DB" else id))
@@ -72,10 +72,10 @@ def _linkage(given: Parameters, q: GivenData) -> Linkage:
 
 @of_parameters
 def _check_turning(given: Parameters) -> Iterator[Finding]:
-    """Yield faults unless the crank turns fully, without dead points, B stays below D, and the slider goes once down
-    and up.
+    """Yield faults unless the crank turns fully, without dead points, B stays below D, and the slider moves down and up
+    once.
     """
-    linkage = _linkage(given, _sheet(given))
+    linkage = _linkage(given, _calculation(given))
     members = {
         (2, 3): assembly_checks.Member("AB, BD", ("parameters", "AB")),
         (4, 5): assembly_checks.Member("BC", ("parameters", "BD")),
@@ -96,7 +96,7 @@ def machine(assignment: Assignment) -> Machine:
     """Return the toggle press of an assignment: linkage, pressing force, closed formulas."""
     given: Parameters = assignment.parameters
     positions, turn, press = assignment.positions, assignment.positions.sign, given.press
-    q = _sheet(given, assignment.drawing.crank)
+    q = _calculation(given, assignment.drawing.crank)
     linkage, start = _linkage(given, q), positions.start_or()
     q.construct("guide.5.at", q["p.D"])
     minus = (given.B == "left") == (turn > 0)

@@ -1,7 +1,7 @@
-"""Integration of topics into the parameters of a machine, and the hooks of a topic for its section.
+"""Add topics to the parameters of a machine; `TopicSection` has the hooks of a topic for its section of the file.
 
-`with_topics` adds the sections to the parameters of a kind. A file is read with the sections that it names; the
-schema and the form show all. A topic has its `TopicSection` as `HOOKS` in its module `topic`.
+`with_topics` adds the sections to the parameters of a kind.  A file is read with the sections that it names; the schema
+and the form show all.  A topic has its `TopicSection` as `HOOKS` in its module `topic`.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from reportgen.machine.shared_results import SharedResult
 
 Section = TypeVar("Section")
 Datum = Callable[[str, Given, Symbol | str, str], Ref]
-"""Enters a quantity as typed on a sheet: its id, the given value, its symbol, its kind."""
+"""Function that enters a quantity as typed: its id, the given value, its symbol, its kind."""
 ChapterPlace = Literal["loads", "groups", "driver"]
 """Place of a chapter: behind the loads, behind the groups, or behind the balance of the driver."""
 
@@ -57,7 +57,7 @@ class TopicParameters(Part):
         return given
 
     def asked(self) -> tuple[str, ...]:
-        """Return the topics that the file has a section of, in the order in which their data are entered."""
+        """Return the topics with a section in the file, in the order in which their data are entered."""
         return in_order(name for name in self.topic_names if getattr(self, name))
 
     @property
@@ -68,7 +68,7 @@ class TopicParameters(Part):
 
 @dataclass(frozen=True)
 class Opening:
-    """Data from which a topic enters its own while the sheet of a machine is opened."""
+    """The data that a topic can use to enter its own while the calculation of a machine is started."""
 
     given: TopicParameters
     linkage: Linkage
@@ -128,22 +128,22 @@ class TopicSection:
     place: ChapterPlace = "driver"
     default: object = None
     not_in_short: frozenset[str] = frozenset()
-    """The parts of the chapter that a short report goes without."""
+    """Parts of the chapter that a short report leaves out."""
     of_a_turn: frozenset[str] = frozenset()
-    """The parts of the chapter that a report of single instants goes without."""
+    """Parts of the chapter that a report of single instants leaves out."""
     acts: bool = False
     """True if it loads the machine."""
     uses: tuple[SharedResult[object], ...] = ()
-    """The results of other topics that it uses where a machine has them."""
+    """Results of other topics that it uses if a machine has them."""
     checks: Callable[[type[TopicParameters]], tuple[Check, ...]] = _no_checks
     """Checks of the file alone."""
     enter_speed: Callable[[TopicParameters, Datum], None] = _no_speed
     """Enters data that belong to the driver's speed."""
     enter: Callable[[Opening], TopicData] = _no_data
     faults: Callable[[TopicParameters, Machine], Iterator[Finding]] = _no_faults
-    """Yields faults for joints, links or points that the section names and the machine does not have."""
+    """Yields faults for joints, links or points in the section that the machine does not have."""
     failures: Callable[[Machine, Sequence[int]], Iterator[Finding]] = _no_failures
-    """Yields failures on the way of a valid machine; some positions are worked out."""
+    """Yields failures of a valid machine during its cycle, for the worked positions or all."""
     warnings: Callable[[Machine], Iterator[Finding]] = _no_warnings
     """Yields warnings about values that are allowed but probably not intended."""
 

@@ -40,7 +40,7 @@ def degrees(angle: float) -> Number:
 
 
 def as_typed(value: float) -> float:
-    """Return a number without the dust of its conversion to SI."""
+    """Return a number without the rounding error of its conversion to SI."""
     return float(f"{value:.13g}") + 0.0
 
 

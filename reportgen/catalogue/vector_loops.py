@@ -87,7 +87,7 @@ class Moving:
 
 @dataclass(frozen=True, slots=True)
 class LoopBody:
-    """A link: the point that its frame starts at by name and motion, the frame's angle, ω and ε."""
+    """A link: the origin of its frame by name and motion, the frame's angle, ω and ε."""
 
     start: str
     origin: Moving
@@ -101,7 +101,7 @@ class LoopBody:
         return add(self.origin.p, scaled(u, e), scaled(w, turned(e)))
 
     def carried(self, at: VectorComponents) -> Moving:
-        """Return its point at a place: v = v_O + ω ir, a = a_O + ε ir − ω² r."""
+        """Return the link's point at a place, with v = v_O + ω ir, a = a_O + ε ir − ω² r."""
         r = less(at, self.origin.p)
         v = add(self.origin.v, scaled(self.omega, turned(r)))
         inward = scaled(minus(square(self.omega)), r)
@@ -123,7 +123,7 @@ class LoopRail:
 
 @dataclass(frozen=True, slots=True)
 class LoopLine:
-    """A quantity with its formula, and the name that the words set it out by."""
+    """A quantity with its formula, and the name of the part of the equations to which it belongs."""
 
     id: str
     formula: Expression
@@ -142,12 +142,12 @@ RATES = {"v": "velocity", "a": "acceleration"}
 
 @dataclass
 class ClosedLoops:
-    """A linkage while its loops are written down, group by group in the order of assembly.
+    """The loops of a linkage during their construction, group by group in the order of assembly.
 
-    `equations` are by name and group `closure-23`, `velocity-23`, `acceleration-23`, their lines are set out likewise;
-    `place-1`, … are those of the driver.  `compared` are plan quantities and the formulas that must give their sizes.
-    `fixed` are the coordinates of the fixed points, `guides` of a point of each fixed guide, by its slider.  The driver
-    `accelerates` in the sense of its speed (> 0), against it (< 0) or not at all.
+    `equations` are by name and group `closure-23`, `velocity-23`, `acceleration-23`; `place-1`, … are those of the
+    driver.  `compared` are plan quantities and the formulas that must give their sizes.  `fixed` are the coordinates of
+    the fixed points, `guides` those of a point of each fixed guide, by its slider.  `accelerates` is > 0 if the driver
+    accelerates in the sense of its speed, < 0 against it, 0 if it does not.
     """
 
     linkage: Linkage
@@ -171,7 +171,7 @@ class ClosedLoops:
             KINDS[dyad.kind](self, dyad)
 
     def write(self, q: Calculation) -> None:
-        """Enter all on a sheet with given data and plans."""
+        """Enter everything in a calculation that has the given data and the plans."""
         driver = self.linkage.driver
         if isinstance(driver, Crank):
             q.angle(ids.formula_angle(DRIVER), q.value(ids.angle(DRIVER)))
@@ -188,12 +188,12 @@ class ClosedLoops:
     # --- lines
 
     def line(self, part: str, id: str, formula: Expression, symbol: Symbol | str = "", kind: str = "") -> Ref:
-        """Write down a quantity among the places, velocities or accelerations of the group."""
+        """Add a quantity to the places, velocities or accelerations of the group."""
         self.lines.append(LoopLine(id, formula, symbol, kind, f"{part}-{self.group}"))
         return Ref(id)
 
     def point(self, name: str, moving: Moving, plan: bool = True) -> Moving:
-        """Write down a point: coordinates, velocity and acceleration, these with their sizes if a `plan` has them."""
+        """Add a point: coordinates, velocity and acceleration, with their sizes if a `plan` has them."""
         at = self.coordinates(name, moving.p)
         v, a = (self.components(what, name, of, plan) for what, of in (("v", moving.v), ("a", moving.a)))
         self.points[name] = Moving(at, v, a)
@@ -244,7 +244,7 @@ class ClosedLoops:
     # --- ends of a group
 
     def rail(self, slider: int, end: str | Guide) -> LoopRail:
-        """Return a guide as it moves."""
+        """Return a guide with its motion."""
         assert isinstance(end, Guide)
         body = self.links[end.link]
         if end.link == GROUND:
@@ -261,7 +261,7 @@ class ClosedLoops:
         return self.points.get(point_beneath) or self.point(point_beneath, rail.carrier.carried(at), plan)
 
     def put(self, link: int, body: LoopBody) -> None:
-        """Place a link with its points."""
+        """Place a link and its points."""
         self.links[link] = body
         for point in self.linkage.points:
             if point.link == link:

@@ -1,4 +1,7 @@
-"""Run a batch: make the products that are missing or changed and write each one when done; killing it is safe."""
+"""Run a batch (`run_batch`): make the products that are missing or changed and write each one when it is done.
+
+A run can be killed at any time; the next one continues.
+"""
 
 from __future__ import annotations
 
@@ -67,7 +70,7 @@ class Order:
 
 @dataclass(frozen=True, slots=True)
 class Failure:
-    """A product that could not be made; marks name the file by a path that can be opened from here."""
+    """A product that could not be made; its problems name the file by a path that can be opened from here."""
 
     student: str
     product: str
@@ -203,8 +206,10 @@ def _run(
                 outcome = _put(job, made, out, entries.get((job.student, job.product)))
                 file_name = files[job.student]
                 problems = tuple(
-                    one if isinstance(one, str) else one.in_file(str(Path(file_name).parent / one.location.file))
-                    for one in outcome.problems
+                    entry
+                    if isinstance(entry, str)
+                    else entry.in_file(str(Path(file_name).parent / entry.location.file))
+                    for entry in outcome.problems
                 )
                 add(entry_of(job, outcome), problems, outcome.exit_code)
     with reported(out):

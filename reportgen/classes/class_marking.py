@@ -1,4 +1,4 @@
-"""Mark a whole class: return a marking for each filled sheet, and the reason for each student without one.
+"""Mark a whole class (`grade`): a marking for each filled sheet, and the reason for each student without one.
 
 An unreadable sheet never stops the others, and no student's data are written into another's files.
 """
@@ -20,7 +20,14 @@ from reportgen.classes.corrections import Correction, applied
 from reportgen.classes.fault_isolation import isolated
 from reportgen.classes.gradebooks import Gradebook, Participant
 from reportgen.classes.lateness import Handing, days_late
-from reportgen.classes.own_files import LookedFor, OwnWork, completed, own_works, with_own, without_own
+from reportgen.classes.own_files import (
+    OwnWork,
+    SearchTargets,
+    completed,
+    own_works,
+    possible_sheets,
+    submissions_to_mark,
+)
 from reportgen.classes.platforms import Handed, Owner, handed_in
 from reportgen.classes.reading_sheets import read_sheets
 from reportgen.classes.roster import Roster, RosterEntry, assignment_files, comparable, read_roster
@@ -31,7 +38,7 @@ from reportgen.handin.drawing_reader import WantedPlans
 from reportgen.marking.authenticity import Classmate
 from reportgen.marking.class_marks import person
 from reportgen.marking.coursework_marking import check_shares
-from reportgen.marking.judging import mark, own_worlds
+from reportgen.marking.judging import following_values, mark
 from reportgen.marking.marking_data import Marking, Submission, Unmarked
 from reportgen.marking.marking_policy import Policy
 from reportgen.marking.marking_scheme import MarkingScheme, key_asked, marking_scheme
@@ -64,7 +71,7 @@ class Classroom:
         """Return the plans of an assignment, including those by the values read from its student's report."""
         scheme, case = self.scheme(key.id), open_case(self.files[comparable(key.id)], None)
         read = submission(readings, self.language) if readings else None
-        return wanted_plans(case, scheme.key, own_worlds(asked_of(scheme, read), read) if read else ())
+        return wanted_plans(case, scheme.key, following_values(asked_of(scheme, read), read) if read else ())
 
     @cached_property
     def keys(self) -> tuple[Key, ...]:
@@ -153,12 +160,12 @@ def grade(
     names = [key.student.get("name", "") for key in room.keys]
     named = (_without_hidden_name(file, gradebook) for file in handed_in(submissions, faults, names))
     came = chain(named, completed(out, submissions))
-    handed = read_sheets(without_own(came, own), language)
+    handed = read_sheets(possible_sheets(came, own), language)
     collected = collect(handed, lambda name: room.scheme(name).key, files, policy.twice, language)
     keys = {comparable(key.id): key for key in room.keys} if own else {}
-    looked_for = LookedFor(room.handed_out, room.plans)
-    works = own_works(own, keys, lambda file: _student_of(file, room, gradebook), looked_for, policy.twice, language)
-    collected = with_own(collected, works, files, language)
+    targets = SearchTargets(room.handed_out, room.plans)
+    works = own_works(own, keys, lambda file: _student_of(file, room, gradebook), targets, policy.twice, language)
+    collected = submissions_to_mark(collected, works, files, language)
     sheets = {name: sheet for name, (sheet, _) in collected.sheets.items()}
     # Comparing a sheet with all others shows whose values it has.
     classmates = [Classmate(key, sheets.get(key.id)) for key in room.keys] if policy.guard else []

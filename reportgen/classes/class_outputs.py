@@ -1,4 +1,7 @@
-"""Output of a marked class: files for each student, for the instructor and for the learning platform."""
+"""Write the output of a marked class: files for each student, for the instructor and for the learning platform.
+
+`put` writes all files, `put_gradebook` the platform's table.
+"""
 
 from __future__ import annotations
 

@@ -1,10 +1,10 @@
 """The instructor's corrections, a table that is applied at each marking: `corrections.csv`.
 
-A row names a student by id, e-mail or name. It names a quantity by id, pattern or symbol, a section, or a part of a
-coursework; an empty cell means the whole sheet. It names a position; an empty cell means all. Then it gives `right`,
-`wrong` or the total points, and the reason. The person and the date may be added and are shown with the reason. With a
-`value`, the row applies only to cells with that value. Of two rows for one cell the later one counts. Rows that no
-longer fit are reported.
+`read_corrections` reads it, `applied` applies it. A row names a student by id, e-mail or name. It names a quantity by
+id, pattern or symbol, a section, or a part of a coursework; an empty cell means the whole sheet. It names a position;
+an empty cell means all. Then it gives `right`, `wrong` or the total points, and the reason. The person and the date may
+be added and are shown with the reason. With a `value`, the row applies only to cells with that value. Of two rows for
+one cell the later one counts. Rows that no longer fit are reported.
 """
 
 from __future__ import annotations
@@ -187,11 +187,11 @@ def corrected(marking: Marking, correction: Correction) -> Marking | Fault:
         return Fault("correction-points", correction.locations["judgement"], most)
     reason = correction.reason_in(marking.key.language)
     places = {(cell.id, cell.position): _judged(cell, points, worth, reason) for cell in cells}
-    shown = (*what, Text(f" ({correction.position})")) if wanted else what
+    label = (*what, Text(f" ({correction.position})")) if wanted else what
     return replace(
         marking,
         cells=tuple(places.get((cell.id, cell.position), cell) for cell in marking.cells),
-        amendments=(*marking.amendments, Amendment(shown, frozenset(places), reason)),
+        amendments=(*marking.amendments, Amendment(label, frozenset(places), reason)),
     )
 
 

@@ -80,7 +80,7 @@ def students_named(wanted: Sequence[str], roster: Roster, language: Language) ->
 
 def _known(wanted: Sequence[str], known: Mapping[str, RosterEntry], language: Language) -> Collection[str]:
     """Return the ids of students given by id, e-mail or name; raise `UnknownNameError` for an unknown one."""
-    found: list[str] = []
+    ids_found: list[str] = []
     for text in wanted:
         ids = [id for id, student in known.items() if id == comparable(text)]
         ids = ids or [
@@ -90,5 +90,5 @@ def _known(wanted: Sequence[str], known: Mapping[str, RosterEntry], language: La
         ]
         if len(ids) != 1:
             raise UnknownNameError(unknown("no_student", text, [one.id for one in known.values()], language))
-        found += ids
-    return found
+        ids_found += ids
+    return ids_found

@@ -1,4 +1,4 @@
-"""Fill marks into a table exported by a learning platform: Moodle's grading worksheet or Canvas's gradebook.
+"""Fill marks into a table of a learning platform (`read_gradebook`, `Gradebook.filled`): of Moodle or of Canvas.
 
 The rest of the file stays byte for byte. Moodle's worksheet has headings in the teacher's language, so its columns are
 found by position and content. The first column ends in each participant's number. The grade precedes the column of the
@@ -93,11 +93,11 @@ class _Table:
 
 @dataclass(frozen=True, slots=True)
 class Gradebook:
-    """A platform's table: its text after the byte-order `mark`, its encoding, and the cells for its grades."""
+    """A platform's table: its text after the byte order mark `bom`, its encoding, and the cells for its grades."""
 
     path: Path
     text: str
-    mark: bytes
+    bom: bytes
     encoding: str
     separator: str
     table: _Table
@@ -119,7 +119,7 @@ class Gradebook:
             changes[row.grade] = _grade(result.mark, self.table.highest)
             if row.comment and result.comment:
                 changes[row.comment] = _commented(row.comment.text, result.comment)
-        return self.mark + _changed(self.text, changes, self.separator).encode(self.encoding), faults
+        return self.bom + _changed(self.text, changes, self.separator).encode(self.encoding), faults
 
     def handed_in(self, student: Participant) -> str:
         """Return the submission time of a student as the platform writes it, or "" if it is missing."""
@@ -152,22 +152,22 @@ def read_gradebook(path: Path, column: str = "", language: Language | None = Non
     # A file that cannot be read as CSV is rejected here, with the location.
     read(path, language)
     data = path.read_bytes()
-    mark, encoding = encoding_of(data)
-    text = data.removeprefix(mark).decode(encoding)
+    bom, encoding = encoding_of(data)
+    text = data.removeprefix(bom).decode(encoding)
     separator = _separator(text)
     rows = [row for row in _rows(text, separator) if any(cell.text.strip() for cell in row)]
     table = _canvas(rows, column, path) if _is_canvas(rows) else _moodle(rows, path)
     if isinstance(table, Fault):
         raise as_error([table], language)
-    return Gradebook(path, text, mark, encoding, separator, table)
+    return Gradebook(path, text, bom, encoding, separator, table)
 
 
 def _grade(share: float, highest: str) -> str:
     """Return a grade with the decimal mark and the number of decimals of the maximum grade."""
     whole, point, decimals = highest.partition("," if "," in highest else ".")
     value = share * float(f"{whole}.{decimals or 0}")
-    shown = f"{value:.{len(decimals) if point else DECIMALS}f}"
-    return shown.replace(".", point or ".")
+    text = f"{value:.{len(decimals) if point else DECIMALS}f}"
+    return text.replace(".", point or ".")
 
 
 def _commented(present: str, lines: Sequence[str]) -> str:

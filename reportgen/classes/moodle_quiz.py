@@ -1,4 +1,4 @@
-"""Export a class's variants as a question bank for a Moodle quiz, with one cloze question for each variant.
+"""Export a class's variants as questions of a Moodle quiz (`question_bank`), one cloze question for each variant.
 
 A question shows the task without its answer sheet, and asks for the cells that a policy selects. A number is right
 within the wider of the key's two bands. If textbooks differ in the sense, either sign is accepted; a direction may
@@ -105,8 +105,8 @@ class _QuestionBlocks(Blocks):
         if not isinstance(block, tree.Figure):
             return super().block(block, room)
         caption = self.caption(self.words.figure, block)
-        shown = "".join(map(self._picture, picture_files.pngs(block.scenes, self.language, DOTS)))
-        return f"{shown}<p>{caption}</p>" if caption else shown
+        pictures = "".join(map(self._picture, picture_files.pngs(block.scenes, self.language, DOTS)))
+        return f"{pictures}<p>{caption}</p>" if caption else pictures
 
     def _picture(self, data: bytes) -> str:
         name = f"figure-{len(self.pictures) + 1}.png"

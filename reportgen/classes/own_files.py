@@ -1,4 +1,4 @@
-"""Assign reports and drawings without a sheet to their students, and read them.
+"""Assign reports and drawings without a sheet to their students, and read them: `own_works`.
 
 Such a file does not name its assignment. Its student is found by its name or folder, by the platform, or by the id of
 exactly one student of the class in its text.
@@ -16,7 +16,7 @@ from reportgen.base.units import Language
 from reportgen.base.words import as_problem
 from reportgen.case.answer_key import Key
 from reportgen.classes.fault_isolation import isolated
-from reportgen.classes.platforms import Handed, changed
+from reportgen.classes.platforms import Handed, modification_time
 from reportgen.classes.reading_sheets import names_in, read_own
 from reportgen.classes.roster import comparable
 from reportgen.classes.submission_matching import Collected, Refused, chosen_of, named_after
@@ -57,7 +57,7 @@ class OwnWorks:
 
 
 @dataclass(frozen=True, slots=True)
-class LookedFor:
+class SearchTargets:
     """Functions that return what to search for in a student's files, by the key.
 
     `asked` gives the requested cells, with the symbols of the papers. `plans` gives the plans of a drawing, including
@@ -72,7 +72,7 @@ def own_works(
     handed: Sequence[Handed],
     keys: Mapping[str, Key],
     student_of: Callable[[Handed], Key | None],
-    looked_for: LookedFor,
+    targets: SearchTargets,
     twice: Twice,
     language: Language | None,
 ) -> OwnWorks:
@@ -108,12 +108,12 @@ def own_works(
         for assignment, file in several:
             plans = None
             if several is drawings:
-                finding = partial(looked_for.plans, known[assignment], before(assignment))
+                finding = partial(targets.plans, known[assignment], before(assignment))
                 plans = isolated(finding, file.path, language)
             if isinstance(plans, list):
                 gathered.refuse(file, plans)
                 continue
-            calls.append((file, looked_for.asked(known[assignment]), plans))
+            calls.append((file, targets.asked(known[assignment]), plans))
             assignments.append(assignment)
         for assignment, (file, reading) in zip(assignments, read_own(calls, language), strict=True):
             if isinstance(reading, list):
@@ -165,7 +165,7 @@ def _chosen(
             yield from ((assignment, file) for file in files)
 
 
-def without_own(handed: Iterable[Handed], own: list[Handed]) -> Iterator[Handed]:
+def possible_sheets(handed: Iterable[Handed], own: list[Handed]) -> Iterator[Handed]:
     """Yield the files that may be sheets; append the others to `own`."""
     for file in handed:
         if file.is_own:
@@ -174,14 +174,16 @@ def without_own(handed: Iterable[Handed], own: list[Handed]) -> Iterator[Handed]
             yield file
 
 
-def with_own(collected: Collected, own: OwnWorks, known: Container[str], language: Language | None) -> Collected:
+def submissions_to_mark(
+    collected: Collected, own: OwnWorks, known: Container[str], language: Language | None
+) -> Collected:
     """Return the submissions to mark: the sheets, and the own files of students without one.
 
     An unchanged prefilled sheet counts only if the files that it was read from are missing. A sheet named after another
     one of the `known` assignments does not replace its student's own files.
     """
     sheets = dict(collected.sheets)
-    told: list[Problem] = []
+    notes: list[Problem] = []
     for assignment, work in own.works.items():
         first = work.files[0][0]
         stray = assignment in sheets and named_after(sheets[assignment][1].path, known) not in (
@@ -196,10 +198,10 @@ def with_own(collected: Collected, own: OwnWorks, known: Container[str], languag
                 sheets[assignment] = submission, first
         elif not sheets[assignment][0].fingerprint:
             about = {"text": assignment, "sheet": sheets[assignment][1].path.name}
-            told.append(as_problem(Fault("own-beside-sheet", Location(str(first.path)), about), language, "note"))
+            notes.append(as_problem(Fault("own-beside-sheet", Location(str(first.path)), about), language, "note"))
     sheets |= {assignment: sheet for assignment, sheet in collected.readings.items() if assignment not in sheets}
     refused = (*collected.refused, *own.refused)
-    return replace(collected, sheets=sheets, refused=refused, problems=(*collected.problems, *own.problems, *told))
+    return replace(collected, sheets=sheets, refused=refused, problems=(*collected.problems, *own.problems, *notes))
 
 
 def completed(out: Path | None, given: Sequence[Path]) -> Iterator[Handed]:
@@ -208,7 +210,7 @@ def completed(out: Path | None, given: Sequence[Path]) -> Iterator[Handed]:
     for path in sorted(out.glob(f"*/{NAME}")) if out is not None else ():
         resolved = path.resolve()
         if resolved not in among and not among & {*resolved.parents}:
-            yield Handed(path, when=changed(path))
+            yield Handed(path, when=modification_time(path))
 
 
 def renewable(readings: Mapping[str, tuple[Submission, Handed]], target: Path) -> bool:

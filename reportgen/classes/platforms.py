@@ -1,8 +1,9 @@
-"""Find submissions (sheets, reports and drawings) in files, folders and downloads of a learning platform, also zipped.
+"""Find submissions in files, folders and downloads of a learning platform, also zipped: `handed_in`.
 
-Moodle puts a student's files into a folder `Name_4711_assignsubmission_file`, or uses that as a prefix of their names.
-Canvas names each file `name_userid_attachmentid_file`. Files returned to the student must have the same prefix. Moodle
-may hide names (`Participant_4711_assignsubmission_file`); then only the number is known.
+Submissions are sheets, reports and drawings. Moodle puts a student's files into a folder
+`Name_4711_assignsubmission_file`, or uses that as a prefix of their names. Canvas names each file
+`name_userid_attachmentid_file`. Files returned to the student must have the same prefix. Moodle may hide names
+(`Participant_4711_assignsubmission_file`); then only the number is known.
 """
 
 from __future__ import annotations
@@ -106,7 +107,7 @@ def handed_in(paths: Sequence[Path], faults: list[Fault], names: Collection[str]
             with_work: set[str] = set()
             for name, file in named:
                 if _is_sheet(name):
-                    yield from _noted(iter([Handed(file, owners[name], when=changed(file))]), with_work)
+                    yield from _noted(iter([Handed(file, owners[name], when=modification_time(file))]), with_work)
                 elif _is_archive(name):
                     yield from _noted(_from_archive(Handed(file, owners[name]), people, 0), with_work)
             yield from _without_sheet(path.parent, owners, with_work)
@@ -117,7 +118,7 @@ def handed_in(paths: Sequence[Path], faults: list[Fault], names: Collection[str]
                 faults.append(refused.fault)
         else:
             fault = own_files.not_read(path)
-            yield Handed(path, owner_of(path.as_posix()), when=changed(path), fault=fault)
+            yield Handed(path, owner_of(path.as_posix()), when=modification_time(path), fault=fault)
 
 
 def _noted(handed: Iterator[Handed], with_work: set[str]) -> Iterator[Handed]:
@@ -164,7 +165,7 @@ def _members(handed: Handed, people: Collection[HeaderWords], depth: int) -> Ite
         yield from _without_sheet(handed.path, owners, with_work)
 
 
-def changed(path: Path) -> tuple[int, ...]:
+def modification_time(path: Path) -> tuple[int, ...]:
     """Return the time of a file's last change, or () if it does not exist; reading it reports the fault."""
     with suppress(OSError):
         return time.localtime(path.stat().st_mtime)[:6]

@@ -53,7 +53,7 @@ class RosterColumn:
 
 @dataclass(frozen=True, slots=True)
 class Record:
-    """A row: the value under each heading, without empty cells; `mark` is its first cell.
+    """A row: the value under each heading, without empty cells; `location` is that of its first cell.
 
     `cells` are the locations of all its cells, `refused` the columns whose cell shows no value.
     """

@@ -1,4 +1,4 @@
-"""Assign the submitted files to students, one sheet for each, and give a reason for each file that is not used."""
+"""Assign the submitted files to students, one sheet each (`collect`), with a reason for each file that is not used."""
 
 from __future__ import annotations
 
@@ -106,7 +106,7 @@ def chosen_of(
 ) -> tuple[Handed, list[Fault]]:
     """Return the file that counts among several of one assignment, and a fault for each of the others."""
     chosen, *others = _in_order(several, assignment, name, known, twice)
-    about = ({"text": assignment, "first": _told_apart(chosen.path, left.path)} for left in others)
+    about = ({"text": assignment, "first": _distinct_name(chosen.path, left.path)} for left in others)
     return chosen, [
         Fault("sheet-twice", Location(str(left.path)), text) for left, text in zip(others, about, strict=True)
     ]
@@ -141,6 +141,6 @@ def _counting(path: str) -> list[tuple[int, str]]:
     return [(int(part), "") if part.isdecimal() else (-1, part) for part in re.split(r"(\d+)", path)]
 
 
-def _told_apart(chosen: Path, left: Path) -> str:
+def _distinct_name(chosen: Path, left: Path) -> str:
     """Return the name of a file, with its folder if the other file has the same name."""
     return chosen.name if chosen.name != left.name else f"{chosen.parent.name}/{chosen.name}"

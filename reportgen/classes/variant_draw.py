@@ -224,7 +224,7 @@ def shared(drawn: Iterable[DrawnVariant]) -> list[tuple[DrawnVariant, ...]]:
     return [tuple(group) for group in groups.values() if len(group) > 1]
 
 
-def judge_of(spec: Spec) -> FindFaults:
+def fault_finder(spec: Spec) -> FindFaults:
     """Return a function that checks variants of a spec: each must pass `check`, turn fully and have finite results."""
 
     def judge(settings: Settings) -> tuple[Fault, ...]:

@@ -257,8 +257,8 @@ def _axes_of_parts(base: MappingNode, faults: list[Fault]) -> Iterator[DrawnPara
         assert isinstance(name, Scalar), "a part that has a name has a kind"
         for axis in _axes(without(item, parts.ABOUT), (), catalogue.kind(name.text), faults):
             choices = (
-                Choice(one.text, {(PARTS, index, *where): value for where, value in one.settings.items()})
-                for one in axis.choices
+                Choice(choice.text, {(PARTS, index, *where): value for where, value in choice.settings.items()})
+                for choice in axis.choices
             )
             yield DrawnParameter(f"{called}.{axis.name}", tuple(choices))
 

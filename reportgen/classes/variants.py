@@ -35,7 +35,7 @@ from reportgen.base.yaml_values import at, path_text, put, quoted, text_of, with
 from reportgen.cases import opened
 from reportgen.classes.earlier_draw import DROPPED, MARKED, REDRAWN, read_earlier, students_named
 from reportgen.classes.roster import comparable, read_roster
-from reportgen.classes.variant_draw import Draw, DrawnVariant, judge_of, shared
+from reportgen.classes.variant_draw import Draw, DrawnVariant, fault_finder, shared
 from reportgen.classes.variant_spec import Spec, assembled, read_spec
 from reportgen.classes.worker_pool import each_within
 from reportgen.workbook import write_csv
@@ -137,7 +137,7 @@ def make_variants(
     out: Path,
     force: bool = False,
     language: Language | None = None,
-    shown: ShowProgress = lambda files, _: files,
+    show_progress: ShowProgress = lambda files, _: files,
     shared: Sequence[Path] = (),
     redraw: Sequence[str] = (),
     drop: Sequence[str] = (),
@@ -168,7 +168,7 @@ def make_variants(
     for name, content in words_beside(spec_path).items():
         (out / name).parent.mkdir(parents=True, exist_ok=True)
         put_file(out / name, content)
-    draw, files, everyone = Draw(spec, judge_of(spec)), list[StudentFile](), list[StudentFile]()
+    draw, files, everyone = Draw(spec, fault_finder(spec)), list[StudentFile](), list[StudentFile]()
 
     def each() -> Iterator[StudentFile]:
         for drawn in draw.each(roster, earlier.redrawn, anew):
@@ -180,7 +180,7 @@ def make_variants(
 
     count = len(roster.students) - len(earlier.dropped & {comparable(one.id) for one in roster.students})
     # While some variants are drawn, other processes compute the figures of earlier ones.
-    efforts = tuple(shown(_efforts(each(), count), count))
+    efforts = tuple(show_progress(_efforts(each(), count), count))
     _refuse(draw.faults, spec)
     out.mkdir(parents=True, exist_ok=True)
     made = [file.files for file in files if file.state in ("new", "changed")]
@@ -325,15 +325,19 @@ def _effort_of(file: StudentFile) -> Effort | None:
 
 
 def effort(assignment: Assignment) -> Effort:
-    """Return the figures of an assignment, from what is derived at each of its positions."""
+    """Return the figures of an assignment, from the values derived at its positions."""
     case = opened(assignment)
     balance = case.balance
     derived = [
-        one for one in case.families.values() if one.definition is not None and not one.hidden and not one.is_plane
+        family
+        for family in case.families.values()
+        if family.definition is not None and not family.hidden and not family.is_plane
     ]
-    zeros = sum(one.at(position) == 0 for one in derived if one.scale for position in range(1, len(one.values) + 1))
+    zeros = sum(
+        family.at(position) == 0 for family in derived if family.scale for position in range(1, len(family.values) + 1)
+    )
     return Effort(
-        worked=sum(len(one.values) for one in derived),
+        worked=sum(len(family.values) for family in derived),
         largest=None if balance is None else float(np.max(np.abs(balance))),
         speed=case.speed,
         positive=None if balance is None else float(np.mean(balance > 0)),

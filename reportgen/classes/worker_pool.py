@@ -90,7 +90,7 @@ class Job:
 class Outcome:
     """The files of a product by name; or, with an exit code other than 0, the problems that prevented them.
 
-    Marks of `problems` name the assignment file without its folder.
+    Locations of `problems` name the assignment file without its folder.
     """
 
     files: Mapping[str, bytes] = field(default_factory=dict)
@@ -130,7 +130,7 @@ def run_job(job: Job) -> Outcome:
                 Path(scratch, name).write_bytes(content)
             return Outcome(files=dict(job.maker(file, engine, language)))
     except AssignmentError as error:
-        # Its folder is gone, so a mark names the file as the job does.
+        # Its folder is gone, so a location names the file as the job does.
         own = {str(Path(scratch, name)): name for name in job.beside}
         problems = tuple(problem.in_file(own.get(problem.location.file, job.file)) for problem in error.problems)
         return Outcome(problems=problems, exit_code=error.exit_code)
@@ -332,7 +332,7 @@ def each_within(
 
 
 def _begin(megabytes: int, language: Language) -> None:
-    """Limit the memory of this process, and set the language of the process that reads its results.
+    """Prepare a process: limit its memory, and set the language of the process that reads its results.
 
     The fork server may have been started in another language.
     """
@@ -370,7 +370,7 @@ class ClusterError(ReportgenError):
 
 
 class WorkersLostError(Exception):
-    """There has been no worker for a while."""
+    """No worker was present for `WORKERLESS` seconds."""
 
 
 def cluster(address: str, language: Language | None) -> Pool:
@@ -398,7 +398,7 @@ def cluster(address: str, language: Language | None) -> Pool:
                 for job in suspects:
                     retried(job)
                     (future,) = _first_done(client, [client.submit(_run, job, pure=False)])
-                    outcome = _told(job, future)
+                    outcome = _received(job, future)
                     yield job, outcome or failed(word("worker_died", job.making.language))
             except WorkersLostError as error:
                 raise ClusterError(word("workers_lost", language, address=address)) from error
@@ -420,7 +420,7 @@ def _results(client: Any, jobs: Iterator[Job], suspect: Callable[[Job], None]) -
     while handed_out:
         for future in _first_done(client, list(handed_out)):
             job = handed_out.pop(future)
-            outcome = _told(job, future)
+            outcome = _received(job, future)
             hand_out()
             if outcome is None:
                 suspect(job)
@@ -446,7 +446,7 @@ def _first_done(client: Any, futures: Sequence[Any]) -> set[Any]:
             raise WorkersLostError
 
 
-def _told(job: Job, future: Any) -> Outcome | None:
+def _received(job: Job, future: Any) -> Outcome | None:
     """Return the outcome of a job, which the cluster may then forget; None if its workers died.
 
     Raises `OSError` or `FutureCancelledError` if the scheduler has gone.

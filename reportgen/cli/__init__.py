@@ -33,7 +33,7 @@ def main() -> None:
     """Run the `reportgen` command; Ctrl-C is handled before anything is loaded."""
     if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
         signal.signal(signal.SIGINT, _leave)
-    from reportgen.cli.memory_limit import WATCHED, ends_by_itself, is_limited
+    from reportgen.cli.memory_limit import WATCHED, announce_normal_end, is_limited
 
     if is_limited():
         _watch()
@@ -68,7 +68,7 @@ def main() -> None:
             complain_of_program(error)
         sys.exit(SYSTEM)
     finally:
-        ends_by_itself()
+        announce_normal_end()
         # The memory is freed with the process; no final garbage collection is needed.
         gc.freeze()
 

@@ -176,6 +176,7 @@ def for_each(files: list[Path], lang: Language | None, work: Callable[[Path], No
 
 
 def complain(text: str) -> None:
+    """Print a message on standard error, after the name of the program."""
     print(f"reportgen: {text}", file=sys.stderr)
 
 
@@ -282,12 +283,12 @@ def misused(error: Any) -> None:
 
     typer's own messages are only in English, so its errors are distinguished by their attributes.
     """
-    complain(_told(error))
+    complain(_usage_message(error))
     if error.ctx is not None:
         complain(say("see_help", None, command=f"{error.ctx.command_path} -h"))
 
 
-def _told(error: Any) -> str:
+def _usage_message(error: Any) -> str:
     from reportgen.base.words import unknown
 
     if hasattr(error, "possibilities"):

@@ -57,7 +57,7 @@ def figure(
     from reportgen.base.provenance import put_made
 
     formats = listed(format, figures.FIGURE_FORMATS, "--format", "no_format", lang)
-    shown = tuple(dict.fromkeys(name.strip() for name in layers.split(",") if name.strip()))
+    layer_names = tuple(dict.fromkeys(name.strip() for name in layers.split(",") if name.strip()))
     with ending(lang):
         if list_names:
             _print_list(file, lang)
@@ -66,7 +66,7 @@ def figure(
         refuse_inputs(standing(folder, "figures"), [file], lang)
         with reported(), scratch(out):
             files = figures.figure_files(
-                file, names or (), at=at, formats=formats, dpi=dpi or 0, layers=shown, language=lang
+                file, names or (), at=at, formats=formats, dpi=dpi or 0, layers=layer_names, language=lang
             )
             of = api.made_of(file, "typst", api.load(file, lang).language)
             tell(put_made(folder, files, "figures", of), lang)
@@ -120,7 +120,8 @@ def _print_list(file: Path, lang: LangOption) -> None:
 
     still, moving = figures.figure_list(file, lang)
     rows = [
-        (one.name, one.number, one.caption + f" ({', '.join(one.positions)})" * bool(one.positions)) for one in still
+        (named.name, named.number, named.caption + f" ({', '.join(named.positions)})" * bool(named.positions))
+        for named in still
     ]
     _print_rows([*rows, *((one.name, "/".join(figures.MOVING), one.pane.title) for one in moving)])
 

@@ -52,8 +52,8 @@ class _Spoken:
         """Write the usage line of the command."""
         frame = _helps()["frame"]
         pieces = " ".join(self.collect_usage_pieces(ctx))
-        shown = re.sub(r"\w+", lambda piece: frame["pieces"].get(piece[0], piece[0]), pieces)
-        formatter.write_usage(ctx.command_path, shown, prefix=f"{frame['usage']}: ")
+        usage = re.sub(r"\w+", lambda piece: frame["pieces"].get(piece[0], piece[0]), pieces)
+        formatter.write_usage(ctx.command_path, usage, prefix=f"{frame['usage']}: ")
 
     def format_help_text(self, ctx: Any, formatter: Any) -> None:
         """Write the description of the command."""
@@ -121,8 +121,8 @@ def translated(text: str) -> str:
     if plain not in texts:
         for english, own in texts.items():
             around = map(re.escape, english.split("{names}"))
-            if "{names}" in english and (found := re.fullmatch(rf"({_NAME}(?:, {_NAME})*)".join(around), plain)):
-                return str(own).replace("{names}", found[1].replace(", ", _helps()["frame"]["comma"]))
+            if "{names}" in english and (match := re.fullmatch(rf"({_NAME}(?:, {_NAME})*)".join(around), plain)):
+                return str(own).replace("{names}", match[1].replace(", ", _helps()["frame"]["comma"]))
     return str(texts.get(plain, plain))
 
 

@@ -41,7 +41,7 @@ def run_watched() -> int | None:
         return code if stream.read() or code > LEFT else None
 
 
-def ends_by_itself() -> None:
+def announce_normal_end() -> None:
     """Inform a watching process that this one ends normally: C libraries end a process internally, with any code."""
     if pipe := os.environ.get(WATCHED):
         with suppress(OSError):

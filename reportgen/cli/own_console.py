@@ -36,6 +36,6 @@ def _program(kernel: Any, process: int) -> str:
     if not handle:
         return ""
     name, size = ctypes.create_unicode_buffer(LONGEST), ctypes.c_uint32(LONGEST)
-    told = kernel.QueryFullProcessImageNameW(handle, 0, name, ctypes.byref(size))
+    success = kernel.QueryFullProcessImageNameW(handle, 0, name, ctypes.byref(size))
     kernel.CloseHandle(handle)
-    return name.value.rpartition("\\")[2] if told else ""
+    return name.value.rpartition("\\")[2] if success else ""

@@ -108,7 +108,7 @@ def _masses(q: Calculation, analysis: Analysis) -> None:
 
 
 def _between_nodes(
-    q: Calculation, among: Bracket, of: str | int, course: Stroke | None, shown: Symbol, kind: str
+    q: Calculation, among: Bracket, of: str | int, course: Stroke | None, symbol: Symbol, kind: str
 ) -> Expression:
     """Return a value interpolated between the adjacent points x′, p′ and x″, p″ of a table at each position.
 
@@ -123,7 +123,7 @@ def _between_nodes(
 
     def give(mark: str, place: np.ndarray, size: np.ndarray) -> tuple[Ref, Ref]:
         x = q.give(node(f"x{mark}", of), place, Symbol(letter, sup=mark), sort, hidden=True)
-        p = q.give(node(f"p{mark}", of), size, Symbol(shown.base, sup=mark), kind, hidden=True)
+        p = q.give(node(f"p{mark}", of), size, Symbol(symbol.base, sup=mark), kind, hidden=True)
         return x, p
 
     x: Expression
@@ -207,8 +207,8 @@ def _size(q: Calculation, load: Applied | Torque, analysis: Analysis, symbol: Sy
         written, course = None, load.law.read_along
         among = None if load.law.constant else load.law.bracket(analysis.cycle_angle, analysis.motion)
         if among is not None and np.any(among.between):
-            shown = vocabulary.symbol(load.name) if isinstance(symbol, str) else symbol
-            written = _between_nodes(q, among, load.name, course, shown, vocabulary.row(load.name).kind)
+            printed = vocabulary.symbol(load.name) if isinstance(symbol, str) else symbol
+            written = _between_nodes(q, among, load.name, course, printed, vocabulary.row(load.name).kind)
         q.give(load.name, size, symbol, exact=written is None and is_short(size), written=written)
 
 
@@ -244,7 +244,7 @@ def _cycle(q: Calculation, analysis: Analysis) -> None:
         read = q.give(ids.reading(id), extreme, Symbol(letter, index), kind, hidden=True)
         line = call(of_two, read, call(of_all, q["M.eq"]))
         q.give(id, extreme, Symbol(letter, index), kind, exact=False, scale=size, written=line)
-    work = q.give("W", _without_dust(summary.work, size * machine.way), exact=False)
+    work = q.give("W", _without_dust(summary.work, size * machine.cycle_travel), exact=False)
     q.define("power", size_of(mean) * rate)
     q.define("M.energy", work / angle, Symbol(letter, "W"), kind)
 

@@ -174,8 +174,8 @@ def _over_pin(plan: Scheme, dyad: Dyad, point: str) -> Side:
     assert isinstance(dyad.start, str)
     i, j = dyad.links
     pin = dyad.start
-    shown = pin if pin[-1].isdigit() else f"{pin}{i}"
-    return Side(point, pin, plan.still(pin), shown, along=ids.slot(j), turning=plan.spins[j])
+    printed = pin if pin[-1].isdigit() else f"{pin}{i}"
+    return Side(point, pin, plan.still(pin), printed, along=ids.slot(j), turning=plan.spins[j])
 
 
 def _rrr(plan: Scheme, dyad: Dyad) -> tuple[Side, Side]:

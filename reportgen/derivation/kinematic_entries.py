@@ -345,8 +345,8 @@ def _accelerated_pin(k: Kinematics, driver: Crank, ε1: Ref) -> None:
     drawn = q.define(ids.relative_segment("t", pin), across / q["mu.a"], segment("n", on_plan(pin, True)))
     along = unit(arm)
     corner = k.vertex("a", ids.relative_corner("n", pin), -(q[ids.relative_segment("n", pin)] * along))
-    way = sign(q[ids.signed("eps", DRIVER)])
-    k.vertex("a", image(pin), corner + way * (drawn * turned(along)))
+    sense_of_eps = sign(q[ids.signed("eps", DRIVER)])
+    k.vertex("a", image(pin), corner + sense_of_eps * (drawn * turned(along)))
     k.segment(ids.segment("a", "p", image(pin)), POLES["a"], on_plan(pin, True), k.image("a", pin), "a")
     k.direction("a", pin)
 
@@ -389,8 +389,8 @@ def chosen_scale(trial: Kinematics, what: What, worked: Sequence[int]) -> float 
     """
     q, μ = trial.q, trial.q.si(ids.scale(what))
     sizes = extents([np.zeros(1), *map(q.value, trial.vertices[what])], q.positions) * μ
-    shown = sizes[:, [k - 1 for k in worked]] if worked else sizes
-    least = np.nanmin(shown.max(axis=0), initial=np.inf) / μ
+    printed = sizes[:, [k - 1 for k in worked]] if worked else sizes
+    least = np.nanmin(printed.max(axis=0), initial=np.inf) / μ
     if isinstance(trial.scheme.linkage.driver, Crank) and least >= LEAST_MOTION:
         return None
     return common_scale(sizes, worked, LEAST_MOTION)

@@ -61,9 +61,9 @@ def common_scale(sizes: np.ndarray, worked: Sequence[int], least: float) -> floa
     their page.
     """
     chosen = sizes[:, [k - 1 for k in worked]] if worked else sizes
-    shown, every = (part[:, np.isfinite(part).all(axis=0) & (part.max(axis=0) > 0)] for part in (chosen, sizes))
+    printed, every = (part[:, np.isfinite(part).all(axis=0) & (part.max(axis=0) > 0)] for part in (chosen, sizes))
     on_sheet = min(fitting(every, box) for box in SHEET_BOXES)
-    return max(filling(shown, least), fitting(shown, TEXT_BOX), on_sheet) or PER_MM
+    return max(filling(printed, least), fitting(printed, TEXT_BOX), on_sheet) or PER_MM
 
 
 def own_scales(sizes: np.ndarray, least: float, read_at: Iterable[np.ndarray] = ()) -> np.ndarray:

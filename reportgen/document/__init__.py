@@ -1,11 +1,11 @@
 """The tree of a finished document: blocks, and the inlines inside them.
 
-Everything that makes or writes a document uses these types.  The package knows blocks and words, but no machine and no
-case.  Texts are plain strings exactly as they appear in print; writers escape them.  Lengths are in millimetres.  A
-block's `key` is unique in the document and other blocks refer to it; `document.numbering` fills in its `number`, so
+Everything that makes or writes a document uses these types. The package knows blocks and words, but no machine and no
+case. Texts are plain strings exactly as they appear in print; writers escape them. Lengths are in millimetres. A
+block's `key` is unique in the document, and other blocks refer to it. `document.numbering` fills in its `number`, so
 that all writers print the same numbers.
 
-`text_of` returns a document as plain text, which snapshots compare: symbols are written base_sub^sup, numbers as
+`text_of` returns a document as plain text, which snapshots compare. Symbols are written base_sub^sup, numbers as
 printed in the document's language, drawings by their captions.
 """
 
@@ -41,8 +41,8 @@ from reportgen.formula.plain_text import formula, quantity
 class Section:
     """A heading; level 1 is a part of the report, 4 is a run-in heading.
 
-    `numbered=False` is for foreword, conclusion and the like: listed in the contents, not counted.  One that begins a
-    section of the templates has its name in `opens`, which is not printed.
+    `numbered=False` is for a foreword, a conclusion and the like, which are listed in the contents but not counted. A
+    heading that begins a section of the templates has its name in `opens`, which is not printed.
     """
 
     level: int
@@ -55,13 +55,15 @@ class Section:
 
 @dataclass(frozen=True, slots=True)
 class Paragraph:
+    """A paragraph of inlines; `align` is "" for the document's usual alignment."""
+
     inlines: Inlines
     align: Literal["", "center", "right"] = ""
 
 
 @dataclass(frozen=True, slots=True)
 class List:
-    """Items are blocks; `ordered` counts from `start`."""
+    """A list whose items are blocks; an `ordered` one counts from `start`."""
 
     items: tuple[tuple[Block, ...], ...]
     ordered: bool = False
@@ -72,7 +74,7 @@ class List:
 class Equation:
     """One or more displayed lines; each row is one expression.
 
-    With a `key` the group is numbered, once, on its last row.  A row too wide for the text block is
+    With a `key` the group is numbered, once, on its last row. A row too wide for the text block is
     broken by the writers before an "=" of its chain, aligned after the first.
     """
 
@@ -84,27 +86,32 @@ class Equation:
 TEXT_WIDTH = 160.0
 """Width of the text on an A4 page (mm)."""
 FIRST_COLUMN = 16.0
-"""The column of a table that names the positions (mm)."""
+"""Width (mm) of the column of a table that names the positions."""
 
 
 @dataclass(frozen=True, slots=True)
 class Column:
+    """A column of a table: its width (mm) and the alignment of its cells."""
+
     width: float
     align: Literal["left", "center", "right"] = "center"
 
 
 @dataclass(frozen=True, slots=True)
 class Cell:
+    """A cell of a table; `span` is the number of columns that it covers."""
+
     inlines: Inlines = ()
     span: int = 1
 
 
 @dataclass(frozen=True, slots=True)
 class Table:
-    """Ruled table; where it continues on the next page, its number and its `head` rows repeat.
+    """A ruled table; where it continues on the next page, its number and its `head` rows are repeated.
 
-    A cell spans columns only; one across the whole table heads the rows below it.  A `framed` table has a frame
-    around its head and rows, as a boxed answer has.  If it runs over pages, the last page has at least `last` rows.
+    A cell spans columns only; one across the whole table is a heading of the rows below it. A `framed` table has a
+    frame around its head and rows, like a boxed answer. If it continues over pages, the last page has at least `last`
+    rows.
     """
 
     columns: tuple[Column, ...]
@@ -121,9 +128,9 @@ class Table:
 class Figure:
     """One scene, or several side by side in rows as they fit, with one caption, in true size.
 
-    If the page has no room for it, the text continues to the end of the page before it.  A figure `turned` by 90°
-    has a page for itself.  `at` is the label of the position that it shows, if it shows one.  A figure marked `here`
-    keeps its place between tables that run over pages.
+    If the page has no room for it, the text continues to the end of the page before it. A figure `turned` by 90° has
+    its own page. `at` is the label of the position that it shows, or "". A figure marked `here` keeps its place between
+    tables that continue over pages.
     """
 
     scenes: tuple[Scene, ...]
@@ -139,12 +146,10 @@ class Figure:
 
 @dataclass(frozen=True, slots=True)
 class Plate:
-    """Figure on a separate page of its paper size (mm), too large for the A4 text block in true size either way.
+    """A figure on a separate page of its paper size (mm), too large in true size for the A4 text block, even turned.
 
-    Plates are collected at the end of their chapter.
-
-    With `continues` it is a further page of the figure before it, whose number it shares.  `at` is the label of the
-    position that it shows, if it shows one; `rest` is as that of a figure.
+    Plates are collected at the end of their chapter. With `continues`, it is a further page of the figure before it,
+    whose number it shares. `at` is the label of the position that it shows, or ""; `rest` is as in a figure.
     """
 
     scene: Scene
@@ -197,7 +202,7 @@ class Listing:
 
 @dataclass(frozen=True, slots=True)
 class PageBreak:
-    pass
+    """The end of a page."""
 
 
 Block = (
@@ -207,7 +212,7 @@ Block = (
 
 @dataclass(frozen=True, slots=True)
 class Words:
-    """The few words writers themselves print, in the report's language."""
+    """The few words that writers themselves print, in the report's language."""
 
     figure: str
     table: str
@@ -235,7 +240,7 @@ class Words:
 
 @dataclass(frozen=True, slots=True)
 class Document:
-    """A finished report: its blocks in order and what every page carries."""
+    """A finished report: its blocks in order, and the texts that every page carries."""
 
     language: Language
     title: str
@@ -249,7 +254,7 @@ class Document:
     close: bool = False
     """True if it is set in smaller type with less room between lines and blocks."""
     date: datetime.date | None = None
-    """When it was written, as far as its file says it."""
+    """Date of the document, or None if its file does not give one."""
 
 
 def text_of(document: Document) -> str:
@@ -258,7 +263,7 @@ def text_of(document: Document) -> str:
 
 
 def lines_of(block: Block, document: Document) -> Iterator[str]:
-    """The lines of one block, in the words and the language of its document."""
+    """Yield the lines of one block as plain text, in the words and the language of its document."""
     language, words = document.language, document.words
     match block:
         case Section(_, title, number=number):
@@ -306,12 +311,12 @@ def _row(cells: tuple[Cell, ...], language: Language) -> str:
 
 
 def listed(parts: Iterable[Inline]) -> Inlines:
-    """Inlines side by side with commas."""
+    """Return inlines side by side, separated by commas."""
     return tuple(one for index, part in enumerate(parts) for one in ((Text(", "), part) if index else (part,)))
 
 
 def plain(inlines: Inlines, language: Language) -> str:
-    """The text of inlines in one line, with the marks of the language."""
+    """Return inlines as plain text in one line, with the punctuation of the language."""
     result = []
     for inline in set_out(inlines, language):
         match inline:

@@ -1,7 +1,7 @@
-"""Text alternatives for figures, for readers who do not see the drawing.
+"""Text alternatives for figures, for readers who do not see the drawing: `figure_text`.
 
 The PDF, the page and the Word file use the same text: number and caption, then the facts that the drawing states about
-itself, at most `MOST` characters.  If this leaves something out, the text names the table that has the rest.
+itself, at most `MOST` characters. If this leaves something out, the text names the table that has the rest.
 """
 
 from __future__ import annotations
@@ -19,9 +19,9 @@ from reportgen.formula.formula_layout import PRIMES, parted
 from reportgen.formula.plain_text import Plain
 
 MOST = 600
-"""Characters of the text of a drawing."""
+"""Largest number of characters of the text of a drawing."""
 DECIMALS = 2
-"""Decimals of a length that is measured on paper (mm)."""
+"""Decimals of a length on paper (mm)."""
 
 
 class Spoken(Plain):
@@ -35,7 +35,7 @@ class Spoken(Plain):
 
 
 def figure_text(block: Figure | Plate, scene: Scene, words: Words, language: Language) -> str:
-    """The text of one drawing of a figure; those after the first do not repeat its caption."""
+    """Return the text alternative of one drawing of a figure; only that of the first drawing has the caption."""
     first = not block.continues if isinstance(block, Plate) else scene is block.scenes[0]
     name = f"{words.figure} {block.number}".strip() if block.number else ""
     caption = _heard(block.caption, language) if first else words.continued if isinstance(block, Plate) else ""
@@ -57,7 +57,7 @@ def sentences(description: Description, words: Mapping[str, str], language: Lang
 
 
 def within(head: str, facts: Iterable[str], language: Language, rest: str = "") -> str:
-    """Join head and facts into a text of at most `MOST` characters; `rest` says where the facts left out are."""
+    """Return head and facts joined to at most `MOST` characters; `rest` says where the omitted facts are."""
     kept, facts = [], list(facts)
     room = MOST - len(head) - 3
     whole = "; ".join(facts)

@@ -1,9 +1,9 @@
-"""Punctuation of languages that write no spaces between words, such as Chinese.
+"""Punctuation of languages that write no spaces between words, such as Chinese: `set_out` adapts a line.
 
-Code writes blanks, commas and parentheses between inlines as in English.  In a line with letters of such a language,
-this module adapts them for all writers: punctuation becomes full-width, and spaces beside it or beside such letters go.
-Only a formula or a value keeps a space beside a letter, because typesetters leave a gap between two scripts; between
-plain letters they add it themselves.
+Code writes blanks, commas and parentheses between inlines as in English. In a line with letters of such a language,
+punctuation becomes full-width, and spaces beside it or beside such letters are removed. Only a formula or a value keeps
+a space beside a letter, because typesetters leave a gap between two scripts; between plain letters they add it
+themselves.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ _BLANK = re.compile(f"(?<=[{_W}]) +(?![=<>≥≤≈±×·→≡−+–])|(?<![=<
 
 
 def unspaced(inlines: tree.Inlines) -> tree.Inlines:
-    """A line with the marks of Chinese; one without a letter of it stays as it is."""
+    """Return a line with Chinese punctuation; a line without a Chinese letter is returned unchanged."""
     held: list[tree.Inline] = []
     line = "".join(_letters(inline, held) for inline in inlines)
     if not _WIDE_LETTER.search(line):
@@ -44,7 +44,7 @@ def unspaced(inlines: tree.Inlines) -> tree.Inlines:
 
 
 def set_out(inlines: tree.Inlines, language: Language) -> tree.Inlines:
-    """A line with the marks of its language."""
+    """Return a line with the punctuation of its language."""
     return inlines if setting_of(language).spaced else unspaced(inlines)
 
 
@@ -53,7 +53,7 @@ def _set(line: str, symbols: set[str]) -> str:
 
     def parenthesis(match: re.Match[str]) -> str:
         around = line[: match.start()][-1:] + match[1] + line[match.end() :][:1]
-        # With a blank before it, it is a remark; a sum or a product in it is part of a formula, whatever stands around.
+        # A blank before it makes it a remark; with a sum or a product in it, it is part of a formula.
         remark = match[0][0] == " " or _WIDE_LETTER.search(around)
         formula = _TERMS.search(match[1]) and not _WIDE_LETTER.search(match[1])
         return f"（{match[1]}）" if remark and not formula else match[0]
@@ -87,7 +87,7 @@ def _is_symbol(inline: tree.Inline) -> bool:
 
 
 def _inlines(line: str, held: list[tree.Inline]) -> list[tree.Inline]:
-    """The inlines of a line again."""
+    """Return the inlines of a line from its text, in which private characters represent those in `held`."""
     parts: list[tree.Inline] = []
     for piece in re.split(f"([{_HELD}\U00100000-\U0010fffd])", line):
         if len(piece) == 1 and ord(piece) >= _NARROW:

@@ -1,4 +1,4 @@
-"""Placement of scenes on paper: in the text if they fit in true size, else turned, else on a separate page."""
+"""Place scenes on paper: in the text if they fit in true size, else turned, else on a separate page."""
 
 from __future__ import annotations
 
@@ -15,20 +15,20 @@ A3_UPRIGHT, A3_ACROSS = (297.0, 420.0), (420.0, 297.0)
 LARGER = tuple(
     size for short, long in ((420.0, 594.0), (594.0, 841.0), (841.0, 1189.0)) for size in ((long, short), (short, long))
 )
-"""Sheets A2, A1, A0, lying and standing."""
+"""Sheets A2, A1 and A0, landscape and portrait."""
 PLATES = (A3_ACROSS, A3_UPRIGHT, *LARGER)
 FIGURE_ROOM = (TEXT_WIDTH, FIGURE_HEIGHT)
-"""Width and height of an A4 page that a figure may fill."""
+"""Width and height (mm) of an A4 page that a figure may fill."""
 TURNED_ROOM = (254.0, 150.5)
-"""Width and height that a figure turned by 90° may fill."""
+"""Width and height (mm) that a figure turned by 90° may fill."""
 PAPERS = {297.0: "A3", 420.0: "A2", 594.0: "A1", 841.0: "A0"}
-"""The names of sheets by their shorter side (mm)."""
+"""Names of paper sizes by their shorter side (mm)."""
 WHITE = (34.0, 64.0)
 """Margins, header and caption of a plate's page (mm)."""
 CLOSE = 5.5
-"""Part of their margins (mm) that scenes of one figure give up to fit side by side."""
+"""Width (mm) that scenes of one figure lose from their margins to fit side by side."""
 LEAST_MARGIN = 0.5
-"""The white (mm) that remains around a scene."""
+"""White space (mm) that remains around a scene."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,7 +41,7 @@ class FigureScenes:
     """A scale to print behind the caption."""
     turned: bool = False
     smaller: float = 1.0
-    """Factor by which it is smaller than to the scales of the text; its caption says so."""
+    """Factor by which it is smaller than at the scales of the text; its caption says so."""
 
 
 def in_text(*scenes: Scene) -> bool:
@@ -55,7 +55,7 @@ def across(scene: Scene) -> bool:
 
 
 def close(scene: Scene) -> Scene:
-    """A scene without the outer part of the white around it."""
+    """Return a scene without the outer part of its margin."""
     trim = scene.margin - LEAST_MARGIN
     if trim <= 0.0:
         return scene
@@ -70,21 +70,22 @@ def fits(width: float, height: float, paper: tuple[float, float]) -> bool:
 
 
 def on_paper(*scenes: Scene) -> FigureScenes:
-    """Scenes in the text if they fit there in true size, else turned, else each on a page large enough for all."""
-    for shown in (scenes, tuple(map(close, scenes))):
-        if all(map(in_text, shown)):
-            return FigureScenes(shown)
-        if len(shown) == 1 and across(shown[0]):
-            return FigureScenes(shown, turned=True)
+    """Return scenes in the text if they fit there in true size, else turned, else each on a page that fits all."""
+    for candidates in (scenes, tuple(map(close, scenes))):
+        if all(map(in_text, candidates)):
+            return FigureScenes(candidates)
+        if len(candidates) == 1 and across(candidates[0]):
+            return FigureScenes(candidates, turned=True)
     width, height = max(scene.width for scene in scenes), max(scene.height for scene in scenes)
     papers = (paper for paper in PLATES if fits(width, height, paper))
     return FigureScenes(scenes, next(papers, (width + WHITE[0], height + WHITE[1])))
 
 
 def beside_one_another(*scenes: Scene) -> FigureScenes:
-    """Scenes close together if they fit a text block so, else as they are; on a page of their own if they must.
+    """Return scenes close together if they then fit the text block, else as they are.
 
-    That is one for all, turned or as large as they need: what is small takes no large page for itself.
+    If they do not fit the text, they share one page, turned or as large as necessary, so that a small scene never takes
+    a large page for itself.
     """
     together = sheets(scenes, *FIGURE_ROOM, trim=CLOSE)
     if in_text(*together):
@@ -95,7 +96,7 @@ def beside_one_another(*scenes: Scene) -> FigureScenes:
     if len(turned) == 1 and across(turned[0]):
         return FigureScenes(turned, turned=True)
     for paper in PLATES:
-        shown = sheets(scenes, paper[0] - WHITE[0], paper[1] - WHITE[1], trim=CLOSE)
-        if len(shown) == 1 and fits(shown[0].width, shown[0].height, paper):
-            return FigureScenes(shown, paper)
+        packed = sheets(scenes, paper[0] - WHITE[0], paper[1] - WHITE[1], trim=CLOSE)
+        if len(packed) == 1 and fits(packed[0].width, packed[0].height, paper):
+            return FigureScenes(packed, paper)
     return on_paper(*scenes)

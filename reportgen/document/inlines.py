@@ -12,16 +12,22 @@ from reportgen.formula import Expression, Number
 
 @dataclass(frozen=True, slots=True)
 class Text:
+    """Plain text."""
+
     text: str
 
 
 @dataclass(frozen=True, slots=True)
 class Emph:
+    """Emphasised inlines, printed in italics."""
+
     of: tuple[Inline, ...]
 
 
 @dataclass(frozen=True, slots=True)
 class Strong:
+    """Strong inlines, printed in bold."""
+
     of: tuple[Inline, ...]
 
 
@@ -50,12 +56,12 @@ class Reference:
 
 @dataclass(frozen=True, slots=True)
 class LineBreak:
-    pass
+    """The end of a line inside a paragraph."""
 
 
 @dataclass(frozen=True, slots=True)
 class Blank:
-    """A place to fill in, by the `name` of what belongs there and how it is `called` where a name holds less."""
+    """A place to fill in, with the `name` of the value and a shorter name `called` for systems with limited names."""
 
     name: str
     called: str

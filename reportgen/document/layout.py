@@ -1,4 +1,4 @@
-"""Layout decisions that all writers share: which rows share a line, what stays together, where figures are divided."""
+"""Layout decisions that all writers share: rows on one line, blocks kept together, figures divided over pages."""
 
 from __future__ import annotations
 
@@ -28,22 +28,22 @@ from reportgen.formula import Expression, VectorEquation
 from reportgen.formula.formula_layout import MathRow, Part
 
 SCENE_GAP = 4.0
-"""Between scenes side by side, mm."""
+"""Distance (mm) between scenes side by side."""
 ABREAST = 8.0
-"""Between two short rows of an equation side by side, mm."""
+"""Distance (mm) between two short rows of an equation side by side."""
 TEXT_SIZE = 12.0
-"""Size of running text and formulas, points."""
+"""Font size (points) of running text and formulas."""
 CLOSE_SIZE = 11.0
-"""Size of the same in a document that is set close."""
+"""Font size (points) of the same in a document that is set close."""
 CERTAIN = 0.96
-"""Rows are measured to about so much: one that is too wide for its pair would part all others."""
+"""Share of the room up to which an estimated row certainly fits; one that is too wide would part all others."""
 
 
 @dataclass(frozen=True, slots=True)
 class Letter:
-    """The font of running text, "" for the typesetter's own, and its size in points.
+    """The font of running text ("" for the typesetter's own) and its size in points.
 
-    Formulas and the labels of figures keep their own letters, which they are measured by.
+    Formulas and labels of figures keep their own font, by which they are measured.
     """
 
     font: str = ""
@@ -52,24 +52,24 @@ class Letter:
 
 OWN_LETTER = Letter()
 WHOLE_TABLE = 12
-"""A table with no more rows than this is kept on one page."""
+"""Largest number of rows of a table that is kept on one page."""
 TOGETHER = 3
-"""A longer table has at least this many rows on its first page, and below a heading in it."""
+"""Smallest number of rows of a longer table on its first page, and below a heading in it."""
 UNIT = re.compile(r"\b([A-Za-zµ]{1,3}[²³]?/\(?[A-Za-zµ·²³]{1,8}\)?)")
 """A unit with a slash inside a text."""
 FILE = re.compile(r"\b(\w+\.(?:yaml|xlsx))\b")
 """The name of a file inside a text: a hyphen at the end of its line would seem to be typed."""
 UNBROKEN = re.compile(f"{UNIT.pattern}|{FILE.pattern}")
-"""Either of them."""
+"""A unit or a file name inside a text, in which no line may break."""
 
 TITLE = 5.0
-"""Height that the titles of a row of scenes take below it (mm)."""
+"""Height (mm) of the titles below a row of scenes."""
 FIGURE_HEIGHT = 241.0
-"""Height of an A4 page that a figure may fill above its caption (mm)."""
+"""Height (mm) of an A4 page that a figure may fill above its caption."""
 TOGETHER_HEIGHT = 155.0
-"""Rows of a figure that are together higher than this (mm) are split in two parts, the later one as continuation."""
+"""Height (mm) above which the rows of a figure are split in two parts, the later one as continuation."""
 NEARLY_A_PAGE = 200.0
-"""Rows that are together higher than this (mm) fill a page of their own, of which halves would make two half empty."""
+"""Height (mm) from which rows fill their own page; two halves would leave two pages half empty."""
 
 # --- equations --------------------------------------------------------------------------------------
 
@@ -89,9 +89,9 @@ def room_for(room: float, close: bool) -> float:
 
 
 def in_groups(rows: Sequence[Expression], room: float) -> list[tuple[Expression, ...]]:
-    """The rows of an equation in groups that are set alike: vector equations alone, runs of short rows, others.
+    """Return the rows of an equation in groups of the same layout: single vector equations, short rows, others.
 
-    Of short rows two have `room` (mm) side by side; one alone stays with the rows beside it.
+    Two short rows share `room` (mm) side by side; a single short one stays with the rows beside it.
     """
     groups = [list(run) for _, run in groupby(rows, lambda row: isinstance(row, VectorEquation))]
     alike: list[tuple[Expression, ...]] = []
@@ -123,18 +123,18 @@ def _is_short(row: Expression, room: float) -> bool:
 
 
 def _width(row: Expression) -> float:
-    """About what a displayed row takes across (mm)."""
+    """Return the approximate width (mm) of a displayed row."""
     return box(row, TEXT_SIZE, displayed=True).width
 
 
 # --- contents ----------------------------------------------------------------------------------------
 
 PAGE_ENTRIES, MANY_ENTRIES = 50, 30
-"""So many lines fill a page, and so many all of it but what would not be called white."""
+"""Number of lines of a full page of contents, and the smallest number that does not look half empty."""
 
 
 def contents(title: str, blocks: Iterable[Block], brief: bool) -> Contents:
-    """The table of contents of some blocks; one that would leave half of its last page white is not alone there."""
+    """Return the table of contents of some blocks, without its own page if its last page would be half empty."""
     entries = sum(isinstance(block, Section) and block.level <= (2 if brief else 3) for block in blocks)
     return Contents(title, brief, alone=not brief and (entries - 1) % PAGE_ENTRIES >= MANY_ENTRIES)
 
@@ -143,10 +143,10 @@ def contents(title: str, blocks: Iterable[Block], brief: bool) -> Contents:
 
 
 def leads(block: Block, following: Block | None, language: Language) -> bool:
-    """Return True if a block must stay with the next one: a text that ends in a colon, or whose sentence continues
-    there.
+    """Return True if a block must stay with the next one.
 
-    A vector equation stays with the text that says how it is solved, and any equation with a table that sums it up.
+    That is a text that ends in a colon, or whose sentence continues in the next block. A vector equation stays with the
+    text that says how it is solved, and any equation with a table that sums it up.
     """
     if following is None or isinstance(following, (PageBreak, Plate)):
         return False
@@ -166,7 +166,10 @@ def leads(block: Block, following: Block | None, language: Language) -> bool:
 
 
 def held(table: Table) -> tuple[int, ...]:
-    """Return the number of rows of each group that stays on one page: a short table, or a heading and what it heads."""
+    """Return the number of rows of each group that stays on one page.
+
+    A group is a short table, or a heading with the rows below it.
+    """
     count = len(table.rows)
     if count <= max(WHOLE_TABLE, TOGETHER + table.last):
         return (count,)
@@ -186,7 +189,7 @@ def stays(table: Table) -> list[bool]:
 
 
 def parted(block: List) -> tuple[List, ...]:
-    """A list as two lists: the items before the last, if there are any, and the last item."""
+    """Return a list as two lists: all items but the last (if there are any), and the last item."""
     last = replace(block, items=block.items[-1:], start=block.start + len(block.items) - 1)
     return (replace(block, items=block.items[:-1]), last) if block.items[:-1] else (last,)
 
@@ -198,7 +201,11 @@ def height(rows: Sequence[Sequence[Scene]]) -> float:
 
 
 def in_parts(figure: Figure) -> list[list[list[Scene]]]:
-    """The rows of a figure in parts: in one or two where pages have room for these, since a high one leaves white."""
+    """Return the rows of a figure in parts that fit a page each.
+
+    A figure is one part if it is low, or fills a page; otherwise two parts, because a high one leaves white space; more
+    if two do not fit.
+    """
     rows = in_rows(figure.scenes)
     whole = height(rows)
     if whole <= TOGETHER_HEIGHT or NEARLY_A_PAGE < whole <= FIGURE_HEIGHT or len(rows) == 1:
@@ -216,7 +223,7 @@ def in_parts(figure: Figure) -> list[list[list[Scene]]]:
 
 
 def in_rows(scenes: Sequence[Scene]) -> list[list[Scene]]:
-    """Scenes in rows, in order, each row as full as the text block allows."""
+    """Return scenes in rows, in order, each row as full as the text block allows."""
     rows: list[list[Scene]] = []
     used = 0.0
     for scene in scenes:
@@ -230,10 +237,10 @@ def in_rows(scenes: Sequence[Scene]) -> list[list[Scene]]:
 
 
 def plates_last(blocks: Iterable[Block], said: Callable[[Plate], Paragraph]) -> Iterator[Block]:
-    """Yield the blocks with the plates of each chapter at its end; `said` makes the reference at a plate's original
-    place.
+    """Yield the blocks with the plates of each chapter at its end.
 
-    A page of text ends early before a plate, and in this way at most once in a chapter.
+    `said` makes the reference at a plate's original place. A page of text ends early before a plate, at most once in a
+    chapter.
     """
     plates: list[Plate] = []
     for block in blocks:

@@ -1,7 +1,7 @@
-"""Parse Markdown with tokens for values into blocks of the tree.
+"""Parse Markdown with tokens for values into blocks of the tree: `blocks`, `inlines`.
 
-The vocabulary is small on purpose: headings to level 4, paragraphs, emphasis, strong, line breaks, lists and page
-breaks (`---`).  A function makes each other kind of block.
+The supported syntax is small on purpose: headings to level 4, paragraphs, emphasis, strong, line breaks, lists and page
+breaks (`---`). Template functions make every other kind of block.
 """
 
 from __future__ import annotations
@@ -24,21 +24,21 @@ from reportgen.base.errors import TemplateError
 from reportgen.base.words import of_file, word
 
 SECRET = str(secrets.randbelow(10**18)).zfill(18)
-"""Drawn anew in every process, so that no user's text can imitate a mark or a token; it never reaches the result."""
+"""A number drawn in every process, so that no user's text can imitate a mark or a token; it is never printed."""
 TOKEN = re.compile(f"\ue000{SECRET}:(\\d+)\ue001")
 """A value's token in the Markdown text; its group is the index of the value."""
 
 
 @dataclass(frozen=True, slots=True)
 class SectionKey:
-    """Names the section whose heading it ends."""
+    """The name of the section whose heading it ends."""
 
     name: str
 
 
 @dataclass(frozen=True, slots=True)
 class Unnumbered:
-    """Keeps the section whose heading it ends out of the count."""
+    """A mark that excludes the section whose heading it ends from numbering."""
 
 
 Emitted = tree.Inline | tree.Block | SectionKey | Unnumbered
@@ -84,7 +84,7 @@ _Item = str | tree.Inline | _Piece
 
 
 def blocks(rendered: Rendered) -> tuple[tree.Block, ...]:
-    """The blocks of a rendered template; raises `TemplateError` for what is not in the vocabulary."""
+    """Return the blocks of a rendered template; raise `TemplateError` for unsupported syntax."""
     tokens = _parser().parse(rendered.text)
     if (line := _too_deep(tokens)) is not None:
         file, number = rendered.lines[line]
@@ -105,7 +105,7 @@ def _too_deep(tokens: Sequence[Token]) -> int | None:
 
 
 def inlines(rendered: Rendered) -> tree.Inlines:
-    """The inlines of a rendered piece of one paragraph; raises `TemplateError` for anything else."""
+    """Return the inlines of a rendered piece of one paragraph; raise `TemplateError` for anything else."""
     match blocks(rendered):
         case ():
             return ()
@@ -216,7 +216,7 @@ class _Reader:
         return result + self.pieces(text)
 
     def pieces(self, text: str) -> list[_Item]:
-        """Text cut at its tokens."""
+        """Return a text cut at its tokens."""
         result: list[_Item] = []
         for i, part in enumerate(TOKEN.split(text)):
             if i % 2:

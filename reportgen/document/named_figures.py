@@ -40,7 +40,10 @@ class NamedFigure:
         return tuple(dict.fromkeys(scene.at for scene in self.scenes if scene.at))
 
     def shown_at(self, labels: Sequence[str]) -> NamedFigure | None:
-        """The figure of a position that goes by these labels, the nearest first; None where it shows none of them."""
+        """Return the figure at a position with one of these labels, the nearest first.
+
+        None if it shows none of them.
+        """
         if self.at:
             return self if self.at in labels else None
         for label in labels:
@@ -76,7 +79,7 @@ def figure_name(block: Figure | Plate) -> str:
 
 
 def safe(name: str) -> str:
-    """A name as that of a file."""
+    """Return a name in the form of a file name."""
     return _UNSAFE.sub("_", name)
 
 

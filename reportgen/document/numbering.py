@@ -2,7 +2,7 @@
 
 Parts (level 1) count 1, 2, …; sections below them 1.1 and 1.1.1; equations, tables and figures count by part, each
 kind
-separately.  In a part without a number they count 1, 2, … through the whole document.  These never equal the number of
+separately. In a part without a number they count 1, 2, … through the whole document. These never equal the number of
 a
 counted part, which has two members.
 """
@@ -27,11 +27,11 @@ ChangeInlines = Callable[[tree.Inlines], tree.Inlines]
 
 
 def number(document: tree.Document) -> tree.Document:
-    """The document with every number and reference filled in.
+    """Return the document with every number and reference filled in.
 
-    An equation's number is "1.2", a reference to it "(1.2)"; a reference to a section without a number
-    is its title.  Raises `DocumentError` with all duplicate keys, references to nothing, equations with
-    a key that nothing refers to, and headings that skip a level.
+    An equation's number is "1.2", a reference to it "(1.2)"; a reference to a section without a number is its title.
+    Raise `DocumentError` with all duplicate keys, references to nothing, equations with a key that nothing refers to,
+    and headings that skip a level.
     """
     count = _Count()
     numbered = tuple(count.block(block) for block in document.blocks)
@@ -44,14 +44,14 @@ def number(document: tree.Document) -> tree.Document:
     ]
     if faults:
         raise DocumentError(faults)
-    named = {key: plain(_filled(title, count.shown), document.language) for key, title in count.titles.items()}
-    shown = count.shown | named
-    filled = _each(numbered, lambda line: set_out(_filled(line, shown), document.language))
-    return replace(document, blocks=tuple(_with_rest(block, count.shown) for block in filled))
+    named = {key: plain(_filled(title, count.labels), document.language) for key, title in count.titles.items()}
+    labels = count.labels | named
+    filled = _each(numbered, lambda line: set_out(_filled(line, labels), document.language))
+    return replace(document, blocks=tuple(_with_rest(block, count.labels) for block in filled))
 
 
 def unreferenced(document: tree.Document) -> tuple[str, ...]:
-    """Keys of the figures, plates and tables that no text refers to, in order."""
+    """Return the keys of the figures, plates and tables that no text refers to, in order."""
     used = set(_references(document.blocks))
     kinds = tree.Table, tree.Figure, tree.Plate
     keys = (block.key for block in _walk(document.blocks) if isinstance(block, kinds))
@@ -71,7 +71,7 @@ class _Count:
     of_sections: Counter[tuple[int, ...]] = field(default_factory=Counter)
     of_kinds: Counter[tuple[tuple[int, ...], _Kind]] = field(default_factory=Counter)
     times: Counter[str] = field(default_factory=Counter)
-    shown: dict[str, str] = field(default_factory=dict)
+    labels: dict[str, str] = field(default_factory=dict)
     """Printed text of a reference, by key."""
     titles: dict[str, tree.Inlines] = field(default_factory=dict)
     """Titles of sections without a number, by key."""
@@ -125,17 +125,17 @@ class _Count:
         self.of_kinds[part, kind] += 1
         return _dotted((*part, self.of_kinds[part, kind]))
 
-    def name(self, key: str, shown: str) -> None:
+    def name(self, key: str, label: str) -> None:
         if key:
             self.times[key] += 1
-            self.shown[key] = shown
+            self.labels[key] = label
 
 
 def _dotted(numbers: tuple[int, ...]) -> str:
     return ".".join(map(str, numbers))
 
 
-def _with_rest(block: tree.Block, shown: Mapping[str, str]) -> tree.Block:
+def _with_rest(block: tree.Block, labels: Mapping[str, str]) -> tree.Block:
     """Return a figure with the number of the table of its name, or of the longest beginning of its name that has one.
 
     The values of fig.v.stages.23.4 are in tab.v.
@@ -145,7 +145,7 @@ def _with_rest(block: tree.Block, shown: Mapping[str, str]) -> tree.Block:
     names = block.key.replace("fig.", "tab.", 1).split(".")
     least = names.index("tab") + 2 if "tab" in names else len(names) + 1
     keys = (".".join(names[:count]) for count in range(len(names), least - 1, -1))
-    return replace(block, rest=next((shown[key] for key in keys if key in shown), ""))
+    return replace(block, rest=next((labels[key] for key in keys if key in labels), ""))
 
 
 # --- walking --------------------------------------------------------------------------------------
@@ -160,7 +160,7 @@ def _walk(blocks: tuple[tree.Block, ...]) -> Iterator[tree.Block]:
 
 
 def _each(blocks: Blocks, change: ChangeInlines) -> Blocks:
-    """The blocks with `change` applied to every line of text in them."""
+    """Return the blocks with `change` applied to every line of text in them."""
     return tuple(_changed(block, change) for block in blocks)
 
 
@@ -183,12 +183,12 @@ def _changed(block: tree.Block, change: ChangeInlines) -> tree.Block:
     return block
 
 
-def _filled(inlines: tree.Inlines, shown: dict[str, str]) -> tree.Inlines:
-    """Inlines with the text of every reference."""
+def _filled(inlines: tree.Inlines, labels: dict[str, str]) -> tree.Inlines:
+    """Return inlines with the text of every reference filled in from `labels`."""
     return tuple(
-        replace(inline, text=shown[inline.key])
+        replace(inline, text=labels[inline.key])
         if isinstance(inline, tree.Reference)
-        else replace(inline, of=_filled(inline.of, shown))
+        else replace(inline, of=_filled(inline.of, labels))
         if isinstance(inline, (tree.Emph, tree.Strong))
         else inline
         for inline in inlines
@@ -196,7 +196,7 @@ def _filled(inlines: tree.Inlines, shown: dict[str, str]) -> tree.Inlines:
 
 
 def _references(blocks: tuple[tree.Block, ...]) -> list[str]:
-    """Keys referred to, in order."""
+    """Return the keys referred to, in order."""
     keys: list[str] = []
 
     def note(inlines: tree.Inlines) -> tree.Inlines:

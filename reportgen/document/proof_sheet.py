@@ -1,6 +1,6 @@
 """Proof sheet of a language: its texts beside those of the reference language, numbered for a proofreader's remarks.
 
-Every section is printed with all its conditions and, where possible, with the data of one machine.  A value that this
+Every section is printed with all its conditions and, where possible, with the data of one machine. A value that this
 machine does not have is printed as the template names it.
 """
 
@@ -50,7 +50,7 @@ _ID = re.compile(r"\w+\.[\w.]+")
 _OPENED = re.compile(r"(if|elif|for)\s+(.*)", re.DOTALL)
 
 TemplateNames = Callable[[str, Language], Mapping[str, Any]]
-"""The names that templates of a kind see in a language, of one machine; none where there is no such machine."""
+"""Returns the names that templates of a kind see in a language, for one machine; {} if the kind is not a machine."""
 
 
 @dataclass(frozen=True)
@@ -61,12 +61,12 @@ class ProofReader:
     environment: Environment = field(default_factory=lambda: Environment(undefined=StrictUndefined, autoescape=True))
 
     def paragraphs(self, text: str) -> list[Inlines]:
-        """The paragraphs of a section."""
+        """Return the paragraphs of a section."""
         parts = (part.strip() for part in re.split(r"\n\s*\n", text))
         return [self._paragraph(" ".join(part.split("\n"))) for part in parts if part]
 
     def _paragraph(self, text: str) -> Inlines:
-        """A paragraph, a heading in heavy letters."""
+        """Return a paragraph; a heading is in bold letters."""
         line = tuple(self._pieces(text.lstrip("# ")))
         return (Strong(line),) if text.startswith("#") else line
 
@@ -81,7 +81,7 @@ class ProofReader:
                 yield from self._text(piece)
 
     def _text(self, text: str) -> Iterator[Inline]:
-        """Words, and between dollar signs a letter or the id of a quantity."""
+        """Yield words as text, and a letter or the id of a quantity between dollar signs as a symbol."""
         for index, part in enumerate(text.split("$")):
             if index % 2:
                 symbol = InlineMath(Symbol(*part.partition("_")[::2]))
@@ -90,14 +90,15 @@ class ProofReader:
                 yield Text(_MARKUP.sub("", part))
 
     def _value(self, expression: str) -> Inlines:
-        """Return the value of an expression in braces, or its text if this machine has no value or it is no part of a
-        line.
+        """Return the value of an expression in braces.
+
+        Return its text if this machine has no value for it, or if the value cannot be part of a line.
         """
         try:
             value = self.environment.compile_expression(expression, undefined_to_none=False)(**self.names)
-            # What is referred to stands in no proof sheet.
-            shown = inlines(value)
-            return tuple(Text(f"@{one.key}") if isinstance(one, Reference) else one for one in shown)
+            # A proof sheet has no targets of references.
+            printed = inlines(value)
+            return tuple(Text(f"@{one.key}") if isinstance(one, Reference) else one for one in printed)
         except Exception:
             # Whatever this machine cannot say is read as it is written.
             return (Emph((Text(f"‹{expression}›"),)),)
@@ -120,7 +121,7 @@ def _condition(statement: str) -> Iterator[Inline]:
 
 
 def proof(folder: Path, language: Language, words: Mapping[str, Any], named: TemplateNames) -> Document:
-    """The proof sheet of a language's folder, which is called so in the headings of its columns."""
+    """Return the proof sheet of a language's folder; the columns are headed by the languages."""
     numbers = count(1)
     blocks: list[Block] = [Heading(1, (Text(words["title"].format(language=language)),), numbered=False)]
     blocks.append(Paragraph((Text(words["how"]),)))
@@ -154,7 +155,7 @@ def proof(folder: Path, language: Language, words: Mapping[str, Any], named: Tem
 def _section(
     name: str, model: Path, file: Path, readers: tuple[ProofReader, ProofReader], numbers: Iterator[int]
 ) -> Iterator[tuple[Cell, ...]]:
-    """The rows of one section, below its name."""
+    """Yield the rows of one section, below its name."""
     there, here = sections(model)[name], sections(file).get(name)
     if name == SAMPLE:
         return
@@ -175,7 +176,7 @@ def _has_words(line: Inlines) -> bool:
 
 
 def _words(there: Any, here: Any, numbers: Iterator[int], above: str = "") -> Iterator[tuple[Cell, ...]]:
-    """A row for each word of a table, by its key."""
+    """Yield a row for each word of a table, by its key."""
     for key, value in there.items():
         own = here.get(key) if isinstance(here, Mapping) else None
         if isinstance(value, Mapping):

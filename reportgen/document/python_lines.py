@@ -58,19 +58,22 @@ if "--show" in sys.argv:
 
 
 def comment(text: str) -> str:
-    """Words of others as a comment, which ends with its line: none of them is run."""
+    """Return foreign text as a comment, which ends with its line, so that nothing in it can be run."""
     return f"# {' '.join(text.splitlines())}"
 
 
 def python_name(id: str, taken: Collection[str]) -> str:
-    """A quantity's name in Python, by its id: f.omega.3 is omega_3."""
+    """Return the Python name of a quantity from its id: f.omega.3 is omega_3."""
     plain = re.sub(r"[^0-9A-Za-z]+", "_", id.removeprefix("f.")).strip("_")
     name = f"{plain}_" if iskeyword(plain) or plain in ("N", "np") else plain
     return name if name not in taken else python_name(f"{id}.f", taken)
 
 
 def given_values(values: np.ndarray, count: int) -> str:
-    """Return values as a literal; evenly increasing angles of whole turns as a formula."""
+    """Return values [N] or [1] as a Python literal; evenly spaced angles (rad) of whole turns become a formula.
+
+    `count` is the number of positions per turn.
+    """
     if len(values) == 1:
         return repr(float(values[0].real))
     for turn in (1, -1):
@@ -82,7 +85,7 @@ def given_values(values: np.ndarray, count: int) -> str:
 
 
 def assigned(name: str, formula: str, note: str) -> list[str]:
-    """A line `name = formula  # note`, broken where it is too long."""
+    """Return a line `name = formula  # note`, broken if it is too long."""
     line = f"{name} = {formula}"
     if len(line) <= LONGEST:
         return [line + note if len(line + note) <= LONGEST else line]

@@ -32,7 +32,7 @@ def speech(document: Document) -> Speech:
 
 
 def symbols(blocks: Iterable[Block]) -> Iterator[Symbol]:
-    """The symbols of all formulas as often as they are printed, but for the labels of drawings."""
+    """Yield the symbols of all formulas as often as they are printed, without those in labels of drawings."""
     rest = list(_formulas(blocks))
     while rest:
         node = rest.pop()

@@ -14,7 +14,7 @@ LONG_WORDS = 10
 
 
 def cell(content: object) -> Cell:
-    """A table cell from text, a symbol, a number or inlines."""
+    """Return a table cell of a text, a symbol, a number or inlines."""
     return Cell(_inlines(content))
 
 
@@ -46,10 +46,10 @@ def side_by_side(
     together: int = 1,
     widths: Sequence[float] = (),
 ) -> tuple[Table, ...]:
-    """Columns beside one of titles, each with its `heads` on top; several tables where there are too many.
+    """Return columns beside a column of titles, in several tables if there are more than `most` columns.
 
-    Each table has at most so many columns, and keeps so many `together`; the key names the first.  The columns of one
-    table alone may have `widths` (mm) of their own.
+    The first `heads` rows are the head of each table. Each table keeps `together` columns that belong together. The key
+    names the first table, `key.2` the second. The columns of a single table may have their own `widths` (mm).
     """
     count = max(-(-len(columns) // most), 1)
     size = together * -(-len(columns) // (together * count))
@@ -79,7 +79,7 @@ def list_table(
     rows: Iterable[Sequence[object]],
     widths: Sequence[float],
 ) -> Table:
-    """A free table: cells are texts, symbols, numbers or inlines; widths in mm; columns of words flush left."""
+    """Return a free table: cells are texts, symbols, numbers or inlines; widths in mm; columns of words flush left."""
     body = [tuple(row) for row in rows]
     words = [any(_is_wordy(row[i]) for row in body) for i in range(len(widths))]
     return Table(
@@ -96,11 +96,12 @@ def _is_wordy(content: object) -> bool:
 
 
 def exact(value: float) -> Cell:
+    """Return a cell with a number to ten significant figures."""
     return Cell((Value(Number(float(f"{value:.10g}"))),))
 
 
 def folded(prose: Prose, key: str, caption: str, columns: Sequence[tuple[Expression, Sequence[float]]]) -> Table:
-    """Long columns, folded into sets side by side."""
+    """Return columns of numbers, each with its head, folded into three or four sets side by side."""
     head = tuple(cell(shown) for shown, _ in columns)
     sets = [tuple(map(exact, row)) for row in zip(*(values for _, values in columns), strict=False)]
     beside = 3 if len(columns) > 2 else 4
@@ -116,7 +117,10 @@ def folded(prose: Prose, key: str, caption: str, columns: Sequence[tuple[Express
 def in_blocks(
     prose: Prose, key: str, caption: str, head: tuple[Cell, ...], rows: Sequence[tuple[Cell, ...]], first: float
 ) -> Table:
-    """A wide table; more than 13 columns are set below one another in blocks of at most 12 values."""
+    """Return a wide table; more than 13 columns are set in blocks of at most 12 values, one below the other.
+
+    `first` is the width (mm) of the first column, which is repeated in each block.
+    """
     most = 12
     width = min((TEXT_WIDTH - first) / min(len(head) - 1, most), 14.0)
     body: list[tuple[Cell, ...]] = []

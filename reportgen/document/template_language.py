@@ -1,7 +1,7 @@
 """The template language: names, members, calls, conditions, loops and included sections; nothing else.
 
-A template is checked when it is read: syntax outside this language is a fault with its line.  The rest works only on
-the values of a template (`values.py`), and loops and texts have size limits.  Functions of this module replace Jinja's
+A template is checked when it is read: syntax outside this language is a fault with its line. The rest works only on
+the values of a template (`values.py`), and loops and texts have size limits. Functions of this module replace Jinja's
 default operations: join texts, iterate over lists, look up a section.
 """
 
@@ -185,11 +185,11 @@ class _Rewriting(NodeTransformer):
         return self._by("place", node) if node.name == "loop" and node.ctx == "load" else node
 
 
-# --- what is done with values -----------------------------------------------------------------------
+# --- operations on values ---------------------------------------------------------------------------
 
 
 def short(text: str) -> str:
-    """The text, if it is no longer than a text may be.  Raises `TooMuchError`."""
+    """Return the text; raise `TooMuchError` if it is longer than a text may be."""
     if len(text) > LONGEST:
         raise TooMuchError
     return text
@@ -212,7 +212,7 @@ def _bounded(number: int) -> int:
 
 
 def _sum(of: tuple[Any, Any]) -> Any:
-    """`a + b` of two numbers, two texts, or two lists."""
+    """Return `a + b` of two numbers, two texts, or two lists."""
     match tuple(map(_number, of)):
         case int(a), int(b):
             return _bounded(a + b)
@@ -246,7 +246,7 @@ def _items(of: Any) -> tuple[Any, ...]:
 
 
 def _part(of: tuple[Any, ...]) -> Any:
-    """`a[b:c]` of a text or a list."""
+    """Return `a[b:c]` of a text or a list."""
     value, *ends = of
     if not isinstance(value, (str, tuple)):
         raise TypeError(f"a {_type(value)} has no parts")
@@ -254,7 +254,7 @@ def _part(of: tuple[Any, ...]) -> Any:
 
 
 def _whole(value: Any) -> Any:
-    """The value, if no piece of the template is in it, which has marks.  Raises `ValueError`."""
+    """Return the value; raise `ValueError` if it contains a piece of the template, which has marks."""
     if isinstance(value, str) and SECRET in value:
         raise ValueError("a piece of the template is neither cut nor compared")
     return value
@@ -265,12 +265,12 @@ def _type(value: Any) -> str:
 
 
 def _section(name: Any) -> str:
-    """The name of a section that is included."""
+    """Return the name of an included section as text; raise like `Values.text`."""
     return held.get().text(name)
 
 
 def _place(loop: Any) -> Any:
-    """The place in a loop: whether it is the first or the last item, and its number."""
+    """Return the place in a loop as plain values: first, last, index, index0, length."""
     if not isinstance(loop, LoopContext):
         return loop
     return held.get().plain({name: getattr(loop, name) for name in ("first", "last", "index", "index0", "length")})
@@ -327,7 +327,7 @@ FILTERS: Mapping[str, Callable[..., Any]] = {
 
 
 def numbers(*ends: int) -> tuple[int, ...]:
-    """The whole numbers of a range.  Raises `TooMuchError` for too many."""
+    """Return the whole numbers of a range; raise `TooMuchError` for too many."""
     numbers = range(*map(int, ends))
     if len(numbers) > MOST_ITEMS:
         raise TooMuchError

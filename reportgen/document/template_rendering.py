@@ -1,9 +1,9 @@
 """Render templates, plain Markdown with Jinja names, as blocks of the tree.
 
-The text of a template's author and the values inserted into it never mix.  Static text is enclosed in marks that also
-carry its file and line; whatever `{{ … }}` emits goes to a side list and leaves a token behind.  Both survive macros,
+The text of a template's author and the values inserted into it never mix. Static text is enclosed in marks that also
+carry its file and line; whatever `{{ … }}` emits goes to a side list and leaves a token behind. Both survive macros,
 `{% set %}` blocks, `~` and filters: a string made from them still says which part came from where, and all the rest is
-a user's text.  The marks contain a number that each process draws at random, so that no text can imitate them; it never
+a user's text. The marks contain a number that each process draws at random, so that no text can imitate them; it never
 reaches the result.
 """
 
@@ -105,7 +105,7 @@ class Prose:
     """Renders the sections found in `places`; one object serves a whole report.
 
     Every section may call `ref(key, …)`, `key(name)` and `unnumbered()` (at the end of a heading),
-    `blank(label)`, and `inlines(words)` for what a macro or a `{% set %}` block made.  Raises `TemplateError`
+    `blank(label)`, and `inlines(words)` for the result of a macro or a `{% set %}` block. Raises `TemplateError`
     for a section of a school that would never be read.
     """
 
@@ -115,10 +115,10 @@ class Prose:
         self.values = Values()
 
     def render(self, name: str, names: Mapping[str, object]) -> tuple[Block, ...]:
-        """The blocks of the section `name` ("foreword") with `names` filled in.
+        """Return the blocks of the section `name` ("foreword") with `names` filled in.
 
-        Strings appear as they are, expressions as formulas, numbers with their unit, inlines and blocks
-        as themselves, sequences item by item.  Raises `TemplateError` (`file:line: message`) on any fault.
+        Strings appear as they are, expressions as formulas, numbers with their unit, inlines and blocks as themselves,
+        sequences item by item. Raise `TemplateError` (`file:line: message`) on any fault.
         """
         outer, steps = held.set(self.values), self.values.steps
         self.values.steps = 0
@@ -131,23 +131,22 @@ class Prose:
         return (replace(first, opens=name), *blocks[1:]) if isinstance(first, Section) else blocks
 
     def inlines(self, words: str) -> Inlines:
-        """Return the result of a macro, `caller()` or a `{% set %}` block as inlines: a caption written in a
-        template.
+        """Return the result of a macro, `caller()` or a `{% set %}` block as inlines, for example a caption.
 
-        For functions called by a template while it is rendered; a plain string becomes plain text.
+        This is for functions that a template calls while it is rendered; a plain string becomes plain text.
         """
         return inlines_of(words)
 
 
 def inlines_of(words: Marked) -> Inlines:
-    """As `Prose.inlines`."""
+    """Return marked words as inlines, like `Prose.inlines`."""
     return markdown.inlines(_excerpt(words))
 
 
 class _Compiled(BytecodeCache):
-    """Templates as compiled, by file and content: in this process, and kept for the next.
+    """Compiled templates by file and content, in this process and in the cache for later ones.
 
-    The number in the marks is another one in each process; what is kept has `NUMBER` in its place.
+    The number in the marks differs from process to process; cached code has `NUMBER` in its place.
     """
 
     def __init__(self) -> None:
@@ -164,7 +163,7 @@ class _Compiled(BytecodeCache):
 
     def dump_bytecode(self, bucket: Bucket) -> None:
         code = self.codes[bucket.key] = bucket.bytecode_to_string()
-        if NUMBER not in code:  # what a template says of it is no mark
+        if NUMBER not in code:  # the number in the text of a template is not a mark
             keep(self._kept_as(bucket), code.replace(SECRET.encode(), NUMBER))
 
     def _kept_as(self, bucket: Bucket) -> str:
@@ -177,7 +176,7 @@ _compiled = _Compiled()
 
 
 class _Sections(BaseLoader):
-    """Each section is a template, whose lines have the numbers that they have in their file."""
+    """Loader of sections as templates whose lines have the numbers that they have in their file."""
 
     def __init__(self, places: tuple[Path, ...]) -> None:
         self.places = places
@@ -192,7 +191,7 @@ class _Sections(BaseLoader):
 
 @lru_cache(maxsize=ENVIRONMENTS)
 def _environment(places: tuple[Path, ...]) -> Dialect:
-    """The environment of some places with its compiled sections; a section that was changed is read again."""
+    """Return the environment of some places with its compiled sections; a changed section is read again."""
     return Dialect(
         {"join": _join},
         loader=_Sections(places),
@@ -210,7 +209,7 @@ def _environment(places: tuple[Path, ...]) -> Dialect:
 
 
 def _render(places: tuple[Path, ...], name: str, names: Mapping[str, object]) -> Rendered:
-    """The section `name` with `names` filled in; raises `TemplateError` with file and line on any fault."""
+    """Return the section `name` with `names` filled in; raise `TemplateError` with file and line on any fault."""
     values: list[Emitted] = []
     outer = _values.set(values)
     try:
@@ -222,14 +221,14 @@ def _render(places: tuple[Path, ...], name: str, names: Mapping[str, object]) ->
         raise
     except Exception as error:
         file, line = _origin(error, places, name)
-        raise TemplateError(f"{file}:{line}: {_told(error, places)}") from error
+        raise TemplateError(f"{file}:{line}: {_reason(error, places)}") from error
     finally:
         _values.reset(outer)
     return _assemble(output, name, values, places)
 
 
 def _within(pieces: Iterable[str]) -> str:
-    """The pieces of a section in one, up to the one with which they pass any bound."""
+    """Return the pieces of a section joined, up to the piece that exceeds a limit."""
     rendered, size = [], 0
     for piece in pieces:
         rendered.append(piece)
@@ -239,19 +238,19 @@ def _within(pieces: Iterable[str]) -> str:
     return "".join(rendered)
 
 
-def _told(error: Exception, places: tuple[Path, ...]) -> str:
+def _reason(error: Exception, places: tuple[Path, ...]) -> str:
     match error:
         case TemplateSyntaxError() if not isinstance(error, UnknownSignError):
             return error.message or type(error).__name__
         case SecurityError() | UnknownSignError():
             return word("template_unsafe", _language(places))
-        case RecursionError() | SyntaxError():  # Python sets in one another no more than so much either
+        case RecursionError() | SyntaxError():  # Python has a similar limit of nesting
             return word("template_depth", _language(places))
         case TooMuchError():
             return _too_much(places)
         case MemoryError() | LimitError():
             return word("template_limits", _language(places), **asdict(TEMPLATES))
-    # What else an error holds may be a value of the program.
+    # Any other argument of an error may be a value of the program.
     reason = str(error) if all(type(one) in PLAIN for one in error.args) else ""
     return f"{type(error).__name__}: {reason[:LONGEST_TOLD]}"
 
@@ -266,9 +265,9 @@ def _language(places: tuple[Path, ...]) -> Language:
 
 
 def _excerpt(fragment: str) -> Rendered:
-    """A string made in the template being rendered (by a macro, `caller()` or `{% set %}`), ready to be read.
+    """Return a string made in the template (by a macro, `caller()` or `{% set %}`), ready to be parsed.
 
-    Plain text in it stays text; outside a rendering there is nothing else.
+    Plain text in it stays text. Outside a rendering, every string is plain text.
     """
     outer = _values.set(_values.get([]))
     try:
@@ -277,7 +276,7 @@ def _excerpt(fragment: str) -> Rendered:
         _values.reset(outer)
 
 
-# --- what a template may emit ---------------------------------------------------------------------
+# --- values that a template may emit --------------------------------------------------------------
 
 
 @pass_context  # keeps Jinja from folding constants, which would fill the side list while compiling
@@ -314,7 +313,7 @@ def _emit(value: object) -> str:
 
 
 def _emit_text(text: str) -> str:
-    """Marked parts of a string as they are, all between them as plain text."""
+    """Return a string with its marked parts unchanged and everything between them as plain text."""
     if len(text) > MARKS * LONGEST:
         raise TooMuchError
     result, end = [], 0
@@ -337,7 +336,7 @@ def _store(value: Emitted) -> str:
 
 
 def _join(values: object, separator: str = "") -> str:
-    """Strings joined to a string; anything else to be printed side by side, separated alike."""
+    """Return strings joined to a string; anything else becomes a sequence with the same separator."""
     parts = [held.get().own(part) for part in held.get().items(values)]
     if all(isinstance(part, (str, int)) for part in parts):
         return short(separator.join(map(str, parts)))
@@ -345,7 +344,7 @@ def _join(values: object, separator: str = "") -> str:
 
 
 def _ref(*key: object) -> Reference:
-    """A reference to what has a key; the key's parts are joined with dots."""
+    """Return a reference to a key; the parts of the key are joined with dots."""
     return Reference(".".join(_plain(as_text(part)) for part in key))
 
 
@@ -379,7 +378,7 @@ GLOBALS: Mapping[str, Callable[..., Any]] = {
 
 _WHITE = {ord(letter): " " for letter in "\n\t"}
 _MATH = re.compile(r"\$([^\W\d_][\w.]*)\$")
-# Letters of Chinese end a key: no blank stands behind it there.
+# A Chinese letter ends a key, because Chinese has no blank after it.
 _REFERENCE = re.compile(r"@((?:eq|fig|tab)(?:\.[^\W\u2e80-\U0010ffff]+)+)")
 
 
@@ -432,9 +431,9 @@ class _Lines:
 
 
 def _assemble(output: str, name: str, values: Sequence[Emitted], search: tuple[Path, ...]) -> Rendered:
-    """The output without the marks of static text, and from them the origin of every line and token.
+    """Return the output without the marks of static text, and the origin of every line and token.
 
-    Raises `TemplateError` for a text that a filter has cut, and for one that is too long.
+    Raise `TemplateError` for a text that a filter has cut, and for one that is too long.
     """
     so_far, places = _Lines(lines=[(name, 1)]), {}
     place, end = (name, 1), 0
@@ -462,9 +461,9 @@ def _assemble(output: str, name: str, values: Sequence[Emitted], search: tuple[P
 
 
 def _origin(error: Exception, search: tuple[Path, ...], name: str) -> TemplateLine:
-    """The innermost line of a template that an exception passed through; Jinja puts them in the traceback.
+    """Return the innermost line of a template that an exception passed through, from Jinja's entries in the traceback.
 
-    Of one that was not even read, its own; of one that is nowhere, where it would be.
+    For a template that could not be parsed, return its own line; for a missing one, the place where it would be.
     """
     frames = traceback.extract_tb(error.__traceback__)
     places = [(frame.filename, frame.lineno or 1) for frame in frames if frame.filename.endswith(".md")]
@@ -479,5 +478,5 @@ def _origin(error: Exception, search: tuple[Path, ...], name: str) -> TemplateLi
 
 
 def subscripted(text: str) -> str:
-    """Digits of point names as lowered digits: O1A → O₁A."""
+    """Return a point's name with its digits as subscripts: O1A → O₁A."""
     return text.translate(str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉"))

@@ -1,8 +1,8 @@
 """The values that a template can use: texts, numbers, tuples of these, and tokens for everything else.
 
-A token is a number that also says whether the object behind it counts as true.  The object itself stays in the
-`Values` of the report, which give out only its registered members, its entries and the results of functions.  So a
-template never holds a reference into the program.
+A token is a number that also says whether the object behind it counts as true. The object itself stays in the `Values`
+of the report, which give out only its registered members, its entries and the results of functions. So a template never
+has a reference into the program.
 """
 
 from __future__ import annotations
@@ -24,11 +24,11 @@ from reportgen.base import template_access
 from reportgen.document.markdown import SECRET
 
 PLAIN = frozenset((str, int, float, bool, type(None)))
-"""Types of which a template holds the values themselves."""
+"""Types whose values a template gets themselves."""
 
 
 class Token:
-    """Number that represents a value of the program: only functions accept it, or the page on which it is printed."""
+    """A number that represents a value of the program; only functions and the printed page accept it."""
 
     __slots__ = ("number", "truth")
 
@@ -59,7 +59,7 @@ class Values:
         """Steps of the loops of the section that is being rendered."""
 
     def names(self, names: Mapping[str, Any]) -> dict[str, Any]:
-        """The names of a template with what it holds for them; what can be called is a function."""
+        """Return the names of a template with their template values; a callable becomes a function token."""
         known = self._names
         # Most names of a section have the value that they had in the one before.
         for name, value in names.items():
@@ -95,7 +95,7 @@ class Values:
         return self._token(value, Token)
 
     def own(self, value: Any) -> Any:
-        """Return the program's value behind a template's value.  Raises `UndefinedError` for an undefined name."""
+        """Return the program's value behind a template's value; raise `UndefinedError` for an undefined name."""
         if isinstance(value, Token):
             return self._held[value.number]
         if isinstance(value, tuple):
@@ -103,17 +103,18 @@ class Values:
         return str(value) if isinstance(value, Undefined) else value
 
     def member(self, of: Token, name: Any) -> Any:
-        """Return a shown member, or an entry, of a token's value.  Raises `LookupError`."""
+        """Return a registered member, or an entry, of a token's value; raise `LookupError`."""
         return self.plain(template_access.member(self.own(of), self.own(name)))
 
     def members(self, of: Token) -> Iterable[Any]:
-        """The names of all of them."""
+        """Return the names of all members of a token's value."""
         held = self.own(of)
         return held if isinstance(held, Mapping) else template_access.members(type(held)) - {"__str__"}
 
     def items(self, of: Any) -> tuple[Any, ...]:
-        """Return the items that a loop iterates over: those of a list, or the keys of a mapping.  Raises
-        `TypeError`.
+        """Return the items of a loop: those of a list, or the keys of a mapping.
+
+        Raise `TypeError` for anything else.
         """
         held = self.own(of) if isinstance(of, Token) else of
         if isinstance(held, Mapping):
@@ -123,11 +124,11 @@ class Values:
         return held
 
     def text(self, value: Any) -> str:
-        """Return a value as text.  Raises `TypeError` for a value that has no text."""
+        """Return a value as text; raise `TypeError` for a value that has no text."""
         return template_access.text(self.own(value))
 
     def call(self, called: Any, arguments: Iterable[Any], named: Mapping[str, Any]) -> Any:
-        """Call a function.  Raises `SecurityError` if it is not a function, `TypeError` for wrong arguments."""
+        """Call a function; raise `SecurityError` if it is not a function, `TypeError` for wrong arguments."""
         if not isinstance(called, FunctionToken):
             self.own(called)
             raise SecurityError("not a function")
@@ -176,8 +177,10 @@ def _are_texts_or_numbers(value: Any) -> bool:
 
 @cache
 def _wanted(function: FunctionType, given: int) -> tuple[Sequence[str], str, Mapping[str, Callable[[Any], bool]]]:
-    """The names of a function's parameters behind those that are given already, that of all further ones, and what
-    each has to be."""
+    """Return the parameters of a function after the `given` ones.
+
+    The result is their names, the name of all further ones, and a check for each of them.
+    """
     judges: dict[str, Callable[[Any], bool]] = {}
     for name, wanted in function.__annotations__.items():
         if _ONE.fullmatch(str(wanted)):
@@ -190,7 +193,7 @@ def _wanted(function: FunctionType, given: int) -> tuple[Sequence[str], str, Map
 
 
 def _judge(function: Any, arguments: Sequence[Any], named: Mapping[str, Any]) -> None:
-    """Raise `TypeError` where a function that wants texts or numbers gets anything else."""
+    """Raise `TypeError` if a function that requires texts or numbers gets anything else."""
     given = 0
     while not isinstance(function, FunctionType):
         if isinstance(function, partial):

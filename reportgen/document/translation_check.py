@@ -1,8 +1,8 @@
 """Check that a language translates everything in the reference language: files, sections and short words.
 
-Sections are compared by what does not depend on a language: the names that they call and show, the figures and sections
-that they refer to, their formulas, the levels of their headings.  Words are compared by their keys and gaps.  Each
-difference is a fault with its file and line.
+Sections are compared by everything that does not depend on a language: the names that they call and print, the figures
+and sections that they refer to, their formulas, the levels of their headings. Words are compared by their keys and
+placeholders. Each difference is a fault with its file and line.
 """
 
 from __future__ import annotations
@@ -28,9 +28,9 @@ from reportgen.base.yaml_source import MappingNode, Node, Scalar, SequenceNode, 
 
 GLOSSARY = "glossary.yaml"
 TABLES = frozenset({SECTION, FIELDS, CHOICES, MESSAGES_SECTION})
-"""The sections that are tables of words: short words, names of keys and of choices, messages."""
+"""Sections that are tables of words: short words, names of keys and of choices, messages."""
 MESSAGES = frozenset({"messages.yaml", "help.yaml", "fields.yaml"})
-"""Files whose words come in the language of reference where another one does not have them."""
+"""Files whose missing words are taken from the reference language."""
 MOBILITY = "mobility_line()"
 """Call that prints the formula of mobility, whose letters depend on the language."""
 LETTERED = frozenset({"symbol()", "letters()"})
@@ -38,9 +38,9 @@ LETTERED = frozenset({"symbol()", "letters()"})
 GRAMMAR = frozenset({"loop", "lowered", "turn_words", "words"})
 """Names that only fit a word into a sentence."""
 FREE_LISTS = frozenset({"columns", "dates", "judgements", "counted", "hidden_names"})
-"""Words under these keys are as many as the language has: ways to be read, forms for one and for several."""
+"""Keys whose lists may have any number of words: accepted forms, singular and plural."""
 ONE_SIDED = frozenset({("cover", "months"), ("units",), ("symbols",), ("frame", "pieces"), ("texts",)})
-"""Tables that a language may have as it wants: some dates count the month, some indices are their own."""
+"""Tables whose keys a language may choose freely, for example for dates that count the month."""
 _REFERENCE = re.compile(r"@((?:fig|tab|sec|eq)\.[\w.-]*\w)", re.ASCII)
 _FORMULA = re.compile(r"\$([^$\n]+)\$")
 _HEADING = re.compile(r"(?m)^(#+) ")
@@ -54,9 +54,9 @@ MissingLetters = Callable[[str], str]
 
 
 def faults(folder: Path, lacking: MissingLetters | None = None) -> Iterator[Fault]:
-    """Yield the differences of a language's folder from the language of reference.
+    """Yield the differences between a language's folder and the reference language.
 
-    Files of kinds and of topics that are not begun are no fault; one that is begun is compared whole.  Raises
+    Files of kinds and topics that are not begun are not a fault; one that is begun is compared completely. Raise
     `TemplateError` for files that cannot be read.
     """
     letters = frozenset((*read_setting(folder / LANGUAGE_FILE).mobility.letters, *MobilityNotation().letters))
@@ -77,9 +77,7 @@ def faults(folder: Path, lacking: MissingLetters | None = None) -> Iterator[Faul
 
 
 def _untranslated(fault: Fault) -> Fault:
-    """Return the fault with the code for a missing message of the program, which appears in the language of
-    reference.
-    """
+    """Return the fault with the code for a missing message, which appears in the reference language."""
     return replace(fault, code="words-untranslated") if fault.code == "words-missing" else fault
 
 
@@ -89,7 +87,7 @@ def _files(folder: Path) -> set[str]:
 
 
 def _differences(what: str, own: Set[str], wanted: Set[str], location: Location) -> Iterator[Fault]:
-    """Yield faults for names that are missing here, and for names that the language of reference does not have."""
+    """Yield faults for names that are missing here, and for names that the reference language does not have."""
     for code, names in (("words-missing", wanted - own), ("words-beyond", own - wanted)):
         if names:
             yield Fault(code, location, {"expected": f"{what} of words", "place": ", ".join(sorted(names))})
@@ -113,7 +111,7 @@ def _sections(file: Path, model: Path, terms: Terms, free: Set[str]) -> Iterator
 
 
 def _compared(here: Passage, there: Passage, free: Set[str]) -> Iterator[Fault]:
-    """Yield the differences between a section and that of reference."""
+    """Yield the differences between a section and the same section of the reference."""
     location, own, wanted = Location(str(here.file), here.line), SectionContents.of(here), SectionContents.of(there)
     if MOBILITY not in wanted.calls:
         free = frozenset()
@@ -146,7 +144,7 @@ class SectionContents:
 
     @staticmethod
     def of(section: Passage) -> SectionContents:
-        """The contents of a section.  Raises `TemplateError` for what Jinja cannot read."""
+        """Return the contents of a section; raise `TemplateError` for syntax that Jinja cannot read."""
         tree = parsed(section)
         text = "".join(data.data for data in tree.find_all(nodes.TemplateData))
         calls: set[str] = set()
@@ -161,8 +159,8 @@ class SectionContents:
                     calls.add("for")
                 case nodes.Include():
                     calls.add("include")
-                case nodes.Output(nodes=shown):
-                    names |= {name.name for part in shown for name in _names(part)}
+                case nodes.Output(nodes=parts):
+                    names |= {name.name for part in parts for name in _names(part)}
         return SectionContents(
             frozenset(calls),
             frozenset(names - GRAMMAR),
@@ -174,7 +172,7 @@ class SectionContents:
 
 
 def parsed(section: Passage) -> nodes.Template:
-    """A section as Jinja reads it.  Raises `TemplateError` with its line for what it cannot."""
+    """Return a section as Jinja parses it; raise `TemplateError` with its line for a syntax error."""
     from jinja2 import TemplateSyntaxError
 
     try:
@@ -185,17 +183,17 @@ def parsed(section: Passage) -> nodes.Template:
 
 
 def _names(part: nodes.Node) -> Iterator[nodes.Name]:
-    """Yield the names that are shown, without those of conditions: a language may distinguish other cases."""
+    """Yield the names that are printed, without those of conditions: a language may distinguish other cases."""
     if isinstance(part, nodes.Name):
         yield part
-    shown = (part.expr1, part.expr2) if isinstance(part, nodes.CondExpr) else part.iter_child_nodes()
-    for inner in shown:
+    visible = (part.expr1, part.expr2) if isinstance(part, nodes.CondExpr) else part.iter_child_nodes()
+    for inner in visible:
         if inner is not None:
             yield from _names(inner)
 
 
 def _words_in_braces(tree: nodes.Template) -> Iterator[nodes.Const]:
-    """Texts with words that a template prints out of its braces, where no other language can say them otherwise."""
+    """Yield texts with words that a template prints from inside its braces, where they cannot be translated."""
     for node in tree.find_all((nodes.Output, nodes.Assign)):
         parts = node.nodes if isinstance(node, nodes.Output) else [*node.find_all(nodes.Expr)][1:2]
         yield from (leaf for part in parts for leaf in _printed(part))
@@ -236,12 +234,12 @@ def _sound(source: Source, above: int) -> Source:
 
 
 def read_table(file: Path) -> Mapping[str, Any]:
-    """A file of words.  Raises `TemplateError` for what is none."""
+    """Return a file of words; raise `TemplateError` if it is not a table."""
     return _plain(_read(file))
 
 
 def read_words_in(section: Passage) -> Mapping[str, Any]:
-    """The words that a section holds.  Raises `TemplateError` for what are none."""
+    """Return the words in a section; raise `TemplateError` if it is not a table of words."""
     return _plain(_read_in(section))
 
 
@@ -307,7 +305,7 @@ def _all_gaps(node: Node) -> Iterator[str]:
 
 
 def _gaps(said: Scalar, location: Location) -> frozenset[str]:
-    """The gaps of a word, whatever form of them a language takes: {Shaft} as {shaft}, {month_name} as {month}."""
+    """Return the placeholders of a word, in whatever form: {Shaft} as {shaft}, {month_name} as {month}."""
     try:
         return frozenset(gap.casefold().removesuffix("_name") or gap for gap in gaps(said.text))
     except ValueError as error:
@@ -322,7 +320,7 @@ MOST_LETTERS = 12
 
 
 def _lines_of(file: Path, lacking: MissingLetters) -> Iterator[Fault]:
-    """The lines of a file with letters that no font has, or the first one alone."""
+    """Yield the lines of a file with letters that no font has, or its first line alone."""
     text = file.read_text(encoding="utf-8")
     letters = "".join({letter: None for letter in text if unicodedata.category(letter)[0] in "LNPS"})
     missing = frozenset(lacking(letters))
@@ -345,7 +343,7 @@ class Terms:
     names: Mapping[str, tuple[re.Pattern[str], Mapping[str, re.Pattern[str]]]]
 
     def faults(self, here: Passage, there: Passage) -> Iterator[Fault]:
-        """The terms of a section of reference that this one says otherwise."""
+        """Yield a fault for each glossary term of a reference section that this section translates differently."""
         wanted, text = (_IN_BRACES.sub(" ", section.text) for section in (there, here))
         for term, (in_reference, own) in self.names.items():
             if in_reference.search(wanted) and not any(pattern.search(text) for pattern in own.values()):
@@ -354,7 +352,7 @@ class Terms:
 
 
 def _terms(language: str) -> Terms:
-    """The terms of the glossary that a language has; none for the language of reference."""
+    """Return the terms of the glossary in a language; none for the reference language."""
     top = _read(templates() / GLOSSARY).top
     table = plain(top)["terms"] if isinstance(top, MappingNode) else {}
     names_of: dict[str, tuple[re.Pattern[str], Mapping[str, re.Pattern[str]]]] = {}
@@ -367,8 +365,9 @@ def _terms(language: str) -> Terms:
 
 
 def _inflected(name: str) -> re.Pattern[str]:
-    """Return a pattern for any form of a name: long words may have other endings, up to three words may lie between
-    two.
+    """Return a pattern for any form of a name.
+
+    Long words may have other endings, and up to three words may lie between two.
     """
     stems = [re.escape(word[: len(word) - ENDINGS[min(len(word), len(ENDINGS) - 1)]]) for word in name.split()]
     begins = r"\b" if name[:1] < "\u2e80" else ""

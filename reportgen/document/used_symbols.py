@@ -23,13 +23,13 @@ from reportgen.drawing import Label, Scene
 from reportgen.formula import Chain, Expression, Number, Symbol, VectorEquation, children
 
 LEAST_WORD = 4
-"""A text of so many letters is no unit and no verdict."""
+"""Smallest number of letters of a text that is neither a unit nor a verdict."""
 
 
 def used_symbols(blocks: Iterable[Block]) -> frozenset[Symbol]:
-    """The symbols of texts, equations, tables and figures, a vector as the symbol of its magnitude."""
+    """Return the symbols of texts, equations, tables and figures; a vector counts as the symbol of its magnitude."""
     rest = list(_expressions(blocks))
-    # Most symbols are met many times as one object: these are told apart without a look inside.
+    # Most symbols occur many times as one object, so comparing identities is faster than comparing contents.
     symbols: dict[int, Symbol] = {}
     while rest:
         node = rest.pop()

@@ -12,10 +12,9 @@ from reportgen.formula import Expression, Number, vocabulary
 
 
 def inlines(of: Any) -> Inlines:
-    """Return the inlines for a value in a gap: points as symbols, numbers with their unit, formulas, inlines, else
-    text.
+    """Return the inlines for a value in a placeholder: points as symbols, numbers with their unit, else text.
 
-    Raises `TypeError` for a value that cannot be shown in a text.
+    Formulas and inlines are returned as they are. Raise `TypeError` for a value that cannot be shown in a text.
     """
     if isinstance(of, NamedPoint):
         return (InlineMath(vocabulary.point(of)),)

@@ -1,7 +1,8 @@
 """Drawings as data: a sheet of paper in millimetres and the items on it.
 
-Points are complex numbers in mm, x to the right and y up, with the origin at the sheet's lower left
-corner.  Items are painted in order.  A scene knows no machine; a writer knows no figure.
+Points are complex numbers in mm, x to the right and y up, with the origin at the sheet's lower left corner.  Items are
+painted in order.  A `Scene` is a finished drawing, which writers convert to a file format; scenes do not depend on
+machines, nor writers on figures.
 """
 
 from __future__ import annotations
@@ -28,6 +29,8 @@ class Pen:
 
 @dataclass(frozen=True, slots=True)
 class Line:
+    """A straight line."""
+
     start: complex
     end: complex
     stroke: Pen = Pen()
@@ -49,6 +52,8 @@ class Arrow:
 
 @dataclass(frozen=True, slots=True)
 class Circle:
+    """A circle, outlined or filled."""
+
     centre: complex
     radius: float
     stroke: Pen | None = Pen()
@@ -57,9 +62,9 @@ class Circle:
 
 @dataclass(frozen=True, slots=True)
 class Arc:
-    """From `start` to `stop` (radians, anticlockwise when stop > start).
+    """An arc from `start` to `stop` (rad, anticlockwise if stop > start).
 
-    A `head` > 0 puts an arrow tip at the stop.
+    A `head` > 0 (mm) puts an arrow tip at the stop.
     """
 
     centre: complex
@@ -72,7 +77,7 @@ class Arc:
 
 @dataclass(frozen=True, slots=True)
 class Polyline:
-    """Straight lines through points; of a `smooth` curve they are so fine that CAD programs get its spline as well."""
+    """Straight lines through points; a `smooth` curve has such short ones that CAD programs get a spline, too."""
 
     points: tuple[complex, ...]
     stroke: Pen | None = Pen()
@@ -83,9 +88,9 @@ class Polyline:
 
 @dataclass(frozen=True, slots=True)
 class Hatch:
-    """Parallel strokes filling a convex polygon (ground, sections), `spacing` mm apart.
+    """Parallel strokes that fill a convex polygon (ground, sections), `spacing` mm apart.
 
-    They rise at 45° from the direction `turn` (radians).
+    They rise at 45° from the direction `turn` (rad).
     """
 
     points: tuple[complex, ...]
@@ -96,19 +101,19 @@ class Hatch:
 
 @dataclass(frozen=True, slots=True)
 class Label:
-    """Text at a point: `anchor` says which point of its box lies on `at`."""
+    """Text at a point; `anchor` is the point of its box that lies on `at`."""
 
     at: complex
     content: Content
     anchor: Anchor = "center"
     size: float = 9.0
-    """Font size in points."""
+    """Font size (pt)."""
     turn: int = 0
-    """Degrees anticlockwise, 0 or 90."""
+    """Rotation in degrees anticlockwise, 0 or 90."""
     background: bool = False
     """White paper under the box, for a label that must be placed on a line."""
     narrow: float = 1.0
-    """The width of its letters, as a share of the usual one."""
+    """The width of its letters, as a share of the normal width."""
 
 
 Item = Line | Arrow | Circle | Arc | Polyline | Hatch | Label
@@ -116,7 +121,7 @@ Item = Line | Arrow | Circle | Arc | Polyline | Hatch | Label
 
 @dataclass(frozen=True, slots=True)
 class Scene:
-    """A drawing `width` × `height` mm in true size."""
+    """A drawing of `width` × `height` mm in true size."""
 
     width: float
     height: float
@@ -124,12 +129,12 @@ class Scene:
     title: str = ""
     """A short plain title printed below one of several scenes of a figure, e.g. "a)"."""
     margin: float = 0.0
-    """The white around what is drawn, mm each side."""
+    """The margin on each side (mm)."""
     crowded: bool = False
-    """True if its labels need more room than so small a drawing has."""
+    """True if its labels need more room than the drawing has."""
     at: str = ""
-    """The position that it shows, of several scenes of a figure; it is not printed."""
+    """The position of the machine, if the figure has a scene for each of several positions; it is not printed."""
     diagram: Diagram | None = field(default=None, compare=False, repr=False)
-    """Diagram that it shows, if it is a chart."""
+    """The diagram that it was drawn from, if it is a chart."""
     description: Description = field(default=(), compare=False, repr=False)
-    """Description for readers who do not see it."""
+    """Text description for screen readers."""

@@ -1,7 +1,7 @@
-"""Animated drawings: their items, and the place of each item at every sample of a turn.
+"""Animated drawings: their items, and the position of each item at every sample of a turn.
 
-Nothing here is computed twice: a place is a `Track`, an array over the samples, and an item names the tracks that
-it follows.  A machine is drawn once, each link in its own frame; plans are arrows between two tracks.
+A position is a `Track`, an array over the samples, computed once; items name the tracks that they follow.  A machine is
+drawn once, each link in its own frame; plans are arrows between two tracks.
 """
 
 from __future__ import annotations
@@ -27,27 +27,27 @@ from reportgen.machine.kinematics import Motion
 from reportgen.machine.spring_geometry import Coil
 
 ROOM = 9.0
-"""White around what moves, for its labels (mm)."""
+"""Margin around moving items, for their labels (mm)."""
 MARGIN = 7.0
-"""White around a plan in its panel, for its labels (mm)."""
+"""Margin around a plan in its panel, for its labels (mm)."""
 FEET = (-2.6 - 5j, 2.6 - 5j)
-"""From a fixed pivot to the feet of its support (mm)."""
+"""Distance from a fixed pivot to the feet of its support (mm)."""
 SMALL = 6.0
 """Reach (mm) of a block around a point below which the point's name is placed outside the block."""
 MACHINE = 120 + 110j
-"""Approximate room of a machine on a screen (mm): letters and arrows of a larger one grow as it shrinks."""
+"""Approximate size of a machine on a screen (mm): letters and arrows of a larger one are enlarged as it is shrunk."""
 MOST = 4.0
-"""They never grow more than so many times."""
+"""Largest factor by which they are enlarged."""
 PANEL = 96 + 78j
-"""The panel of each plan (mm)."""
+"""Size of the panel of each plan (mm)."""
 LEAST, FINER = 1 / 4, 3.0
-"""A plan that fills a smaller share of its panel is drawn so many times as large, as long as it does."""
+"""A plan that fills less than the first share of its panel is drawn larger by the second factor."""
 BAR = 0.3
-"""A scale bar takes at least this share of its room."""
+"""Least share of its room that a scale bar takes."""
 NO_UNITS: Mapping[str, str] = MappingProxyType({})
-"""Units that are written as they are."""
+"""The empty table of units: each is written unchanged."""
 TOGETHER = 1e-6
-"""Values that differ by no more than this share of the greatest are one constant value."""
+"""Values that vary by at most this share of the greatest are a constant."""
 
 
 class Track:
@@ -73,7 +73,7 @@ class Still:
 
 @dataclass(frozen=True, slots=True)
 class MovingBody:
-    """Items that move with a frame: drawn about its origin, which follows `at` and turns by `angle` (radians)."""
+    """Items in a frame that moves: its origin follows `at` and it turns by `angle` (rad)."""
 
     items: tuple[Item, ...]
     at: Track
@@ -83,7 +83,7 @@ class MovingBody:
 
 @dataclass(frozen=True, slots=True)
 class MovingVector:
-    """An arrow between two tracks, or with no `head` a line, `beyond` mm longer than its end."""
+    """An arrow between two tracks, or with `head` 0 a line, extended by `beyond` mm at its end."""
 
     start: Track
     end: Track
@@ -97,7 +97,7 @@ class MovingVector:
 
 @dataclass(frozen=True, slots=True)
 class MovingName:
-    """A label at a track, on the side away from its `neighbours`."""
+    """A label that follows a track, on the side away from its `neighbours`."""
 
     content: Content
     at: Track
@@ -108,7 +108,7 @@ class MovingName:
 
 @dataclass(frozen=True, slots=True)
 class Spot:
-    """Named point that shows its motion when the pointer is on it: its places in m, its rates in SI units."""
+    """Named point that displays its motion under the pointer: `place` in m, rates in SI units, `on_stage` in mm."""
 
     name: str
     on_stage: Track
@@ -122,14 +122,14 @@ MovingItem = Still | MovingBody | MovingVector | MovingName
 
 @dataclass(frozen=True, slots=True)
 class BarScale:
-    """Value of a millimetre of a drawing, in SI units, for a kind of quantity; shown with its `layers`."""
+    """Value of a millimetre of a drawing, in SI units, for a kind of quantity; visible with its `layers`."""
 
     per: float
     kind: str
     layers: tuple[str, ...] = ()
 
     def bar(self, room: float, units: Mapping[str, str] = NO_UNITS) -> tuple[Number, float]:
-        """The round value of a bar that has so much room (mm), and the bar's length (mm)."""
+        """Return the round value of a bar that has `room` mm, and the bar's length (mm)."""
         how = KINDS[self.kind]
         value = nice_up(BAR * room * self.per / how.scale, (1.0, 2.0, 5.0))
         return Number(value, None, units.get(how.unit, how.unit)), value * how.scale / self.per
@@ -137,9 +137,10 @@ class BarScale:
 
 @dataclass(frozen=True, slots=True)
 class Pane:
-    """A drawing that moves, in mm, in the box from `low` to `high`, with the scales that bars show below it.
+    """A moving drawing, in mm, in the box from `low` to `high`, with its scales as bars below.
 
-    With `finer` one of the scales is in use at a time, the first of them in the items: its number at each sample.
+    With `finer` one of the scales is in use at a time, the first of them in the items: `finer` is its index at each
+    sample.
     """
 
     key: str
@@ -153,21 +154,21 @@ class Pane:
 
     @property
     def enlargement(self) -> float:
-        """By which factor letters, arrowheads and pens of arrows are larger than in figures."""
+        """Return the factor by which letters, arrowheads and pens of arrows are larger than in figures."""
         size = self.high - self.low
         return min(max(size.real / MACHINE.real, size.imag / MACHINE.imag, 1.0), MOST)
 
 
 BARS, STRIP, UP = 2, 7.0, 1.5
-"""Number of scale bars side by side, height of their strips (mm), height above the lower edge of theirs (mm)."""
+"""Number of scale bars in a row, height of a row (mm), height of a bar above the lower edge of its row (mm)."""
 TICK = 0.8
-"""Half the strokes at the ends of a scale bar (mm)."""
+"""Half the length of the strokes at the ends of a scale bar (mm)."""
 
 
 def scale_bars(pane: Pane, units: Mapping[str, str]) -> tuple[complex, list[tuple[BarScale, tuple[Item, ...]]]]:
-    """The lower left corner (mm) of a pane with its bars, and a bar for each scale, its value above it.
+    """Return the lower left corner (mm) of a pane with its bars, and a bar for each scale, its value above it.
 
-    Bars of scales that are in use in turns are all in one place.
+    Bars of scales that alternate are at the same place.
     """
     enlargement, room = pane.enlargement, (pane.high - pane.low).real / BARS
     tick, stroke = 1j * TICK * enlargement, Pen(round(style.VISIBLE.width * enlargement, 3))
@@ -178,15 +179,15 @@ def scale_bars(pane: Pane, units: Mapping[str, str]) -> tuple[complex, list[tupl
         start = pane.low + (column * room + enlargement) - 1j * ((strip + 1) * STRIP - UP) * enlargement
         end = start + length
         strokes = ((start, end), (start - tick, start + tick), (end - tick, end + tick))
-        shown = Label(start + 1.5 * tick, value, "bottom-left", style.SMALL * enlargement)
-        bars.append((scale, (*(Line(*ends, stroke) for ends in strokes), shown)))
+        label = Label(start + 1.5 * tick, value, "bottom-left", style.SMALL * enlargement)
+        bars.append((scale, (*(Line(*ends, stroke) for ends in strokes), label)))
     strips = 1 if pane.finer else math.ceil(len(pane.scales) / BARS)
     return pane.low - 1j * strips * STRIP * enlargement, bars
 
 
 @dataclass(frozen=True, slots=True)
 class Curve:
-    """A curve of a chart: what it shows, and its values in the unit of its axis."""
+    """A curve of a chart: its label, and its values in the unit of its axis."""
 
     label: Content
     values: Track
@@ -194,9 +195,9 @@ class Curve:
 
 @dataclass(frozen=True, slots=True)
 class Chart:
-    """A chart that a cursor runs over, the driver's way across.
+    """A chart with a cursor along the driver's travel.
 
-    On that `of_run` the working point of the drive moves: the speed across, the torque upwards.
+    On the chart `of_run` the working point of the drive moves: the speed across, the torque upwards.
     """
 
     plotted: Plotted
@@ -208,8 +209,8 @@ class Chart:
 class TimedRun:
     """A motion that can be played in time: "steady", "start" or "stop".
 
-    At the times t (s) [K] the driver has turned by the `angle` (degrees) from the first position, which may be more
-    than a cycle or less than 0, and has the `speed` (rad/s); `drive` is the torque of the drive (N·m).
+    At the times t (s) [K] the driver has turned by the `angle` (degrees) [K] from the first position, which may exceed
+    a cycle or be negative, and has the `speed` (rad/s) [K]; `drive` is the torque of the drive (N·m) [K].
     """
 
     key: str
@@ -221,7 +222,7 @@ class TimedRun:
 
 @dataclass(frozen=True, slots=True)
 class MomentValue:
-    """A number of the moment: its symbol, its unit, its values in that unit."""
+    """A number that the page displays for the current moment: its symbol, its unit, its values in that unit."""
 
     symbol: Content
     unit: str
@@ -231,57 +232,57 @@ class MomentValue:
 
 @dataclass(frozen=True, slots=True)
 class Errors:
-    """Largest errors from straight lines between samples."""
+    """Largest errors from linear interpolation between samples."""
 
     place: float
     """Error of drawn points (mm)."""
     crank: float
-    """The drawn crank (mm), or the way of a sliding driver."""
+    """Length of the drawn crank (mm), or the travel of a sliding driver."""
     share: float
-    """Error of velocities, accelerations and forces: the share of their greatest value."""
+    """Error of velocities, accelerations and forces as a share of their greatest value."""
 
 
 @dataclass(frozen=True, slots=True)
 class Animation:
-    """Animation in a panel of a page.
+    """An animation in a panel of a page.
 
-    `knots` are the samples of one turn in degrees, from 0 to 360; tracks of the cycle continue through all `turns`.
-    An animation of a coursework's part has the part's `name` and `title`.
+    `knots` are the samples of one turn in degrees, from 0 to 360; tracks of the cycle continue through all `turns`. The
+    animation of a coursework's part has the part's `name` and `title`.
     """
 
     knots: np.ndarray
     turns: int
     span: float
-    """The way (mm) of a sliding driver, which takes the place of the turn; 0 for a crank."""
+    """The travel (mm) of a sliding driver, which replaces the turn; 0 for a crank."""
     positions: tuple[tuple[str, float], ...]
     """Label and cycle angle (degrees) of each numbered position."""
-    shown: int
-    """The position (from 0) that the page opens at."""
+    opening: int
+    """The index of the position at which the page opens."""
     panes: tuple[Pane, ...]
     charts: tuple[Chart, ...]
     values: tuple[MomentValue, ...]
     errors: Errors
     layers: tuple[str, ...] = field(default=())
-    """Layers that can be switched on, in the order of `LAYERS`, then of the topics."""
+    """Layers that can be switched on: first those of `LAYERS`, then those of the topics."""
     name: str = ""
     title: str = ""
     runs: tuple[TimedRun, ...] = ()
-    """Motions that are played as the time goes, the steady one first; none without a drive."""
+    """Motions that can be played in real time, the steady one first; `()` without a drive."""
     units: Mapping[str, str] = field(default_factory=dict)
-    """Units as the language writes them; one that is not here is written as it is."""
+    """Units as the language writes them; a missing unit is written unchanged."""
     instants: tuple[float, ...] = ()
-    """Position of the driver at each single instant, which is at even knots (degrees, or mm of a slide)."""
+    """Driver coordinate of each single instant (degrees, or mm of a slide), at equally spaced knots."""
 
 
 LAYERS = (*("paths", "velocities", "accelerations", "centres", "loads", "inertia", "weights", "reactions"),)
-"""The layers of any machine; the first is shown from the start.  Those of topics follow."""
+"""The layers of any machine; the first is visible from the start.  Topics add theirs."""
 
 
-# --- making drawings that move --------------------------------------------------------------------------
+# --- drawings that move --------------------------------------------------------------------------------
 
 
 def linkage_items(linkage: Linkage, motion: Motion, at: int, scale: float, looks: Looks) -> list[MovingItem]:
-    """A linkage in the order in which figures paint it, drawn as at the sample `at`, `scale` mm of paper per m."""
+    """Return the items of a linkage in painting order, drawn as at the sample `at`, `scale` mm of paper per m."""
     bones = skeleton(linkage, motion, at, scale)
     places = {name: Track(point.p * scale) for name, point in motion.points.items()}
     frames = {link: (Track(motion.origins[link].p * scale), Track(motion.links[link].angle)) for link in linkage.links}
@@ -316,7 +317,7 @@ def linkage_items(linkage: Linkage, motion: Motion, at: int, scale: float, looks
 def spring_items(
     coil: Coil, linkage: Linkage, motion: Motion, at: int, scale: float, pivots: Sequence[str]
 ) -> list[MovingItem]:
-    """A spring that is stretched, its ground as at the sample `at`; or one wound about its pin, which turns."""
+    """Return a spring that is stretched, its ground as at the sample `at`; or one wound about its pin, which turns."""
     start, end = (place * scale for place in coil.at(motion))
     if coil.wound:
         turned = np.angle(end - start)
@@ -353,7 +354,7 @@ def _reach(name: str, bones: Skeleton, looks: Looks) -> float:
 
 
 def _neighbours(name: str, bones: Skeleton, places: dict[str, Track]) -> Iterable[Track]:
-    """The points that a point is joined to by bars, and its support, whose side its label keeps off."""
+    """Return the points that bars connect to a point, and its support: its label keeps away from them."""
     if name in bones.pivots:
         yield from (Track(places[name].values + foot) for foot in FEET)
     for link, joints in bones.bars.items():
@@ -363,7 +364,7 @@ def _neighbours(name: str, bones: Skeleton, places: dict[str, Track]) -> Iterabl
 
 
 def path_items(linkage: Linkage, motion: Motion, names: Sequence[str], scale: float) -> list[MovingItem]:
-    """The curves that points (m) describe, `scale` mm of paper to a metre."""
+    """Return the curves that points (m) trace, at `scale` mm of paper per m."""
     curves: list[MovingItem] = []
     for name in names:
         curve = motion.points[name].p[motion.reachable] * scale
@@ -372,7 +373,7 @@ def path_items(linkage: Linkage, motion: Motion, names: Sequence[str], scale: fl
 
 
 def plan_items(plan: Construction[str], tracks: Mapping[str, Track]) -> list[MovingItem]:
-    """A plan that moves: each of its corners follows the track of its name."""
+    """Return a moving plan: each of its corners follows the track of its name."""
     items: list[MovingItem] = [
         MovingVector(tracks[line.start], tracks[line.end], style.CONSTRUCTION, 0.0, beyond=BEYOND)
         for line in plan.lines
@@ -387,7 +388,7 @@ def plan_items(plan: Construction[str], tracks: Mapping[str, Track]) -> list[Mov
 
 
 def lever_items(plan: Construction[str], tracks: Mapping[str, Track]) -> list[MovingItem]:
-    """A plan as a rigid lever about its pole."""
+    """Return a plan as a rigid lever about its pole."""
     items: list[MovingItem] = [
         MovingVector(tracks[vector.start], tracks[vector.end], style.VISIBLE, 0.0) for vector in plan.vectors
     ]
@@ -398,7 +399,7 @@ def lever_items(plan: Construction[str], tracks: Mapping[str, Track]) -> list[Mo
 
 
 def _names(plan: Construction[str], tracks: Mapping[str, Track], gap: float) -> list[MovingItem]:
-    """The names of a plan's points, each on the side away from the vectors that meet there."""
+    """Return the names of a plan's points, each on the side away from the vectors that meet there."""
     joined: dict[str, list[Track]] = {}
     for vector in plan.vectors:
         joined.setdefault(vector.start, []).append(tracks[vector.end])
@@ -409,7 +410,9 @@ def _names(plan: Construction[str], tracks: Mapping[str, Track], gap: float) -> 
 
 @dataclass(frozen=True, slots=True)
 class Fitted:
-    """Corners that move, in a panel: their tracks (mm about its middle), their scale, its finer one where in use."""
+    """Moving corners that fit a panel: their tracks (mm about its middle), their scales, and where the finer one is in
+    use.
+    """
 
     tracks: Mapping[str, Track]
     scales: tuple[BarScale, ...]
@@ -417,10 +420,10 @@ class Fitted:
 
 
 def fitted(corners: Mapping[str, np.ndarray], kind: str, turn: int, scale: float | None = None) -> Fitted:
-    """Corners (SI) as large as the panel holds them at every sample, at one scale, each moment's in its middle.
+    """Fit corners (SI) into the panel at every sample, at one scale, each moment's corners in its middle.
 
-    A moment that would be too small to be read has the finer scale.  Tracks of corners have the samples
-    of one `turn`, or of the cycle where that is as long.  With a `scale` (SI per mm) that is the one scale.
+    A moment that would be too small to read has a finer scale.  Tracks of corners have the samples of one `turn`, or of
+    the cycle if that is as long.  A given `scale` (SI per mm) is the only scale.
     """
     length = max(corner.size for corner in corners.values())
     places = np.array([np.broadcast_to(corner, length) for corner in corners.values()])
@@ -438,7 +441,9 @@ def fitted(corners: Mapping[str, np.ndarray], kind: str, turn: int, scale: float
 
 
 def extent(items: Iterable[MovingItem]) -> tuple[complex, complex]:
-    """Lower left and upper right corner (mm) of what items, but for switched ones, ever cover, with room for labels."""
+    """Return the lower left and upper right corner (mm) that items, except switched ones, ever cover, with room for
+    labels.
+    """
     points: list[complex] = []
     for item in items:
         match item:

@@ -1,7 +1,7 @@
-"""Turn drafts into finished scenes.
+"""Turn drafts (`Canvas`) into finished scenes.
 
 Every figure makes a `Canvas` in mm about any origin; drafts with the same origin can be added, together with their
-descriptions.  `finish` places the labels, crops to the content and gives the `Scene`.
+descriptions.  `finish` places the labels, crops to the content and returns the `Scene`.
 """
 
 from __future__ import annotations
@@ -23,9 +23,7 @@ MARGIN = 6.0
 
 @dataclass(frozen=True, slots=True)
 class Canvas:
-    """Draft: items in the order of painting, labels still to be placed, and the description for readers who do not
-    see it.
-    """
+    """A draft: items in painting order, labels still to be placed, and the text description for screen readers."""
 
     items: tuple[Item, ...] = ()
     requests: tuple[Request, ...] = ()
@@ -35,12 +33,12 @@ class Canvas:
         return Canvas(self.items + other.items, self.requests + other.requests, self.says + other.says)
 
     def moved(self, by: complex) -> Canvas:
-        """The draft shifted by a vector (mm); its labels must have been placed before."""
+        """Return the draft shifted by a vector (mm); its labels must have been placed before."""
         return Canvas(tuple(moved(item, by) for item in self.items), says=self.says)
 
 
 def settle(draft: Canvas) -> Canvas:
-    """The draft with its labels placed."""
+    """Return the draft with its labels placed."""
     return Canvas(draft.items + place(draft.items, draft.requests).items, says=draft.says)
 
 
@@ -52,11 +50,9 @@ def finish(
     margin: float = MARGIN,
     frame: tuple[complex, complex] | None = None,
 ) -> Scene:
-    """Return the scene: labels placed, `notes` (the figure's scale) below and last described, cropped with `margin`
-    mm.
+    """Return the scene: labels placed, `notes` (the figure's scale) below and last described, cropped with `margin` mm.
 
-    `frame` (lower left, upper right) is kept even if nothing is drawn there, so that several scenes get
-    the same paper.
+    The `frame` (lower left, upper right) is kept even if it is empty, so that several scenes have the same size.
     """
     labels = place(draft.items, draft.requests)
     done = Canvas(draft.items + labels.items)
@@ -77,7 +73,7 @@ def _is_scale(note: Content) -> bool:
 
 
 def _notes(notes: Iterable[Sequence[Content]], x: float, y: float) -> tuple[Item, ...]:
-    """Lines of text, each of several parts, centred on x, the first below y."""
+    """Return lines of text, each of several parts, centred on x, the first one below y."""
     lines: list[Item] = []
     for note in notes:
         extent = reduce(Box.beside, (box(part, style.LABEL) for part in note))

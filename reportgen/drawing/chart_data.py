@@ -16,17 +16,17 @@ from reportgen.formula import Expression
 Content = Expression | str
 """Content of a label: an expression, or plain text."""
 WIDE = 450.0
-"""More degrees than these have ticks at multiples of 90, not of 45."""
+"""Above this range (degrees), ticks are at multiples of 90 instead of 45."""
 MEAN = {"linestyle": "-.", "linewidth": 0.8, "color": "black"}
 BESIDE = {"textcoords": "offset points", "xytext": (3, 3), "fontsize": "small"}
-"""Matplotlib style of the name at a level, and its offset."""
+"""Matplotlib style and offset of the name at a level."""
 
 
 @dataclass(frozen=True, slots=True)
 class PlottedCurve:
     """One curve: x [K] and y [K], its label, and indices of the points that get a mark.
 
-    What was measured has `dots` alone.
+    Measured values have `dots` only.
     """
 
     label: Content
@@ -42,7 +42,7 @@ class PlottedCurve:
 class Inclination:
     """The angle of a straight line of this `slope` (in the units of the axes) at the point x, y of a chart.
 
-    Its arc has the `radius` (mm); the line it is counted from is drawn a little beyond.
+    Its arc has the `radius` (mm); the reference line is drawn a little beyond the arc.
     """
 
     label: Content
@@ -56,8 +56,8 @@ class Inclination:
 class Diagram:
     """Curves in one frame whose axes are named `x` and `y`.
 
-    With `turn` x is an angle in degrees.  `levels` are horizontal lines with a name, e.g. a mean; `equal` are the
-    scales of both axes of a hodograph.  On paper y = 0 is in sight, unless `zero` is False.
+    With `turn`, x is an angle in degrees.  `levels` are horizontal lines with a name, e.g. a mean; with `equal`, both
+    axes of a hodograph have one scale.  On paper y = 0 is within the range, unless `zero` is False.
     """
 
     curves: tuple[PlottedCurve, ...]
@@ -71,7 +71,9 @@ class Diagram:
     zero: bool = True
 
     def on(self, axes: Any, language: Language = "en", **look: Any) -> Any:
-        """Draw it on axes of matplotlib, over what is there, and give them back; `look` is that of their `plot`."""
+        """Draw the diagram on axes of matplotlib, over their contents, and return them; `look` is passed to their
+        `plot`.
+        """
         label = MathText(language).label
         for curve in self.curves:
             x, y = np.asarray(curve.x, dtype=np.float64), np.asarray(curve.y, dtype=np.float64)
@@ -86,8 +88,8 @@ class Diagram:
         for level, name in self.levels:
             axes.axhline(level, **MEAN)
             axes.annotate(label(name), (1.0, level), xycoords=("axes fraction", "data"), ha="right", va="bottom")
-        for one in self.inclinations:
-            axes.annotate(label(one.label), (one.x, one.y), **BESIDE)
+        for inclination in self.inclinations:
+            axes.annotate(label(inclination.label), (inclination.x, inclination.y), **BESIDE)
         axes.set(xlabel=label(self.x), ylabel=label(self.y))
         axes.grid(visible=True, linewidth=0.3)
         axes.yaxis.set_major_formatter(lambda value, _: write(float(f"{value:.10g}"), None, language))
@@ -103,7 +105,7 @@ class Diagram:
 
 
 def _in_degrees(axes: Any) -> None:
-    """Ticks at whole multiples of 45 or 90 degrees over all that is drawn."""
+    """Set ticks at whole multiples of 45 or 90 degrees over the range of the contents."""
     low, high = axes.dataLim.intervalx
     step = 45.0 if high - low <= WIDE else 90.0
     ticks = step * np.arange(math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9) + 1)

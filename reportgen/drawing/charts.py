@@ -1,4 +1,4 @@
-"""Charts: curves over the driver's angle, the polar diagram of a load, bars and histograms of counts."""
+"""Charts on paper: curves over the driver's angle (`chart`), and the polar diagram of a load (`polar`)."""
 
 from __future__ import annotations
 
@@ -37,60 +37,60 @@ from reportgen.drawing.labels import LEFT_OUT, Request, joined, label
 from reportgen.formula import Chain, Number, Symbol
 
 WIDTH, HEIGHT = 128.0, 62.0
-"""The area inside the axes of curves, mm; with its text a chart is about 150 × 85 mm."""
+"""The area inside the axes of curves (mm); with its text a chart is about 150 × 85 mm."""
 LOW = 46.0
-"""The height of that area where curves are drawn low, mm."""
+"""The height of that area for low charts (mm)."""
 SHEET_WIDTH, SHEET_HEIGHT = 90.0, 45.0
-"""Largest size of that area on a drawing sheet, mm."""
+"""Largest size of that area on a drawing sheet (mm)."""
 HALF_WIDTH, HALF_HEIGHT = 78.0, 46.0
-"""Width of a chart with its text, height of the area inside its axes, for two charts side by side, mm."""
+"""Width of a chart with its text and height of its area, for two charts side by side (mm)."""
 CHART_MARGIN = 1.5
 AXIS_NAME = 8.0
-"""Width that the turned name of an axis takes beside its figures, mm."""
+"""Width of the vertical name of an axis beside its numbers (mm)."""
 LINE = 4.5
-"""From one line of that name to the next, mm."""
+"""Line spacing of that name (mm)."""
 POLAR_SIZE = 84.0
-"""Largest size of a single polar diagram, either way, mm."""
+"""Largest size of a single polar diagram in either direction (mm)."""
 POLAR_PAIRS = 58.0, 54.0, 50.0
-"""Sizes of one beside another if it is then narrow enough, mm."""
+"""Sizes of two polar diagrams side by side, if they are narrow enough (mm)."""
 PENS = (
     Pen(0.4, style.BLUE),
     Pen(0.4, style.RED, style.DASHED),
     Pen(0.4, style.BLACK, style.CHAIN),
     Pen(0.4, style.GRAY, style.DOTTED),
 )
-"""One curve after the other, distinguished by dashes as well as by colour."""
+"""Pens of the curves in order, distinguished by dashes as well as by colour."""
 GRID = Pen(0.1, style.PALE)
 EDGE = Pen(0.25)
 MEAN = Pen(0.25, style.BLACK, (4.0, 1.0, 0.8, 1.0))
 BEYOND = 4.0
-"""Length of the horizontal of an angle beyond its arc, mm."""
+"""Length of the horizontal side of an angle beyond its arc (mm)."""
 MARK, DOT = 0.75, 0.45
-"""Radius of the circle at a marked point, and of one that was measured, mm."""
+"""Radius of the circle at a marked point, and of a measured point (mm)."""
 TICKS = 6
 MOST_TURNED = 10
-"""Steps of an axis of angles at most."""
+"""Largest number of steps of an axis of angles."""
 LEAST_POWER = 12
-"""Powers of ten through which the steps of an axis of angles are tried; what is shorter is within rounding."""
+"""Powers of ten in the search for the steps of an axis of angles; shorter ranges are within rounding errors."""
 BETWEEN = 1.0
-"""White between the figures of an axis at least, mm."""
+"""Least gap between the numbers of an axis (mm)."""
 
 STEPS = (1.0, 2.0, 2.5, 5.0)
 """Steps of the ticks of curves, times a power of ten."""
 CLOSE = 0.025
-"""Points of a curve so close (mm) to the line through others are left out: a sixteenth of the pen."""
+"""Points of a curve nearer than this (mm) to the line through others are left out: a sixteenth of the pen's width."""
 TINY = 1e-12
-"""Square of a length (mm²) that counts as none."""
+"""Square of a length (mm²) that counts as 0."""
 
 Vertices = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)
 class Area:
-    """The room inside the axes that a chart may fill (mm), at round scales which it then prints.
+    """The room inside the axes that a chart may fill (mm), at round scales, which are printed.
 
-    Room and scales are those of the chart once it is `enlarged` so many times.  `scales` across and upwards, in the
-    units of the axes per mm, are kept whatever room they take.  `mm` is how the language writes a millimetre.
+    Room and scales are those of the chart after enlargement by `enlarged`.  `scales` across and upwards, in the units
+    of the axes per mm, are kept whatever room they need.  `mm` is the language's unit symbol for millimetre.
     """
 
     width: float = SHEET_WIDTH
@@ -100,13 +100,13 @@ class Area:
     mm: str = "mm"
 
     def per_mm(self, length: float, room: float) -> float:
-        """The round scale, of the enlarged chart, at which a length in the unit of its axis fits a room (mm)."""
+        """Return the round scale of the enlarged chart at which a length in the unit of its axis fits a room (mm)."""
         return nice_up(length / room)
 
 
 @dataclass(frozen=True, slots=True)
 class _Window:
-    """Data ranges and the paper they are drawn on: x0…x1 over `width` mm, y0…y1 over `height` mm."""
+    """Data ranges and the size of their paper: x0…x1 over `width` mm, y0…y1 over `height` mm."""
 
     x: tuple[float, float]
     y: tuple[float, float]
@@ -114,20 +114,20 @@ class _Window:
     height: float
 
     def vertices(self, x: ArrayLike, y: ArrayLike) -> Vertices:
-        """Places on paper [K, 2]; a gap (nan) stays a gap."""
+        """Return points on paper (mm) [K, 2] for x [K] and y [K]; NaN stays NaN, a gap."""
         across = (np.asarray(x, dtype=np.float64) - self.x[0]) / (self.x[1] - self.x[0]) * self.width
         up = (np.asarray(y, dtype=np.float64) - self.y[0]) / (self.y[1] - self.y[0]) * self.height
         return np.column_stack((across, up))
 
     def at(self, x: float, y: float) -> complex:
-        """The place on paper (mm) of x and y in the units of the axes."""
+        """Return the point on paper (mm) of x and y in the units of the axes."""
         across, up = self.vertices([x], [y])[0]
         return complex(across, up)
 
 
 @dataclass(frozen=True, slots=True)
 class Plotted:
-    """Chart with its coordinates: the corners of its axes on the scene (mm), and the values there."""
+    """A chart with its coordinates: the corners of its axes on the scene (mm), and the values there."""
 
     scene: Scene
     low: complex
@@ -137,15 +137,15 @@ class Plotted:
 
 
 def chart(diagram: Diagram, *, half: bool = False, area: Area | None = None) -> Scene:
-    """The scene (mm) of a diagram, see `plotted`."""
+    """Return the scene (mm) of a diagram; see `plotted`."""
     return plotted(diagram, half=half, area=area).scene
 
 
 def plotted(diagram: Diagram, *, half: bool = False, height: float = HEIGHT, area: Area | None = None) -> Plotted:
     """Draw a diagram on paper.  An angle has the ticks of `angle_ticks`.
 
-    With `half` two charts fit side by side; with an `area` both scales are round and printed.  Raises `ValueError`
-    if no value is finite.
+    With `half`, two charts fit side by side; with an `area`, both scales are round and printed.  Raises `ValueError` if
+    no value is finite.
     """
     series, turn, levels = diagram.curves, diagram.turn, diagram.levels
     window, x_ticks, y_ticks = _window(
@@ -185,9 +185,9 @@ def plotted(diagram: Diagram, *, half: bool = False, height: float = HEIGHT, are
 
 
 def polar(diagram: Diagram, *, size: float = POLAR_SIZE, area: Area | None = None) -> Scene:
-    """Hodographs of vectors (x, y) about the pole with equal scales, their marks and the axes named.
+    """Draw hodographs of vectors (x, y) about the pole at equal scales, with their marks and the names of the axes.
 
-    Its longer side inside the axes is `size` mm; in an `area` its scale is round and printed.
+    The longer side inside the axes is `size` mm; with an `area` the scale is round and printed.
     """
     x, y = (
         np.concatenate([np.asarray(getattr(curve, axis), dtype=np.float64) for curve in diagram.curves])
@@ -230,7 +230,9 @@ def _window(
     *,
     zero: bool = True,
 ) -> tuple[_Window, list[float], list[float]]:
-    """Ranges and ticks: across those of `angle_ticks` for an angle, upwards of a round step."""
+    """Return the window, and ticks across and upwards: for an angle those of `angle_ticks`, otherwise of a
+    round step.
+    """
     x = np.concatenate([np.asarray(one.x, dtype=np.float64) for one in series])
     values = np.concatenate([np.asarray(one.y, dtype=np.float64) for one in series])
     if not (np.isfinite(x).any() and np.isfinite(values).any()):
@@ -253,16 +255,16 @@ def _window(
 
 
 def _scale(label: Content, ends: tuple[float, float], length: float, mm: str, degrees: bool = False) -> Content:
-    """The scale of an axis: μ_M = 2 N·m/mm, for the name of the axis "M (N·m; positive: …)"."""
+    """Return the scale of an axis: μ_M = 2 N·m/mm, for the name of the axis "M (N·m; positive: …)"."""
     named = label.parts[0] if isinstance(label, Chain) else None
-    shown = Symbol("μ", named.base) if isinstance(named, Symbol) else Symbol("μ")
+    symbol = Symbol("μ", named.base) if isinstance(named, Symbol) else Symbol("μ")
     text = label.note if isinstance(label, Chain) else str(label)
     unit = "°" if degrees else re.split("[;；]", text)[0].replace("，", ", ").rpartition(", ")[2]
     above, stroke, below = unit.partition("/")
     below = below.strip("()")
-    # A figure in the unit would read as one more of the number.
+    # A number in the unit would be read as part of the scale's number.
     per_mm = f"{above}/({below}·{mm})" if stroke else f"{above}/{mm}" if above else f"{mm}⁻¹"
-    return Chain((shown, Number(float(f"{(ends[1] - ends[0]) / length:.9g}"), unit=per_mm)))
+    return Chain((symbol, Number(float(f"{(ends[1] - ends[0]) / length:.9g}"), unit=per_mm)))
 
 
 def _beside(x_ticks: Sequence[float], y_ticks: Sequence[float]) -> float:
@@ -273,14 +275,15 @@ def _beside(x_ticks: Sequence[float], y_ticks: Sequence[float]) -> float:
 
 
 def _ticks(low: float, high: float, most: int) -> list[float]:
-    """Ticks of a round step around a range, about so many steps at most."""
+    """Return ticks at round steps that enclose a range, with about `most` steps at most."""
     return _around(low, high, nice_up((high - low) / most, STEPS) if high > low else 1.0)
 
 
 def angle_ticks(low: float, high: float, most: int) -> list[float]:
-    """Ticks (degrees) within a range: of 45° doubled until there are at most so many steps; at least three ticks.
+    """Return ticks (degrees) within a range: at 45°, doubled until there are at most `most` steps; at least three
+    ticks.
 
-    A range too short for three of these takes the largest step that serves of 30°, 15°, 10°, 5°, 2°, 1°, 0.5°, …
+    A range too short for three of these takes the largest step that fits of 30°, 15°, 10°, 5°, 2°, 1°, 0.5°, …
     """
 
     def within(step: float) -> list[float]:
@@ -293,7 +296,7 @@ def angle_ticks(low: float, high: float, most: int) -> list[float]:
 
 
 def _around(low: float, high: float, step: float) -> list[float]:
-    """Whole steps around a range; at least one."""
+    """Return multiples of a step that enclose a range; at least one step."""
     first, last = math.floor(low / step + 1e-9), math.ceil(high / step - 1e-9)
     return [k * step for k in range(first, max(last, first + 1) + 1)]
 
@@ -317,7 +320,9 @@ def _frame(window: _Window, x_ticks: Sequence[float], y_ticks: Sequence[float], 
 
 
 def _with_room(window: _Window, ticks: Sequence[float], unit: str) -> list[float]:
-    """The ticks that get a figure: all, or every second or fifth one from 0, as the figures have room side by side."""
+    """Return the ticks that get a number: all, or every second or fifth from 0, so that the numbers fit side
+    by side.
+    """
     step = (ticks[-1] - ticks[0]) / (len(ticks) - 1)
     apart = step / (window.x[1] - window.x[0]) * window.width
     widest = max(box(_figure(tick, ticks, unit), style.SMALL).width for tick in ticks)
@@ -326,13 +331,13 @@ def _with_room(window: _Window, ticks: Sequence[float], unit: str) -> list[float
 
 
 def framed(low: complex, high: complex, pen: Pen, fill: str | None = None) -> Polyline:
-    """A rectangle between two corners (mm)."""
+    """Return a rectangle between two corners (mm)."""
     corners = (low, complex(high.real, low.imag), high, complex(low.real, high.imag))
     return Polyline(corners, pen, closed=True, fill=fill)
 
 
 def _figure(tick: float, ticks: Sequence[float], unit: str) -> Number:
-    """A tick's number with as many decimals as the step between ticks needs."""
+    """Return a tick's number with as many decimals as the step between ticks needs."""
     step = abs(ticks[1] - ticks[0]) if len(ticks) > 1 else 1.0
     decimals = max(0, -math.floor(math.log10(step) + 1e-9))
     if abs(step * 10**decimals - round(step * 10**decimals)) > 1e-6:
@@ -343,9 +348,9 @@ def _figure(tick: float, ticks: Sequence[float], unit: str) -> Number:
 def _titles(
     window: _Window, x_label: Content, y_label: Content, items: Sequence[Item], in_lines: bool = False
 ) -> list[Item]:
-    """The axes' names: below the middle and, turned, left of the widest figure.
+    """Return the names of the axes: below the middle and, turned by 90°, left of the widest number.
 
-    `in_lines` a turned name that is longer than its axis is broken after the unit.
+    With `in_lines`, a vertical name that is longer than its axis is broken after the unit.
     """
     figures = [item for item in items if isinstance(item, Label) and item.anchor == "right"]
     widest = max((box(item.content, item.size).width for item in figures), default=0.0)
@@ -360,7 +365,7 @@ def _titles(
 
 
 def _lines(name: Content) -> list[Content]:
-    """ω (rad/s; positive: anticlockwise) as two lines: ω (rad/s), and when it is positive."""
+    """Return "ω (rad/s; positive: anticlockwise)" as two lines: ω (rad/s), and the sense that is positive."""
     if not isinstance(name, Chain) or "; " not in name.note:
         return [name]
     unit, sense = name.note.split("; ", 1)
@@ -368,7 +373,7 @@ def _lines(name: Content) -> list[Content]:
 
 
 def _paths(vertices: Vertices) -> list[tuple[complex, ...]]:
-    """The curve on paper, split at gaps, without points that lie close to the line through others."""
+    """Return the curve on paper, split at gaps, without points that lie close to the line through others."""
     places = settled(vertices[:, 0] + 1j * vertices[:, 1])
     gaps = np.flatnonzero(~np.isfinite(places))
     runs = (run[np.isfinite(run)] for run in np.split(places, gaps))
@@ -376,7 +381,8 @@ def _paths(vertices: Vertices) -> list[tuple[complex, ...]]:
 
 
 def _telling(places: NDArray[np.complex128]) -> list[int]:
-    """Indices of the points that a broken line keeps: the ends, and of each part what is too far from its chord.
+    """Return the indices of points that a simplified line keeps: its ends and, recursively, points too far from the
+    chord.
 
     D. H. Douglas and T. K. Peucker, 1973.
     """
@@ -398,7 +404,7 @@ def _telling(places: NDArray[np.complex128]) -> list[int]:
 
 
 def _marked(series: PlottedCurve, vertices: Vertices, pen: Pen, items: list[Item]) -> list[Request]:
-    """Circles at the marked points (added to the items) and requests for their names."""
+    """Add circles at the marked points to the items, and return requests for their names."""
     where = [complex(*vertices[i]) for i in series.marks]
     solid = Pen(0.25, pen.colour)
     items += [Circle(at, MARK, solid, style.PAPER) for at in where if np.isfinite(at)]

@@ -1,4 +1,4 @@
-"""Diagrams of counts: bars by name, and a histogram."""
+"""Charts of counts: bars by name, and a histogram."""
 
 from __future__ import annotations
 
@@ -14,18 +14,21 @@ from reportgen.drawing.label_size import box
 from reportgen.formula import Number
 
 COUNT_WIDTH = 148.0
-"""Size of a figure of bars or a histogram with its text, mm."""
+"""Width and height of a chart of bars or a histogram with its text (mm)."""
 COLUMN_HEIGHT = 55.0
 """Size of a histogram, mm."""
 LENGTH = 100.0
 """Least length of the axis of bars, mm."""
 ROW, BAR = 6.0, 4.0
-"""From one horizontal bar to the next, and their thickness, mm."""
+"""Distance from one horizontal bar to the next, and their thickness (mm)."""
 OUTLINE = Pen(0.3, style.BLUE)
 
 
 def bars(names: Sequence[Content], counts: Sequence[int], x_label: Content) -> Scene:
-    """One bar below the other, its name on the left and its count at its end; raises `ValueError` for none."""
+    """Draw horizontal bars, each with its name on the left and its count at its end.
+
+    Raises `ValueError` if there are none.
+    """
     if not counts:
         raise ValueError("bars need something to count")
     widest = max(box(name, style.SMALL).width for name in names)
@@ -74,7 +77,7 @@ def histogram(counts: Sequence[int], edges: Sequence[float], x_label: Content, y
 
 
 def _whole_steps(largest: int) -> tuple[int, int]:
-    """A whole step between ticks, and the last tick, at or above the largest count."""
+    """Return a whole step between ticks, and the last tick, at or above the largest count."""
     step = max(round(nice_up(max(largest, 1) / TICKS, (1, 2, 5))), 1)
     return step, step * max(math.ceil(largest / step), 1)
 

@@ -1,7 +1,6 @@
-"""Descriptions of drawings as data, for readers who do not see them: names of phrases and their values.
+"""Descriptions of drawings as data, for screen readers: keys of phrases and their values.
 
-Each drawing function also yields its description; the phrases come from the language's words, and the report joins
-them.
+Each drawing function also yields its description; the phrases are in the language's words, and the report joins them.
 """
 
 from __future__ import annotations
@@ -20,11 +19,11 @@ from reportgen.drawing.chart_data import Content, Diagram, PlottedCurve
 from reportgen.formula import Number
 
 SAME = 1e-6
-"""A share of the greatest value of a curve that nobody sees on paper: it is told as none."""
+"""A value below this share of the curve's greatest cannot be seen on paper; it is described as 0."""
 FIGURES = 4
 """Digits of values that are read from a curve."""
 MOST_ZEROS = 6
-"""A curve that crosses zero more often is only told to swing about it."""
+"""A curve that crosses zero more often than this is described as oscillating about it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,7 +38,9 @@ Told = Content | PaperLength | tuple[Content, ...]
 
 @dataclass(frozen=True, slots=True)
 class Fact:
-    """One thing that a drawing tells: the name of a phrase, and what stands in its places, several contents listed."""
+    """One statement about a drawing: the key of a phrase, and the values of its placeholders, several contents as a
+    list.
+    """
 
     phrase: str
     values: tuple[Told, ...] = ()
@@ -49,47 +50,47 @@ Description = tuple[Fact, ...]
 
 
 def fact(phrase: str, *values: Told) -> Fact:
-    """A fact with its values one by one."""
+    """Return a fact with its values in order."""
     return Fact(phrase, values)
 
 
 def enlarged(description: Description, by: float) -> Description:
     """Return the description of a drawing enlarged by a factor."""
     return tuple(
-        replace(one, values=tuple(PaperLength(v.value * by) if isinstance(v, PaperLength) else v for v in one.values))
-        for one in description
+        replace(fact, values=tuple(PaperLength(v.value * by) if isinstance(v, PaperLength) else v for v in fact.values))
+        for fact in description
     )
 
 
 def direction(vector: complex) -> Number:
-    """The direction of a vector, in degrees from the x-axis anticlockwise: 0 to 360, to a tenth."""
+    """Return the direction of a vector, in degrees from the x-axis anticlockwise: 0 to 360, to a tenth."""
     tenths = round(10 * rounded(math.degrees(cmath.phase(vector)), 1)) % 3600
     return Number(tenths / 10, 1 if tenths % 10 else 0, "°")
 
 
 def alignment(along: complex) -> Number:
-    """The direction of a line that has two, in degrees from the x-axis: 0 to 180, to a tenth."""
+    """Return the direction of an undirected line, in degrees from the x-axis: 0 to 180, to a tenth."""
     degrees = direction(along)
     return replace(degrees, value=rounded(degrees.value % 180, 1))
 
 
 def arrow(name: Told, vector: complex) -> Fact:
-    """An arrow true to scale (mm): what it is called, its length and direction."""
+    """Return the fact of an arrow true to scale (mm): its name, length and direction."""
     return Fact("arrow", (name, PaperLength(abs(vector)), direction(vector)))
 
 
 def pointing(name: Told, vector: complex) -> Fact:
-    """An arrow whose length says nothing: what it is called, and its direction."""
+    """Return the fact of an arrow whose length is not to scale: its name and direction."""
     return Fact("pointing", (name, direction(vector)))
 
 
 def turning(name: Told, sense: float) -> Fact:
-    """Something that turns, anticlockwise if its sense is positive."""
+    """Return the fact of a rotation, anticlockwise if its sense is positive."""
     return Fact("anticlockwise" if sense > 0 else "clockwise", (name,))
 
 
 def angle(name: Told, size: float) -> Fact:
-    """An angle (rad) that is drawn and named."""
+    """Return the fact of an angle (rad) that is drawn and named."""
     return Fact("angle", (name, direction(cmath.rect(1.0, abs(size)))))
 
 
@@ -126,7 +127,7 @@ def of_hodograph(diagram: Diagram, x: tuple[float, float], y: tuple[float, float
 def of_curve(curve: PlottedCurve, unit: str = "") -> Iterator[Fact]:
     """Yield the facts of a curve over an axis of a unit: its extremes and where they are, its zeros if they are few."""
     x, y = np.asarray(curve.x, dtype=np.float64), np.asarray(curve.y, dtype=np.float64)
-    # Across a gap, as of a radius that goes through infinity, a curve meets no zero.
+    # Across a gap, such as a radius that becomes infinite, a curve has no zero.
     zeros = [] if curve.dots else crossings(x, y)
     kept = np.isfinite(x) & np.isfinite(y)
     x, y = x[kept], y[kept]
@@ -166,7 +167,7 @@ def crossings(x: ArrayLike, y: ArrayLike) -> list[float]:
 
 
 def _read(value: float, unit: str = "") -> Number:
-    """A value as one reads it from a curve."""
+    """Return a value with the digits that can be read from a curve."""
     if unit == "°":
         tenths = rounded(value, 1)
         return Number(tenths, 0 if tenths == round(tenths) else 1, unit)
@@ -177,7 +178,7 @@ def _read(value: float, unit: str = "") -> Number:
 
 
 def listed(contents: Iterable[Content]) -> tuple[Content, ...]:
-    """Contents each once, in order."""
+    """Return the contents in order, each once."""
     return tuple(dict.fromkeys(contents))
 
 

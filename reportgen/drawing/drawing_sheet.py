@@ -1,4 +1,4 @@
-"""Drawing sheets: plates in true size on paper, and the room that frame and title block leave them.
+"""Drawing sheets: plates in true size on paper, the room inside frame and title block, and reports' figures enlarged.
 
 A sheet's origin is its lower left corner; lengths are millimetres of paper.
 """
@@ -31,12 +31,12 @@ from reportgen.drawing.label_size import POINT, SCRIPT, box
 from reportgen.formula import Number
 
 GAP = 5.0
-"""White between plates, and between them and the frame, mm."""
+"""Gap between plates, and between them and the frame (mm)."""
 
 
 @dataclass(frozen=True, slots=True)
 class PlacedScene:
-    """A scene on a sheet with its lower left corner `at`; `name` groups its items, `layer` says what it shows."""
+    """A scene on a sheet with its lower left corner at `at`; `name` groups its items, `layer` is its CAD layer."""
 
     name: str
     layer: str
@@ -45,15 +45,15 @@ class PlacedScene:
 
     @property
     def box(self) -> tuple[complex, complex]:
-        """Its lower left and upper right corner on the sheet (mm)."""
+        """Return its lower left and upper right corner on the sheet (mm)."""
         return self.at, self.at + complex(self.scene.width, self.scene.height)
 
 
 @dataclass(frozen=True, slots=True)
 class DrawingSheet:
-    """A sheet of paper `width` × `height` with what is drawn on it; `name` is that of its size, such as A1.
+    """A sheet of paper, `width` × `height` mm, with its drawings; `name` is the name of its size, such as A1.
 
-    `fields` are what its title block says; one without has no frame.
+    `fields` are the texts of its title block; a sheet without fields has no frame.
     """
 
     name: str
@@ -65,7 +65,7 @@ class DrawingSheet:
 
 @dataclass(frozen=True, slots=True)
 class Room:
-    """Room inside a frame: from corner `low` to `high`, without the box from `low`'s height up at the right.
+    """Room inside a frame from corner `low` to `high`, without the title block.
 
     `block` (width, height) is the title block in the lower right corner.
     """
@@ -76,7 +76,7 @@ class Room:
 
 
 class TooLargeError(ValueError):
-    """A plate of a name, so wide and high (mm), has no place on a sheet of the size asked for."""
+    """Raised if a plate, with its name and size (mm), does not fit a sheet of the requested size."""
 
     def __init__(self, name: str, width: float, height: float) -> None:
         super().__init__(name)
@@ -85,37 +85,37 @@ class TooLargeError(ValueError):
 
 # --- a report's figure with the letters, pens and arrowheads of a drawing sheet -------------------
 # Letters are 3.5 mm high and indices 2.5 mm (ISO 3098), lines 0.7 or 0.35 mm wide (ISO 128). The figure is drawn
-# small and enlarged as a photograph is, so that labels keep the places that were found for them; then the few sizes
-# of the standards take the place of those that came out.
+# small and enlarged like a photograph, so that labels keep the places that were found for them; then the few
+# standard sizes replace the resulting ones.
 
 CAPITAL = 0.683
-"""Height of capitals in font sizes."""
+"""Height of capitals as a share of the font size."""
 LEAST = 2.5
-"""The least height of capitals, mm: that of indices."""
+"""The least height of capitals, that of indices (mm)."""
 HEADING = 5.0
-"""Height of capitals in the heading of a plate, mm."""
+"""Height of capitals in the heading of a plate (mm)."""
 WIDE, NARROW = 0.7, 0.35
-"""Widths of lines, mm."""
+"""Line widths (mm)."""
 OUTLINE = 0.28
-"""Least width (mm) of a report's pen whose lines are wide on a sheet."""
+"""Pens of a report from this width (mm) become wide lines on a sheet."""
 HEAD = 5.5
-"""Length of every arrowhead, mm."""
+"""Length of every arrowhead (mm)."""
 
 LINE_GAP = 2.5
-"""White between the lines of a heading, mm."""
+"""Gap between the lines of a heading (mm)."""
 TALLEST = "Ồg"
-"""Letters that reach as far up and down as any."""
+"""Letters of the greatest height and depth."""
 
 
 def font_size(height: float) -> float:
-    """The font size in points whose capitals are `height` mm high."""
+    """Return the font size (pt) whose capitals are `height` mm high."""
     return height / (CAPITAL * POINT)
 
 
 ENLARGED = font_size(LEAST) / (SCRIPT * style.SMALL)
-"""Enlargement of a figure on a sheet relative to a report: the indices of its smallest letters are 2.5 mm high."""
+"""Enlargement of a figure on a sheet relative to a report: the indices of its smallest letters become 2.5 mm high."""
 LETTERS = ENLARGED * style.SMALL
-"""Font size of all letters, in points."""
+"""Font size of all letters (pt)."""
 
 
 def lettered(scene: Scene) -> Scene:
@@ -150,7 +150,7 @@ def _pen(stroke: Pen) -> Pen:
 
 
 def headed(name: str, *lines: Content) -> Scene:
-    """The head of a plate: its name in larger letters, and lines below it, on base lines that no letter moves."""
+    """Return the head of a plate: its name in larger letters, and lines below it, on fixed baselines."""
     rows: list[tuple[Content, float]] = [(name, font_size(HEADING)), *((line, LETTERS) for line in lines)]
     boxes = [box(content, size) for content, size in rows]
     widest = max(extent.width for extent in boxes)
@@ -165,22 +165,24 @@ def headed(name: str, *lines: Content) -> Scene:
     return Scene(widest, -base, tuple(moved(item, -1j * base) for item in items), description=facts)
 
 
-# --- a ruled table as a drawing, for sheets on which everything is drawn --------------------------
+# --- a ruled table as a drawing, for sheets that contain only drawings -----------------------------
 ROW = 5.0
-"""Height of a row, mm."""
+"""Height of a row (mm)."""
 PADDING = 1.4
-"""White beside the widest content of a column, mm."""
+"""Padding beside the widest content of a column (mm)."""
 EDGE, RULE = Pen(0.35), Pen(0.15)
 
 
 def widths(rows: Sequence[Sequence[Content]]) -> list[float]:
-    """The widths (mm) of columns: of each its widest cell with the white beside it."""
+    """Return the widths (mm) of columns: the widest cell with its padding."""
     columns = zip(*rows, strict=True)
     return [max(box(cell, style.SMALL).width for cell in column) + 2 * PADDING for column in columns]
 
 
 def grid(head: Sequence[Sequence[Content]], rows: Sequence[Sequence[Content]]) -> Scene:
-    """Rows below head rows, all of as many cells; columns are as wide as their widest cell."""
+    """Draw a table: rows below head rows, all with the same number of cells; columns are as wide as their
+    widest cell.
+    """
     every = [*head, *rows]
     across = widths(every)
     width, height = sum(across), ROW * len(every)
@@ -208,7 +210,7 @@ Part = TypeVar("Part")
 TITLE_HEIGHT = 4.5
 NOTE_HEIGHT = 6.0
 TRIM = 3.5
-"""Part of a drawing's white margin (mm, each side) that its neighbours on a sheet may use."""
+"""Part of a drawing's margin (mm, each side) that its neighbours on a sheet may use."""
 
 
 def sheets(
@@ -216,9 +218,9 @@ def sheets(
 ) -> tuple[Scene, ...]:
     """Return the scenes in true size on as many sheets of `width` × `height` mm as they need.
 
-    Rows are filled in order and spread over the width; each scene's title is below it and `note` (the
-    common scale) below all.  `trim` mm of each scene's margin are given up.  A scene larger than the sheet
-    gets one of its own size.
+    Rows are filled in order and spread over the width; each scene's title is below it and `note` (the common scale)
+    below all.  `trim` mm of each scene's margin are removed.  A scene larger than the sheet gets a sheet of its own
+    size.
     """
     foot = NOTE_HEIGHT if note is not None else 0.0
 
@@ -255,7 +257,7 @@ def sheets(
 
 
 def _filled(parts: Iterable[Part], size: Callable[[Part], float], room: float) -> list[list[Part]]:
-    """The parts in groups, in order, each group as large as the room allows."""
+    """Return the parts in groups, in order, each filled as far as the room allows."""
     groups: list[list[Part]] = []
     for part in parts:
         if groups and sum(map(size, groups[-1])) + size(part) <= room:

@@ -1,4 +1,4 @@
-"""Scale of a figure: the report's, or on a drawing sheet a larger standard one with the report's beside it."""
+"""Scale of a figure: the report's, or on a drawing sheet a larger standard one, printed with the report's beside it."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from reportgen.formula.plain_text import formula, quantity
 RATIO = "mm/mm"
 """The unit of a scale that is a ratio of lengths."""
 NEXT = 1 - 1e-9
-"""A scale below this share of a standard one is a finer one."""
+"""A scale below this share of a standard scale counts as the next finer one."""
 
 
 @dataclass(frozen=True, slots=True)
 class FigureSize:
-    """Size of a figure: a number of standard scales larger than in a report, then `enlarged` with its letters.
+    """Size of a figure: `steps` standard scales larger than in a report, then `enlarged` with its letters.
 
     `beside` is the phrase for the report's scale on a sheet, as "report: {scale}"; empty in a report.
     """
@@ -30,7 +30,7 @@ class FigureSize:
     language: Language = "en"
 
     def scale(self, usual: float) -> float:
-        """The scale, per mm of the finished paper, that a report has as `usual`."""
+        """Return the scale, per mm of the finished paper, for a scale that a report has as `usual`."""
         for _ in range(self.steps):
             usual = nice_down(usual * NEXT)
         return usual
@@ -43,25 +43,27 @@ class FigureSize:
         return usual, self.per_unit(usual)
 
     def per_unit(self, usual: float) -> float:
-        """Millimetres of the figure, before it is enlarged, for a unit of what is drawn."""
+        """Return millimetres of the figure, before enlargement, for a unit of the drawn object, by the report's scale
+        `usual`.
+        """
         return 1 / (self.scale(usual) * self.enlarged)
 
     def note(self, symbol: Expression, usual: float, unit: str = RATIO) -> Chain:
         """Return the scale as printed below the figure; on a sheet also as a ratio of lengths, and the report's
         scale.
         """
-        shown = self.scale(usual)
-        return self.told(symbol, _number(shown, unit), _number(usual, unit), _ratio(shown) if unit == RATIO else 0)
+        drawn = self.scale(usual)
+        return self.compared(symbol, _number(drawn, unit), _number(usual, unit), _ratio(drawn) if unit == RATIO else 0)
 
-    def told(self, symbol: Expression, shown: Number, usual: Number, ratio: float = 0) -> Chain:
-        """A scale as it is `shown`, with what the report has."""
+    def compared(self, symbol: Expression, drawn: Number, usual: Number, ratio: float = 0) -> Chain:
+        """Return the scale as `drawn`, followed by the report's scale if they differ."""
         if not self.beside:
-            return Chain((symbol, shown))
+            return Chain((symbol, drawn))
         parts = [self.beside.format(scale=quantity(usual, self.language))]
         if ratio:
             above, below = (formula(_number(max(one, 1.0)), self.language) for one in (ratio, 1 / ratio))
             parts.insert(0, f"{above}:{below}")
-        return Chain((symbol, shown), "; ".join(parts))
+        return Chain((symbol, drawn), "; ".join(parts))
 
 
 IN_REPORT = FigureSize()

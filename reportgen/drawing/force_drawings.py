@@ -25,25 +25,25 @@ from reportgen.machine import Linkage
 from reportgen.machine.kinematics import Motion
 
 SHORTEST, STEP, LONGEST = 13.0, 6.5, 26.0
-"""Drawn lengths of forces at one point, mm: of two in one direction the second is a step longer."""
+"""Drawn lengths of forces at one point (mm); if two have one direction, the second is longer by a step."""
 ON_EACH_OTHER = math.radians(9)
-"""Arrows at one point closer than this in direction would lie on each other."""
+"""Arrows at one point closer than this in direction would overlap."""
 COUPLE_RADIUS = 6.0
 LEAST_ARM = 0.5
-"""An arm shorter than this (mm) is not drawn: the force goes through the point."""
+"""An arm shorter than this (mm) is not drawn: the force passes through the point."""
 TOGETHER, EQUAL = 0.3, 0.002
-"""Arms whose ends are nearer than this (mm) share one label, and one dimension."""
+"""Arms whose ends are nearer than this (mm) share one label and one dimension."""
 ROUNDING = 0.05
-"""An arm that is printed differs by less (mm) from the one that is drawn."""
+"""A printed arm differs from the drawn one by less than this (mm)."""
 BEYOND, BESIDE = 22.0, -34.0
-"""Ends of a guide's line (mm from the point); the sense of ω is drawn at the second, clear of the vectors."""
+"""Ends of a guide's line (mm from the point); the sense of ω is drawn at the second, away from the vectors."""
 QUARTER = 8.0
-"""Radius of the arc of 90°, mm."""
+"""Radius of the arc of 90° (mm)."""
 
 
 @dataclass(frozen=True, slots=True)
 class Force:
-    """A force at `at` (mm on the drawing) along `direction` (any size); `id` ties an arm to it."""
+    """A force at `at` (mm on the drawing) along `direction` (any length); an arm refers to its `id`."""
 
     label: Content
     at: complex
@@ -65,7 +65,7 @@ class Couple:
 class ArmOf:
     """The distance from the moment point `about` to the line of the force with the id `force`.
 
-    `length` is what is printed for it (mm on the drawing).
+    `length` is the printed length (mm on the drawing), or None.
     """
 
     label: Content
@@ -76,7 +76,7 @@ class ArmOf:
 
 @dataclass(frozen=True, slots=True)
 class Sliding:
-    """A relative velocity along a guide that turns: labels, directions (any size), and the sense of ω (±1)."""
+    """A relative velocity along a rotating guide: labels, directions (any length), and the sense of ω (±1)."""
 
     point: Symbol
     velocity: tuple[Symbol, complex]
@@ -101,9 +101,9 @@ def bodies(
     looks: Looks,
     title: str = "",
 ) -> Scene:
-    """The chosen links at position `index`, true to `scale` (mm per m), with all that acts on them.
+    """Draw chosen links at position `index`, to `scale` (mm per m), with all forces on them.
 
-    `extra` is drawn with them.  Points of forces, couples and moments are in mm of the drawing: metres times
+    `extra` is added to the drawing.  Points of forces, couples and moments are in mm of the drawing: metres times
     `scale`, from the mechanism's origin.
     """
     bones = skeleton(linkage, motion, index, scale)
@@ -116,10 +116,10 @@ def bodies(
 def lever(
     plan: Plan, forces: Sequence[Force], arms: Sequence[ArmOf] = (), *, sense: int = 1, notes: Sequence[Content] = ()
 ) -> Scene:
-    """Zhukovsky's lever: the velocity plan turned 90° as a rigid lever about its pole, loaded by all forces.
+    """Draw Zhukovsky's lever: the velocity plan turned by 90° as a rigid lever about its pole, loaded by all forces.
 
-    It is turned anticlockwise for `sense` = +1.  The forces act at the images of their points, in the *turned*
-    plan's coordinates.  Σ F h = 0 with the balancing force at the crank pin's image gives the driver's torque.
+    It is turned anticlockwise for `sense` = +1.  The forces act at the images of their points, in the *turned* plan's
+    coordinates.  Σ F h = 0 with the balancing force at the crank pin's image gives the driver's torque.
     """
     rigid = plan.scaled(1j * sense)
     items: list[Item] = [Line(vector.start, vector.end, style.VISIBLE) for vector in rigid.drawn()]
@@ -132,7 +132,7 @@ def lever(
 
 
 def coriolis(sliding: Sliding) -> Scene:
-    """The rule of 90°: the relative velocity, turned in the sense of ω, points along aᵏ = 2 ω × v_r."""
+    """Draw the rule of 90°: the relative velocity, turned in the sense of ω, points along aᵏ = 2 ω × v_r."""
     along, sense = unit(sliding.velocity[1]), sliding.omega[1]
     start = cmath.phase(along)
     quarter = Arc(0j, QUARTER, start, start + sense * math.pi / 2, style.CONSTRUCTION, style.DIMENSION_HEAD)
@@ -152,23 +152,23 @@ def coriolis(sliding: Sliding) -> Scene:
     return finish(guide + ends + vectors + turning)
 
 
-# --- what the plans stand on ------------------------------------------------------------------------
-# Links of no machine, with motions that are easily seen.
+# --- why plans work -------------------------------------------------------------------------------
+# These links belong to no machine; their motions are chosen to be easy to see.
 
 ARM = 44 * polar(math.radians(25))
-"""A point A of a link that turns about O (mm)."""
+"""A point A of a link that rotates about O (mm)."""
 NORMAL_SHARE, TANGENT_SHARE = 0.5, 0.3
 """aⁿ and aᵗ of A as shares of OA: ε/ω² = 0.6."""
 TRIANGLE = {"B": 0j, "C": 42 + 6j, "E": 15 + 27j}
 """Points of a link (mm)."""
 RATE = {"v": 0.9j, "a": 0.9 * (-1 + 0.6j)}
-"""Factor from a line on the link (mm) to that on its plan: iω, and −ω² + iε with the same ε/ω²."""
+"""Factor from a line on the link (mm) to its image in the plan: iω, and −ω² + iε with the same ε/ω²."""
 OF_B = {"v": 34 + 10j, "a": -20 - 12j}
 """The velocity and the acceleration of B on paper (mm)."""
 
 
 def inclination() -> Scene:
-    """The normal and the tangential acceleration of a point A about O, and the angle α of their sum with AO."""
+    """Draw the normal and the tangential acceleration of a point A about O, and the angle α of their sum with AO."""
     normal, tangent = -NORMAL_SHARE * ARM, 1j * TANGENT_SHARE * ARM
     whole, inward = normal + tangent, cmath.phase(-ARM)
     angle = cmath.phase(whole / normal)
@@ -190,19 +190,21 @@ def inclination() -> Scene:
 
 
 def link_and_plan(what: Literal["v", "a"]) -> tuple[Scene, Scene]:
-    """A link with its points B, C, E, and its plan: of velocities, with the lines that meet in e, or accelerations."""
+    """Draw a link with its points B, C, E, and its plan: of velocities, with the lines that meet in e, or of
+    accelerations.
+    """
     places = {name: OF_B[what] + RATE[what] * place for name, place in TRIANGLE.items()}
     link = (*style.body(tuple(TRIANGLE.values())), *(style.point(place) for place in TRIANGLE.values()))
     named = tuple(label(place, Symbol(name), gap=1.0) for name, place in TRIANGLE.items())
     prime, pole = ("", Symbol("p")) if what == "v" else ("′", Symbol("π"))
-    shown = ("B", "C") if what == "v" else tuple(TRIANGLE)
-    plan: list[Item] = [Arrow(0j, places[name], style.KNOWN, style.HEAD) for name in shown]
+    drawn = ("B", "C") if what == "v" else tuple(TRIANGLE)
+    plan: list[Item] = [Arrow(0j, places[name], style.KNOWN, style.HEAD) for name in drawn]
     sides = tuple(combinations(places, 2))
-    plan += [Line(places[one], places[other], style.RELATIVE) for one, other in sides]
+    plan += [Line(places[start], places[end], style.RELATIVE) for start, end in sides]
     if what == "v":
         plan.append(Arrow(0j, places["E"], style.FOUND, style.HEAD))
         plan += [
-            Line(places[one], places["E"] + 6 * unit(places["E"] - places[one]), style.CONSTRUCTION) for one in "BC"
+            Line(places[name], places["E"] + 6 * unit(places["E"] - places[name]), style.CONSTRUCTION) for name in "BC"
         ]
     ends = {name: Symbol(name.lower(), "", prime) for name in places}
     letters = [label(place, ends[name], gap=0.8) for name, place in places.items()]
@@ -223,19 +225,19 @@ def link_and_plan(what: Literal["v", "a"]) -> tuple[Scene, Scene]:
 def draw_forces(
     forces: Sequence[Force], arms: Sequence[ArmOf] = (), bars: Sequence[tuple[complex, complex]] = ()
 ) -> Canvas:
-    """Arrows with their labels and the arms to their lines (mm); forces without direction are left out.
+    """Draw arrows with their labels, and the arms to their lines (mm); forces without direction are left out.
 
-    A force that would lie along one of the `bars` from its end is drawn as a push from outside instead, one that
-    would lie on another force beside it, a thin line from its point.
+    A force that would lie along one of the `bars` from its end is drawn pushing from outside instead; one that would
+    overlap another force is drawn beside it, with a thin line from its point.
     """
     printed = {arm.force: arm for arm in arms if arm.length is not None}
-    shown = [_as_printed(force, printed.get(force.id)) for force in forces if force.direction != 0]
+    directed = [_as_printed(force, printed.get(force.id)) for force in forces if force.direction != 0]
     items: list[Item] = []
     requests: list[Request] = []
     facts: list[Fact] = []
     shafts: dict[str, tuple[complex, complex]] = {}
     drawn: list[tuple[complex, complex]] = []
-    for force, tip in zip(shown, _tips(shown), strict=True):
+    for force, tip in zip(directed, _tips(directed), strict=True):
         start, end = force.at, tip
         if _lies_along(force, bars):
             start, end = force.at - (tip - force.at), force.at
@@ -268,7 +270,9 @@ def draw_forces(
 
 
 def _as_printed(force: Force, arm: ArmOf | None) -> Force:
-    """A force at the printed distance from the moment point: rounding moves it by hundredths of a millimetre."""
+    """Return a force at the printed distance from the moment point: rounding shifts it by hundredths of a
+    millimetre.
+    """
     if arm is None or arm.length is None:
         return force
     reach = foot(arm.about, force.at, force.at + force.direction) - arm.about
@@ -277,7 +281,7 @@ def _as_printed(force: Force, arm: ArmOf | None) -> Force:
 
 
 def draw_couples(couples: Sequence[Couple]) -> Canvas:
-    """Arcs of seven tenths of a turn about their points."""
+    """Draw couples as arcs of seven tenths of a turn about their points."""
     arcs: list[Item] = []
     requests: list[Request] = []
     for couple in couples:
@@ -292,7 +296,7 @@ def draw_couples(couples: Sequence[Couple]) -> Canvas:
 
 
 def foot(about: complex, start: complex, end: complex) -> complex:
-    """The foot of the perpendicular from `about` on the line through two points, in one unit."""
+    """Return the foot of the perpendicular from `about` on the line through two points, in their unit."""
     return complex(constructions.foot(about, start, unit(end - start)))
 
 
@@ -305,7 +309,7 @@ def _tips(forces: Sequence[Force]) -> list[complex]:
     tips: list[complex] = []
     for n, force in enumerate(forces):
         before = sum(
-            abs(other.at - force.at) < 1.0 and _parallel(force.direction, other.direction) for other in forces[:n]
+            abs(earlier.at - force.at) < 1.0 and _parallel(force.direction, earlier.direction) for earlier in forces[:n]
         )
         length = min(SHORTEST + STEP * before, LONGEST + 2 * before)
         tips.append(force.at + length * unit(force.direction))
@@ -332,7 +336,7 @@ def _aside(shaft: tuple[complex, complex], drawn: Sequence[tuple[complex, comple
 
 
 def _name(start: complex, end: complex, force: Force, at: complex) -> Request:
-    """The name at the head, or at the tail of an arrow that pushes."""
+    """Return the label at the head of an arrow, or at the tail of an arrow that pushes."""
     u = unit(end - start)
     along, across = cmath.phase(u), cmath.phase(u) + math.pi / 2
     if end == at:
@@ -343,7 +347,7 @@ def _name(start: complex, end: complex, force: Force, at: complex) -> Request:
 
 
 def _extension(base: complex, start: complex, end: complex) -> list[Item]:
-    """The force's line drawn on from its arrow to the foot of the arm and a little beyond."""
+    """Return the force's line extended from its arrow to the foot of the arm and a little beyond."""
     u = unit(end - start)
     along = settled(((base - start) * u.conjugate()).real)
     if along < 0:
@@ -354,7 +358,7 @@ def _extension(base: complex, start: complex, end: complex) -> list[Item]:
 
 
 def _dimension(about: complex, base: complex, start: complex, end: complex, name: str) -> list[Item]:
-    """The arm with a head at each end where there is room, and the right angle at its foot."""
+    """Draw the arm with a head at each end if there is room, and the right angle at its foot."""
     reach = base - about
     items: list[Item] = [Arrow(about, base, style.DIMENSION, style.DIMENSION_HEAD, name)]
     if abs(reach) > 4 * style.DIMENSION_HEAD:

@@ -1,4 +1,4 @@
-"""Items of a scene as plain geometry: segments, extents, moving, clipping."""
+"""Geometry of the items of a scene: strokes, bounding boxes, moving, enlarging, clipping, overlaps."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ Part = TypeVar("Part")
 
 CIRCLE_SIDES = 24
 CELL = 0.25
-"""Side of the cells of paper (mm) in which strokes are looked up."""
+"""Side of the cells of paper (mm) of the stroke index."""
 
 
 def ends(item: Item) -> Sequence[complex] | Complexes:
-    """The item's strokes as segments (mm) [2 × strokes]: start and end of each, in turn; a label has none."""
+    """Return the item's strokes as segments (mm) [2 × strokes], alternating start and end; none for a label."""
     match item:
         case Line(start, end):
             return start, end
@@ -33,7 +33,7 @@ def ends(item: Item) -> Sequence[complex] | Complexes:
             size = abs(end - start)
             if size == 0:
                 return start, end
-            # Labels keep clear of the head, which is a third as wide as it is long.
+            # Labels keep away from the head, which is a third as wide as it is long.
             u = (end - start) / size
             head = min(head, size)
             left, right = end - head * u * (1 + 0.18j), end - head * u * (1 - 0.18j)
@@ -77,7 +77,7 @@ def _stacked(parts: Iterable[Sequence[complex] | Complexes]) -> Complexes:
 
 
 def frame(label: Label) -> tuple[complex, complex]:
-    """Centre and half size (width + i height, mm) of a label's box on the sheet."""
+    """Return centre and half size (width + i height, mm) of a label's box on the sheet."""
     extent = box(label.content, label.size)
     width, height = extent.width * label.narrow, extent.height + extent.depth
     if label.turn == 90:
@@ -88,7 +88,7 @@ def frame(label: Label) -> tuple[complex, complex]:
 
 
 def corners(item: Item) -> Sequence[complex] | Complexes:
-    """Points (mm) whose bounding box is the item's."""
+    """Return points (mm) [K] with the same bounding box as the item."""
     match item:
         case Label():
             centre, half = frame(item)
@@ -100,19 +100,19 @@ def corners(item: Item) -> Sequence[complex] | Complexes:
 
 
 def bounds(items: Iterable[Item]) -> tuple[complex, complex]:
-    """Lower left and upper right corner (mm) of the box around all items; (0, 0) for none."""
+    """Return the lower left and upper right corner (mm) of the box around all items; (0, 0) without items."""
     points = _stacked(map(corners, items))
     return corners_of(points) if points.size else (0j, 0j)
 
 
 def corners_of(points: Sequence[complex] | Complexes) -> tuple[complex, complex]:
-    """Lower left and upper right corner of the box around points [N], in their unit."""
+    """Return the lower left and upper right corner of the box around points [N], in their unit."""
     p = np.asarray(points, dtype=np.complex128)
     return complex(p.real.min(), p.imag.min()), complex(p.real.max(), p.imag.max())
 
 
 def moved(item: Item, by: complex) -> Item:
-    """The item shifted by a vector in mm."""
+    """Return the item shifted by a vector (mm)."""
     match item:
         case Line(start, end, stroke):
             return Line(start + by, end + by, stroke)
@@ -127,7 +127,7 @@ def moved(item: Item, by: complex) -> Item:
 
 
 def enlarged(item: Item, factor: float) -> Item:
-    """The item as a photographic enlargement about the origin shows it: pens, arrowheads and letters grow too."""
+    """Return the item enlarged about the origin like a photograph: pens, arrowheads and letters grow, too."""
 
     def pen(stroke: Pen) -> Pen:
         return _enlarged_pen(stroke, factor)
@@ -151,12 +151,12 @@ def enlarged(item: Item, factor: float) -> Item:
 
 @lru_cache(maxsize=256)
 def _enlarged_pen(stroke: Pen, factor: float) -> Pen:
-    """The same few pens draw every figure."""
+    """Return the enlarged pen; results are cached because a few pens draw every figure."""
     return replace(stroke, width=factor * stroke.width, dash=tuple(factor * part for part in stroke.dash))
 
 
 def clipped(start: complex, end: complex, low: complex, high: complex) -> tuple[complex, complex] | None:
-    """The part of a segment inside the box low…high (mm), or None (Liang–Barsky)."""
+    """Return the part of a segment inside the box low…high (mm), or None (Liang–Barsky)."""
     d = end - start
     enter, leave = 0.0, 1.0
     for speed, lower, upper in (
@@ -174,7 +174,7 @@ def clipped(start: complex, end: complex, low: complex, high: complex) -> tuple[
 
 @dataclass(frozen=True, slots=True)
 class HalfPlane:
-    """Half-plane on the side of `inward` of a line through `at`."""
+    """Half-plane on the side of `inward` of a line through `at` (mm)."""
 
     at: complex
     inward: complex
@@ -202,7 +202,7 @@ def region(planes: Sequence[HalfPlane], box: Sequence[complex]) -> list[complex]
 
 
 def clusters(parts: Iterable[Part], reach: float, at: Callable[[Part], complex]) -> list[list[Part]]:
-    """Parts of a figure grouped, in order, so that those with places `at` within `reach` mm share a group."""
+    """Group parts of a figure, in order, so that parts with places `at` within `reach` mm of any in a group join it."""
     parts = list(parts)
     points = list(map(at, parts))
     group = list(range(len(points)))
@@ -215,7 +215,7 @@ def clusters(parts: Iterable[Part], reach: float, at: Callable[[Part], complex])
 
 
 def coincident(parts: Iterable[Part], reach: float, at: Callable[[Part], complex]) -> list[list[Part]]:
-    """Parts of a figure grouped, in order, so that all places `at` of a group are within `reach` mm of one another."""
+    """Group parts of a figure, in order, so that all places `at` of a group are within `reach` mm of one another."""
     groups: list[list[Part]] = []
     for part in parts:
         own_place = at(part)
@@ -241,25 +241,25 @@ def on_one_line(longer: tuple[complex, complex], shorter: tuple[complex, complex
 
 
 def unit(vector: complex) -> complex:
-    """The direction of a vector, of length 1; 1 for a vector of no length."""
+    """Return the unit direction of a vector; 1 for a zero vector."""
     size = abs(vector)
     return vector / size if size > 0 else 1 + 0j
 
 
 def polar(angle: float) -> complex:
-    """The unit vector e^{iφ} at an angle φ (rad)."""
+    """Return the unit vector e^{iφ} at an angle φ (rad)."""
     return cmath.exp(1j * angle)
 
 
 def rectangle(centre: complex, length: float, width: float, angle: float = 0.0) -> tuple[complex, ...]:
-    """Corners of a rectangle (mm), its length along `angle` (rad)."""
+    """Return the corners of a rectangle (mm), its length along `angle` (rad)."""
     u = polar(angle)
     a, b = complex(length, width) / 2, complex(length, -width) / 2
     return (centre - u * a, centre + u * b, centre + u * a, centre - u * b)
 
 
 def overlap(centres: Complexes, half: Complexes, strokes: Complexes, clearance: float) -> Flags:
-    """Return whether boxes [K] (centre, half size as width + i height) touch segments [S, 2]: flags [K, S].
+    """Return flags [K, S] of boxes [K] (centre, half size as width + i height) that touch segments [S, 2].
 
     The separating axes of a box and a segment are x, y and the segment's normal.
     """
@@ -280,7 +280,7 @@ def overlap(centres: Complexes, half: Complexes, strokes: Complexes, clearance: 
 class Ink:
     """Strokes of a figure in cells of paper, with the number of inked cells to the lower left of each corner.
 
-    Four corners show whether a box touches a stroke, however many strokes there are.
+    Four corners decide whether a box touches a stroke, however many strokes there are.
     """
 
     def __init__(self, strokes: Complexes) -> None:
@@ -292,7 +292,7 @@ class Ink:
         step = np.arange(len(stroke)) - np.repeat(np.cumsum(steps) - steps, steps)
         dots = settled(strokes[stroke, 0] + ways[stroke] * (step / np.maximum(steps - 1, 1)[stroke]) - self.low) / CELL
         self.size = int((high - self.low).real / CELL) + 2, int((high - self.low).imag / CELL) + 2
-        # Counts modulo 2¹⁶ tell boxes apart from empty ones: a label has fewer cells.
+        # Counts modulo 2¹⁶ still distinguish boxes from empty ones: a label has fewer cells.
         inked = np.zeros((self.size[0] + 1, self.size[1] + 1), dtype=np.uint16)
         inked[dots.real.astype(np.intp) + 1, dots.imag.astype(np.intp) + 1] = 1
         np.cumsum(inked, axis=1, out=inked)

@@ -1,7 +1,7 @@
-"""The indicator diagram beside its cylinder: its stroke lies in line with, and in the scale of, the piston's way.
+"""The indicator diagram beside its cylinder: its stroke axis has the direction and scale of the piston's travel.
 
-It is drawn in the coordinates of the position plan, so that a line across from the piston meets the curve at the
-piston's own position.
+It is drawn in the coordinates of the position plan, so that a perpendicular line from the piston meets the curve at the
+piston's position.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from reportgen.drawing.labels import LEFT_OUT, joined, label
 from reportgen.formula import Number
 
 TOGETHER = 0.3
-"""Readings within this of one another (mm of paper) share a label."""
+"""Readings nearer to one another than this (mm of paper) share a label."""
 
 STROKES = (
     Pen(0.35, style.BLUE, style.CHAIN),
@@ -33,11 +33,11 @@ STROKES = (
     Pen(0.5, style.RED),
     Pen(0.35, style.BLACK, style.DASHED),
 )
-"""Pens of the branches in their order, distinguished by dashes and width as well as by colour."""
+"""Pens of the branches in order, distinguished by dashes and width as well as by colour."""
 WIDTH = 80.0
-"""Largest width of the diagram, mm."""
+"""Largest width of the diagram (mm)."""
 AWAY = 0.94
-"""Distance from the cylinder, in the diagram's widths."""
+"""Distance from the cylinder, in widths of the diagram."""
 AXIS_PEN = Pen(0.2)
 TICK = 1.0
 READ = 4
@@ -46,7 +46,7 @@ READ = 4
 
 @dataclass(frozen=True, slots=True)
 class Branch:
-    """One stroke's line: fractions of the stroke from the top dead centre and pressures (any one unit)."""
+    """One stroke's line: fractions of the stroke from the top dead centre [K] and pressures [K] (any one unit)."""
 
     label: Content
     fraction: tuple[float, ...]
@@ -55,7 +55,7 @@ class Branch:
 
 @dataclass(frozen=True, slots=True)
 class Reading:
-    """A numbered position on the diagram: where it is read, and the place it is projected from (mm)."""
+    """A numbered position on the diagram: its reading, and the place from which it is projected (mm), or None."""
 
     label: Content
     fraction: float
@@ -69,10 +69,9 @@ ReadingGroup = Sequence[Reading]
 
 @dataclass(frozen=True, slots=True)
 class ChartFrame:
-    """Place of the diagram, in mm: its stroke axis runs from `top` to `bottom`, pressure along `side`.
+    """Position of the diagram in mm: its stroke axis runs from `top` to `bottom`, pressure along `side`.
 
-    `scale` is μ_p, pressure per mm; `axis` and `note` are the label of the pressure axis and the
-    printed scale.
+    `scale` is μ_p, pressure per mm; `axis` and `note` are the label of the pressure axis and the printed scale.
     """
 
     top: complex
@@ -83,21 +82,21 @@ class ChartFrame:
     note: Content = ""
 
     def at(self, fraction: float, pressure: float) -> complex:
-        """The place on paper of a fraction of the stroke and a pressure."""
+        """Return the place on paper (mm) of a fraction of the stroke and a pressure."""
         axis = self.bottom - self.top
         return self.top + fraction * axis + unit(self.side) * pressure / self.scale
 
     def of(self, reading: Reading) -> complex:
-        """The place on paper of a reading."""
+        """Return the place on paper (mm) of a reading."""
         return self.at(reading.fraction, reading.pressure)
 
 
 def beside(
     top: complex, bottom: complex, side: complex, highest: float, enlarged: float = 1.0
 ) -> tuple[complex, complex, float]:
-    """The ends (mm) of the diagram's axis beside the cylinder, and the round μ_p (Pa per mm) that makes it fit.
+    """Return the ends (mm) of the diagram's axis beside the cylinder, and the round μ_p (Pa per mm) at which it fits.
 
-    μ_p is that of the drawing once it is `enlarged` so many times.
+    μ_p is that of the drawing after enlargement by `enlarged`.
     """
     away = unit(side) * AWAY * WIDTH / enlarged
     return top + away, bottom + away, nice_up(highest / WIDTH)
@@ -109,9 +108,9 @@ def indicator(
     readings: Sequence[Reading] = (),
     groups: Sequence[ReadingGroup] | None = None,
 ) -> Canvas:
-    """The diagram with its branches named, its readings numbered and projected from the slider.
+    """Draw the diagram with its branches named, its readings numbered and projected from the slider.
 
-    Readings of one of the `groups`, else those at one place, share a label.
+    Readings of one of the `groups`, or without groups those at one place, share a label.
     """
     pressures = [p for branch in branches for p in branch.pressure]
     lowest, highest = min([0.0, *pressures]), max([0.0, *pressures])
@@ -136,24 +135,24 @@ def indicator(
 
 
 MOST_TOGETHER = 6
-"""Numbers that one label has at most: more would say no longer which reading is which."""
+"""Largest number of readings in one label: with more, it would not be clear which reading is which."""
 
 
 def all_numbered(
     draw: Callable[[Sequence[ReadingGroup]], Scene], frame: ChartFrame, readings: Sequence[Reading]
 ) -> Scene:
-    """Return a scene that shows the number of every reading: one without room joins its neighbours' label.
+    """Return a scene with the number of every reading; a number without room joins its neighbours' label.
 
-    `draw` makes it of groups of readings that share a label.  A group without room joins the nearest placed group that
-    is not full, again and again, until every number is placed or none can move.
+    `draw` makes it from groups of readings that share a label.  A group without room joins the nearest placed group
+    that is not full, repeatedly, until every number is placed or none can move.
     """
     groups = clusters(readings, TOGETHER, frame.of)
     while True:
         scene = draw(groups)
-        shown = {item.content for item in scene.items if isinstance(item, Label)}
-        placed = [list(group) for group in groups if group[0].label in shown]
+        labelled = {item.content for item in scene.items if isinstance(item, Label)}
+        placed = [list(group) for group in groups if group[0].label in labelled]
         left = []
-        for missing in (group for group in groups if group[0].label not in shown):
+        for missing in (group for group in groups if group[0].label not in labelled):
             fitting = [group for group in placed if len(group) + len(missing) <= MOST_TOGETHER]
             if not fitting:
                 left.append(missing)
@@ -179,7 +178,7 @@ def _branch_facts(frame: ChartFrame, branches: Sequence[Branch]) -> Iterator[Fac
 
 
 def _diagram_axes(frame: ChartFrame, lowest: float, highest: float) -> list[Item]:
-    """The stroke axis at p = 0, the pressure axis at the top dead centre with ticks, limits dashed."""
+    """Return the stroke axis at p = 0, the pressure axis at the top dead centre with ticks, and dashed limits."""
     u = unit(frame.side)
     across = unit(frame.top - frame.bottom)
     over = 10 * u
@@ -194,14 +193,14 @@ def _diagram_axes(frame: ChartFrame, lowest: float, highest: float) -> list[Item
         items.append(Line(at, at + across * TICK, AXIS_PEN))
         number = f"{k * step:g}"
         extent = box(number, style.SMALL)
-        # The box's half size across the axis: a wide number beside an upright axis stands farther off.
+        # The box's half size across the axis: a wide number is farther away from a vertical axis.
         half = (abs(across.real) * extent.width + abs(across.imag) * (extent.height + extent.depth)) / 2
         items.append(Label(at + across * (TICK + CLEAR + half), number, "center", style.SMALL))
     return items
 
 
 def _projections(frame: ChartFrame, readings: Sequence[Reading]) -> list[Item]:
-    """Thin lines from the slider's places to the farthest reading at each."""
+    """Return thin lines from the slider's places to the farthest reading at each."""
     farthest: dict[complex, complex] = {}
     for reading in readings:
         if reading.from_point is None:
@@ -214,7 +213,7 @@ def _projections(frame: ChartFrame, readings: Sequence[Reading]) -> list[Item]:
 
 
 def _along(points: Sequence[complex]) -> list[complex]:
-    """Places along a polyline at even shares of its length, the middle ones first."""
+    """Return places along a polyline at equal shares of its length, the middle ones first."""
     p = np.asarray(points)
     lengths = np.concatenate(([0.0], np.cumsum(np.abs(np.diff(p)))))
     shares = np.array([0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.12, 0.88]) * lengths[-1]

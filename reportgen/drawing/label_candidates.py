@@ -1,4 +1,4 @@
-"""Spots for a label around a point: their places, their costs, and the leaders that tie them to it."""
+"""Candidate places for a label around a point, their costs, and the leaders that connect them to the point."""
 
 from __future__ import annotations
 
@@ -17,23 +17,25 @@ Indices = NDArray[np.intp]
 DIRECTIONS = settled(np.exp(2j * np.pi * np.arange(24) / 24))
 FINE = settled(np.exp(2j * np.pi * np.arange(120) / 120))
 NEAR = (0.0, 0.7, 1.6)
-"""Extra distances (mm) at which a label still reads as belonging to its point."""
+"""Additional distances (mm) at which a label is still recognised as that of its point."""
 FAR = (2.6, 3.6, 4.8, 6.0, 7.2, 8.4, 9.6, 10.8, 12.0)
 ALL = (0.0, 0.4, 0.8, 1.2, 1.6, *np.arange(2.0, 12.0, 0.4))
-"""Distances of labels that break lines, in `FINE` directions, the first `LEADERLESS` of them without a leader."""
+"""Distances of labels that break lines, in `FINE` directions; the first `LEADERLESS` of them need no leader."""
 LEADERLESS = 5
 LONGEST = 12.0
-"""A longer leader (mm) is not followed."""
+"""Longest leader (mm) that a reader follows."""
 CLEAR = 0.55
-"""White kept between a label's ink and strokes; it also takes up what two typesetters differ by."""
+"""Gap between a label's ink and strokes; it also covers the differences between two typesetters."""
 KEPT = 1024
-"""For so many sizes of labels and sets of preferred directions the spots are cached."""
+"""Number of combinations of label size and preferred directions whose candidates are cached."""
 PLACES = np.linspace(0.15, 0.95, 9)
-"""Places on a leader that are checked against strokes, in shares of its length."""
+"""Points on a leader that are checked against strokes, in shares of its length."""
 
 
 def ring(half: complex, distances: Floats, directions: Complexes = DIRECTIONS) -> Complexes:
-    """Offsets [D, 24] of a box from its point, in so many directions: its nearest edge or corner at the distance."""
+    """Return offsets [D, 24] of a box from its point, in 24 directions, with its nearest edge or corner at the
+    distances [D].
+    """
     corners = np.clip(directions.real * math.sqrt(2), -1, 1) + 1j * np.clip(directions.imag * math.sqrt(2), -1, 1)
     return settled(
         np.asarray(corners.real * half.real + 1j * corners.imag * half.imag + distances[:, None] * directions)
@@ -42,13 +44,13 @@ def ring(half: complex, distances: Floats, directions: Complexes = DIRECTIONS) -
 
 @lru_cache(maxsize=KEPT)
 def nearby(half: complex, gap: float) -> Complexes:
-    """Offsets [72] at the near distances; cached, since names recur from plan to plan."""
+    """Return the offsets [72] at the near distances; cached, since names recur from plan to plan."""
     return ring(half, np.asarray(NEAR) + gap).ravel()
 
 
 @lru_cache(maxsize=KEPT)
 def ranking(prefer: tuple[float, ...], anchors: int) -> Indices:
-    """The order [72 × anchors] of nearby spots: the first point and preferred directions (rad) first."""
+    """Return the order [72 × anchors] of nearby candidates: the first point and preferred directions (rad) first."""
     cost = (np.asarray(NEAR)[:, None] * 0.45 + turned(prefer)).ravel()
     total = (0.25 * np.arange(anchors)[:, None] + cost).ravel()
     return np.argsort(settled(total), kind="stable")
@@ -59,7 +61,7 @@ def turned(prefer: tuple[float, ...], directions: Complexes = DIRECTIONS) -> Flo
     them.
     """
     if not prefer:
-        # Free choice: up and to the right reads best.
+        # Without preference: up and to the right reads best.
         return settled(np.asarray(0.35 * (1 - (directions * np.exp(-0.25j * np.pi)).real)))
     wanted = np.exp(-1j * np.asarray(prefer))
     return settled(np.asarray((1 - (directions[:, None] * wanted).real).min(axis=1)))
@@ -90,7 +92,9 @@ def touched(centres: Complexes, half: complex, strokes: Complexes) -> Flags:
 
 
 def leaders_to(gap: float, centres: Complexes, half: complex) -> Complexes:
-    """From a point's edge to just before the nearest place on each box, seen from the point: segments [K, 2]."""
+    """Return segments [K, 2] from a point's edge to just before the nearest place on each box, relative to the
+    point.
+    """
     foot = (centres.real - np.clip(centres.real, -half.real, half.real)) + 1j * (
         centres.imag - np.clip(centres.imag, -half.imag, half.imag)
     )
@@ -111,13 +115,13 @@ def crossings(leaders: Complexes, strokes: Complexes) -> Floats:
 
 
 def distances(leaders: Complexes, points: Complexes) -> Floats:
-    """Return the distances of points from leaders, mm [K, P]."""
+    """Return the distances of points [P] from leaders [K, 2] (mm) [K, P]."""
     start, direction = leaders[:, :1], leaders[:, 1:] - leaders[:, :1]
     share = np.clip(((points - start) / direction).real, 0.0, 1.0)
     return settled(np.asarray(np.abs(points - start - share * direction)))
 
 
 def inked(ink: Ink, leaders: Complexes) -> Floats:
-    """At how many of `PLACES` each leader [K] meets strokes: where it crosses one, or lies on it like a part of it."""
+    """Return the number of `PLACES` at which each leader [K, 2] meets strokes, by crossing one or lying on it [K]."""
     places = leaders[:, :1] + (leaders[:, 1:] - leaders[:, :1]) * PLACES
     return np.asarray(ink.touches(places, np.array(0.25 + 0.25j)).sum(axis=1), dtype=np.float64)

@@ -1,4 +1,4 @@
-"""Replace letters in a finished drawing: labels that become wider move to white paper."""
+"""Replace letters in a finished drawing: labels that become wider are moved off strokes and other labels."""
 
 from __future__ import annotations
 
@@ -18,18 +18,18 @@ Frame = tuple[complex, complex]
 STEPS = sorted(
     (complex(along, up) for up in range(-3, 4) for along in range(-3, 4)), key=lambda step: (abs(step), step.imag)
 )
-"""Steps that a row may move, in shares of half of its growth: short ones and those along its line first."""
+"""Shifts of a row, in shares of half of its growth: short ones and those along its line first."""
 TOUCHING = 1e-6
-"""Labels no farther apart (mm) are parts of one row."""
+"""Labels no farther apart than this (mm) are parts of one row."""
 WHITE = 0.5
 """Least distance between a label and the edge of its drawing (mm)."""
 
 
 def respelled(scene: Scene, spell: Callable[[Content], Content]) -> Scene:
-    """A scene whose labels say `spell` of what they said.
+    """Return a scene whose labels have `spell` of their contents.
 
-    A row of labels that grows keeps its middle or one of its ends, or goes as far up or down, whichever touches least
-    of the strokes and other labels; where it leaves the drawing, that grows with it.
+    A row of labels that grows keeps its middle or one of its ends, or moves as far up or down, whichever touches least
+    strokes and other labels; if it leaves the drawing, the drawing grows, too.
     """
     items = list(scene.items)
     strokes = segments(item for item in items if not isinstance(item, Label))
@@ -67,7 +67,7 @@ def _goes_on(label: Label, following: Label) -> bool:
 
 
 def _side_by_side(old: Sequence[Label], new: Sequence[Label]) -> tuple[list[Label], complex]:
-    """The labels of a row as they were, about its middle and on its line, and half of what it has grown by (mm)."""
+    """Return the new labels of a row about its old middle and on its line, and half of its growth (mm)."""
     before, after = (2 * sum(frame(label)[1] for label in labels) for labels in (old, new))
     if new[0].turn == 90:
         return list(new), 1j * (after - before).imag / 2
@@ -95,7 +95,7 @@ def _touched(labels: Sequence[Frame], by: complex, strokes: Complexes, others: S
 
 
 def _widened(scene: Scene) -> Scene:
-    """The scene, larger on all sides where labels ask for it."""
+    """Return the scene, enlarged on the sides where labels leave it."""
     centres, halves = (np.array(parts) for parts in zip(*_frames(scene), strict=True))
     white = complex(WHITE, WHITE)
     low, high = corners_of((0j, *(centres - halves - white)))[0], complex(scene.width, scene.height)

@@ -1,7 +1,7 @@
-"""Size of labels on paper, from a table of glyph sizes.
+"""Size of labels on paper, from a table of glyph sizes (`box`).
 
-The box of a label is the extent of its ink: advance widths, the tallest height above the baseline and the greatest
-depth below it.  Scripts are set at 0.7 of the size, as both typesetters do.
+The box of a label is the extent of its ink: advance widths, the greatest height above the baseline and the greatest
+depth below it.  Scripts are set at 0.7 of the size, as in both typesetters.
 """
 
 from __future__ import annotations
@@ -18,12 +18,12 @@ from reportgen.formula import Symbol, formula_layout, formula_setter
 from reportgen.formula.vocabulary import numbered, runs
 
 POINT = 25.4 / 72.27
-"""One printer's point in mm."""
+"""A printer's point (mm)."""
 SCRIPT = 0.7
 SMALL_CUT = 1.17
-"""Letters cut for 6 points, as LaTeX sets scripts, are so much wider than larger ones scaled down."""
+"""Letters cut for 6 points, as LaTeX sets scripts, are wider by this factor than larger ones scaled down."""
 SUPER_SHIFT, SUB_SHIFT = 0.38, 0.18
-"""Shift of the scripts' baselines, in font sizes."""
+"""Shift of the baselines of scripts, in font sizes."""
 OVER = 0.25
 """Height of an arrow or a bar above, in font sizes."""
 RELATION = 0.56
@@ -31,24 +31,26 @@ RELATION = 0.56
 GAPS: Mapping[formula_layout.Role, float] = {"product": RELATION, "separator": 0.5}
 """Width of a sign with its space, in font sizes, where it is not as wide as a plus."""
 BESIDE, BESIDE_HAN = 250, re.compile("(?<=[\u4e00-\u9fff])(?=[0-9A-Za-z])|(?<=[0-9A-Za-z])(?=[\u4e00-\u9fff])")
-"""Between letters of Chinese and of another script, in thousandths of the font size, and where that is."""
+"""Gap between letters of Chinese and of another script, in thousandths of the font size, and the pattern of
+its places.
+"""
 SQUARE = (1000, 860, 200)
-"""Sizes of an East Asian letter, each of which fills a square, and of its punctuation."""
+"""Sizes of an East Asian letter, which fills a square, and of its punctuation."""
 THIN = 0.17
-"""Between a function and what it is applied to, in font sizes."""
+"""Gap between a function and its argument, in font sizes."""
 
 
 @dataclass(frozen=True, slots=True)
 class Box:
-    """Width, height above and depth below the baseline, in mm."""
+    """Width, height above and depth below the baseline (mm)."""
 
     width: float
     height: float
     depth: float
 
-    def beside(self, other: Box) -> Box:
-        """Both boxes on one baseline."""
-        return Box(self.width + other.width, max(self.height, other.height), max(self.depth, other.depth))
+    def beside(self, box: Box) -> Box:
+        """Return both boxes side by side on one baseline."""
+        return Box(self.width + box.width, max(self.height, box.height), max(self.depth, box.depth))
 
 
 NOTHING = Box(0.0, 0.0, 0.0)
@@ -56,9 +58,9 @@ NOTHING = Box(0.0, 0.0, 0.0)
 
 @lru_cache(maxsize=4096)
 def box(content: Content, size: float = 9.0, displayed: bool = False) -> Box:
-    """The box of a label's content at a font size in points; unknown letters count as one em.
+    """Return the box of a label's content at a font size (pt); unknown letters count as one em.
 
-    The fractions of a `displayed` formula are in full size.
+    Fractions of a `displayed` formula have full size.
     """
     return Boxes(size * POINT, displayed).content(content)
 
@@ -74,7 +76,9 @@ def _text(text: str, em: float, italic: bool = False) -> Box:
 
 
 def _unknown(letter: str) -> tuple[int, int, int]:
-    """A letter that the table lacks: one of an alphabet is as wide as a wide letter, any other as one em."""
+    """Return the sizes of a letter that the table lacks: a letter of an alphabet is as wide as a wide letter, any other
+    one em.
+    """
     if letter.isalpha() and letter < "\u2000":
         return (700 if letter.isupper() else 600), 750, 200
     return SQUARE if letter >= "\u2e80" else (1000, 750, 200)
@@ -113,7 +117,7 @@ def _letters(text: str, em: float) -> Box:
 
 
 class Boxes(formula_setter.Setter[Box]):
-    """Formulas as the boxes that both typesetters set for them; em is the font size (mm)."""
+    """A setter of formulas as the boxes that both typesetters make; em is the font size (mm)."""
 
     def __init__(self, em: float, displayed: bool = False) -> None:
         super().__init__("en")
@@ -161,7 +165,7 @@ class Boxes(formula_setter.Setter[Box]):
             case formula_layout.Parenthesis(mark, tall):
                 return self.text(mark).beside(_gap(0.35 * em * tall))
             case formula_layout.Note(text):
-                # Both typesetters set the note in parentheses, a quad away.
+                # Both typesetters set the note in parentheses, at a distance of a quad.
                 return _gap(em).beside(self.text(f"({text})"))
 
     @property
@@ -169,7 +173,7 @@ class Boxes(formula_setter.Setter[Box]):
         return Boxes(SCRIPT * self.em)
 
     def quotient(self, top: formula_layout.Part, bottom: formula_layout.Part) -> Box:
-        """A fraction, whose parts are in the size of scripts and have white beside them within a line of text."""
+        """Return a fraction, whose parts have script size and padding within a line of text."""
         em, size, white = self.em, self if self.displayed else self.script, 0.0 if self.displayed else 0.24
         above, below = size.part(top), size.part(bottom)
         axis, gap = 0.25 * em, 0.12 * em

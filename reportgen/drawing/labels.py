@@ -1,11 +1,11 @@
-"""Placement of labels: near their point, clear of every stroke and of each other.
+"""Place labels near their points, clear of every stroke and of each other (`place`); make requests with `label`.
 
-Each label tries spots around its point, the preferred directions first, nearest first, and never one that is nearer
-to a point that another label names.  The label with the fewest free spots chooses first.  If no spot nearby is free,
-the label moves out and a short leader, which crosses no other, ties it to its point.  A label still without room
-chooses first in a new attempt, shortened if possible; if that is not enough it breaks gray lines of construction,
-as a dimension's figure does, where it hides least of them.  Labels are never merged.
-The same figure always gets the same labels.
+Each label tries candidates around its point, preferred directions first, nearest first, and never one that is nearer to
+a point that another label names.  The label with the fewest free candidates chooses first.  If no candidate nearby is
+free, the label moves out and a short leader, which crosses no other, connects it to its point.  A label still without
+room chooses first in a new attempt, shortened if possible; if that is not enough it breaks gray construction lines,
+like the number of a dimension, where it hides least of them.  Labels are never merged. The same figure always gets the
+same labels.
 """
 
 from __future__ import annotations
@@ -40,17 +40,17 @@ from reportgen.drawing.label_size import Box, box
 from reportgen.drawing.style import Segment
 
 FIRST = 72
-"""This many spots are tested at once; the others only if none of these is free."""
+"""Number of candidates that are tested first; the others are tested only if none of these is free."""
 FIGURES = 16
-"""Number of figures whose labels are cached: some are drawn once to see whether they fit and then again."""
+"""Number of figures whose labels are cached: some are drawn twice, first to see whether they fit."""
 HIDING = 0.05
 """Cost of hiding a cell of gray lines: four of them cost as much as a millimetre of distance."""
 ASIDE, BY = 1.6, 0.9
-"""Distances (mm) from other labels' points: of a label that only its leader ties to its point, and of the leader."""
+"""Least distances (mm) from other labels' points, of a label connected only by its leader, and of the leader."""
 LED = 2
-"""So often a label finds no room before its leader alone ties it to its point."""
+"""Number of failed attempts after which a label may be connected to its point by its leader alone."""
 APART = 0.7
-"""White kept between two labels."""
+"""Gap between two labels (mm)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,13 +77,13 @@ def label(
     each: bool = False,
     short: Sequence[Content] | None = None,
 ) -> Request:
-    """Return a request for a label whose `parts` are in a row on one baseline, near the point `at`.
+    """Return a request for a label whose `parts` are in a row on one baseline, near the point `at` (mm).
 
-    Of several points (places along an arrow, say) it belongs to the first, but may be placed at any.  `prefer` are
-    directions in radians, any if empty; `gap` is the distance in mm kept from the point itself (the radius of the
-    circle drawn there).  A `ring` goes round a link's number, which is on a leader.  A label that names its point,
-    or `each` of several, is nearer to it than to any point that another label names.  If it has no room, `short`
-    replaces it: less, nothing, or the number of a `KEY`.
+    Given several points (places along an arrow, say), it belongs to the first, but may be placed at any.  `prefer` are
+    directions (rad), any if empty; `gap` is the distance (mm) from the point itself (the radius of the circle drawn
+    there).  A `ring` surrounds a link's number, which has a leader.  A label that names its point, or `each` of
+    several, is nearer to it than to any point that another label names.  If it has no room, `short` replaces it: less,
+    nothing, or the number of a `KEY`.
     """
     points = tuple(at) if isinstance(at, Sequence) else (at,)
     named = points if each or len(points) == 1 else ()
@@ -92,13 +92,13 @@ def label(
 
 
 KEY = ("№",)
-"""Short for a label: a number, which a line below the figure explains."""
+"""Short form of a label: a number, which a line below the figure explains."""
 LEFT_OUT = ()
-"""Short for one of many marks of a curve: on a leader it may be beyond others; without room it is left out."""
+"""Short form of one of many marks of a curve: on a leader it may be beyond others; without room it is left out."""
 
 
 def joined(contents: Iterable[Content], by: str = ", ") -> list[Content]:
-    """Parts of one label: the contents with a separator between each two."""
+    """Return the contents as parts of one label, with a separator between each two."""
     parts = [part for content in contents for part in (by, content)]
     return parts[1:]
 
@@ -130,16 +130,16 @@ class _Taken:
 
     @property
     def centres(self) -> Complexes:
-        """Centres of all placed labels and leaders (mm) [N]."""
+        """Return the centres of all placed labels and leaders (mm) [N]."""
         return self._centres[: self.count]
 
     @property
     def halves(self) -> Complexes:
-        """Half their sizes (mm) [N]."""
+        """Return half their sizes (mm) [N]."""
         return self._halves[: self.count]
 
     def add(self, centre: complex, half: complex, leader: Segment | None) -> None:
-        """Enter a label by its middle and half its size (mm), with its leader."""
+        """Enter a label by its centre and half size (mm), with its leader."""
         self._centres[self.count], self._halves[self.count] = centre, half
         self.count += 1
         if leader:
@@ -172,11 +172,11 @@ class _Field:
 
     @cached_property
     def firm(self) -> Ink:
-        """The strokes that no label breaks: all but gray lines."""
+        """Return the strokes that no label may break: all except gray lines."""
         return Ink(segments(item for item in self.items if not _breakable(item)))
 
     def spots(self, requests: Mapping[int, Request]) -> dict[int, _Spots]:
-        """The spots of some labels by their numbers; all their first ones are tested together."""
+        """Return the candidates of labels by their numbers; the first ones of all are tested together."""
         offered = {i: _offered(request) for i, request in requests.items()}
         first = np.array([centres[:FIRST] for _, centres in offered.values()])
         half = np.array([half for half, _ in offered.values()])
@@ -207,7 +207,7 @@ class _Field:
 
 @dataclass
 class _Spots:
-    """Possible spots of a label, in the order of preference, and flags of the first ones that are free of strokes."""
+    """Candidate places of a label in order of preference, with flags of the first ones that are free of strokes."""
 
     field: _Field
     number: int
@@ -220,11 +220,11 @@ class _Spots:
 
     @property
     def room(self) -> int:
-        """Number of the first spots that are free of strokes."""
+        """Return the number of first candidates that are free of strokes."""
         return int(np.count_nonzero(self.first))
 
     def best(self, taken: _Taken) -> complex | None:
-        """The first spot (mm) free of strokes, labels and leaders; None where there is none."""
+        """Return the first candidate (mm) free of strokes, labels and leaders; None without one."""
         for start in range(0, len(self.centres), FIRST):
             free = self.first if start == 0 else self.free(self.centres[start : start + FIRST])
             centres = self.centres[start : start + FIRST][free]
@@ -244,7 +244,7 @@ class _Spots:
         return self.field.nearest(centres, np.array([self.half]), np.array([self.number]))
 
     def beyond(self, at: complex) -> tuple[Complexes, Complexes]:
-        """The free spots farther out from a point, the cheapest first, and their leaders [K, 2]."""
+        """Return the free candidates farther out from a point, the cheapest first, and their leaders [K, 2]."""
         if at not in self.far:
             offsets, cost, ways = beyond(self.half, self.request.gap, self.request.prefer)
             free = self.free(at + offsets, self.request.short != LEFT_OUT)
@@ -255,7 +255,9 @@ class _Spots:
         return self.far[at]
 
     def breaking(self, taken: _Taken, led: bool) -> tuple[complex, Segment | None] | None:
-        """The best spot (mm), clear of labels, that hides gray lines, and the leader if it is far; None if none is."""
+        """Return the best candidate (mm), clear of labels, that hides gray lines, and its leader if it is far; None
+        without one.
+        """
         if led not in self.over:
             self.over[led] = self._over(led)
         centres, leaders, near = self.over[led]
@@ -285,7 +287,7 @@ class _Spots:
         else:
             fit = self.nearest(centres)
         centres, leaders, near, costs = centres[fit], leaders[fit], near[fit], cost[free[fit] % len(offsets)]
-        # A leader along a line is taken for a part of it.
+        # A leader along a line would look like a part of it.
         costs = costs + np.where(near, 0.0, 0.1 * inked(field.ink, leaders) ** 2)
         order = np.argsort(settled(costs + HIDING * field.ink.covered(centres, np.array(half))), kind="stable")
         return centres[order], leaders[order], near[order]
@@ -303,7 +305,7 @@ def _breakable(item: Item) -> bool:
 
 
 def _offered(request: Request) -> tuple[complex, Complexes]:
-    """Half the size of a label, and its spots [72 × points] nearby in the order of preference."""
+    """Return half the size of a label (mm), and its nearby candidates [72 × points] in order of preference."""
     half = _half(request)
     spots = (np.array(request.points)[:, None] + nearby(half, request.gap)).ravel()
     return half, spots[ranking(request.prefer, len(request.points))]
@@ -311,9 +313,9 @@ def _offered(request: Request) -> tuple[complex, Complexes]:
 
 @dataclass(frozen=True, slots=True)
 class Placed:
-    """The labels of a figure, the lines of its key, each of parts, and whether it is too small for them.
+    """The labels of a figure, the lines of its key, each of parts, and True if the figure is too small for them.
 
-    In one that is `crowded` a label is tied to its point by its leader alone, or hides more than gray lines.
+    If it is `crowded`, some label is connected to its point only by its leader, or hides more than gray lines.
     """
 
     items: tuple[Item, ...]
@@ -323,7 +325,7 @@ class Placed:
 
 @lru_cache(maxsize=FIGURES)
 def place(items: tuple[Item, ...], requests: tuple[Request, ...]) -> Placed:
-    """Labels (and leaders) for the requests among the items, in their order."""
+    """Return labels (and leaders) for the requests among the items, in order."""
     requests = tuple(map(_settled, requests))
     field = _Field(items, requests)
     frames = [(settled(centre), settled(half)) for centre, half in map(frame, _labels(items))]
@@ -359,7 +361,7 @@ def _labels(items: Iterable[Item]) -> Iterator[Label]:
 
 
 def _settled(request: Request) -> Request:
-    """The request with places, directions and gap that are the same on every processor."""
+    """Return the request with numbers rounded, so that they are the same on every processor."""
     points, named = (tuple(map(settled, places)) for places in (request.points, request.named))
     return replace(
         request, points=points, named=named, prefer=tuple(map(settled, request.prefer)), gap=settled(request.gap)
@@ -412,9 +414,9 @@ def _half(request: Request) -> complex:
 
 
 def _away(spot: _Spots, taken: _Taken) -> tuple[complex, Segment | None] | None:
-    """The best free spot farther out, and the leader to it, which crosses no label; None where there is none.
+    """Return the best free candidate farther out and its leader, which crosses no label; None without one.
 
-    The leader starts at the label's first point, or at another one if no spot around the first is free.
+    The leader starts at the label's first point, or at another one if no candidate around the first is free.
     """
     for at in spot.request.points:
         centres, leaders = spot.beyond(at)

@@ -12,7 +12,7 @@ from reportgen.formula.formula_setter import TextSetter
 from reportgen.formula.vocabulary import numbered, runs
 
 MEANT = {sign: f"\\{sign}" for sign in "$%_#&{}"} | {"\\": r"\backslash ", "^": r"\hat{}", " ": r"\ ", ",": "{,}"}
-"""Escapes of letters that have a meaning in mathematics."""
+"""Escapes of letters that have a meaning in mathtext."""
 
 _EXPONENT = re.compile("([⁺⁻⁰¹²³⁴-⁹]+)")
 _LEVEL = str.maketrans("⁺⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "+-0123456789")
@@ -23,6 +23,8 @@ def _upright(letters: str) -> str:
 
 
 class MathText(TextSetter):
+    """Setter of formulas as mathtext."""
+
     BELOW = "{%s}_{%s}"
     RAISED = POWER = "{%s}^{%s}"
     QUOTIENT, RADICAL = r"\frac{%s}{%s}", r"\sqrt{%s}"
@@ -37,7 +39,7 @@ class MathText(TextSetter):
         return f"${self.math(content)}$"
 
     def text(self, text: str) -> str:
-        """Upright letters; exponents of units are raised, since not every font has all of them."""
+        """Return upright letters; exponents of units are raised, since not every font has all of them."""
         pieces = _EXPONENT.split(text)
         return "".join(
             f"^{{{piece.translate(_LEVEL)}}}" if index % 2 else _upright(piece) for index, piece in enumerate(pieces)
@@ -62,7 +64,7 @@ class MathText(TextSetter):
         return self.text(number.text(" "))
 
     def symbol(self, node: Symbol) -> str:
-        """A symbol with its marks: base in italics, sub- and superscript upright, a bar over the whole of it."""
+        """Return a symbol with its marks: base in italics, sub- and superscript upright, a bar over all of it."""
         letters, above = parted(node)
         base = self.lowered(runs(letters), lambda part: rf"\mathit{{{part}}}" if part.isalpha() else self.text(part))
         if node.over == "vector":

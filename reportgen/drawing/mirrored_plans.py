@@ -1,4 +1,4 @@
-"""Plans that are mirror images of others; the report mentions them and does not draw them again.
+"""Find plans that are mirror images of earlier ones; the report mentions them and does not draw them again.
 
 The positions k and N + 2 − k of a centric slider-crank mirror each other in the line of its slide.
 """
@@ -14,31 +14,31 @@ import numpy as np
 from reportgen.drawing.vector_plan import Plan
 
 SAME_END = 0.01
-"""Ends of vectors nearer than this (mm), the last digit of a measured length, are one for any reader."""
+"""Ends of vectors nearer than this (mm), the last digit of a measured length, coincide."""
 FEWEST = 2
-"""Pairs of positions, less of which are not worth a sentence."""
+"""Least number of pairs of positions for which the report has a sentence."""
 SAME_MIRROR = 1e-3
-"""Two lines of mirroring whose directions differ by no more (radians, twice) are one."""
+"""Two lines of mirroring coincide if twice their angle is at most this (rad)."""
 
 
 @dataclass(frozen=True, slots=True)
 class Mirrored:
-    """Positions (numbers) and, in the same order, the earlier ones of whose plans theirs are the mirror images."""
+    """Positions, and in the same order the earlier positions whose plans theirs mirror."""
 
     at: tuple[int, ...]
     of: tuple[int, ...]
 
 
 def mirrored(plans: Mapping[int, Plan]) -> Mirrored:
-    """Return the plans, by position, that mirror one at an earlier position in parallel lines.
+    """Return the positions whose plans mirror that of an earlier position, all in parallel lines.
 
-    Of several such lines the one with most pairs counts; a single pair, as of the two dead centres, is drawn.
+    Of several such lines the one with most pairs counts; a single pair, as of the two dead centres, is ignored.
     """
     ends = {k: np.array([end for v in plan.vectors for end in (v.start, v.end)]) for k, plan in plans.items()}
     turns = [
-        (one, other, turn)
-        for one, other in combinations(sorted(ends), 2)
-        if (turn := _turn(ends[one], ends[other])) is not None
+        (earlier, later, turn)
+        for earlier, later in combinations(sorted(ends), 2)
+        if (turn := _turn(ends[earlier], ends[later])) is not None
     ]
     best: dict[int, int] = {}
     for *_, line in turns:
@@ -53,7 +53,9 @@ def mirrored(plans: Mapping[int, Plan]) -> Mirrored:
 
 
 def _turn(ends: np.ndarray, mirrored_ends: np.ndarray) -> complex | None:
-    """Return the factor that turns the conjugates of points into others; None without one, or if both are the same."""
+    """Return the factor that turns the conjugates of points [N] into others; None without one, or if both sets are
+    equal.
+    """
     if not ends.size or abs(ends - mirrored_ends).max() < SAME_END:
         return None
     largest = int(abs(ends).argmax())

@@ -13,12 +13,12 @@ from reportgen.drawing import Content, Scene
 from reportgen.drawing.drawing_sheet import GAP, PlacedScene, headed
 
 DUST = 1e-6
-"""Rounding of places, mm."""
+"""Rounding of places (mm)."""
 
 
 @dataclass(frozen=True, slots=True)
 class Arranged:
-    """The scenes of a plate in rows, by their numbers, with the width and height of all below its head."""
+    """The scenes of a plate in rows, by their numbers, with the width and height (mm) of all below its head."""
 
     width: float
     height: float
@@ -27,10 +27,10 @@ class Arranged:
 
 @dataclass(frozen=True, eq=False)
 class DrawingPlate:
-    """Drawings of one name on paper, the lines below the name, and the layer that they are on.
+    """Drawings under one title on paper, the lines below the title, and their layer.
 
-    Plates of one `family` belong together; `spare` ones only fill what is left of a sheet.  They are numbered on the
-    sheets; one that no sheet holds is divided, and says `further` where it goes on.
+    Plates of one `family` belong together; `spare` ones only fill the rest of a sheet.  They are numbered on the
+    sheets; a plate that fits no sheet is divided, and `further` is the note that it continues.
     """
 
     title: str
@@ -42,23 +42,23 @@ class DrawingPlate:
     further: str = ""
     number: int = 0
     first: int = 1
-    """Number of the first scene: others may be on the sheet before."""
+    """Number of the first scene: earlier ones may be on the sheet before."""
     larger: Callable[[], DrawingPlate | None] | None = None
-    """The same plate at the next larger standard scale, if it may be drawn at one."""
+    """Function that returns the plate at the next larger standard scale; None if the plate has a fixed scale."""
 
     @cached_property
     def top(self) -> Scene:
-        """Its head alone."""
+        """Return its head alone."""
         return headed(f"{self.number}. {self.title}", *self.lines)
 
     @property
     def area(self) -> float:
-        """Area of its scenes, mm²."""
+        """Return the area of its scenes (mm²)."""
         return sum(scene.width * scene.height for scene in self.scenes)
 
     @cached_property
     def arrangements(self) -> list[Arranged]:
-        """Ways to arrange the scenes, each wider and lower than the one before."""
+        """Return the arrangements of the scenes, each wider and lower than the one before."""
         widths = [scene.width + GAP for scene in self.scenes]
         ends = list(accumulate(widths, initial=0.0))
         sums = {end - start - GAP for at, end in enumerate(ends) for start in ends[:at]}
@@ -87,13 +87,15 @@ class DrawingPlate:
         return bisect_right(self.arrangements, width + DUST, key=lambda one: one.width)
 
     def divided(self, count: int) -> tuple[DrawingPlate, DrawingPlate]:
-        """So many of its scenes, and the others."""
+        """Return plates of its first `count` scenes and of the others."""
         lines = (self.further, *(line for line in self.lines if line != self.further))
         rest = replace(self, lines=lines, scenes=self.scenes[count:], first=self.first + count)
         return replace(self, scenes=self.scenes[:count]), rest
 
     def placed(self, how: Arranged, corner: complex) -> Iterator[PlacedScene]:
-        """Its parts, the upper left corner of its box at a place (mm): the head, then the rows, each spread evenly."""
+        """Yield its parts with the upper left corner of its box at a place (mm): the head, then the rows, each evenly
+        spread.
+        """
         top = corner - 1j * self.top.height
         yield PlacedScene(f"{self.number}", self.layer, self.top, top + (how.width - self.top.width) / 2)
         for row in how.rows:
@@ -108,17 +110,17 @@ class DrawingPlate:
 
 
 MOST_STEPS = 5
-"""A plate is drawn by no more standard scales larger than in the report."""
+"""Largest number of standard scales by which a plate is larger than in the report."""
 
 
 def enlargeable(draw: Callable[[int], DrawingPlate], most: int = MOST_STEPS, steps: int = 0) -> DrawingPlate:
-    """A plate that is drawn by so many standard scales larger than in the report, and may be drawn larger still."""
+    """Return a plate drawn by `steps` standard scales larger than in the report, which may be enlarged up to `most`."""
     larger = None if steps == most else lambda: enlargeable(draw, most, steps + 1)
     return replace(draw(steps), larger=larger)
 
 
 def changed(plate: DrawingPlate, change: Callable[[DrawingPlate], DrawingPlate]) -> DrawingPlate:
-    """A plate with a change that any larger one has, too."""
+    """Return a plate with a change that also applies to its larger versions."""
     larger = plate.larger
     if larger is None:
         return change(plate)

@@ -1,6 +1,6 @@
 """The position plan: all positions of a mechanism in one drawing, true to scale, with paths of points.
 
-Also the mechanism at one position with the instant centres of its links.
+Also the mechanism at one position with the instant centres of its links (`centre_plan`).
 """
 
 from __future__ import annotations
@@ -25,18 +25,18 @@ from reportgen.machine import GROUND, Crank, Linkage
 from reportgen.machine.kinematics import Motion
 
 TOGETHER = 0.3
-"""Points within this of one another (mm of paper) are one and share a label."""
+"""Points nearer to one another than this (mm of paper) coincide and share a label."""
 CROWDED = 24
-"""With more positions than this only the emphasised one is numbered."""
+"""Above this number of positions only the emphasised one is numbered."""
 DOT = 0.55
 VELOCITY, ANGLE = 20.0, 11.0
 """Length of a velocity's arrow and radius of an angle's arc (mm) beside instant centres."""
 LEAST_ANGLE = 0.03
-"""A smaller angle (radians) has no arc that can be seen."""
+"""A smaller angle (rad) has no visible arc."""
 ARC_OVER = 9.0
 """Length (mm) of an arc on either side of its point."""
 BEYOND_BOTH = 0.7
-"""Place of the arc of a small angle on the way to the nearer end."""
+"""Position of the arc of a small angle, as a share of the distance to the nearer end."""
 BEYOND = 3.0
 """Length (mm) of a normal beyond the centre."""
 
@@ -45,9 +45,9 @@ BEYOND = 3.0
 class PositionPlan:
     """Contents of a position plan.
 
-    `numbered` are points labelled with each position's number (A₁ … A₈), `paths` points whose curves are
-    drawn from a dense motion, `emphasised` the index (from 0) of the position drawn heavy, if any;
-    `labels` replaces the positions' numbers; the drawing is `enlarged` by this factor afterwards.
+    `numbered` are points labelled with each position's number (A₁ … A₈), `paths` points whose curves are drawn from a
+    dense motion, `emphasised` the index (from 0) of the position drawn heavy, or None; `labels` replaces the positions'
+    numbers; the drawing is `enlarged` by this factor afterwards.
     """
 
     numbered: tuple[str, ...]
@@ -71,13 +71,15 @@ def position_plan(
     *,
     beside: Canvas | None = None,
 ) -> Scene:
-    """The scene, `scale` mm of paper per m, with a drawing `beside` it about the same origin (an indicator diagram)."""
+    """Return the scene at `scale` mm of paper per m, with a drawing `beside` it about the same origin (an indicator
+    diagram).
+    """
     count = len(motion.driver)
     every = [skeleton(linkage, motion, k, scale) for k in range(count)]
     reached = [bones for bones in every if bones.reached]
     items: list[Item] = []
     requests: list[Request] = []
-    # A point that carries numbers needs no name of its own.
+    # A point with numbers needs no name.
     unnumbered = [name for name in shows.paths if name not in shows.numbered]
     if isinstance(linkage.driver, Crank):
         centre = linkage.driver.centre
@@ -87,10 +89,10 @@ def position_plan(
     for bones in reached:
         items += _links(bones, style.THIN, shows.numbered)
     drawn: list[Complexes] = []
-    # Of a mechanism that does not go all the way round no path is whole.
+    # If the mechanism does not turn fully, no path is complete.
     for name in shows.paths if dense.reachable.all() else ():
         curve = dense.points[name].p[dense.reachable] * scale
-        # Two points that describe one curve share its line, whose dashes would else fill each other's gaps.
+        # Two points that trace one curve share its line; otherwise their dashes would fill each other's gaps.
         if not any(_covers(other, curve) for other in drawn):
             items.append(Polyline(tuple(complex(p) for p in curve), style.PATH))
             drawn.append(curve)
@@ -101,15 +103,15 @@ def position_plan(
         requests += [label(bones.points[name], vocabulary.point(name), gap=style.POINT + 0.4) for name in unnumbered]
     else:
         for name in unnumbered:
-            # The name of a path stands where it goes farthest out, or elsewhere along it.
+            # The name of a path is placed at its outermost point, or elsewhere along it.
             curve = dense.points[name].p[dense.reachable] * scale
             far = np.argsort(-np.abs(curve - curve.mean()), kind="stable")
             requests.append(
                 label([complex(p) for p in curve[far][:: max(1, len(curve) // 10)]], vocabulary.point(name))
             )
     if reached:
-        shown = shows.emphasised if shows.emphasised is not None and every[shows.emphasised].reached else None
-        turning = driver_arrow(linkage, motion, every[shown] if shown is not None else reached[0])
+        emphasised = shows.emphasised if shows.emphasised is not None and every[shows.emphasised].reached else None
+        turning = driver_arrow(linkage, motion, every[emphasised] if emphasised is not None else reached[0])
         items += turning.items
         requests += turning.requests
     for name in reached[0].pivots if reached else ():
@@ -144,7 +146,9 @@ class DrawnCentre:
 
 @dataclass(frozen=True, slots=True)
 class PlaneMotion:
-    """A link in plane motion by two of its points: their velocities (any size), names of the angles with it."""
+    """A link in plane motion by its points: their velocities (any size), and the names of their angles with
+    the link.
+    """
 
     points: tuple[str, ...]
     velocities: tuple[complex, ...]
@@ -161,9 +165,9 @@ def centre_plan(
     looks: Looks,
     moving: Sequence[PlaneMotion] = (),
 ) -> Scene:
-    """The mechanism at position `index`, `scale` mm to a metre, with its links' instant centres and normals to them.
+    """Draw the mechanism at position `index`, `scale` mm per m, with its links' instant centres and normals to them.
 
-    Of links that are `moving` the velocities are drawn, not to scale, with their angles.
+    The velocities of links in `moving` are drawn with their angles, not to scale.
     """
     bones = skeleton(linkage, motion, index, scale)
     draft = mechanism(bones, (GROUND, *linkage.links), looks) + driver_marks(linkage, motion, bones)
@@ -187,7 +191,9 @@ def centre_plan(
 
 
 def _inclined(bones: Skeleton, moving: Sequence[PlaneMotion]) -> Canvas:
-    """Velocities at their points and their angles with the links, counted from the way from base to point."""
+    """Draw velocities at their points and their angles with the links, measured from the direction from base
+    to point.
+    """
     items: list[Item] = []
     requests: list[Request] = []
     facts: list[Fact] = []
@@ -219,10 +225,10 @@ def _inclined(bones: Skeleton, moving: Sequence[PlaneMotion]) -> Canvas:
 
 @dataclass(frozen=True, slots=True)
 class SwingMarks:
-    """Construction of both ends of a pin's way: the crank's `centre`, the rocker's `pivot`, the pin's `ends` (m).
+    """Construction of both ends of a pin's path (m): the crank's `centre`, the rocker's `pivot`, the pin's `ends`.
 
-    Angles with their names are those between the lines to the ends; `seen_from` is the centre of a circle through
-    the ends and the crank's centre, with its name, where it is constructed.
+    `angles` are the names of the angles between the lines to the ends; `circle` is the centre of a circle through the
+    ends and the crank's centre, with its name, or None.
     """
 
     centre: complex
@@ -233,7 +239,9 @@ class SwingMarks:
 
 
 def swing_marks(marks: SwingMarks, scale: float) -> Canvas:
-    """Arcs of the radii to both ends about the crank's centre (m, `scale` mm to a metre), lines and angles between."""
+    """Draw the radii to both ends about the crank's centre (m, `scale` mm per m), with lines and angles
+    between them.
+    """
     centre, pivot = marks.centre * scale, marks.pivot * scale
     ends = [end * scale for end in marks.ends]
     items: list[Item] = []
@@ -270,7 +278,7 @@ def _covers(curve: Complexes, covered: Complexes) -> bool:
 
 
 def _radii(dense: Motion, centre: str, numbered: Sequence[str], scale: float) -> list[float]:
-    """Radii of the circles that numbered points describe about the driver's centre, each once."""
+    """Return the radii (mm) of the circles that numbered points trace about the driver's centre, each once."""
     radii: list[float] = []
     for name in numbered:
         arms = dense.points[name].p[dense.reachable] - dense.points[centre].p[dense.reachable]
@@ -281,7 +289,7 @@ def _radii(dense: Motion, centre: str, numbered: Sequence[str], scale: float) ->
 
 
 def _axes(bones: Skeleton) -> list[Item]:
-    """The axes of the ground guides, a little longer than the ways on them; equal ones are drawn once."""
+    """Return the axes of the ground guides, a little longer than the travel on them; equal ones are drawn once."""
     lines: list[Item] = []
     for slide in bones.slides:
         if slide.on == GROUND and abs(slide.high - slide.low) > 0:
@@ -293,9 +301,9 @@ def _axes(bones: Skeleton) -> list[Item]:
 
 
 def _links(bones: Skeleton, pen: Pen, further: Sequence[str] = ()) -> list[Item]:
-    """Bars between the joints of each link; a plate where one of its `further` points lies off them.
+    """Return bars between the joints of each link; a plate if one of its `further` points lies off them.
 
-    A link with a slideway reaches from its joint to the way's near end, as a lever through its pivot does.
+    A link with a slideway reaches from its joint to the near end of the slideway, like a lever through its pivot.
     """
     result: list[Item] = []
     for link, names in bones.bars.items():
@@ -312,17 +320,17 @@ def _links(bones: Skeleton, pen: Pen, further: Sequence[str] = ()) -> list[Item]
 
 
 def _numbers(every: Sequence[Skeleton], numbers: Sequence[int], shows: PositionPlan) -> Canvas:
-    """Dots at the numbered positions and their names, one label for points that coincide."""
-    shown = [
+    """Draw dots at the numbered positions with their names; points that coincide share one label."""
+    dots = [
         (every[k].points[name], Symbol(vocabulary.point(name).base, shows.label(k)))
         for name in shows.numbered
         for k in numbers
         if every[k].reached
     ]
-    middle = sum(at for at, _ in shown) / len(shown) if shown else 0j
+    middle = sum(at for at, _ in dots) / len(dots) if dots else 0j
     items: list[Item] = []
     requests: list[Request] = []
-    for group in coincident(shown, TOGETHER / shows.enlarged, lambda one: one[0]):
+    for group in coincident(dots, TOGETHER / shows.enlarged, lambda one: one[0]):
         at, names = group[0][0], [name for _, name in group]
         items.append(Circle(at, DOT, Pen(0.2), style.PAPER))
         out = (float(np.angle(at - middle)),) if abs(at - middle) > 1 else ()

@@ -1,5 +1,6 @@
-"""Any linkage at one position as plain geometry in mm, its scheme, its driver and Assur groups taken apart,
-and the legend of the lines in which all of it is drawn."""
+"""A linkage at one position as plain geometry in mm (`skeleton`), its kinematic scheme, its driver and Assur groups
+drawn separately, and the legend of line styles.
+"""
 
 from __future__ import annotations
 
@@ -28,7 +29,7 @@ from reportgen.machine.spring_geometry import Coil
 
 @dataclass(frozen=True, slots=True)
 class Slide:
-    """A block of `link` at its point `name` on a guide of link `on`, along `angle` from `low` to `high`."""
+    """A block of `link` at its point `name` on a guide of link `on`, along `angle` (rad) from `low` to `high` (mm)."""
 
     link: int
     name: str
@@ -38,15 +39,15 @@ class Slide:
     low: complex
     high: complex
     turns: bool
-    """True if the block is a separate link, pinned at its middle, and not an end of a longer one."""
+    """True if the block is a separate link, pinned at its middle; False if it is the end of a longer link."""
 
 
 @dataclass(frozen=True, slots=True)
 class Skeleton:
-    """Points in mm by name, joints of each moving link, slides, ground pivots.
+    """Points (mm) by name, joints of each moving link, slides, ground pivots.
 
-    `owners` gives the link of each further point (mass centres, coupler points); `reached` is false where the
-    mechanism cannot take the position.
+    `owners` gives the link of each further point (mass centres, coupler points); `reached` is False if the mechanism
+    cannot take the position.
     """
 
     points: Mapping[str, complex]
@@ -58,12 +59,12 @@ class Skeleton:
     reached: bool
 
     def slide_of(self, link: int) -> Slide | None:
-        """The slide whose block is the link."""
+        """Return the slide whose block is the link; None without one."""
         return next((slide for slide in self.slides if slide.link == link), None)
 
 
 def skeleton(linkage: Linkage, motion: Motion, index: int, scale: float) -> Skeleton:
-    """The mechanism at position `index`, `scale` mm of paper per m; guides as long as the motion needs."""
+    """Return the mechanism at position `index`, `scale` mm of paper per m; guides are as long as the motion needs."""
     points = {name: complex(point.p[index]) * scale for name, point in motion.points.items()}
     bars: dict[int, list[str]] = {link: [] for link in linkage.links}
     slides: list[Slide] = []
@@ -134,10 +135,10 @@ def skeleton(linkage: Linkage, motion: Motion, index: int, scale: float) -> Skel
 
 
 def _axis(motion: Motion, guide: Guide | Dyad) -> tuple[int, Floats, Complexes]:
-    """The link that carries a guide, and its axis at all positions: direction (radians) and a point of it.
+    """Return the link that carries a guide, and its axis at all positions [N]: direction (rad) and a point of it (m).
 
-    A dyad's own guide is the line of link j on which the block i slides at its pin P: of an RPR beside T at
-    the distance e, of an RPP through Q.
+    A dyad's own guide is the line of link j on which the block i slides at its pin P: of an RPR beside T at the
+    distance e, of an RPP through Q.
     """
     if isinstance(guide, Guide) and guide.link == GROUND:
         return GROUND, np.full(motion.driver.shape, guide.angle), np.full(motion.driver.shape, guide.at)
@@ -155,11 +156,11 @@ def _axis(motion: Motion, guide: Guide | Dyad) -> tuple[int, Floats, Complexes]:
 
 @dataclass(frozen=True, slots=True)
 class Looks:
-    """Looks of a drawn machine.
+    """Drawing options of a machine.
 
-    `blocks` gives the length (along the guide) and width of a slider's block in mm of paper (a piston's
-    bore, say); `centres` are points drawn as mass centres; `scale` is the figure's own μ_l, printed below.  The whole
-    machine shows its springs, the `coils`.
+    `blocks` gives the length (along the guide) and width of a slider's block in mm of paper (a piston's bore, say);
+    `centres` are points drawn as mass centres; `scale` is the figure's own μ_l, printed below.  The springs `coils` are
+    drawn with the whole machine.
     """
 
     blocks: Mapping[int, tuple[float, float]] = field(default_factory=dict)
@@ -169,16 +170,16 @@ class Looks:
 
     @property
     def notes(self) -> tuple[Content, ...]:
-        """Notes printed below the figure."""
+        """Return the notes printed below the figure."""
         return () if self.scale is None else (self.scale,)
 
     def block(self, link: int) -> tuple[float, float]:
-        """Length and width of a block (mm)."""
+        """Return length and width of a block (mm)."""
         return self.blocks.get(link, style.BLOCK)
 
 
 def scheme(linkage: Linkage, motion: Motion, index: int, scale: float, looks: Looks) -> Scene:
-    """The kinematic scheme at position `index`, `scale` mm of paper per m."""
+    """Draw the kinematic scheme at position `index`, `scale` mm of paper per m."""
     bones = skeleton(linkage, motion, index, scale)
     draft = mechanism(bones, (GROUND, *linkage.links), looks) + driver_marks(linkage, motion, bones)
     hung = coil_symbols(looks.coils, linkage, motion, index, scale, bones.pivots)
@@ -188,7 +189,7 @@ def scheme(linkage: Linkage, motion: Motion, index: int, scale: float, looks: Lo
 def groups(
     linkage: Linkage, motion: Motion, index: int, scale: float, looks: Looks, titles: Sequence[str] = ()
 ) -> tuple[Scene, ...]:
-    """The driver with the ground, then each Assur group alone, a scene each, `scale` mm to a metre."""
+    """Draw the driver with the ground, then each Assur group alone, a scene for each, at `scale` mm per m."""
     bones = skeleton(linkage, motion, index, scale)
     parts = [mechanism(bones, (GROUND, DRIVER), looks) + driver_marks(linkage, motion, bones)]
     parts += [mechanism(bones, dyad.links, looks) for dyad in linkage.dyads]
@@ -196,19 +197,19 @@ def groups(
 
 
 LEGS = math.cos(math.radians(75))
-"""Least angle (75°) of the arrow of ω1 from straight down, where the pivot is."""
+"""Least angle (75°) of the arrow of ω1 from vertically down, where the pivot's support is."""
 CLEAR = 1.0
-"""The arrow of ω1 keeps so far from the links that the crank moves (mm)."""
+"""Least distance of the arrow of ω1 from the links that the crank moves (mm)."""
 TURNS = 0.0, 0.15, 0.3, 0.45, 0.6, 0.75, 0.9
-"""Places along the turn (rad) of the arrow of ω1 where its distance from them is checked."""
+"""Angles (rad) along the arrow of ω1 at which its distance from them is checked."""
 NUMBER = 6.0
-"""Room of a link's number beside its bar, mm."""
+"""Room for a link's number beside its bar (mm)."""
 THUMBNAIL = 34.0, 40.0
-"""Largest width and height of a small mechanism beside a plan, mm."""
+"""Largest width and height of a small mechanism beside a plan (mm)."""
 
 
 def thumbnail(linkage: Linkage, motion: Motion, index: int) -> Canvas:
-    """The mechanism at position `index` as a small sketch, not to scale: links, joints and their names."""
+    """Draw the mechanism at position `index` as a small sketch, not to scale: links, joints and their names."""
     whole = skeleton(linkage, motion, index, 1.0)
     ends = np.array([*whole.points.values(), *(end for s in whole.slides if s.on == GROUND for end in (s.low, s.high))])
     size = max(float(np.ptp(ends.real)) / THUMBNAIL[0], float(np.ptp(ends.imag)) / THUMBNAIL[1])
@@ -227,51 +228,53 @@ def thumbnail(linkage: Linkage, motion: Motion, index: int) -> Canvas:
     return settle(Canvas(tuple(items), names, (fact("beside"),)))
 
 
-def mechanism(bones: Skeleton, shown: Sequence[int], looks: Looks) -> Canvas:
-    """The shown links with their joints, names and numbers; with link 0 its pivots and guides."""
+def mechanism(bones: Skeleton, links: Sequence[int], looks: Looks) -> Canvas:
+    """Draw the given links with their joints, names and numbers; link 0 with its pivots and guides."""
     rails: list[Item] = []
     bars: list[Item] = []
     blocks: list[Item] = []
     requests: list[Request] = []
     for slide in bones.slides:
         size = looks.block(slide.link)
-        if slide.on in shown and (slide.on != GROUND or slide.link in shown):
-            rails += _rail(slide, size, _bars(bones, shown, looks))
-        if slide.link in shown:
-            # Where a group is drawn alone, a short piece of its axis stands for the guide.
-            if slide.on not in shown:
+        if slide.on in links and (slide.on != GROUND or slide.link in links):
+            rails += _rail(slide, size, _bars(bones, links, looks))
+        if slide.link in links:
+            # If a group is drawn alone, a short piece of its axis represents the guide.
+            if slide.on not in links:
                 on = polar(slide.angle) * (size[0] / 2 + 5)
                 rails.append(Line(slide.at - on, slide.at + on, style.AXIS))
             blocks.append(style.block(slide.at, slide.angle, size))
     names: list[str] = []
     marked: list[str] = []
-    for link in shown:
+    for link in links:
         joints = bones.bars.get(link, ())
         own = _marked(bones, link, looks)
         marked += own
         bars += style.body([*_body_points(bones, link), *(bones.points[name] for name in own)])
         names += [name for name in joints if name not in names]
         if link != GROUND:
-            requests += _number(bones, link, looks, [slide for slide in bones.slides if slide.link in shown])
-    names += [name for name in bones.joints if name not in names and _on_block(bones, name, shown)]
-    # A block that does not turn has no joint in its middle, only a point.
-    marked += [s.name for s in bones.slides if s.link in shown and not s.turns and s.name not in names]
-    standing = [name for name in bones.pivots if GROUND in shown and (len(shown) > 2 or name in names)]
+            requests += _number(bones, link, looks, [slide for slide in bones.slides if slide.link in links])
+    names += [name for name in bones.joints if name not in names and _on_block(bones, name, links)]
+    # A block that does not rotate has only a point in its middle, not a joint.
+    marked += [s.name for s in bones.slides if s.link in links and not s.turns and s.name not in names]
+    standing = [name for name in bones.pivots if GROUND in links and (len(links) > 2 or name in names)]
     names += [name for name in standing if name not in names]
     pins: list[Item] = []
     for name in names:
         at = bones.points[name]
         pins += style.pivot(at) if name in standing else (style.joint(at),)
-    centres = [name for name in looks.centres if bones.owners.get(name) in shown]
+    centres = [name for name in looks.centres if bones.owners.get(name) in links]
     marks = [item for name in centres for item in style.mass_centre(bones.points[name])]
     marks += [style.point(bones.points[name]) for name in marked]
     requests += _names([*names, *centres, *marked], bones)
-    return Canvas((*rails, *bars, *blocks, *pins, *marks), tuple(requests), tuple(link_facts(bones, shown)))
+    return Canvas((*rails, *bars, *blocks, *pins, *marks), tuple(requests), tuple(link_facts(bones, links)))
 
 
-def link_facts(bones: Skeleton, shown: Sequence[int]) -> Iterator[Fact]:
-    """Yield the facts of the shown links: their bars from joint to joint, blocks and ways, the pivots on the ground."""
-    for link in shown:
+def link_facts(bones: Skeleton, links: Sequence[int]) -> Iterator[Fact]:
+    """Yield the facts of the given links: their bars from joint to joint, blocks and guides, the pivots on the
+    ground.
+    """
+    for link in links:
         first, *others = bones.bars.get(link, ()) or ("",)
         for name in others:
             bar = bones.points[name] - bones.points[first]
@@ -283,14 +286,14 @@ def link_facts(bones: Skeleton, shown: Sequence[int]) -> Iterator[Fact]:
                 yield fact("slider", str(link), vocabulary.point(slide.name), along)
             else:
                 yield fact("slider-on", str(link), vocabulary.point(slide.name), str(slide.on), along)
-    standing = listed(vocabulary.point(name) for name in bones.pivots if GROUND in shown)
+    standing = listed(vocabulary.point(name) for name in bones.pivots if GROUND in links)
     if standing:
         yield fact("pivots", standing)
 
 
 @dataclass(frozen=True, slots=True)
 class LinkShape:
-    """A link drawn in its own frame, in mm: the guide it carries, its bars, its block, in the order of painting."""
+    """A link drawn in its own frame (mm): the guide it carries, its bars, its block, in painting order."""
 
     rails: tuple[Item, ...]
     bars: tuple[Item, ...]
@@ -298,7 +301,7 @@ class LinkShape:
 
 
 def parts_of(bones: Skeleton, link: int, looks: Looks, origin: complex, angle: float) -> LinkShape:
-    """Return the parts that move with a link, seen from its frame, which lies at `origin` (mm) under `angle`."""
+    """Return the parts that move with a link, relative to its frame at `origin` (mm) with the angle `angle` (rad)."""
     u = polar(angle)
     slides = tuple(
         replace(
@@ -318,13 +321,15 @@ def parts_of(bones: Skeleton, link: int, looks: Looks, origin: complex, angle: f
 
 
 def ground_guides(bones: Skeleton, looks: Looks) -> tuple[Item, ...]:
-    """The guides on the ground along the whole way of their blocks, whatever crosses them."""
+    """Return the guides on the ground along the whole travel of their blocks, not interrupted by links that
+    cross them.
+    """
     rails = [_rail(slide, looks.block(slide.link), ()) for slide in bones.slides if slide.on == GROUND]
     return tuple(item for items in rails for item in items)
 
 
 def driver_marks(linkage: Linkage, motion: Motion, bones: Skeleton) -> Canvas:
-    """The circle of a crank's pin and the arrow of ω1; an empty draft for a sliding driver."""
+    """Draw the circle of a crank's pin and the arrow of ω1; an empty draft for a sliding driver."""
     driver = linkage.driver
     if not isinstance(driver, Crank):
         return Canvas()
@@ -334,7 +339,7 @@ def driver_marks(linkage: Linkage, motion: Motion, bones: Skeleton) -> Canvas:
 
 
 def driver_arrow(linkage: Linkage, motion: Motion, bones: Skeleton) -> Canvas:
-    """The arrow of ω1 about a crank's centre; an empty draft for a sliding driver."""
+    """Draw the arrow of ω1 about a crank's centre; an empty draft for a sliding driver."""
     driver = linkage.driver
     if not isinstance(driver, Crank):
         return Canvas()
@@ -343,7 +348,8 @@ def driver_arrow(linkage: Linkage, motion: Motion, bones: Skeleton) -> Canvas:
     sense = math.copysign(1.0, motion.rate[0])
     angle = cmath.phase(pin - centre)
     reach = max(5.0, min(0.45 * radius, 12.0))
-    # The arrow begins beside the crank, or a quarter turn or more on where it would lie on the pivot's legs or a link.
+    # The arrow begins beside the crank, or at least a quarter turn later if it would cover the pivot's support or a
+    # link.
     starts = [angle + sense * (0.25 + quarter * math.pi / 2) for quarter in (0, 1, 2, 3)]
     free = [one for one in starts if math.cos(one + sense * 0.45 + math.pi / 2) < LEGS]
     clear = {one: _clearance(bones, [centre + reach * polar(one + sense * turn) for turn in TURNS]) for one in free}
@@ -356,11 +362,11 @@ def driver_arrow(linkage: Linkage, motion: Motion, bones: Skeleton) -> Canvas:
     return Canvas((arrow,), (omega,), (turning(name, sense),))
 
 
-def _bars(bones: Skeleton, shown: Sequence[int], looks: Looks) -> list[tuple[complex, complex]]:
-    """The straight lines between the joints of the links, and the guides that they carry."""
-    joints = [[bones.points[name] for name in bones.bars.get(link, ())] for link in shown]
+def _bars(bones: Skeleton, links: Sequence[int], looks: Looks) -> list[tuple[complex, complex]]:
+    """Return the straight lines between the joints of the links, and the guides that they carry."""
+    joints = [[bones.points[name] for name in bones.bars.get(link, ())] for link in links]
     bars = [bar for ends in joints for bar in combinations(ends, 2)]
-    return bars + [_carried(slide, looks.block(slide.link)) for slide in bones.slides if slide.on in shown and slide.on]
+    return bars + [_carried(slide, looks.block(slide.link)) for slide in bones.slides if slide.on in links and slide.on]
 
 
 def _carried(slide: Slide, size: tuple[float, float]) -> tuple[complex, complex]:
@@ -370,7 +376,7 @@ def _carried(slide: Slide, size: tuple[float, float]) -> tuple[complex, complex]
 
 
 def _rail(slide: Slide, size: tuple[float, float], bars: Sequence[tuple[complex, complex]]) -> tuple[Item, ...]:
-    """The guide of a block along its way; if the way has no length, along a short piece of its axis."""
+    """Return the guide of a block along its travel; if it does not travel, along a short piece of its axis."""
     along = polar(slide.angle)
     if slide.on != GROUND:
         return (Line(*_carried(slide, size), style.HEAVY),)
@@ -380,7 +386,7 @@ def _rail(slide: Slide, size: tuple[float, float], bars: Sequence[tuple[complex,
 
 
 def _clearance(bones: Skeleton, along: Sequence[complex]) -> float:
-    """The least distance (mm) of some places from the links that the crank moves."""
+    """Return the least distance (mm) of places from the links that the crank moves."""
     owned = {link: [bones.points[name] for name, owner in bones.owners.items() if owner == link] for link in bones.bars}
     bodies = ((*_body_points(bones, link), *owned[link]) for link in bones.bars if link != DRIVER)
     sides = np.array([side for body in bodies for side in combinations(body, 2) if abs(side[1] - side[0]) > 0])
@@ -388,7 +394,7 @@ def _clearance(bones: Skeleton, along: Sequence[complex]) -> float:
 
 
 def _body_points(bones: Skeleton, link: int) -> list[complex]:
-    """The joints of a link, and where its own slideway begins when that is away from the joints."""
+    """Return the joints of a link, and the beginning of its slideway if that is away from the joints."""
     points = [bones.points[name] for name in bones.bars.get(link, ())]
     slide = bones.slide_of(link)
     if slide and not points:
@@ -401,18 +407,20 @@ def _body_points(bones: Skeleton, link: int) -> list[complex]:
 
 
 def _marked(bones: Skeleton, link: int, looks: Looks) -> list[str]:
-    """The named points of a link that are neither joints nor mass centres: coupler points, ends of levers."""
+    """Return the named points of a link that are neither joints nor mass centres: coupler points, ends of levers."""
     owned = [name for name, owner in bones.owners.items() if owner == link != GROUND]
     return [name for name in owned if name not in {*bones.joints, *looks.centres}]
 
 
-def _on_block(bones: Skeleton, name: str, shown: Sequence[int]) -> bool:
-    """Return True if a joint is the middle of a block that is shown."""
-    return any(slide.name == name and slide.link in shown and slide.turns for slide in bones.slides)
+def _on_block(bones: Skeleton, name: str, links: Sequence[int]) -> bool:
+    """Return True if a joint is the middle of a drawn block."""
+    return any(slide.name == name and slide.link in links and slide.turns for slide in bones.slides)
 
 
 def _number(bones: Skeleton, link: int, looks: Looks, slides: Sequence[Slide]) -> list[Request]:
-    """The link's number in a ring beside its longest bar, away from the blocks of the `slides`, or beside its block."""
+    """Return the link's number in a ring beside its longest bar, away from the blocks of the `slides`, or beside its
+    block.
+    """
     joints = [bones.points[name] for name in bones.bars.get(link, ())]
     slide = bones.slide_of(link)
     if len(joints) > 1:
@@ -439,7 +447,7 @@ def _near_block(at: complex, slide: Slide, looks: Looks) -> bool:
 def _names(
     names: Sequence[str], bones: Skeleton, size: float = style.LABEL, radius: float = style.JOINT
 ) -> list[Request]:
-    """One label for points that coincide, clear of the circles drawn there."""
+    """Return one label for points that coincide, clear of the circles drawn there."""
     return [
         label(bones.points[group[0]], *joined(map(vocabulary.point, group), " ≡ "), gap=radius + 0.5, size=size)
         for group in clusters(dict.fromkeys(names), 0.3, bones.points.__getitem__)
@@ -456,7 +464,7 @@ LINES: tuple[tuple[str, Pen], ...] = (
     ("path", style.PATH),
     ("normal", style.NORMAL),
 )
-"""Lines of the mechanism and of constructions, by the names of their words."""
+"""Lines of the mechanism and of constructions, by the keys of their names."""
 ARROWS: tuple[tuple[str, Pen], ...] = (
     ("known", style.KNOWN),
     ("relative", style.RELATIVE),
@@ -465,13 +473,13 @@ ARROWS: tuple[tuple[str, Pen], ...] = (
     ("reaction", style.REACTION),
     ("new", style.NEW),
 )
-"""Vectors of plans, forces on links, and what a step of a construction adds."""
+"""Vectors of plans, forces on links, and the additions of a construction step, by the keys of their names."""
 SAMPLE, COLUMN, ROW, GAP = 18.0, 76.0, 6.5, 2.5
-"""Length of a sample, from one column to the next, from one row to the next, between a sample and its words; mm."""
+"""Length of a sample, and the distances between columns, between rows, and from a sample to its text (mm)."""
 
 
 def line_styles(words: Mapping[str, str]) -> Scene:
-    """Two columns of samples, lines and arrows; `words` has the text of each that is shown by its name."""
+    """Draw two columns of samples, lines and arrows; `words` has the text of each by its key."""
     items: list[Item] = []
     facts: list[Fact] = []
     for column, pens in enumerate((LINES, ARROWS)):
@@ -485,5 +493,5 @@ def line_styles(words: Mapping[str, str]) -> Scene:
 
 
 def _dashes(pen: Pen) -> str:
-    """The phrase that says what a stroke looks like without its colour."""
+    """Return the key of the phrase that describes a stroke without its colour."""
     return "solid" if not pen.dash else "dashed" if len(pen.dash) == 2 else "chain"

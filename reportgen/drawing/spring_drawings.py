@@ -19,16 +19,16 @@ from reportgen.machine.kinematics import Motion
 from reportgen.machine.spring_geometry import Coil
 
 LEAD, TEETH, SIDE = 0.18, 8, 1.7
-"""Straight pieces at both ends (shares of the length), corners between them, and their offset (mm)."""
+"""Straight pieces at both ends (shares of the length), number of corners between them, and their offset (mm)."""
 TURNS, INNER, OUTER = 2.25, style.JOINT, 5.6
-"""Turns and radii (mm) of the spiral about a pin."""
+"""Number of turns and radii (mm) of the spiral about a pin."""
 PER_TURN = 24
 MOUNT = 4.6
-"""Half the strip of ground at which a spring hangs (mm), as broad as that below a pivot."""
+"""Half the length of the ground at the end of a spring (mm), as wide as that below a pivot."""
 
 
 def zigzag(start: Complexes, end: Complexes) -> list[Complexes]:
-    """The corners (mm) [N] of a spring between two ends [N]: its turns come apart as it is stretched."""
+    """Return the corners (mm) [N] of a spring between two ends [N]; its coils separate as it is stretched."""
     along = end - start
     length = np.abs(along)
     across = 1j * SIDE * along / np.where(length > 0, length, 1.0)
@@ -38,7 +38,7 @@ def zigzag(start: Complexes, end: Complexes) -> list[Complexes]:
 
 
 def spiral() -> Polyline:
-    """A torsion spring about the origin (mm), which holds a link along +x."""
+    """Return a torsion spring about the origin (mm), which is attached to a link along +x."""
     rising = np.linspace(0.0, 1.0, round(TURNS * PER_TURN) + 1)
     places = (INNER + (OUTER - INNER) * rising) * np.exp(2j * math.pi * TURNS * (rising - 1))
     return Polyline((*map(complex, places),), style.VISIBLE)
@@ -50,11 +50,11 @@ def named(coil: Coil) -> Symbol:
 
 
 def mounts(coil: Coil, linkage: Linkage, start: complex, end: complex, pivots: Collection[str]) -> list[Item]:
-    """The ground at the ends (mm) of a spring that are fixed and no pivots."""
+    """Return the ground at the ends (mm) of a spring that are fixed and are not pivots."""
     items: list[Item] = []
-    for anchor, at, other in zip(coil.ends, (start, end), (end, start), strict=True):
+    for anchor, at, opposite in zip(coil.ends, (start, end), (end, start), strict=True):
         if not anchor.name or (anchor.name in linkage.ground and anchor.name not in pivots):
-            along = -1j * unit(at - other) if at != other else 1.0
+            along = -1j * unit(at - opposite) if at != opposite else 1.0
             items += style.ground(at - MOUNT * along, at + MOUNT * along, 1)
             items.append(Circle(at, style.POINT, style.VISIBLE, style.PAPER))
     return items

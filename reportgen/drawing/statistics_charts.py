@@ -1,4 +1,4 @@
-"""Diagrams of statistics: points over two numbers, and means with their spread by name."""
+"""Charts of statistics: points over two numbers, and means with their spread by name."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from reportgen.drawing.label_size import box
 from reportgen.formula import Number
 
 WIDTH, HEIGHT = 110.0, 60.0
-"""The area inside the axes of points, mm."""
+"""The area inside the axes of points (mm)."""
 DOT = 0.8
-"""Radius of a point, mm."""
+"""Radius of a point (mm)."""
 SPREAD = Pen(0.5, style.BLUE)
 
 
@@ -27,7 +27,7 @@ def scatter(
     x_label: Content,
     y_label: Content,
 ) -> Scene:
-    """A point for each x and y; the axes run from the first of the evenly spaced ticks to the last."""
+    """Draw a point for each x [N] and y [N]; the axes run from the first to the last of the evenly spaced ticks."""
     items: list[Item] = []
 
     def at(x: float, y: float) -> complex:
@@ -56,9 +56,9 @@ def scatter(
 def intervals(
     names: Sequence[Content], means: Sequence[float], spreads: Sequence[float], ticks: Sequence[float], x_label: Content
 ) -> Scene:
-    """One mean below the other, its name on the left, with a line as long as the spread to either side of it.
+    """Draw a row for each mean [N], its name on the left, with a line as long as the spread [N] on either side of it.
 
-    The axis runs from the first of the evenly spaced ticks to the last, and no line leaves it.
+    The axis runs from the first to the last of the evenly spaced ticks; lines are cut at its ends.
     """
     widest = max(box(name, style.SMALL).width for name in names)
     length = max(COUNT_WIDTH - widest - 10.0, LENGTH)

@@ -1,7 +1,7 @@
-"""Still scenes of an animated drawing at some of its samples, from which animations are made frame by frame.
+"""Still scenes of an animated drawing at some of its samples; animations are made from them frame by frame.
 
-Labels are placed as on a page: where fewest lines run through them, on no other label, and from one scene to the
-next at the same place, as long as that is hardly worse.  A label without a place is left out.
+Labels are placed as on a page: where fewest lines run through them, on no other label, and from one scene to the next
+at the same place if that is hardly worse.  A label without a place is left out.
 """
 
 from __future__ import annotations
@@ -30,23 +30,23 @@ from reportgen.drawing.geometry import frame, moved, overlap, polar, rectangle, 
 from reportgen.drawing.style import LABEL, SMALL
 
 NOTHING = 0.02
-"""A vector shorter than this (mm) is none."""
+"""A vector shorter than this (mm) is not drawn."""
 SHORT = 3.0
-"""One shorter than this (mm) has no label."""
+"""A vector shorter than this (mm) has no label."""
 SHARES = (0.5, 0.38, 0.62, 0.27, 0.73)
 """Places along a vector for its label."""
 BESIDE = (0.9, 2.2)
-"""White between a vector and its label (mm)."""
+"""Gap between a vector and its label (mm)."""
 ABOUT = tuple(eighth * math.pi / 4 for eighth in (0, 1, -1, 2, -2, 3, -3, 4))
-"""Directions from a point for its name, counted from its free side (radians)."""
+"""Directions from a point for its name, relative to its free side (rad)."""
 FURTHER = (0.0, 1.2, 3.0)
 """Additional distances from it (mm)."""
 BALANCED = 0.35
-"""Limit of the sum of unit vectors: a point that is joined to others on all sides has no free side."""
+"""Largest sum of unit vectors at which a point counts as surrounded: it has no free side."""
 RANK, STAYS = 0.06, 0.3
-"""Cost of a later place and bonus for staying, relative to a line through the label."""
+"""Cost of a later candidate and bonus for staying, relative to a line through the label."""
 CLEAR = 0.25
-"""White between two labels (mm)."""
+"""Gap between two labels (mm)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,17 +66,17 @@ class Moment:
 
 
 def sample_at(animation: Animation, degrees: float) -> int:
-    """The sample of the cycle that is nearest to a cycle angle (degrees)."""
+    """Return the sample of the cycle that is nearest to a cycle angle (degrees)."""
     turn = min(int(degrees // 360.0), animation.turns - 1)
     return turn * (animation.knots.size - 1) + int(np.abs(animation.knots - (degrees - 360.0 * turn)).argmin())
 
 
 def stills(animation: Animation, pane: Pane, samples: Sequence[int], layers: Collection[str] = ()) -> Iterator[Scene]:
-    """A pane at samples, with the layers that are shown; letters, heads and pens of arrows as large as on a page."""
+    """Yield a pane at samples, with the visible layers; letters, arrowheads and pens are as large as on a page."""
     low, bars = scale_bars(pane, animation.units)
     size, foot = pane.high - low, complex(pane.high.real, pane.low.imag)
-    shown = [item for item in pane.items if not item.layer or item.layer in layers]
-    # Where each label was, by the place of its item.
+    visible = [item for item in pane.items if not item.layer or item.layer in layers]
+    # The previous place of each label, by the index of its item.
     last: dict[int, int] = {}
     for sample in samples:
         now = Moment(animation, sample)
@@ -84,12 +84,13 @@ def stills(animation: Animation, pane: Pane, samples: Sequence[int], layers: Col
         zoom = pane.scales[0].per / pane.scales[number].per if pane.finer else 1.0
         labels = _Labels(pane.low, pane.high, last)
         items: list[Item] = []
-        for place, item in enumerate(shown):
+        for place, item in enumerate(visible):
             items += _drawn(item, now, zoom, pane.enlargement)
             if request := _request(item, now, zoom, pane.enlargement):
                 labels.requests[place] = request
         items += labels.placed(items)
-        # What is shown in part, as two teeth of a wheel, goes on beyond its box: not below the bars.
+        # Items that are visible only in part, such as two teeth of a wheel, continue beyond the box, but not below the
+        # bars.
         items.append(Polyline(rectangle((low + foot) / 2, size.real, (foot - low).imag), None, True, style.PAPER))
         for index, (scale, bar) in enumerate(bars):
             if index == number if pane.finer else not scale.layers or set(scale.layers) & set(layers):
@@ -130,7 +131,7 @@ class _Request:
 
 
 def _request(item: MovingItem, now: Moment, zoom: float, enlargement: float) -> _Request | None:
-    """The label of a vector beside it, that of a point about it."""
+    """Return the label of a vector beside it, that of a point about it; None without a label."""
     match item:
         case MovingVector(label=content) if content is not None:
             start, end = zoom * now.of(item.start), zoom * now.of(item.end)
@@ -157,12 +158,14 @@ def _sized(content: Content, size: float) -> tuple[Label, complex]:
 
 
 def _reach(half: complex, direction: complex) -> float:
-    """From the middle of a box to its edge, along a unit vector."""
+    """Return the distance (mm) from the middle of a box to its edge, along a unit vector."""
     return min(half.real / max(abs(direction.real), 1e-9), half.imag / max(abs(direction.imag), 1e-9))
 
 
 def _away(place: complex, others: Sequence[complex]) -> complex:
-    """The side away from what a point is joined to; across the last of it where that is all around."""
+    """Return the direction away from the points that a point is joined to; if they surround it, normal to the last of
+    them.
+    """
     ways = [unit(place - other) for other in others if 0.5 < abs(place - other) < math.inf]
     away = sum(ways, 0j)
     if abs(away) < BALANCED:
@@ -172,7 +175,7 @@ def _away(place: complex, others: Sequence[complex]) -> complex:
 
 @dataclass
 class _Labels:
-    """The labels of one scene, while they find their places in the box from `low` to `high`."""
+    """The labels of one scene during placement in the box from `low` to `high` (mm)."""
 
     low: complex
     high: complex
@@ -200,7 +203,7 @@ class _Labels:
 
 
 def _turned(item: Item, by: float) -> Item:
-    """The item turned about the origin by an angle (radians); labels stay upright."""
+    """Return the item turned about the origin by an angle (rad); labels stay upright."""
     turning = cmath.rect(1.0, by)
     match item:
         case Line(start, end) | Arrow(start, end):

@@ -1,6 +1,6 @@
-"""The look of all figures: colours, pens and sizes, and the signs of links and joints.
+"""The style of all figures: colours, pens and sizes, and the signs of links and joints.
 
-The mechanism is black, with two accent colours; lines of construction are gray.
+The mechanism is black, with two accent colours; construction lines are gray.
 """
 
 from __future__ import annotations
@@ -28,68 +28,70 @@ THIN = Pen(0.15, GRAY)
 AXIS = Pen(0.13, GRAY, (5.0, 1.0, 0.8, 1.0))
 """Axes of symmetry and of guides."""
 PROJECTION = Pen(0.18, BLACK, (5.0, 1.0, 0.8, 1.0))
-"""An axis that vectors are projected on."""
+"""Pen of an axis on which vectors are projected."""
 CONSTRUCTION = Pen(0.13, GRAY, (1.6, 1.0))
-"""Auxiliary directions of a plan, which go a little beyond their end."""
+"""Auxiliary directions of a plan, which extend a little beyond their end."""
 LEADER = Pen(0.1, GRAY)
 SOLID, DASHED, CHAIN, DOTTED = (), (2.4, 0.9), (3.6, 0.8, 0.6, 0.8), (0.9, 0.7)
 """Dashes that distinguish lines printed without colour, beside their widths."""
 KNOWN = Pen(0.35)
 RELATIVE = Pen(0.3, BLUE, CHAIN)
 FOUND = Pen(0.3, RED, DASHED)
-"""A vector that a plan gives by closing."""
+"""A vector that is found by closing a plan."""
 ACTIVE = Pen(0.5, BLUE)
 REACTION = Pen(0.3, RED, DASHED)
 PATH = Pen(0.3, BLUE, CHAIN)
-"""The curve that a point describes."""
+"""The curve that a point traces."""
 NORMAL = Pen(0.18, RED, (1.8, 1.0))
 """A normal to a velocity, through an instant centre."""
 NEW = Pen(0.5, BLUE)
-"""Pen of the parts that a stage of a construction adds."""
+"""Pen of the parts that a construction stage adds."""
 OLD = Pen(0.2, GRAY)
 DIMENSION = Pen(0.13)
 
 ON_LINE, BESIDE = 0.4, 1.6
-"""Arrows within the first distance (mm) of one line lie on each other: the later one is drawn beside by the second."""
+"""Arrows within the first distance (mm) of one line overlap: the later one is drawn beside it, by the second
+distance.
+"""
 
 HEAD, DIMENSION_HEAD = 2.6, 1.6
 LABEL, SMALL = 9.0, 8.6
-"""Font sizes in points, the second where labels are dense; its indices, 0.7 of it, have six points still."""
+"""Font sizes (pt), the second for dense labels, whose indices, 0.7 of it, still have six points."""
 
 # --- signs ----------------------------------------------------------------------------------------
 
 JOINT = 1.2
-"""Radius of a revolute joint, mm."""
+"""Radius of a revolute joint (mm)."""
 POINT = 0.7
-"""Radius of a point that is no joint."""
+"""Radius of a point that is not a joint (mm)."""
 BLOCK = (9.0, 5.0)
-"""Length along the guide and width of a block, mm."""
+"""Length along the guide and width of a block (mm)."""
 SMALL_BLOCK = (4.0, 2.2)
 """The same in a small sketch."""
 STRIP = 1.7
-"""Width of a strip of ground."""
+"""Width of a strip of ground (mm)."""
 OPEN = 1.0
-"""White between a bar and the wall it passes, mm."""
+"""Gap between a bar and the wall that it passes (mm)."""
 SHORTEST_WALL = 3.0
-"""A shorter piece of wall (mm) between two bars is left out."""
+"""Shorter pieces of wall (mm) between two bars are left out."""
 PLAY = 0.35
-"""White between a block and its guide."""
+"""Gap between a block and its guide (mm)."""
 CENTRE = 1.2
-"""Radius of the sign of a mass centre, mm."""
+"""Radius of the sign of a mass centre (mm)."""
 
 
 def joint(at: complex) -> Item:
-    """A revolute joint between two moving links, at a place (mm)."""
+    """Return a revolute joint between two moving links, at a place (mm)."""
     return Circle(at, JOINT, VISIBLE, PAPER)
 
 
 def point(at: complex) -> Item:
-    """A named point of a link that is no joint, at a place (mm)."""
+    """Return a named point of a link that is not a joint, at a place (mm)."""
     return Circle(at, POINT, None, BLACK)
 
 
 def pivot(at: complex) -> tuple[Item, ...]:
-    """A revolute joint on the ground, at a place (mm): two legs on a hatched strip."""
+    """Return a revolute joint on the ground, at a place (mm): two legs on a hatched strip."""
     left, right = at + complex(-2.6, -5), at + complex(2.6, -5)
     return (
         Polyline((at, left, right), VISIBLE, closed=True, fill=PAPER),
@@ -99,7 +101,7 @@ def pivot(at: complex) -> tuple[Item, ...]:
 
 
 def small_pivot(at: complex) -> tuple[Item, ...]:
-    """A revolute joint on the ground in a small sketch, at a place (mm)."""
+    """Return a revolute joint on the ground in a small sketch, at a place (mm)."""
     left, right = at + complex(-1.3, -2.4), at + complex(1.3, -2.4)
     return (
         Polyline((at, left, right), THIN, closed=True, fill=PAPER),
@@ -109,7 +111,7 @@ def small_pivot(at: complex) -> tuple[Item, ...]:
 
 
 def ground(start: complex, end: complex, side: int) -> tuple[Item, ...]:
-    """A standing edge with its hatching, at 45° to it, to the left (+1) or right (−1) of the way from start to end."""
+    """Return an edge of the ground with its hatching at 45°, on the left (+1) or right (−1) from start to end (mm)."""
     u = unit(end - start)
     out = u * 1j * side * STRIP
     turn = math.remainder(cmath.phase(u), math.pi / 2)
@@ -119,7 +121,9 @@ def ground(start: complex, end: complex, side: int) -> tuple[Item, ...]:
 def guide(
     low: complex, high: complex, size: tuple[float, float], bars: Sequence[tuple[complex, complex]] = ()
 ) -> tuple[Item, ...]:
-    """Walls (mm) on both sides of a block's way, half a block longer than it, open where `bars` cross them."""
+    """Return the walls (mm) on both sides of a block's travel, half a block longer than it, open where `bars` cross
+    them.
+    """
     u = unit(high - low)
     away = u * 1j * (size[1] / 2 + PLAY)
     on = u * (size[0] / 2 + 2.0)
@@ -135,11 +139,11 @@ def guide(
 def _uncrossed(
     start: complex, end: complex, side: int, bars: Sequence[tuple[complex, complex]]
 ) -> list[tuple[complex, complex]]:
-    """The pieces of a wall that are left clear by the bars that cross its strip."""
+    """Return the pieces of a wall that bars crossing its strip leave."""
     u, length = unit(end - start), abs(end - start)
     gaps = []
     for bar in bars:
-        # In coordinates along the wall and out of it, which the strip fills from 0 to STRIP.
+        # In coordinates along the wall and outwards, which the strip fills from 0 to STRIP.
         a, b = (complex(p.real, side * p.imag) for p in ((point - start) * u.conjugate() for point in bar))
         if part := clipped(a, b, complex(-OPEN, 0.0), complex(length + OPEN, STRIP)):
             low, high = sorted(p.real for p in part)
@@ -153,12 +157,12 @@ def _uncrossed(
 
 
 def block(at: complex, angle: float, size: tuple[float, float]) -> Item:
-    """A block of a size (mm) at a place (mm), turned by an angle (rad)."""
+    """Return a block of a size (mm) at a place (mm), turned by an angle (rad)."""
     return Polyline(rectangle(at, *size, angle), VISIBLE, closed=True, fill=TINT)
 
 
 def body(points: Sequence[complex], pen: Pen = HEAVY, fill: str | None = TINT) -> tuple[Item, ...]:
-    """A link through its joints (mm): a bar where they are in line, else the triangle or polygon around them."""
+    """Return a link through its joints (mm): a bar if they are collinear, otherwise the polygon around them."""
     if len(points) < 2:
         return ()
     p = np.asarray(points)
@@ -170,7 +174,7 @@ def body(points: Sequence[complex], pen: Pen = HEAVY, fill: str | None = TINT) -
 
 
 def _around(points: Sequence[complex]) -> list[complex]:
-    """The corners of the convex polygon around points, anticlockwise."""
+    """Return the corners of the convex polygon around points, anticlockwise."""
     places = {settled(point): point for point in points}
     ordered = [places[place] for place in sorted(places, key=lambda p: (p.real, p.imag))]
 
@@ -186,7 +190,7 @@ def _around(points: Sequence[complex]) -> list[complex]:
 
 
 def mass_centre(at: complex) -> tuple[Item, ...]:
-    """A circle with two black quarters, at a place (mm)."""
+    """Return a circle with two black quarters, at a place (mm)."""
     quarters = []
     for start in (0.0, math.pi):
         rim = (at + CENTRE * polar(start + k * math.pi / 8) for k in range(5))
@@ -194,7 +198,7 @@ def mass_centre(at: complex) -> tuple[Item, ...]:
     return (Circle(at, CENTRE, Pen(0.2), PAPER), *quarters)
 
 
-# --- what writers without a word for it draw instead ------------------------------------------------
+# --- replacements for writers without such items --------------------------------------------------
 
 Segment = tuple[complex, complex]
 Bezier = tuple[complex, complex, complex, complex]
@@ -203,14 +207,14 @@ Triangle = tuple[complex, complex, complex]
 HEAD_SLENDERNESS = 0.32
 """Width of an arrow head over its length."""
 HEAD_SHARE = 0.75
-"""The largest share of a short arrow that its head may take."""
+"""Largest share of a short arrow that its head may take."""
 
 
 def arrow_head(start: complex, end: complex, length: float) -> tuple[complex, Triangle | None]:
-    """(where the shaft ends, the head's triangle tip first) of an arrow (mm) whose tip lies on `end`.
+    """Return the end of the shaft and the head's triangle, tip first, of an arrow (mm) whose tip lies on `end`.
 
-    The shaft ends inside the head, so that no square pen end shows beside the tip; the head shrinks
-    on an arrow shorter than itself.  An arrow of no length has no head.
+    The shaft ends inside the head, so that no square pen end is visible beside the tip; the head shrinks on an arrow
+    shorter than itself.  For an arrow of no length the triangle is None.
     """
     span = abs(end - start)
     if span == 0 or length <= 0:
@@ -223,7 +227,7 @@ def arrow_head(start: complex, end: complex, length: float) -> tuple[complex, Tr
 
 
 def arc_to_beziers(centre: complex, radius: float, start: float, stop: float) -> list[Bezier]:
-    """Cubic Bézier pieces of an arc from `start` to `stop` (radians), each of at most 45°.
+    """Return cubic Bézier pieces of an arc from `start` to `stop` (rad), each of at most 45°.
 
     The handles are (4/3) tan(Δ/4) of the radius; the error stays below 5e-6 of the radius.
     """
@@ -240,11 +244,11 @@ def arc_to_beziers(centre: complex, radius: float, start: float, stop: float) ->
 
 
 def arc_with_head(arc: Arc) -> tuple[list[Bezier], Triangle | None]:
-    """(pieces of the arc, its head's triangle or None): the head is a chord whose tip is the arc's stop."""
+    """Return the pieces of the arc and its head's triangle or None; the head is a chord whose tip is the arc's stop."""
     sweep = arc.stop - arc.start
     if arc.head <= 0 or arc.radius <= 0 or sweep == 0:
         return arc_to_beziers(arc.centre, arc.radius, arc.start, arc.stop), None
-    # The chord of the head spans this angle; no more than the arc itself has to give.
+    # The chord of the head spans this angle, at most that of the arc itself.
     chord = min(arc.head / arc.radius, HEAD_SHARE * abs(sweep), 1.0)
     angle = math.copysign(2 * math.asin(chord / 2), sweep)
     tip = arc.centre + cmath.rect(arc.radius, arc.stop)
@@ -254,9 +258,10 @@ def arc_with_head(arc: Arc) -> tuple[list[Bezier], Triangle | None]:
 
 
 def clip_hatch(points: Sequence[complex], spacing: float, turn: float = 0.0) -> list[Segment]:
-    """Strokes at 45° to `turn` (radians) inside a convex polygon, `spacing` mm apart, counted from the sheet's origin.
+    """Return strokes at 45° to `turn` (rad) inside a convex polygon, `spacing` mm apart, counted from the sheet's
+    origin.
 
-    Neighbouring hatches thus run into each other.  Raises `ValueError` for a spacing that is not positive.
+    Neighbouring hatches thus join.  Raises `ValueError` for a spacing that is not positive.
     """
     if spacing <= 0:
         raise ValueError("the spacing of a hatch must be positive")
@@ -280,6 +285,6 @@ def clip_hatch(points: Sequence[complex], spacing: float, turn: float = 0.0) -> 
 
 
 def decimal(value: float) -> str:
-    """A length (mm) to a thousandth of it, without trailing zeros and without a negative zero."""
+    """Return a length (mm) to a thousandth, without trailing zeros and without a negative zero."""
     text = f"{rounded(value, 3):.3f}".rstrip("0").rstrip(".")
     return "0" if text == "-0" else text

@@ -1,7 +1,7 @@
 """Velocity, acceleration and force plans: vectors in mm, true to scale, and the stages of their construction.
 
-A plan is plain data whose lengths are already divided by the scale μ.  Vectors too short to measure are
-drawn again in enlarged insets beside it, at a printed ratio.
+A plan is plain data whose lengths are already divided by the scale μ.  Vectors too short to measure are drawn again in
+enlarged insets beside it, at a printed ratio.
 """
 
 from __future__ import annotations
@@ -24,36 +24,36 @@ from reportgen.drawing.labels import KEY, Request, label
 
 VectorStyle = Literal["known", "relative", "found"]
 Titles = Callable[[range, int], str]
-"""Title below a panel, from the stages that it draws and its number from 0."""
+"""Function that returns the title below a panel from its range of stages and its number from 0."""
 PENS: dict[VectorStyle, Pen] = {"known": style.KNOWN, "relative": style.RELATIVE, "found": style.FOUND}
 
 SAME_POINT = 0.05
 """Points nearer than this (mm) look like one point and share a label joined by ≡."""
 CROWDED, CLOSE_BY = 1.2, 2.4
-"""Points nearer than this share a label joined by commas; an inset separates them.  The second is for small plans."""
+"""Points nearer than this (mm), the second in small plans, share a label joined by commas; an inset separates them."""
 BEYOND = 6.0
 """Length (mm) of an auxiliary direction beyond its ends."""
 
 TINY = 3.0
-"""Vectors drawn shorter than this (mm) get an enlarged inset."""
+"""Vectors shorter than this (mm) get an enlarged inset."""
 DOT = 0.1
-"""Vectors shorter than this (mm), a dot of a pencil, get no inset: it would need more than 100:1."""
+"""Vectors shorter than this (mm), the dot of a pencil, get no inset: it would need more than 100:1."""
 INVISIBLE = 0.01
-"""Vectors shorter than this (mm), the last digit of a measured length, are points on any paper and not drawn."""
+"""Vectors shorter than this (mm), the last digit of a measured length, are not drawn."""
 TARGET = 20.0
 """The longest vector of an inset is enlarged to at most this (mm)."""
 SPACE = 8.0
-"""White space between the figure and the insets or small mechanism beside it; mm."""
+"""Gap between the figure and the insets or small mechanism beside it (mm)."""
 CLOSE = 2.0
-"""The white margin of a plan that fills its width, mm."""
+"""The margin of a plan that fills its width (mm)."""
 LABELS = 5.0
-"""Extent of labels to the right of the points that they name, mm."""
+"""Extent of labels to the right of their points (mm)."""
 ROOM = 6.0
-"""White inside an inset's frame around the enlarged vectors, mm."""
+"""Padding inside an inset's frame around the enlarged vectors (mm)."""
 NEIGHBOUR = 3.0
-"""Tiny vectors nearer than this (mm) share an inset."""
+"""Short vectors nearer than this (mm) share an inset."""
 APART = 30.0
-"""Unless their middles would be farther apart than this in the inset (mm)."""
+"""Largest distance of their middles in a shared inset (mm)."""
 
 
 Corner = TypeVar("Corner")
@@ -71,16 +71,16 @@ class PlanVector(Generic[Corner]):
     label: Content | None = None
     stage: int = 0
     lettered: bool = False
-    """True if its label is not printed: on paper the letters of its ends identify it."""
+    """True if its label is not printed, because the letters of its ends identify it."""
 
     @property
     def middle(self: PlanVector[complex]) -> complex:
-        """The middle of the vector (mm)."""
+        """Return the middle of the vector (mm)."""
         return (self.start + self.end) / 2
 
     @property
     def length(self: PlanVector[complex]) -> float:
-        """Its length (mm)."""
+        """Return its length (mm)."""
         return abs(self.end - self.start)
 
 
@@ -95,7 +95,7 @@ class PlanPoint(Generic[Corner]):
 
 @dataclass(frozen=True, slots=True)
 class PlanLine(Generic[Corner]):
-    """An auxiliary direction drawn from `start` through `end` and a little on."""
+    """An auxiliary direction drawn from `start` through `end` and a little beyond."""
 
     start: Corner
     end: Corner
@@ -104,10 +104,9 @@ class PlanLine(Generic[Corner]):
 
 @dataclass(frozen=True)
 class Construction(Generic[Corner]):
-    """Vectors, named points and auxiliary directions between corners, which are places or only named.
+    """Vectors, named points and auxiliary directions between corners: places (mm) or only names.
 
-    `points[0]` is the pole where there is one; `pole` marks it by a small circle.  `scale` is printed below,
-    e.g. μ_v = 0.2189 m/(s·mm).
+    `points[0]` is the pole if there is one; `pole` marks it by a small circle.  `scale` is printed below.
     """
 
     vectors: tuple[PlanVector[Corner], ...]
@@ -128,7 +127,7 @@ class Construction(Generic[Corner]):
         return tuple(dict.fromkeys((*(p.at for p in self.points), *chain.from_iterable(ends))))
 
     def placed(self, place: Callable[[Corner], Placed]) -> Construction[Placed]:
-        """The same construction with its corners elsewhere."""
+        """Return the same construction with its corners mapped by `place`."""
         return Construction(
             tuple(
                 PlanVector(v.name, place(v.start), place(v.end), v.style, v.label, v.stage, lettered=v.lettered)
@@ -141,7 +140,7 @@ class Construction(Generic[Corner]):
         )
 
     def until(self, stage: int) -> Construction[Corner]:
-        """Only what is drawn up to a stage."""
+        """Return the part of the construction up to a stage."""
         return replace(
             self,
             vectors=tuple(v for v in self.vectors if v.stage <= stage),
@@ -150,27 +149,27 @@ class Construction(Generic[Corner]):
         )
 
     def drawn(self: Plan) -> tuple[PlanVector[complex], ...]:
-        """The vectors that can be seen: those of some length (mm)."""
+        """Return the vectors that are long enough to be visible (mm)."""
         return tuple(v for v in self.vectors if v.length > INVISIBLE)
 
     @property
     def lettered(self) -> Construction[Corner]:
-        """Only its points named: a vector is known by the letters of its ends."""
+        """Return the construction with only its points named: the letters of its ends identify a vector."""
         return replace(self, vectors=tuple(replace(v, lettered=True) for v in self.vectors))
 
     @property
     def extent(self: Plan) -> float:
-        """The larger of its width and height without labels, mm."""
+        """Return the larger of its width and height without labels (mm)."""
         low, high = bounds(_arrows(self.drawn()))
         return max((high - low).real, (high - low).imag)
 
     def scaled(self: Plan, factor: complex) -> Plan:
-        """The plan enlarged or reduced; a complex factor also turns it."""
+        """Return the plan enlarged or reduced; a complex factor also turns it."""
         return self.placed(lambda corner: corner * factor)
 
 
 Plan = Construction[complex]
-"""A construction on paper: its corners are places in mm."""
+"""A construction on paper: its corners are places (mm)."""
 
 
 def lettered(stages: range, number: int) -> str:
@@ -189,8 +188,8 @@ def plan(
 ) -> Scene:
     """Return the scene of a plan in true size; `enlarged` repeats vectors under 3 mm in insets.
 
-    The drawings `beside` it, their labels placed, and the insets are stacked to its right; if that would be
-    wider than `width` (mm), they are in rows below it.
+    The drawings `beside` it, their labels placed, and the insets are stacked to its right; if that would be wider than
+    `width` (mm), they are in rows below it.
     """
     vectors = drawing.drawn()
     draft = Canvas(
@@ -211,10 +210,10 @@ def plan(
 
 
 def stages(drawing: Plan, factor: float = 1.0, titles: Titles = lettered, begin: int = 0) -> tuple[Scene, ...]:
-    """The construction step by step, `factor` times as large: a panel a stage, what is new in blue.
+    """Draw the construction step by step, `factor` times as large: a panel for each stage, with its additions in blue.
 
-    Only points are named, as on every small plan.  All panels have one size.  A stage that would draw nothing new is
-    drawn together with the next one; stages before `begin` are not shown by themselves.
+    Only points are named, as on every small plan.  All panels have one size.  A stage without additions is drawn
+    together with the next one; stages before `begin` have no panel.
     """
     scaled = drawing.scaled(factor).lettered
     kept = kept_stages(scaled)
@@ -242,7 +241,7 @@ def stages(drawing: Plan, factor: float = 1.0, titles: Titles = lettered, begin:
 
 
 def merged(drawing: Plan) -> Plan:
-    """The plan with its stages renumbered, so that each draws an arrow or a line that was not there before."""
+    """Return the plan with its stages renumbered, so that each adds an arrow or a line."""
     kept = kept_stages(drawing)
 
     def number(stage: int) -> int:
@@ -257,7 +256,7 @@ def merged(drawing: Plan) -> Plan:
 
 
 def kept_stages(drawing: Plan) -> list[int]:
-    """The stages that draw an arrow or a line that was not there before, in order."""
+    """Return the stages that add an arrow or a line, in order."""
     arrows = [(v.stage, v.start, v.end) for v in drawing.drawn()]
     lines = [(k.stage, k.start, k.end) for k in drawing.lines if abs(k.end - k.start) > INVISIBLE]
 
@@ -274,7 +273,7 @@ def vector_facts(vectors: Sequence[PlanVector[complex]]) -> Description:
 
 
 def _line_facts(drawing: Plan, stage: int) -> Description:
-    """Return the facts of a stage's auxiliary directions: where each begins, and its direction."""
+    """Return the facts of a stage's auxiliary directions: starting point and direction."""
     names = {point.at: point.label for point in drawing.points}
     return tuple(
         fact("direction", names.get(line.start, ""), direction(line.end - line.start))
@@ -287,12 +286,12 @@ def _lines(drawing: Plan, stage: int | None = None) -> list[Item]:
     result: list[Item] = []
     for line in drawing.lines:
         if abs(line.end - line.start) <= INVISIBLE:
-            # Its direction would be that of rounding errors.
+            # Its direction would only be a rounding error.
             continue
         new = stage is not None and line.stage == stage
         pen = replace(style.CONSTRUCTION, width=0.18, colour=style.NEW.colour) if new else style.CONSTRUCTION
         on = unit(line.end - line.start)
-        # Of a line that an arrow covers only the piece beyond the tip is drawn.
+        # Of a line that an arrow covers, only the piece beyond the tip is drawn.
         covered = any(abs(v.start - line.start) + abs(v.end - line.end) < SAME_POINT for v in drawing.drawn())
         start = line.end if covered else line.start
         result.append(Line(start, line.end + BEYOND * on, pen))
@@ -311,7 +310,7 @@ def _arrows(vectors: Sequence[PlanVector[complex]], pens: Sequence[Pen] = ()) ->
 
 
 def set_apart(vectors: Sequence[PlanVector[complex]]) -> list[complex]:
-    """By how much (mm) each vector is drawn beside its place, so that none lies on an earlier one."""
+    """Return the offsets (mm) at which vectors are drawn beside their places, so that none overlaps an earlier one."""
     shifts: list[complex] = []
     for n, vector in enumerate(vectors):
         length = vector.end - vector.start
@@ -346,7 +345,7 @@ def _marks(drawing: Plan) -> list[Item]:
 def _labels(
     drawing: Plan, vectors: Sequence[PlanVector[complex]], size: float, reach: float = CROWDED
 ) -> tuple[Request, ...]:
-    """One label for points that nearly coincide, and those of the vectors beside their middles."""
+    """Return one label for points that nearly coincide, and those of the vectors beside their middles."""
     requests = []
     for group in clusters(drawing.points, reach, lambda point: point.at):
         at = group[0].at
@@ -366,7 +365,7 @@ def _labels(
 
 
 def point_names(points: Sequence[PlanPoint[complex]]) -> list[Content]:
-    """The parts of one label for several points (mm): a ≡ b where they coincide, else a, b."""
+    """Return the parts of one label for several points (mm): a ≡ b if they coincide, otherwise a, b."""
     parts: list[Content] = []
     for n, point in enumerate(points):
         if any(point.label == earlier.label for earlier in points[:n]):
@@ -378,7 +377,7 @@ def point_names(points: Sequence[PlanPoint[complex]]) -> list[Content]:
 
 
 def _outward(at: complex, vectors: Sequence[PlanVector[complex]]) -> tuple[float, ...]:
-    """The direction away from the vectors that meet in a point: where its name reads best."""
+    """Return the direction (rad) away from the vectors that meet in a point, where its name reads best."""
     pull = 0j
     for vector in vectors:
         for here, there in ((vector.start, vector.end), (vector.end, vector.start)):
@@ -391,18 +390,19 @@ def _outward(at: complex, vectors: Sequence[PlanVector[complex]]) -> tuple[float
 
 
 def insets(drawing: Plan) -> tuple[list[Canvas], Canvas]:
-    """Insets for groups of short vectors, each about its own middle, and the circles that mark what they enlarge.
+    """Return insets for groups of short vectors, each about its own middle, and the circles that mark the enlarged
+    areas.
 
-    Vectors shorter than `DOT` get none.  Each prints its ratio (e.g. 10:1) and shows what passes through its frame of
-    the plan's other vectors.
+    Vectors shorter than `DOT` get none.  Each inset prints its ratio (e.g. 10:1) and draws the other vectors of the
+    plan that pass through its frame.
     """
     groups = _groups([vector for vector in drawing.drawn() if DOT <= vector.length < TINY])
     return [_inset(group, drawing) for group in groups], Canvas(tuple(map(_mark, groups)))
 
 
 def _stacked(parts: Sequence[Canvas], figure: Canvas) -> Canvas:
-    """The parts in a column to the right of a figure."""
-    # The figure's own labels are placed later; they seldom stand out further than LABELS.
+    """Return the parts in a column to the right of a figure."""
+    # The figure's own labels are placed later; they rarely extend farther than LABELS.
     high = bounds(figure.items)[1]
     top = complex(high.real + LABELS + SPACE, high.imag)
     result = Canvas()
@@ -414,7 +414,7 @@ def _stacked(parts: Sequence[Canvas], figure: Canvas) -> Canvas:
 
 
 def _below(parts: Sequence[Canvas], figure: Canvas) -> Canvas:
-    """The parts in rows below a figure, no wider than it."""
+    """Return the parts in rows below a figure, no wider than it."""
     low, high = bounds(figure.items)
     left = place = low - 1j * (LABELS + SPACE)
     deepest, result = 0.0, Canvas()
@@ -430,18 +430,18 @@ def _below(parts: Sequence[Canvas], figure: Canvas) -> Canvas:
 
 
 def enlargement(longest: float) -> float:
-    """The printed ratio of an inset: the largest of the series that draws `longest` mm within the target."""
+    """Return the ratio of an inset: the largest of the series that draws `longest` mm within the target."""
     most = TARGET / longest
     decade = math.floor(math.log10(most) + 1e-12)
     ratios = (float(f"{step}e{power}") for power in (decade, decade - 1) for step in reversed(SERIES))
-    # A ratio that exceeds the target in its last binary digits only still counts.
+    # A ratio that exceeds the target only by rounding errors is accepted.
     return next(ratio for ratio in ratios if ratio <= most * (1 + 1e-12))
 
 
 def _groups(tiny: Sequence[PlanVector[complex]]) -> list[list[PlanVector[complex]]]:
-    """Vectors with neighbouring middles in groups, an inset each.
+    """Return groups of vectors with neighbouring middles, an inset each.
 
-    A vector that would still be short, or too far off, at the ratio of the longest one goes to another inset.
+    A vector that would still be short, or too far away, at the ratio of the longest one goes to another inset.
     """
     result: list[list[PlanVector[complex]]] = []
     for rest in clusters(tiny, NEIGHBOUR, lambda vector: vector.middle):
@@ -466,7 +466,7 @@ def _mark(group: Sequence[PlanVector[complex]]) -> Item:
 
 
 def _inset(group: Sequence[PlanVector[complex]], drawing: Plan) -> Canvas:
-    """One inset with its labels placed, in coordinates about its own middle."""
+    """Draw an inset with its labels placed, in coordinates about its own middle."""
     ratio = enlargement(max(vector.length for vector in group))
     low, high = corners_of([end for vector in group for end in (vector.start, vector.end)])
     middle = (low + high) / 2

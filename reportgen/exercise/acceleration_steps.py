@@ -1,7 +1,8 @@
-"""Accelerations, step by step: by the base point, each vector equation with two unknown sizes, projected on an axis.
+"""Steps that compute accelerations: relative to a base point, by vector equations with two unknown magnitudes.
 
-Of a point the vectors are known that add up to its acceleration; of one on a known path all but the size of the last.
-Of one that slides along a line of a moving body, Coriolis' acceleration is among them.
+Each step projects its equation on an axis.  A `Parts` lists the vectors that add up to the acceleration of each point;
+a point that slides along a line of a moving body has the Coriolis acceleration among them.  `enter_accelerations` runs
+the steps.
 """
 
 from __future__ import annotations
@@ -18,14 +19,14 @@ from reportgen.formula import ids, sqrt
 
 @dataclass
 class Parts:
-    """The accelerations of points as vectors that add up to them; none for a point at rest or in uniform motion."""
+    """The acceleration of each point as vectors that add up to it; `()` for a point at rest or in uniform motion."""
 
     derivation: Derivation
     of: dict[str, tuple[Vector, ...]] = field(default_factory=dict)
 
 
 def relative(parts: Parts, body: int, point: str, base: str) -> tuple[Vector, Vector]:
-    """The normal and the tangential acceleration of a point about another of its body, as vectors."""
+    """Return the normal and the tangential acceleration of a point relative to another point of its body."""
     derivation = parts.derivation
     arm = direction_of(derivation.layout.points[point] - derivation.layout.points[base])
     pivot = derivation.layout.centres.get(body)
@@ -34,23 +35,27 @@ def relative(parts: Parts, body: int, point: str, base: str) -> tuple[Vector, Ve
 
 
 def _turning(derivation: Derivation, body: int, name: str, arm: complex) -> tuple[Vector, Vector]:
-    """aⁿ and aᵗ at the end of an arm of a body, given by its direction; `name` is what stands below both symbols."""
+    """Return aⁿ and aᵗ at the end of an arm of a body, a complex number of any length; `name` is the index of both
+    symbols.
+    """
     across = 1j * arm * (1 if derivation.motion.epsilon(body) >= 0 else -1)
     return Vector(ids.acceleration(name, "n"), -arm), Vector(ids.acceleration(name, "t"), across)
 
 
 def enter_normal(parts: Parts, body: int, point: str, base: str, normal: Vector) -> tuple[str, ...]:
-    """aⁿ = ω² l; no line where the body does not turn."""
+    """Enter aⁿ = ω² l (m/s²) and return the ids of its lines; `()` if the body does not rotate."""
     return _enter_part(parts, normal.id, ids.angular_velocity(body), 2, base, point)
 
 
 def enter_tangential(parts: Parts, body: int, point: str, base: str, tangential: Vector) -> tuple[str, ...]:
-    """aᵗ = ε l; no line where the angular velocity does not change."""
+    """Enter aᵗ = ε l (m/s²) and return the ids of its lines; `()` if the angular velocity is constant."""
     return _enter_part(parts, tangential.id, ids.angular_acceleration(body), 1, base, point)
 
 
 def _enter_part(parts: Parts, id: str, rate: str, power: int, base: str, point: str) -> tuple[str, ...]:
-    """A part of an acceleration from a rate of the body; the ids of its lines, none where the part is nothing."""
+    """Enter a component of an acceleration from a rate of the body; return the ids of its lines, `()` for a zero
+    component.
+    """
     derivation = parts.derivation
     if derivation.knows(id):
         return ()
@@ -64,7 +69,7 @@ def _enter_part(parts: Parts, id: str, rate: str, power: int, base: str, point: 
 
 @dataclass(frozen=True)
 class AccelerationPath:
-    """Known vectors of a point's acceleration, its part of unknown size, and the body and base that it is about."""
+    """The known vectors of a point's acceleration, its component of unknown magnitude, and the body and base point."""
 
     known: tuple[Vector, ...]
     unknown: Vector
@@ -74,9 +79,10 @@ class AccelerationPath:
 
 
 def known_path(parts: Parts, point: str, body: int) -> AccelerationPath | None:
-    """Return the acceleration of a point on a known path: its known part, its unknown part, the body it turns with.
+    """Return the acceleration of a point on a known path; None if its path is not known.
 
-    On a straight line of the ground nothing is known; about a pivot, or another known point, the normal acceleration.
+    On a straight line of the ground no vector is known; about a pivot, or another point with known motion, the normal
+    acceleration is.
     """
     derivation, layout = parts.derivation, parts.derivation.layout
     actual = derivation.motion.a(point) if point in derivation.motion.system.points else 0j
@@ -101,7 +107,9 @@ def known_path(parts: Parts, point: str, body: int) -> AccelerationPath | None:
 
 
 def enter_end(parts: Parts, point: str, path: AccelerationPath, equation: Projected) -> None:
-    """The whole acceleration of a point whose unknown part has been found, and the rate of the body it is about."""
+    """Enter the whole acceleration of a point whose unknown component has been found, and ε of the body that it belongs
+    to.
+    """
     derivation, size = parts.derivation, parts.derivation.q[path.unknown.id]
     parts.of[point] = (*path.known, *derivation.nonzero(path.unknown))
     if path.body and not derivation.knows_epsilon(path.body):
@@ -111,11 +119,13 @@ def enter_end(parts: Parts, point: str, path: AccelerationPath, equation: Projec
 
 
 AccelerationStep = Callable[[Parts], bool]
-"""Enters one more rate of a body, or the acceleration of one more point; whether there was one."""
+"""A step that enters one more rate of a body or the acceleration of one more point; returns False if it cannot."""
 
 
 def enter_accelerations(derivation: Derivation, finders: Sequence[AccelerationStep]) -> None:
-    """Given rates first; then every rate that follows from them and the velocities, by the first finder that can."""
+    """Enter the given rates, then all rates that follow from them and the velocities, each by the first step that
+    applies.
+    """
     parts = Parts(derivation)
     _given(parts)
     while any(find(parts) for find in finders):
@@ -156,7 +166,9 @@ def _held(derivation: Derivation, body: int) -> bool:
 
 
 def about_points(parts: Parts) -> bool:
-    """One more body whose rate, or one of whose points becomes known about others of its points."""
+    """Enter ε of one more body, or the acceleration of one of its points relative to another; return False if none
+    follows.
+    """
     for body in parts.derivation.layout.members:
         names = parts.derivation.layout.own(body)
         if _free(parts, body, names) or _rolling(parts, body) or _points(parts, body, names):
@@ -167,7 +179,7 @@ def about_points(parts: Parts) -> bool:
 
 
 def by_slots(parts: Parts) -> bool:
-    """One more rate by way of a line on a moving body along which a point slides."""
+    """Enter one more rate by a point that slides along a line of a moving body; return False if none follows."""
     return any(by_slot(parts, joint) for joint in parts.derivation.layout.given.slots)
 
 
@@ -175,7 +187,7 @@ def by_slots(parts: Parts) -> bool:
 
 
 def _points(parts: Parts, body: int, names: list[str]) -> bool:
-    """The accelerations of points of a body whose ω and ε are known, about one whose acceleration is."""
+    """Enter the accelerations of points of a body with known ω and ε, relative to a point with known acceleration."""
     derivation = parts.derivation
     # The base point whose acceleration has the fewest parts, as the centre of a wheel or a pivot.
     known = [name for name in _with_pivot(parts, body, names) if name in parts.of]
@@ -195,7 +207,7 @@ def _points(parts: Parts, body: int, names: list[str]) -> bool:
 
 
 def _with_pivot(parts: Parts, body: int, names: list[str]) -> list[str]:
-    """The points of a body, its pivot first."""
+    """Return the points of a body, its pivot first."""
     centre = parts.derivation.layout.centres.get(body)
     return [centre.name, *names] if centre is not None and centre.rule == "pivot" else names
 
@@ -204,7 +216,9 @@ def _with_pivot(parts: Parts, body: int, names: list[str]) -> list[str]:
 
 
 def _by_base(parts: Parts, body: int, names: list[str]) -> bool:
-    """ε of a body from one point with a known acceleration and another on a known path: projected on their line."""
+    """Enter ε of a body from a point with known acceleration and another on a known path, by projection on
+    their line.
+    """
     derivation = parts.derivation
     if derivation.knows_epsilon(body) or not derivation.knows_omega(body):
         return False
@@ -238,7 +252,7 @@ def _two_unknown(parts: Parts, body: int, point: str, base: str, path: Accelerat
 
 
 def _rolling(parts: Parts, body: int) -> bool:
-    """ε = aᵗ/r of a disc that rolls on the ground: what the acceleration of its centre is along the way it rolls."""
+    """Enter ε = aᵗ/r of a disc that rolls on the ground, with aᵗ of its centre along the line of contact."""
     derivation, q = parts.derivation, parts.derivation.q
     centre, disc = derivation.layout.centres.get(body), derivation.layout.given.disc(body)
     if centre is None or disc is None or centre.rule != "contact" or derivation.knows_epsilon(body):
@@ -257,7 +271,7 @@ def _rolling(parts: Parts, body: int) -> bool:
 
 
 def _free(parts: Parts, body: int, names: list[str]) -> bool:
-    """ω and ε of a body from the accelerations of two of its points."""
+    """Enter ω and ε of a body from the accelerations of two of its points."""
     derivation, q = parts.derivation, parts.derivation.q
     known = [name for name in names if name in parts.of]
     if derivation.knows_omega(body) or len(known) < 2 or body in derivation.layout.centres:
@@ -281,7 +295,7 @@ def _free(parts: Parts, body: int, names: list[str]) -> bool:
 
 
 def _whole(parts: Parts, point: str) -> None:
-    """The size of an acceleration from its parts: of one, of two at a right angle, or of its components."""
+    """Enter the magnitude of an acceleration from its components: one, two at a right angle, or those along x and y."""
     derivation, q, vectors = parts.derivation, parts.derivation.q, parts.derivation.nonzero(*parts.of[point])
     a = ids.acceleration(point)
     if not vectors:
@@ -301,9 +315,9 @@ def _whole(parts: Parts, point: str) -> None:
 
 
 def by_slot(parts: Parts, joint: file.SlotJoint) -> bool:
-    """ε of a body from the acceleration of a point that slides along its line, or from ε that of the point.
+    """Enter ε of a body from the acceleration of a point that slides along its line, or that acceleration from ε.
 
-    Both sides are projected on the normal to the line, along which the relative acceleration is nothing.
+    Both sides are projected on the normal to the line, along which the relative acceleration is zero.
     """
     derivation, q, body, point = parts.derivation, parts.derivation.q, joint.on, joint.point
     base = _base_of_slot(parts, body, point)
@@ -347,7 +361,7 @@ def by_slot(parts: Parts, joint: file.SlotJoint) -> bool:
 
 
 def _base_of_slot(parts: Parts, body: int, point: str) -> str:
-    """A point of a body, its pivot first, whose acceleration is known; not the one that slides."""
+    """Return a point of a body with known acceleration, its pivot first, but not the sliding point."""
     centre = parts.derivation.layout.centres.get(body)
     if centre is not None and centre.rule == "pivot":
         return centre.name

@@ -1,7 +1,8 @@
-"""Algebra with symbols, by sympy, which is imported when a file has some.
+"""Symbolic algebra with sympy, for exercises whose file contains symbols; sympy is imported only then.
 
-Vectors of the plane are `Plane`, which does with symbols what a complex number does with floats: so places, lines and
-the conditions of joints are written once, for both.
+A `Plane` is a vector of the plane and does with symbols what a complex number does with floats, so positions, lines and
+joint conditions are written once for both.  `solve` solves linear equations, `expression` converts a result for
+printing.
 """
 
 from __future__ import annotations
@@ -45,13 +46,13 @@ def symbol(name: str) -> Algebraic:
 
 
 def exact(value: float) -> Algebraic:
-    """A number as the fraction that it was typed as."""
+    """Return a number as the fraction that was typed."""
     sp = _sympy()
     return sp.Rational(repr(value)).limit_denominator(10**12) if isinstance(value, float) else sp.sympify(value)
 
 
 def exact_unit(degrees: float) -> Plane:
-    """The unit vector at an angle; of one whose cosine has no simple root, its cosine and sine stay as they are."""
+    """Return the unit vector at an angle (degrees); cosines and sines without a simple root stay unevaluated."""
     sp = _sympy()
     degrees = round(degrees, 9)
     if degrees % 30 == 0 or degrees % 45 == 0:
@@ -64,7 +65,7 @@ def exact_unit(degrees: float) -> Plane:
 
 
 _NAMES = ("cos", "sin")
-"""Functions of an acute angle in the names of symbols, before its degrees."""
+"""Functions of an acute angle in the names of symbols; the degrees follow."""
 
 
 def _of_angle(name: str) -> Call | None:
@@ -132,9 +133,9 @@ class Plane:
 
 
 def solve(rows: Sequence[Sequence[Algebraic]], values: Sequence[Algebraic]) -> list[Algebraic]:
-    """The unknowns of linear equations; what they leave open is 0.
+    """Return the solution of linear equations, one row of factors for each; an undetermined unknown is 0.
 
-    Raises `ValueError` where they contradict each other for some values of the symbols.
+    Raises `ValueError` if the equations contradict each other for some values of the symbols.
     """
     sp = _sympy()
     from sympy.polys.matrices import DomainMatrix
@@ -165,7 +166,9 @@ def _field(entries: Sequence[Algebraic]) -> Any:
 
 
 def size(of: Algebraic, at: Mapping[str, float]) -> Algebraic:
-    """The size of a number or a vector (SI), simplified; `at` are values (SI) of the symbols, which tell signs."""
+    """Return the magnitude (SI) of a number or vector, simplified; `at` are values (SI) of the symbols, which decide
+    signs.
+    """
     sp = _sympy()
     if isinstance(of, Plane):
         parts = [simplified(part) for part in (of.real, of.imag)]
@@ -195,7 +198,7 @@ def simplified(of: Algebraic) -> Algebraic:
 def value(of: Algebraic, at: Mapping[str, float]) -> float:
     """Return the value (SI) of an expression at values (SI) of its symbols.
 
-    It is computed by floats alone: sympy would examine every root, which may take minutes.
+    It uses floats only: sympy would examine every root, which may take minutes.
     """
     return _value(of, at).real
 
@@ -220,17 +223,19 @@ def _value(of: Algebraic, at: Mapping[str, float]) -> complex:
 
 
 def algebraic(node: Expression, of: Callable[[str], Algebraic | None]) -> Algebraic | None:
-    """An expression of the page with what its quantities are; None where one of them is not known by symbols."""
+    """Convert a printed expression, with each quantity replaced by `of` its id; None if `of` returns None for one of
+    them.
+    """
     sp = _sympy()
     match node:
         case Number(unit="°"):
-            return sp.pi * exact(node.shown) / 180
+            return sp.pi * exact(node.printed) / 180
         case Number():
-            return exact(node.shown)
+            return exact(node.printed)
         case Ref(id):
             return of(id)
         case Call("cos", (Number(unit="°") as angle,)):
-            return exact_unit(angle.shown).real
+            return exact_unit(angle.printed).real
 
     parts: list[Any] = [algebraic(child, of) for child in children(node)]
     if any(part is None for part in parts):
@@ -254,9 +259,9 @@ def algebraic(node: Expression, of: Callable[[str], Algebraic | None]) -> Algebr
 
 
 def expression(of: Algebraic, at: Mapping[str, float]) -> Expression:
-    """An expression for the page, over the names of symbols, factors in the order of `at`.
+    """Convert to a printed expression over the names of symbols, with factors in the order of `at`.
 
-    Differences are written so that they are positive at those values of the symbols.
+    Differences are written so that they are positive at the values (SI) in `at`.
     """
     if of == 0:
         return Number(0.0)
@@ -287,7 +292,9 @@ NUMBER, ROOT_OF_NUMBER, SINGLE_SYMBOL, LONGER = range(4)
 
 
 def _rank(factor: Algebraic, order: Sequence[str]) -> tuple[int, int]:
-    """Numbers first, their roots, single symbols in the order of the file, then whatever is longer."""
+    """Return the sort key of a factor: numbers, their roots, symbols in the order of the file, then longer
+    expressions.
+    """
     names = sorted(order.index(one.name) if one.name in order else len(order) for one in factor.free_symbols)
     if factor.is_Number:
         return NUMBER, 0

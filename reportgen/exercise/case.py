@@ -1,4 +1,4 @@
-"""Exercise of plane motion as a case: the source of all its outputs."""
+"""`ExerciseCase`: an exercise of plane motion as a `Case`, the source of all its outputs."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class ExerciseCase(SolvedExercise):
-    """An exercise, as a `Case`."""
+    """A solved exercise of plane motion, as a `Case`."""
 
     @property
     def ledger(self) -> Ledger:
@@ -33,13 +33,13 @@ class ExerciseCase(SolvedExercise):
     def printed(self) -> Ledger:
         return self.worked.printed
 
-    # That it moves, and only in one way, is among the checks of its file: no fault shows only in the results.
+    # The checks of the file already prove that the system moves, and in one way only, so no fault shows in the results.
 
     def document(self) -> Document:
         return self.bounded(solution)
 
     def sense(self, id: str) -> str:
-        """The sign of what is asked says nothing where the data leave its sense open."""
+        """Return `MAGNITUDE` if the data leave the sense of a requested quantity open, otherwise ""."""
         return MAGNITUDE if id in self._of_open_sense else ""
 
     @cached_property
@@ -47,14 +47,14 @@ class ExerciseCase(SolvedExercise):
         return frozenset(one.id for one in self.exercise.asked if not self.exercise.tells_sense(one))
 
     def question(self, asked: AskedFor) -> tuple[Sequence[Block], Sequence[Block]]:
-        """Its title is one of its words."""
+        """Return the title of the question and its text on the task sheet, each as blocks."""
         sheet = {"answer_tables": asked.answers, "self_check": asked.self_check}
         title, *rest = Prose(self.places).render("exercise-task", {**task_names(self), **sheet})
         return (title,), rest
 
     @cached_property
     def entries(self) -> ResultEntries:
-        """Its one position has its number alone; None is what is not determined."""
+        """Return the values of the only position by id; None for a value that is not determined."""
         motion = self.exercise.motion
         points = {
             name: {
@@ -76,7 +76,7 @@ class ExerciseCase(SolvedExercise):
         return ResultEntries([{"number": 1, "points": points, "links": links}])
 
     def plates(self, sets: Collection[str] = (), every: bool = False) -> Mapping[str, Sequence[DrawingPlate]]:
-        """Its figures; there are no sets of them to choose from."""
+        """Return the figures; there are no sets to choose from."""
         from reportgen.drawing.drawing_sheet import ENLARGED, lettered
         from reportgen.drawing.plates import DrawingPlate
 

@@ -1,7 +1,7 @@
-"""Derivatives of chains of vectors: what a leg adds to the velocity and the acceleration of its end.
+"""Derivatives of chains of vectors: the contribution of each leg to the velocity and acceleration of the chain's end.
 
-A leg of length l along e at an angle φ has the derivatives l ω n and l ε n − l ω² e with n = i e; a way s along it has
-ṡ e + s ω n and s̈ e + 2 ṡ ω n + s ε n − s ω² e.
+A leg of length l along e at an angle φ has the derivatives l ω n and l ε n − l ω² e with n = i e; a travel s along it
+has ṡ e + s ω n and s̈ e + 2 ṡ ω n + s ε n − s ω² e.  `RateFormulas` writes the results as printed formulas.
 """
 
 from __future__ import annotations
@@ -43,28 +43,28 @@ TWO = Number(2.0)
 
 def derivative(leg: LoopVector, leader: int, order: int) -> Iterator[LoopVector]:
     """Yield the contributions of a leg to the derivative of a chain."""
-    still, turn = replace(leg, way=None), Turn(leader)
+    still, turn = replace(leg, slide=None), Turn(leader)
     ahead = replace(still, quarters=leg.quarters + 1)
     if leader != GROUND:
         yield replace(ahead, rates=(CoordinateRate(turn, order),))
         if order == ACCELERATION:
             ω = CoordinateRate(turn, VELOCITY)
             yield replace(still, length=minus(leg.length), value=-leg.value, rates=(ω, ω))
-    if leg.way is not None:
-        # The length of a way has its sign in its value; its rate has it in the reversed leg's sign.
+    if leg.slide is not None:
+        # A negative travel has its sign in its value; the sign of its rate is in the direction of the reversed leg.
         sense = 1.0 if isinstance(leg.length, Ref) else -1.0
         along = replace(still, length=ONE if sense > 0 else MINUS_ONE, value=sense)
-        yield replace(along, rates=(CoordinateRate(leg.way, order),))
+        yield replace(along, rates=(CoordinateRate(leg.slide, order),))
         if order == ACCELERATION and leader != GROUND:
             ω = CoordinateRate(turn, VELOCITY)
             twice = TWO if sense > 0 else minus(TWO)
             coriolis = replace(along, length=twice, value=2 * sense, quarters=leg.quarters + 1)
-            yield replace(coriolis, rates=(CoordinateRate(leg.way, VELOCITY), ω))
+            yield replace(coriolis, rates=(CoordinateRate(leg.slide, VELOCITY), ω))
 
 
 @dataclass
 class RateFormulas:
-    """Formulas of the rates and vectors of a system."""
+    """Formulas of the rates and vectors of a system, as its steps print them."""
 
     derivation: Derivation
     linked: Linked
@@ -72,7 +72,7 @@ class RateFormulas:
     # --- rates
 
     def value(self, rate: CoordinateRate) -> float:
-        """A rate as the whole system gives it: rad/s or m/s, of accelerations rad/s² or m/s²."""
+        """Return a rate as the solution of the whole system gives it: rad/s or m/s; of accelerations rad/s² or m/s²."""
         motion, points = self.derivation.motion, self.derivation.layout.points
         of = motion.v if rate.order == VELOCITY else motion.a
         match rate.of:
@@ -89,7 +89,7 @@ class RateFormulas:
         return abs(of(rate.of))
 
     def id(self, rate: CoordinateRate) -> str:
-        """The id of the size of a rate."""
+        """Return the id of the magnitude of a rate."""
         first = rate.order == VELOCITY
         match rate.of:
             case Turn(body):
@@ -112,7 +112,7 @@ class RateFormulas:
         return Symbol(RATES[rate.order], rate.of)
 
     def expression(self, rate: CoordinateRate) -> Expression:
-        """A known rate with its sense; nothing for one that is nothing."""
+        """Return a known rate with its sense; the zero expression for a zero rate."""
         value, id = self.value(rate), self.id(rate)
         if id not in self.derivation.q or self.derivation.q.si(id) == 0:
             return NOTHING
@@ -124,17 +124,17 @@ class RateFormulas:
         return times(*(self.symbol(rate) if by_symbol else self.expression(rate) for rate in rates)) if rates else ONE
 
     def vector(self, vector: LoopVector) -> complex:
-        """A vector (m) without its rates."""
+        """Return a vector (m) without its rates."""
         return vector.value * cmath.exp(1j * self.linked.heading(vector.direction)) * 1j**vector.quarters
 
     # --- products of vectors, as they are written
 
     def cross(self, a_terms: Sequence[LoopVector], b_terms: Sequence[LoopVector]) -> Expression:
-        """Σ a × b."""
+        """Return Σ a × b as an expression."""
         return plus(*(self._product(a, b, b.quarters - a.quarters) for a in a_terms for b in b_terms))
 
     def dot(self, a_terms: Sequence[LoopVector], b_terms: Sequence[LoopVector]) -> Expression:
-        """Σ a · b; cos is sin with a right angle more."""
+        """Return Σ a · b as an expression; a cosine is written as the sine of an angle larger by 90°."""
         return plus(*(self._product(a, b, b.quarters - a.quarters + 1) for a in a_terms for b in b_terms))
 
     def _product(self, a: LoopVector, b: LoopVector, quarters: int) -> Expression:
@@ -142,16 +142,16 @@ class RateFormulas:
         return times(*self._factors(a), *self._factors(b), self._trigonometric(between, quarters))
 
     def _factors(self, vector: LoopVector) -> tuple[Expression, ...]:
-        return self._ordered(self.product(vector.rates), self.linked.way(vector.length))
+        return self._ordered(self.product(vector.rates), self.linked.with_travels(vector.length))
 
     @staticmethod
     def _ordered(rates: Expression, factor: Expression) -> tuple[Expression, Expression]:
-        """A number stands before the rates, a length behind them."""
+        """Return a product in printing order: a number precedes the rates, a length follows them."""
         return (factor, rates) if isinstance(factor, Number) else (rates, factor)
 
     @staticmethod
     def _trigonometric(angle: Expression, quarters: int) -> Expression:
-        """sin(angle + quarters · 90°)."""
+        """Return sin(angle + quarters · 90°)."""
         if isinstance(angle, Negative):
             # sin(−φ) = −sin φ, cos(−φ) = cos φ
             angle, quarters = angle.of, quarters + (0 if quarters % 2 else 2)
@@ -159,23 +159,23 @@ class RateFormulas:
         return value if quarters % 4 < 2 else minus(value)
 
     def component(self, vectors: Iterable[LoopVector], axis: str, by_symbol: bool = False) -> Expression:
-        """Σ along x or y."""
+        """Return the sum of vectors along `axis`, x or y."""
         terms = []
         for vector in vectors:
             turned = self._trigonometric(self.linked.angle(vector.direction), vector.quarters + (axis == "x"))
-            factors = self._ordered(self.product(vector.rates, by_symbol), self.linked.way(vector.length))
+            factors = self._ordered(self.product(vector.rates, by_symbol), self.linked.with_travels(vector.length))
             terms.append(times(*factors, turned))
         return plus(*terms)
 
     def chains(self, *sides: Sequence[LoopVector]) -> tuple[Chain, ...]:
-        """Sides of a vector equation along x and y."""
+        """Return the sides of a vector equation along x and along y."""
         return tuple(Chain(tuple(self._lettered(self.component(side, axis, True)) for side in sides)) for axis in "xy")
 
     def _lettered(self, formula: Expression) -> Expression:
         return substitute(formula, lambda ref: self.derivation.q.families[ref.id].symbol)
 
     def closure(self, closure: Closure) -> tuple[Chain, ...]:
-        """A loop along x and y."""
+        """Return the equations of a loop along x and along y."""
         sides = []
         for place in (closure.outward, closure.back):
             sides.append(

@@ -1,11 +1,11 @@
-"""Coordinates of a loop in closed form: two unknown ones as functions of the others.
+"""Coordinates of a loop in closed form: two unknown coordinates as functions of the known ones.
 
 ==================== ============================================================ ==========================
 unknown              loop, with k the known legs                                  found by
 ==================== ============================================================ ==========================
 two angles           k + l₁ e₁ + l₂ e₂ = 0                                        the cosine rule
-an angle and a way   k + l e + s e_α = 0 along a line of known direction α        the distance from the line
-both of one body     k + s e + h n = 0 along a line that turns with the body      the way's length
+an angle and travel  k + l e + s e_α = 0 along a line of known direction α        the distance from the line
+both of one body     k + s e + h n = 0 along a line that turns with the body      the length of the travel
 ==================== ============================================================ ==========================
 """
 
@@ -51,14 +51,14 @@ from reportgen.formula.constructions import cross
 
 STRAIGHT = Number(180.0, unit="°")
 FLAT = 0.02
-"""A triangle with a smaller sine, near a dead centre, has no figures left in its angles: they are read off."""
+"""Below this sine a triangle is near a dead centre and its angles lose all digits, so they are read off the figure."""
 X_AXIS = Direction(GROUND, 0.0)
 
 
 def closed_form(
     k: RateFormulas, loop: Closure, legs: Sequence[LoopVector], unknown: Sequence[GeneralizedCoordinate]
 ) -> tuple[str, ...]:
-    """Enters the unknown coordinates of a loop; the ids of the lines, none where there is no such form."""
+    """Enter the unknown coordinates of a loop and return the ids of the lines; `()` if there is no closed form."""
     known = [leg for leg in legs_of(loop) if leg not in legs]
     vectors = []
     for axis in range(2):
@@ -71,11 +71,11 @@ def closed_form(
         rest = [leg for leg in legs if leg not in own]
         if not isinstance(turn, Turn):
             continue
-        if isinstance(second, Turn) and len(own) == len(rest) == 1 and all(leg.way is None for leg in legs):
+        if isinstance(second, Turn) and len(own) == len(rest) == 1 and all(leg.slide is None for leg in legs):
             return _two_angles(k, loop.point, vectors, own[0], rest[0])
-        if isinstance(second, SlideTravel) and len(own) == len(rest) == 1 and own[0].way is None:
+        if isinstance(second, SlideTravel) and len(own) == len(rest) == 1 and own[0].slide is None:
             return _angle_and_way(k, vectors, own[0], rest[0], second)
-        ways = [leg for leg in own if leg.way == second]
+        ways = [leg for leg in own if leg.slide == second]
         if isinstance(second, SlideTravel) and not rest and len(ways) == 1 and len(own) <= 2:
             return _line_that_turns(k, loop.point, vectors, ways[0], [leg for leg in own if leg not in ways], second)
     return ()
@@ -84,7 +84,9 @@ def closed_form(
 def _two_angles(
     k: RateFormulas, point: str, vectors: list[LoopVector], e1: LoopVector, e2: LoopVector
 ) -> tuple[str, ...]:
-    """e₁ lies at the cosine rule's corner from d = −k, of the sense of l₁; e₂ leads from its tip back."""
+    """Enter φ₁ and φ₂: e₁ is at the angle of the cosine rule from d = −k, with the sense of l₁; e₂ leads from its tip
+    back.
+    """
     first, second = (leg.value * cmath.exp(1j * k.linked.heading(leg.direction)) for leg in (e1, e2))
     if abs(cross(first, second)) < FLAT * abs(first) * abs(second):
         return ()
@@ -100,14 +102,14 @@ def _two_angles(
 
 
 def _number(e1: LoopVector, e2: LoopVector, *axis: int) -> str:
-    """The id of the distance of the outer ends of two legs, or of its component along an axis."""
+    """Return the id of the distance between the outer ends of two legs, or of its component along an axis."""
     return ids.loop_distance(",".join(map(str, (0, e1.direction.body, e2.direction.body, *axis))))
 
 
 def _lead(
     k: RateFormulas, point: str, vectors: list[LoopVector], legs: tuple[LoopVector, LoopVector]
 ) -> tuple[tuple[str, ...], Expression, Expression]:
-    """The components of the known legs together: as a line each where they are several."""
+    """Return the ids of the lines entered and the components of the sum of known legs along x and y."""
     lines, parts = list[str](), list[Expression]()
     for number, axis in enumerate("xy"):
         part = k.component(vectors, axis)
@@ -122,7 +124,7 @@ def _lead(
 def _angle_and_way(
     k: RateFormulas, vectors: list[LoopVector], rod: LoopVector, slide: LoopVector, of: SlideTravel
 ) -> tuple[str, ...]:
-    """sin(φ − α) = the distance of the known legs from the line over l."""
+    """Enter φ from sin(φ − α) = the distance of the known legs from the line, divided by l; then the travel s."""
     along, across = ([LoopVector(ONE, 1.0, slide.direction, quarters)] for quarters in range(2))
     now = math.remainder(k.linked.heading(rod.direction) - k.linked.heading(slide.direction), 2 * math.pi)
     if abs(math.cos(now)) < FLAT:
@@ -134,9 +136,9 @@ def _angle_and_way(
     angle = _angle(k, rod, from_line if is_zero(α) else plus(α, from_line))
     tip = [_turned(vector, 1.0 if _is_reversed(slide) else -1.0) for vector in (*vectors, rod)]
     s = k.derivation.q.define(
-        k.linked.way_id(of),
+        k.linked.travel_id(of),
         k.dot(tip, along),
-        k.linked.read_off[k.linked.way_id(of)][1],
+        k.linked.read_off[k.linked.travel_id(of)][1],
         scale=k.derivation.motion.size,
     )
     return angle, s.id
@@ -145,15 +147,15 @@ def _angle_and_way(
 def _line_that_turns(
     k: RateFormulas, point: str, vectors: list[LoopVector], slide: LoopVector, off: list[LoopVector], of: SlideTravel
 ) -> tuple[str, ...]:
-    """|d|² = s² + h², and the line lies at the angle of d less that of s and h."""
+    """Enter s and φ: |d|² = s² + h², and the angle of the line is the angle of d minus that of (s, h)."""
     if abs(slide.value) < FLAT * math.hypot(slide.value, *(leg.value for leg in off)):
         return ()
     sense = 1.0 if _is_reversed(slide) else -1.0
     lines, x, y = _lead(k, point, [_turned(vector, sense) for vector in vectors], (slide, slide))
     h = minus(signed(sense, off[0].length)) if off else NOTHING
-    value, symbol = k.linked.read_off[k.linked.way_id(of)]
+    value, symbol = k.linked.read_off[k.linked.travel_id(of)]
     size = sqrt(plus(square(x), square(y), minus(square(h))))
-    s = k.derivation.q.define(k.linked.way_id(of), signed(value, size), symbol)
+    s = k.derivation.q.define(k.linked.travel_id(of), signed(value, size), symbol)
     whole = atan2(y, x)
     if off:
         return *lines, s.id, _angle(k, slide, whole - atan2(h, s))
@@ -161,7 +163,7 @@ def _line_that_turns(
 
 
 def _angle(k: RateFormulas, leg: LoopVector, heading: Expression) -> str:
-    """Enters φ of a body from the heading of a direction that turns with it."""
+    """Enter φ of a body from the heading of a direction that turns with it."""
     body, offset = leg.direction.body, k.linked.angle(Direction(GROUND, leg.direction.offset))
     formula = heading if not leg.direction.offset else plus(heading, minus(offset))
     return k.derivation.q.define(ids.formula_angle(body), formula, Symbol("φ", k.linked.letter(body))).id
@@ -172,7 +174,7 @@ def _is_reversed(slide: LoopVector) -> bool:
 
 
 def _turned(vector: LoopVector, sense: float) -> LoopVector:
-    """The vector as it is, or the opposite one where `sense` is negative."""
+    """Return the vector, or its opposite if `sense` is negative."""
     if sense > 0:
         return vector
     return vector.reversed()

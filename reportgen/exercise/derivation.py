@@ -1,4 +1,7 @@
-"""The derivation: quantities with their numbers, vectors, steps, and equations solved by projection."""
+"""The derivation of an exercise: quantities with their numbers, vectors, steps, and equations solved by projection.
+
+Every step module enters its results in a `Derivation`; `Projected` solves a vector equation on an axis.
+"""
 
 from __future__ import annotations
 
@@ -13,12 +16,12 @@ from reportgen.exercise.rate_solution import InstantMotion
 from reportgen.formula import Chain, Expression, Negative, Number, Product, Ref, Symbol, cos, ids, sqrt, total
 from reportgen.formula.calculation import Calculation, Family, is_short
 
-# --- steps, as data for whoever writes them out ---------------------------------------------------
+# --- steps, as data for the page ----------------------------------------------------------------------
 
 
 @dataclass(frozen=True, slots=True)
 class Vector:
-    """A vector by the id of its size, which is positive, and its direction (of length 1)."""
+    """A vector: the id of its magnitude, which is positive, and its unit direction."""
 
     id: str
     direction: complex
@@ -26,7 +29,7 @@ class Vector:
 
 @dataclass(frozen=True, slots=True)
 class DerivationEquation:
-    """Σ left = Σ right, vectors; `unknown` are the ids of the two whose sizes are not known yet."""
+    """Σ left = Σ right, as vectors; `unknown` are the ids of the two vectors whose magnitudes are not known yet."""
 
     left: tuple[Vector, ...]
     right: tuple[Vector, ...]
@@ -38,10 +41,10 @@ Letter = Literal["ξ", "η", "x", "y"]
 
 @dataclass(frozen=True, slots=True)
 class Axis:
-    """An axis that vectors are projected on, through a point, towards `direction`.
+    """An axis through a point, on which vectors are projected; `direction` is its unit vector.
 
-    ξ lies along the line that the words of the step name, away from the base point, and η perpendicular to it; x and y
-    are those of the coordinates.
+    ξ lies along the line that the text of the step names, away from the base point, and η perpendicular to it; x and y
+    are the axes of the coordinates.
     """
 
     letter: Letter
@@ -50,20 +53,17 @@ class Axis:
 
     @property
     def along(self) -> complex:
-        """The direction of ξ, of length 1, of which η is the other axis."""
+        """Return the unit direction of ξ, also if this axis is the η that belongs to it."""
         return self.direction if self.letter == "ξ" else self.direction / 1j
 
 
 COORDINATES: tuple[tuple[complex, Letter], ...] = ((1 + 0j, "x"), (1j, "y"))
-"""The axes of the coordinates, each by its direction and its letter."""
+"""The coordinate axes, each by its direction and its letter."""
 
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """Step for a body and points, with the ids of the lines computed in it.
-
-    `kind` is the name of its words.
-    """
+    """A step for a body and points, with the ids of the lines that it computes; `kind` is the key of its text."""
 
     kind: str
     ids: tuple[str, ...]
@@ -74,15 +74,15 @@ class Step:
     axes: tuple[Axis, ...] = ()
     """Axes of the equation's projections, in the order of the lines."""
     frame: int = 0
-    """The moving body that the motion is seen from."""
+    """The moving body that is the frame of reference."""
     system: tuple[Chain, ...] = ()
     """Equations that are solved together, with their numbers."""
     results: tuple[Chain, ...] = ()
     """Results of the equations, with signs."""
-    other: str = ""
+    second_base: str = ""
     """A second base point."""
     read: tuple[str, ...] = ()
-    """Ids read off the figure for its lines, and shown before them unless an earlier step has shown them."""
+    """Ids that are read off the figure; they are printed before the lines unless an earlier step has printed them."""
 
     @property
     def of_accelerations(self) -> bool:
@@ -93,11 +93,13 @@ class Step:
 
 
 class Quantities(Calculation):
-    """A sheet on which a rate is nothing that is so beside the rates of the whole system: what floats leave of 0."""
+    """A calculation in which a rate that is negligible beside the other rates of the system is 0: rounding errors
+    vanish.
+    """
 
     def __init__(self, positions: int, motion: InstantMotion) -> None:
         super().__init__(positions)
-        # A hundred thousandth: what is small beside the other rates keeps its figures.
+        # A rate below a hundred thousandth of the others still keeps its digits.
         fast, steep = motion.fastest * 1e-5, motion.steepest * 1e-5
         self.scales = {
             "velocity": fast,
@@ -110,13 +112,13 @@ class Quantities(Calculation):
         return super().enter(replace(family, scale=family.scale or self.scales.get(family.kind, 0.0)))
 
     def si(self, quantity: str | Ref) -> float:
-        """A quantity's value (SI)."""
+        """Return a quantity's value (SI)."""
         return float(self.families[quantity if isinstance(quantity, str) else quantity.id].at(None))
 
 
 @dataclass
 class Derivation:
-    """Derivation so far: the sheet with its numbers, and the steps that led to them."""
+    """The derivation so far: the calculation with its numbers, and the steps that led to them."""
 
     q: Calculation
     layout: Layout
@@ -129,7 +131,7 @@ class Derivation:
         return self.layout.motion
 
     def length(self, start_name: str, end_name: str, one_at: complex | None = None) -> Ref:
-        """The distance of two points (m), by the name l.OA."""
+        """Return the distance of two points (m), named l.OA; it is entered on first use."""
         id = ids.length(start_name, end_name)
         if known := self.q.find(id) or self.q.find(ids.length(end_name, start_name)):
             return known
@@ -138,7 +140,7 @@ class Derivation:
         return self.q.give(id, value, exact=is_short(value))
 
     def given(self, id: str, value: float) -> Ref:
-        """A size (SI) that the file gives, entered once."""
+        """Return a magnitude (SI) that the file gives; it is entered once."""
         return self.q.find(id) or self.q.give(id, abs(value), exact=is_short(abs(value)))
 
     def knows(self, id: str) -> bool:
@@ -158,18 +160,18 @@ class Derivation:
         return tuple(vector for vector in vectors if self.knows(vector.id) and self.q.si(vector.id))
 
     def velocity(self, point: str) -> Vector:
-        """The velocity of a point that is in the derivation."""
+        """Return the velocity of a point that is in the derivation."""
         return Vector(ids.velocity(point), direction_of(self.at(point)))
 
     def at(self, point: str, body: int | None = None) -> complex:
-        """The velocity of a point (m/s), one of contact among them, as it moves with its own body or with another."""
+        """Return the velocity of a point (m/s) as it moves with its own body or with `body`, for a point of contact."""
         own = self.home(point) if body is None else body
         motion = self.motion
         v = motion.velocities.at(own, self.layout.points[point])
         return 0j if abs(v) < 1e-9 * motion.fastest else complex(v)
 
     def home(self, point: str) -> int:
-        """The body that a point's motion is that of."""
+        """Return the body with which a point moves."""
         system = self.motion.system
         if point in system.points and system.body_of(point):
             return int(system.body_of(point))
@@ -180,7 +182,7 @@ class Derivation:
 
 
 def along(q: Calculation, vector: Vector, axis: complex) -> Expression | None:
-    """The component of a vector along an axis, as it is written: v cos 30° with its sign; None where it is nothing."""
+    """Return the component of a vector along an axis as printed: v cos 30° with its sign; None where it is zero."""
     cosine = (axis.conjugate() * vector.direction).real
     if abs(cosine) < SAME_DIRECTION or q.si(vector.id) == 0:
         return None
@@ -191,7 +193,7 @@ def along(q: Calculation, vector: Vector, axis: complex) -> Expression | None:
 
 
 def components(q: Calculation, vectors: Iterable[Vector], axis: complex) -> list[Expression]:
-    """The components (SI) along an axis of length 1 of those vectors that have one."""
+    """Return the nonzero components (SI) of vectors along a unit axis."""
     projected = (along(q, vector, axis) for vector in vectors)
     return [one for one in projected if one is not None]
 
@@ -199,9 +201,10 @@ def components(q: Calculation, vectors: Iterable[Vector], axis: complex) -> list
 def solved_for(
     q: Calculation, unknown: complex, axis: complex, known: Sequence[Vector], opposite: Sequence[Vector]
 ) -> Expression:
-    """The size (SI) of a vector of direction `unknown` from Σ opposite + unknown = Σ known, projected on an axis.
+    """Return the magnitude (SI) of a vector of direction `unknown` from Σ opposite + unknown = Σ known, projected on an
+    axis.
 
-    The axis points so that the unknown's component is positive.
+    The axis points so that the component of the unknown is positive.
     """
     axis = towards(axis, unknown)
     cosine = (axis.conjugate() * unknown).real
@@ -214,24 +217,26 @@ def solved_for(
 
 
 def size_of(q: Calculation, sides: Sequence[Ref]) -> Expression:
-    """The size of a vector from its components along axes at right angles; one alone is the size but for its sign."""
+    """Return the magnitude of a vector from its components along perpendicular axes; one component alone loses its
+    sign.
+    """
     if len(sides) == 1:
         return sides[0] if q.si(sides[0]) >= 0 else Negative(sides[0])
     return sqrt(total([side**2 for side in sides]))
 
 
 def towards(axis: complex, direction: complex) -> complex:
-    """The axis, or its opposite, along which a vector of that direction, both of length 1, is positive."""
+    """Return the axis or its opposite, so that a vector of `direction` has a positive component; both have length 1."""
     return axis if (axis.conjugate() * direction).real > 0 else -axis
 
 
 def _positive_first(terms: list[Expression]) -> list[Expression]:
-    """The terms with a plus before those with a minus."""
+    """Return the terms, those with a plus sign first."""
     return sorted(terms, key=lambda term: isinstance(term, Negative))
 
 
 def angle(q: Calculation, value: float) -> Expression:
-    """An angle (radians) as it stands in a formula: a round one as its degrees, any other by a symbol α of its own."""
+    """Return an angle (rad) for a formula: a round one in degrees, any other as a symbol α with an index."""
     degrees = math.degrees(value)
     if abs(degrees - round(degrees, 2)) < 1e-9:
         return Number(round(degrees, 2), None, "°")
@@ -244,9 +249,9 @@ def angle(q: Calculation, value: float) -> Expression:
 
 
 class Projected:
-    """Σ left = Σ right, with the lines that are worked out of it and the axes that it is projected on.
+    """The equation Σ left = Σ right, with the lines worked out from it and the axes on which it is projected.
 
-    What the derivation does not know at the beginning is unknown in it.
+    A vector is unknown if the derivation does not contain it when the equation is made.
     """
 
     def __init__(
@@ -257,9 +262,10 @@ class Projected:
         self.lines, self.axes = lines, tuple[Axis, ...]()
 
     def find(self, vector: Vector, axis: complex, letter: Letter, point: str, symbol: Symbol | str = "") -> Ref:
-        """Enters a vector's size (SI) by projection on an axis through a point, to which any other unknown is normal.
+        """Enter the magnitude (SI) of a vector by projection on an axis through a point that is normal to any other
+        unknown.
 
-        ξ is drawn as it is given, η towards what is found.
+        ξ is drawn as given, η towards the vector.
         """
         left, right = self.equation.left, self.equation.right
         here, there = (left, right) if vector in left else (right, left)
@@ -269,7 +275,9 @@ class Projected:
         return self.then(self.derivation.q.define(vector.id, size, symbol))
 
     def find_sum(self, what: str, point: str) -> None:
-        """Enters the size of what the right side adds up to, v or a of a point, from its components along x and y."""
+        """Enter the magnitude of the sum of the right side, `what` (v or a) of a point, from its components along x and
+        y.
+        """
         q, component, sides = self.derivation.q, ids.COMPONENT[what], []
         for axis, letter in COORDINATES:
             if terms := components(q, self.equation.right, axis):
@@ -279,11 +287,11 @@ class Projected:
         self.then(q.define(ids.POINT_RATE[what](point), size_of(q, sides)))
 
     def then(self, line: Ref) -> Ref:
-        """Puts a line that follows behind those before it."""
+        """Append a line to the lines of the equation."""
         self.lines += (line.id,)
         return line
 
     def step(self, kind: str, body: int, point: str, base: str = "") -> None:
-        """Puts the step in the derivation that all this was."""
+        """Append the step that this equation makes to the derivation."""
         step = Step(kind, self.lines, body, point, base, equation=self.equation, axes=self.axes)
         self.derivation.steps.append(step)

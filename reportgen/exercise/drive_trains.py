@@ -1,11 +1,10 @@
-"""Discs that drive each other, by gears, belts and racks: rates from radii.
+"""Discs that drive each other by gears, belts and racks: rates from radii.
 
-Seen from an arm that carries two discs both turn about fixed points, and their rims move equally fast at any time.  So
-the rotations against that of the arm are to each other as the radii are inversely, and so are their derivatives: the
-formula of Willis.
+Seen from an arm that carries two discs, both turn about fixed points and their rims move equally fast.  So their
+rotations relative to the arm, and the derivatives of these, are inversely proportional to the radii (Willis' formula).
 
-Of a disc that rolls on bodies in translation, as between two racks, the velocities of the centre and of the points of
-contact differ along the racks by ω times their distance, at any time; so do their accelerations by ε times it.
+A disc that rolls on bodies in translation, as between two racks: the velocities of its centre and its points of contact
+differ along the racks by ω times their distance, and their accelerations by ε times it.
 """
 
 from __future__ import annotations
@@ -26,7 +25,7 @@ from reportgen.formula import Chain, Expression, Negative, Product, Ref, Sum, id
 
 @dataclass(frozen=True, slots=True)
 class Pair:
-    """Two discs on an arm, each with its centre and the point of its rim that meets the other one or the belt."""
+    """Two discs on an arm, each with its centre and the point of its rim where it meets the other disc or the belt."""
 
     arm: int
     discs: tuple[int, int]
@@ -37,7 +36,7 @@ class Pair:
 
 
 def pairs(layout: Layout) -> Iterator[Pair]:
-    """The pairs of discs whose centres one moving body carries."""
+    """Yield the pairs of discs whose centres are on one moving body."""
     for index, joint in enumerate(layout.given.joints):
         if not isinstance(joint, file.Gears | file.RollingOnCircle | file.Belt):
             continue
@@ -62,7 +61,9 @@ def _pivot(layout: Layout, body: int) -> list[str]:
 
 
 def by_train(derivation: Derivation, what: str = "omega") -> bool:
-    """The rotation, `omega` or `eps`, of one more disc from that of another one and of their arm."""
+    """Enter the rotation, `omega` or `eps`, of one more disc from another disc and their arm; return False if none
+    follows.
+    """
     rate = ids.LINK_RATE[what]
     for pair in pairs(derivation.layout):
         for known_disc, new_disc in permutations(range(2)):
@@ -75,7 +76,7 @@ def by_train(derivation: Derivation, what: str = "omega") -> bool:
 
 
 def _enter(derivation: Derivation, what: str, pair: Pair, known_disc: int) -> None:
-    """ω₂ = (ω_c (r₂ + r₁) − ω₁ r₁)/r₂ with the senses that the rotations have."""
+    """Enter ω₂ = (ω_c (r₂ + r₁) − ω₁ r₁)/r₂ with the senses of the rotations."""
     q, known, new, rate = derivation.q, pair.discs[known_disc], pair.discs[1 - known_disc], ids.LINK_RATE[what]
     radii = [derivation.length(centre, rim) for centre, rim in zip(pair.centres, pair.rims, strict=True)]
     first, second = radii[known_disc], radii[1 - known_disc]
@@ -97,7 +98,7 @@ def _enter(derivation: Derivation, what: str, pair: Pair, known_disc: int) -> No
 
 
 def _relation(what: str, pair: Pair, radii: list[Ref]) -> Chain:
-    """(ω₁ − ω_c) r₁ = −(ω₂ − ω_c) r₂."""
+    """Return (ω₁ − ω_c) r₁ = −(ω₂ − ω_c) r₂ as an equation."""
     rate, sides = ids.LINK_RATE[what], list[Expression]()
     for body, radius in zip(pair.discs, radii, strict=True):
         arm, r = vocabulary.symbol(rate(pair.arm)), vocabulary.symbol(radius.id)
@@ -113,7 +114,9 @@ def _relation(what: str, pair: Pair, radii: list[Ref]) -> Chain:
 
 
 def by_rims(parts: Parts) -> bool:
-    """ε of one more of two discs with fixed centres, whose rims move alike at any time."""
+    """Enter ε of one more of two discs with fixed centres, whose rims always move equally; return False if none
+    follows.
+    """
     derivation, q, layout = parts.derivation, parts.derivation.q, parts.derivation.layout
     for bodies, ends in layout.rims():
         if not layout.turn_on_ground(bodies):
@@ -131,9 +134,10 @@ def by_rims(parts: Parts) -> bool:
 
 @dataclass(frozen=True, slots=True)
 class Node:
-    """The centre of a disc or a point of contact: the point whose acceleration it shares along the racks.
+    """The centre of a disc or a point of contact, with the point whose acceleration it shares along the racks.
 
-    That is the centre itself or a point of the rack; "" of the ground.  `value` is its acceleration along them.
+    `shares` is the centre itself or a point of the rack; "" on the ground.  `value` is the acceleration along the racks
+    (m/s²).
     """
 
     name: str
@@ -143,7 +147,7 @@ class Node:
 
 
 def by_rack(parts: Parts) -> bool:
-    """ε of one more disc, or the acceleration of its centre or of a rack; whether there was one."""
+    """Enter ε of one more disc, or the acceleration of its centre or of a rack; return False if none follows."""
     for body in parts.derivation.layout.members:
         u = _along(parts, body)
         nodes = [*_nodes(parts, body, u)] if u else []
@@ -163,7 +167,7 @@ def by_rack(parts: Parts) -> bool:
 
 
 def _along(parts: Parts, body: int) -> complex:
-    """The direction of the racks that a disc rolls on; 0 for a disc that rolls on none, or on other things too."""
+    """Return the unit direction of the racks that a disc rolls on; 0 if it rolls on none, or also on other bodies."""
     layout, directions = parts.derivation.layout, []
     for joint in layout.given.joints:
         if isinstance(joint, file.RollingOnLine) and joint.disc == body and joint.on != GROUND:
@@ -195,13 +199,15 @@ def _node(parts: Parts, name: str, shares: str, u: complex) -> Node:
 
 
 def _size(parts: Parts, node: Node) -> Ref | None:
-    """The size of a node's acceleration; None where it has none."""
+    """Return the magnitude of a node's acceleration; None if it is zero."""
     vectors = parts.derivation.nonzero(*parts.of[node.shares]) if node.shares else ()
     return parts.derivation.q[vectors[0].id] if vectors else None
 
 
 def _turn(parts: Parts, u: complex, node: Node, far_node: Node) -> float:
-    """How far the other node is from the one across the racks, with the sign of what ε adds along them."""
+    """Return the distance (m) of the far node from the near one across the racks, with the sign of what ε adds along
+    them.
+    """
     points = parts.derivation.layout.points
     return (u.conjugate() * 1j * (points[far_node.name] - points[node.name])).real
 
@@ -227,7 +233,7 @@ def _acceleration_of(parts: Parts, body: int, u: complex, node: Node, far_node: 
         terms.append(signed(sense * turning, q[eps] * arm))
     parts.of[far_node.shares] = (Vector(id, sense * u),) if far_node.value else ()
     if id in q:
-        # By the equations of motion.
+        # These cases belong to the equations of motion.
         return
     a = q.define(id, _sum(terms)) if terms else q.give(id, 0.0)
     derivation.steps.append(Step("acceleration-rack-point", (arm.id, a.id), body, far_node.shares, node.name))

@@ -1,4 +1,4 @@
-"""Figures of an exercise: the system to scale with its velocities and centres, and with its accelerations."""
+"""Figures of an exercise: the system to scale with velocities and instant centres, and with accelerations."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ ARROWS_APART = 3.2
 
 @dataclass(frozen=True, slots=True)
 class DrawnRail:
-    """A point guided along a direction; `block` where a slider's block is drawn, on the ground with its walls."""
+    """A point guided along a direction; on the ground, its guide has walls and the block of a slider is drawn."""
 
     at: complex
     direction: complex
@@ -73,7 +73,7 @@ class DrawnGround:
 
 @dataclass(frozen=True, slots=True)
 class DrawnRotation:
-    """The sense of rotation of a body about a point."""
+    """The arrow of a body's rotation about a point; `sense` is positive anticlockwise."""
 
     at: complex
     sense: float
@@ -82,11 +82,11 @@ class DrawnRotation:
 
 @dataclass(frozen=True, slots=True)
 class DrawnSystem:
-    """A system in mm about any origin.
+    """A system to draw, in mm of paper about any origin.
 
-    `bodies` are the outlines, by the points of each; `joints` and `pivots` are names of points, others are dots.
-    `normals` are lines from points to instant centres, `vectors` arrows by the point they start from, `axes` those that
-    the solution projects on; with `coordinates` x and y are shown beside the drawing.
+    `bodies` are the outlines by the points of each; `joints` and `pivots` are names of points, other points are dots.
+    `normals` are lines from points to instant centres, `vectors` arrows by their starting points, `axes` the axes that
+    the solution projects on; with `coordinates`, x and y are drawn beside the system.
     """
 
     points: Mapping[str, complex]
@@ -96,7 +96,7 @@ class DrawnSystem:
     joints: Sequence[str] = ()
     rails: Sequence[DrawnRail] = ()
     slots: Sequence[tuple[complex, complex]] = ()
-    """Lines on bodies along which others slide."""
+    """Lines on bodies along which points slide."""
     cords: Sequence[tuple[complex, complex]] = ()
     """Taut cords, and the straight parts of belts."""
     grounds: Sequence[DrawnGround] = ()
@@ -109,7 +109,7 @@ class DrawnSystem:
 
 
 def scene_of(drawn: DrawnSystem, notes: Sequence[Content] = ()) -> Scene:
-    """The scene, with what its vectors are measured with below."""
+    """Return the scene of a system, with `notes`, such as scales, below it."""
     items: list[Item] = []
     for ground in drawn.grounds:
         along = 1j * ground.out * WALL
@@ -160,7 +160,7 @@ def scene_of(drawn: DrawnSystem, notes: Sequence[Content] = ()) -> Scene:
 
 
 def system_facts(drawn: DrawnSystem) -> Iterator[Fact]:
-    """Yield the facts of a system: bodies from point to point, discs, pivots and guides, vectors, senses of
+    """Yield the facts of a system for its description: bodies, discs, pivots, guides, vectors and senses of
     rotation.
     """
     names = {at: vocabulary.point(name) for name, at in drawn.points.items()}
@@ -183,7 +183,7 @@ def system_facts(drawn: DrawnSystem) -> Iterator[Fact]:
 
 
 def _coordinates(draft: Canvas) -> Canvas:
-    """The axes of the coordinates at the lower left corner of a drawing."""
+    """Return the coordinate axes, at the lower left corner of a drawing."""
     low, _ = bounds(draft.items)
     corner = low - CORNER - COORDINATE
     ends = {"x": corner + COORDINATE, "y": corner + 1j * COORDINATE}
@@ -193,23 +193,23 @@ def _coordinates(draft: Canvas) -> Canvas:
 
 
 def _names(points: Mapping[str, complex]) -> list[Request]:
-    """One label for points that coincide."""
+    """Return the labels of points; points that coincide share one."""
     return [
         label(points[group[0]], *joined(map(vocabulary.point, group), " ≡ "), gap=style.JOINT + 0.5)
         for group in clusters(list(points), TOGETHER, points.__getitem__)
     ]
 
 
-# --- what is drawn of an exercise -----------------------------------------------------------------
+# --- contents of the figures of an exercise ------------------------------------------------------------
 
 
 def system_figure(case: SolvedExercise, enlarged: float = 1.0) -> tuple[Scene, Chain | None] | None:
-    """The system alone, with no rates on it, its scale multiplied by the factor `enlarged`."""
+    """Return the system without rates, with its scale multiplied by `enlarged`; None if there is nothing to draw."""
     return _draw(case, enlarged, {}, "", {}, [])
 
 
 def velocity_figure(case: SolvedExercise, enlarged: float = 1.0) -> tuple[Scene, Chain | None] | None:
-    """The system with its points' velocities and the normals through instant centres, by a factor `enlarged`."""
+    """Return the system with velocities and the normals through instant centres, by a factor `enlarged`."""
     motion, layout = case.exercise.motion, case.worked.layout
     vectors = {
         name: (motion.v(name), vocabulary.symbol(id))
@@ -229,9 +229,11 @@ def velocity_figure(case: SolvedExercise, enlarged: float = 1.0) -> tuple[Scene,
 
 
 def acceleration_figure(case: SolvedExercise, enlarged: float = 1.0) -> tuple[Scene, Chain | None] | None:
-    """The system with accelerations that are asked or used, by a factor `enlarged`; None where there are none."""
+    """Return the system with the accelerations that are asked for or used, by a factor `enlarged`; None if there are
+    none.
+    """
     motion, ledger = case.exercise.motion, case.worked.ledger
-    # A part is that of the first of its points: a.BA.n is one of B.
+    # A component of an acceleration belongs to its first point: a.BA.n to B.
     used = {ids.points(found["point"])[0] for found in map(ids.acceleration.read, ledger.families) if found}
     names = [name for name in motion.system.points if name in used]
     known = [name for name in names if motion.system.body_of(name) and motion.knows_acceleration(name)]
@@ -247,9 +249,9 @@ def _draw(
     extra: dict[str, complex],
     normals: list[tuple[complex, complex]],
 ) -> tuple[Scene, Chain | None]:
-    """The system in mm; vectors are to the scale that is printed below.
+    """Return the system in mm, with vectors to the scale that is printed below.
 
-    Scales are those of the drawing once it is `enlarged` so many times, as on a drawing sheet.
+    Scales are those of the drawing after enlargement by `enlarged`, as on a drawing sheet.
     """
     exercise = case.exercise
     system, given = exercise.motion.system, exercise.given
@@ -293,7 +295,7 @@ def _draw(
 
 
 def _scale(case: SolvedExercise, extra: list[complex]) -> float:
-    """mm of paper for a metre, round: what is farther apart than twice the system itself does not count."""
+    """Return a round scale (mm of paper per m); points farther away than twice the size of the system do not count."""
     system = case.exercise.motion.system
     places = np.array([*system.points.values(), *extra])
     for body in case.exercise.given.bodies.values():
@@ -327,7 +329,9 @@ def _rails(case: SolvedExercise, points: dict[str, complex], scale: float) -> It
 
 
 def _slots(case: SolvedExercise, points: dict[str, complex]) -> Iterator[tuple[complex, complex]]:
-    """The lines of moving bodies along which points slide, on to beyond the block, with an arm to a point beside."""
+    """Yield the lines of moving bodies along which points slide, extended beyond the block, and arms to points beside
+    them.
+    """
     given, system = case.exercise.given, case.exercise.motion.system
     for joint in given.slots:
         u, at = case.worked.layout.geometry.direction(joint), points[joint.point]
@@ -340,7 +344,7 @@ def _slots(case: SolvedExercise, points: dict[str, complex]) -> Iterator[tuple[c
 
 
 def _cords(case: SolvedExercise, points: dict[str, complex], scale: float) -> Iterator[tuple[complex, complex]]:
-    """Cords, and both straight parts of each belt, mirrored in the line of its centres."""
+    """Yield the cords, and both straight parts of each belt, mirrored in its line of centres."""
     given, layout = case.exercise.given, case.worked.layout
     for index, joint in enumerate(given.joints):
         if isinstance(joint, file.Cord):
@@ -355,7 +359,7 @@ def _cords(case: SolvedExercise, points: dict[str, complex], scale: float) -> It
 
 
 def _grounds(case: SolvedExercise, scale: float) -> Iterator[DrawnGround]:
-    """The ground below discs that roll on a line of it."""
+    """Yield the ground below discs that roll on it."""
     given, layout = case.exercise.given, case.worked.layout
     for joint in given.joints:
         if isinstance(joint, file.RollingOnLine) and joint.on == GROUND:
@@ -366,7 +370,7 @@ def _grounds(case: SolvedExercise, scale: float) -> Iterator[DrawnGround]:
 
 
 def _rotations(case: SolvedExercise, points: dict[str, complex]) -> Iterator[DrawnRotation]:
-    """The arrow of each angular velocity at a pivot."""
+    """Yield the arrow of each angular velocity at a pivot."""
     motion = case.exercise.motion
     for body, centre in case.worked.layout.centres.items():
         id = ids.angular_velocity(body)
@@ -376,4 +380,4 @@ def _rotations(case: SolvedExercise, points: dict[str, complex]) -> Iterator[Dra
 
 
 FIGURES = {"system": system_figure, "velocity": velocity_figure, "acceleration": acceleration_figure}
-"""The figures by the names of their captions."""
+"""Functions that draw the figures, by the names of their captions."""

@@ -1,4 +1,4 @@
-"""File of a `plane-motion` exercise: points, bodies, joints, given quantities at the instant, and the questions."""
+"""The `parameters` of a `plane-motion` file: points, bodies, joints, given quantities at one instant, and questions."""
 
 from __future__ import annotations
 
@@ -52,10 +52,10 @@ class Away(Part):
 
 
 class PointAt(Part):
-    """Place of a point: at coordinates, at a distance and an angle from another point, or where two lines meet.
+    """Position of a point: coordinates, a distance and an angle from another point, or the intersection of two lines.
 
-    With `on` instead of the angle it lies on a line at that distance, at its far or near end; with `distances` it is
-    at two distances from two points, to the left or the right of the way from the first to the second.
+    With `on` instead of the angle, the point lies on a line at that distance, at its far or near end; with `distances`,
+    it has two distances from two points, left or right of the direction from the first to the second.
     """
 
     at: ExercisePoint | None = None
@@ -77,7 +77,7 @@ class Disc(Part):
 
 
 class BodyOf(Part):
-    """The points that move with a body, and its disc if it is one."""
+    """The points that move with a body, and its disc if it is a disc."""
 
     points: Annotated[tuple[Name, ...], Field(max_length=MOST_NAMES)] = ()
     disc: Disc | None = None
@@ -87,14 +87,14 @@ class BodyOf(Part):
         return tuple(dict.fromkeys((*self.points, *((self.disc.centre,) if self.disc else ()))))
 
 
-# What a message calls a joint or a given quantity is its `called`.
+# Messages call a joint or a given quantity by its `called`.
 
 
 # --- joints ---------------------------------------------------------------------------------------
 
 
 class Pin(Part):
-    """Two bodies turn about a common point; 0 is the ground."""
+    """Two bodies that turn about a common point; body 0 is the ground."""
 
     type: Literal["pin"]
     at: Name
@@ -113,7 +113,7 @@ class Directed(Part):
 
 
 class SlotJoint(Directed):
-    """A point of a body moves along a straight line of another, or of the ground; the body may turn."""
+    """A point of a body that moves along a straight line of another body or of the ground; the body may rotate."""
 
     type: Literal["slot"]
     point: Name
@@ -126,7 +126,7 @@ class SlotJoint(Directed):
 
 
 class Slider(Directed):
-    """A body moves along a straight guide of another, or of the ground, without turning against it."""
+    """A body that moves along a straight guide of another body or of the ground without rotating relative to it."""
 
     type: Literal["slider"]
     body: Number
@@ -149,7 +149,7 @@ class Translation(Part):
 
 
 class RollingOnLine(Directed):
-    """A disc rolls without slip on a straight line through a point, of another body or of the ground."""
+    """A disc that rolls without slip on a straight line through a point, of another body or of the ground."""
 
     type: Literal["rolling on line"]
     disc: Number
@@ -162,7 +162,7 @@ class RollingOnLine(Directed):
 
 
 class RollingOnCircle(Part):
-    """Two discs roll on each other without slip, outside or inside, and stay in touch."""
+    """Two discs that roll on each other without slip, externally or internally, and stay in contact."""
 
     type: Literal["rolling on circle"]
     discs: Bodies
@@ -173,7 +173,7 @@ class RollingOnCircle(Part):
 
 
 class Gears(Part):
-    """Two discs roll on each other without slip; their centres are held by something else."""
+    """Two discs that roll on each other without slip, whose centres other joints hold."""
 
     type: Literal["gears"]
     discs: Bodies
@@ -184,9 +184,9 @@ class Gears(Part):
 
 
 class Belt(Part):
-    """A belt about two discs, which does not slip; a crossed one turns them in opposite senses.
+    """A belt about two discs, without slip; a crossed belt turns them in opposite senses.
 
-    Something else holds the centres of the discs at their distance.
+    Other joints hold the distance of the discs' centres.
     """
 
     type: Literal["belt"]
@@ -199,7 +199,7 @@ class Belt(Part):
 
 
 class Cord(Part):
-    """Two points keep their distance: a taut cord, or a rod of which nothing is asked."""
+    """Two points at a constant distance: a taut cord, or a rod about which nothing is asked."""
 
     type: Literal["cord"]
     points: TwoNames
@@ -215,7 +215,7 @@ Joint = Annotated[
 ]
 
 
-# --- what is given --------------------------------------------------------------------------------
+# --- given quantities -----------------------------------------------------------------------------
 
 
 class VelocityOf(Part):
@@ -269,7 +269,7 @@ class EpsilonOf(Part):
 
 
 class FromRest(Part):
-    """A point has moved along a straight line from rest, with a constant acceleration, for some time."""
+    """A point that has moved along a straight line from rest, with constant acceleration, for a given time."""
 
     type: Literal["from rest"]
     point: Name
@@ -287,14 +287,14 @@ GivenRate = Annotated[VelocityOf | AccelerationOf | OmegaOf | EpsilonOf | FromRe
 
 @dataclass(frozen=True, slots=True)
 class Asked:
-    """A quantity to be found: of a point `v`, `a`; of a body `omega`, `eps`, `centre`."""
+    """A quantity to be found: `v`, `a` of a point; `omega`, `eps`, `centre` of a body."""
 
     what: str
     of: str
 
     @property
     def id(self) -> str:
-        """As the file has it, which for a rate is the id of the rate."""
+        """Return the id as the file writes it; for a rate it is the id of the rate."""
         return f"{self.what}.{self.of}"
 
     @property
@@ -308,7 +308,7 @@ class Asked:
 
 @dataclass(frozen=True, slots=True)
 class AskedId(Reader):
-    """v.B, a.B of a point; omega.2, eps.2, centre.2 of a body."""
+    """Text of a requested quantity: v.B, a.B of a point; omega.2, eps.2, centre.2 of a body."""
 
     def read(self, value: object) -> Asked:
         matched = _ASKED.fullmatch(value) if isinstance(value, str) else None
@@ -343,14 +343,14 @@ class Parameters(Part):
     @model_validator(mode="before")
     @classmethod
     def _with_symbols(cls, content: Any) -> Any:
-        """What may be stated by symbols takes them along to where it is read."""
+        """Attach the symbols to every value that may be stated by symbols."""
         table = content.get("symbols") if isinstance(content, dict) else None
         if not isinstance(table, dict):
             return content
         try:
             symbols = TypeAdapter(SymbolTable).validate_python(table)
         except ValidationError:
-            # Told where the symbols themselves are read.
+            # Reading the symbols themselves reports this fault.
             symbols = {}
         return {
             key: stated(section, symbols, STATED) if key in {"points", "bodies", "given"} else section
@@ -364,7 +364,9 @@ class Parameters(Part):
 
     @property
     def slots(self) -> tuple[SlotJoint, ...]:
-        """Points that move along lines of moving bodies; of a slider it is the first point of its body."""
+        """Return the points that slide along lines of moving bodies; a slider is represented by the first point of its
+        body.
+        """
         slots = []
         for joint in self.joints:
             if isinstance(joint, SlotJoint) and joint.on:

@@ -1,7 +1,7 @@
-"""The equations of motion of a body whose place is a function of its angle alone, and their derivatives.
+"""Equations of motion of a body whose position is a function of its angle alone, and their derivatives.
 
-Such a body rolls on a fixed line, or has two points on fixed lines that meet; each of its points then has
-P(φ) = fixed + way·φ + forward e^{iφ} + backward e^{−iφ}.  All others follow from the loops of the system.
+Such a body rolls on a fixed line, or has two points on fixed lines that meet; each of its points has P(φ) = fixed +
+linear·φ + forward e^{iφ} + backward e^{−iφ} (m).  All other bodies follow from the loops of the system (`by_loops`).
 """
 
 from __future__ import annotations
@@ -61,32 +61,36 @@ STRAIGHT = Number(180.0, unit="°")
 
 @dataclass(frozen=True, slots=True)
 class MotionLaw:
-    """A point's place as a function of its body's angle."""
+    """Position of a point (m) as a function of its body's angle φ: four complex coefficients."""
 
     fixed: complex
-    way: complex
+    linear: complex
     forward: complex
     backward: complex
 
     def derivative(self) -> MotionLaw:
-        """The same of its derivative by the angle."""
-        return MotionLaw(self.way, 0j, 1j * self.forward, -1j * self.backward)
+        """Return the law of the derivative by the angle."""
+        return MotionLaw(self.linear, 0j, 1j * self.forward, -1j * self.backward)
 
     def components(self, φ: Ref, constant: Callable[[float], Expression]) -> VectorComponents:
-        """c₀ + c₁φ + c₂ cos φ + c₃ sin φ along x and y (m), with the letter that a `constant` (m) has."""
+        """Return c₀ + c₁φ + c₂ cos φ + c₃ sin φ along x and y (m); `constant` turns a number (m) into a
+        printed letter.
+        """
         both, apart = self.forward + self.backward, 1j * (self.forward - self.backward)
         terms: tuple[tuple[complex, Expression], ...]
-        terms = (self.fixed, ONE), (self.way, φ), (both, cos(φ)), (apart, sin(φ))
+        terms = (self.fixed, ONE), (self.linear, φ), (both, cos(φ)), (apart, sin(φ))
         x = plus(*(times(constant(of.real), function) for of, function in terms))
         return x, plus(*(times(constant(of.imag), function) for of, function in terms))
 
 
 def motion_laws(layout: Layout, body: int) -> tuple[float, dict[str, MotionLaw]] | None:
-    """The angle (rad) of a body at the instant and the laws of its points, if joints with the ground give both."""
+    """Return the angle (rad) of a body at the instant and the laws of its points; None if joints with the ground do not
+    fix both.
+    """
     points, names = layout.points, layout.own(body)
     centre, disc = layout.centres.get(body), layout.given.disc(body)
     if centre is not None and centre.by_joint:
-        # What turns about a fixed point or does not turn is found before any method.
+        # Bodies that turn about a fixed point or do not rotate are solved before any method.
         return None
     if centre is not None and centre.rule == "contact" and disc is not None and disc.centre in layout.slots:
         middle = points[disc.centre]
@@ -105,7 +109,7 @@ def motion_laws(layout: Layout, body: int) -> tuple[float, dict[str, MotionLaw]]
 
 
 def by_equations(derivation: Derivation) -> bool:
-    """The rates of one more body from the equations of motion of its points, at last all of them from the loops."""
+    """Enter the rates of one more body from the equations of motion of its points; when none is left, use the loops."""
     if coordinates(derivation.layout) != 1:
         return False
     for body in derivation.layout.members:
@@ -117,12 +121,12 @@ def by_equations(derivation: Derivation) -> bool:
 
 
 def as_number(value: float) -> Expression:
-    """A constant (m) as a number; what is no length is nothing."""
+    """Return a constant (m) as a number, exactly 0 below the smallest length."""
     return NOTHING if abs(value) < SAME_PLACE else Number(float(f"{value:.10g}"))
 
 
 def _constant(derivation: Derivation, value: float) -> Expression:
-    """A constant by its letter, if it is a length of the derivation, else as a number."""
+    """Return a constant (m) as a letter if it is a length of the derivation, otherwise as a number."""
     q = derivation.q
     lengths = (id for id in q.families if id in ids.length)
     same = next((id for id in lengths if abs(q.si(id) - abs(value)) < SAME_PLACE), None)
@@ -133,7 +137,9 @@ def _constant(derivation: Derivation, value: float) -> Expression:
 
 
 def _enter(derivation: Derivation, body: int, angle: float, laws: Mapping[str, MotionLaw]) -> bool:
-    """Enters places, velocities and, where the data tell one of the body, accelerations; whether a rate is known."""
+    """Enter positions, velocities and, if the data give one of the body, accelerations; return True if a rate is known
+    now.
+    """
     q, motion = derivation.q, derivation.motion
     known = [name for name in laws if derivation.knows_velocity(name) and q.si(ids.velocity(name))]
     if not (known or derivation.knows_omega(body)):
@@ -175,7 +181,7 @@ def _enter(derivation: Derivation, body: int, angle: float, laws: Mapping[str, M
 
 
 def _vector(derivation: Derivation, line: Callable[..., Ref], what: str, name: str, parts: VectorComponents) -> None:
-    """Enters a velocity or acceleration by its components, with its size if that is not known."""
+    """Enter a velocity or acceleration by its components, and its magnitude if that is not known."""
     sides = [
         line(ids.COMPONENT[what](name, axis), part, Symbol(what, f"{name}{axis}"))
         for axis, part in zip("xy", parts, strict=True)
@@ -193,7 +199,9 @@ def _acceleration(
     rates: Mapping[str, VectorComponents],
     second: Mapping[str, VectorComponents],
 ) -> Expression | None:
-    """ε with its sign, as it is given or by the given acceleration of a point: a = ε P′ + ω² P″; else None."""
+    """Return ε with its sign, as given or from the given acceleration of a point, a = ε P′ + ω² P″; None without
+    either.
+    """
     sense = derivation.motion.epsilon(body) if derivation.motion.knows_epsilon(body) else 0.0
     id = ids.angular_acceleration(body)
     for rate in derivation.layout.given.given:
@@ -219,7 +227,7 @@ def _value(derivation: Derivation, part: Expression) -> float:
 
 
 def _size(derivation: Derivation, parts: VectorComponents) -> Expression:
-    """The size of a vector by its components, as it is written."""
+    """Return the magnitude of a vector from its components, as printed."""
     kept = [part for part in parts if part != NOTHING]
     if len(kept) == 1:
         return signed(_value(derivation, kept[0]), kept[0])
@@ -230,8 +238,8 @@ def _size(derivation: Derivation, parts: VectorComponents) -> Expression:
 
 
 def coordinates(layout: Layout) -> int:
-    """Return the number of coordinates of the bodies with determined motion: the motions that their joints leave
-    open.
+    """Return the number of coordinates of the bodies with determined motion: their joints leave so many
+    motions open.
     """
     motion = layout.motion
     unknowns = unknowns_of(motion.system)
@@ -252,7 +260,7 @@ def coordinates(layout: Layout) -> int:
 
 
 def by_loops(derivation: Derivation) -> bool:
-    """All rates of a system with one coordinate from its loops; whether it was not tried before."""
+    """Enter all rates of a system with one coordinate from its loops; return False if that was tried before."""
     if derivation.closed:
         return False
     derivation.closed = True
@@ -271,7 +279,7 @@ def by_loops(derivation: Derivation) -> bool:
 
 
 def _solve(equations: EquationsOfMotion, given: Sequence[file.GivenRate]) -> None:
-    """The velocities, or the accelerations, of everything from what is given of them."""
+    """Solve the equations for all velocities, or all accelerations, from the given ones."""
     derivation, linked, order = equations.derivation, equations.linked, equations.order
     for body in linked.turning:
         rate = CoordinateRate(Turn(linked.turning[body]), order)
@@ -289,7 +297,7 @@ def _solve(equations: EquationsOfMotion, given: Sequence[file.GivenRate]) -> Non
 
 
 def _of_point(equations: EquationsOfMotion, rate: file.GivenRate) -> VectorSum | None:
-    """Return the equation of a point's given rate; None if it is the rate of its way along a line of the ground."""
+    """Return the equation of a point's given rate; None if it is the rate of its travel along a line of the ground."""
     derivation, order = equations.derivation, equations.order
     assert isinstance(rate, file.VelocityOf | file.AccelerationOf | file.FromRest)
     if isinstance(rate, file.FromRest):

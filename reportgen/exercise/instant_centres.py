@@ -1,8 +1,8 @@
-"""Instant centres of bodies, by the rules of the derivation; found before any speed is.
+"""Instant centres of bodies and directions of velocities, found before any speed (`lay_out`).
 
-A body pinned to the ground turns about the pin; one that rolls on the ground about the point of contact.  Elsewhere
-the directions of two velocities determine it: the centre is where their normals meet, and where they are parallel, and
-not perpendicular to the line of the points, the body is in translation at the instant.
+A body pinned to the ground turns about the pin; one that rolls on the ground turns about the point of contact.
+Otherwise two directions of velocities determine the centre: it is where their normals meet.  If the directions are
+parallel and not perpendicular to the line of the points, the body is in translation at the instant.
 """
 
 from __future__ import annotations
@@ -19,17 +19,17 @@ from reportgen.formula.constructions import meet
 
 CentreRule = Literal["pivot", "contact", "normals", "rate", "translation"]
 SAME_PLACE = 1e-9
-"""Points nearer than this (m) are one."""
+"""Points nearer than this (m) coincide."""
 LETTERS = "PQIK"
 
 
 @dataclass(frozen=True, slots=True)
 class InstantCentre:
-    """The instant centre of a body: by which rule, its name and place, and the points whose normals meet there.
+    """The instant centre of a body: the rule that gives it, its name and position (m), and the points whose normals
+    meet there.
 
-    By the rule `rate` it lies on one normal, at the distance v/ω of a body whose rotation is known already.
-
-    In translation it is infinitely far: `direction` is then the direction of all velocities, 0 where it is not known.
+    By the rule `rate` it lies on one normal, at the distance v/ω of a body whose rotation is known already.  In
+    translation it is infinitely far: `direction` is then the direction of all velocities, 0 if it is not known.
     """
 
     body: int
@@ -54,24 +54,24 @@ class Layout:
     points: dict[str, complex] = field(default_factory=dict)
     members: dict[int, list[str]] = field(default_factory=dict)
     directions: dict[str, complex] = field(default_factory=dict)
-    """Along which line a point moves; the sense is not known yet."""
+    """The line along which a point moves, as a unit vector; its sense is not known yet."""
     guided: dict[str, complex] = field(default_factory=dict)
-    """The same as joints and the data alone tell it, without what follows from normals to velocities."""
+    """The directions that follow from joints and data alone, without normals to velocities."""
     centres: dict[int, InstantCentre] = field(default_factory=dict)
     slots: dict[str, complex] = field(default_factory=dict)
     """Points that are guided along a straight line of the ground."""
     contacts: dict[int, str] = field(default_factory=dict)
     """The points in which discs touch, by the index of their joint."""
     belts: dict[int, tuple[str, str]] = field(default_factory=dict)
-    """The two ends of a straight part of each belt, by the index of its joint."""
+    """The ends of a straight part of each belt, by the index of its joint."""
 
     @property
     def geometry(self) -> Geometry:
-        """The lines of the file, its contacts and belts."""
+        """Return the lines of the file, its contacts and belts."""
         return Geometry(self.given, self.points)
 
     def point_at(self, at: complex, letter: str) -> str:
-        """The name of the point at a place (m), a new one if none is declared there."""
+        """Return the name of the point at a position (m), a new name if no point is declared there."""
         for name, place in self.points.items():
             if abs(place - at) < SAME_PLACE:
                 return name
@@ -84,7 +84,7 @@ class Layout:
         return all(body in self.centres and self.centres[body].rule == "pivot" for body in bodies)
 
     def rims(self) -> Iterator[tuple[tuple[int, ...], tuple[str, ...]]]:
-        """Pairs of discs, each with the point of its rim in which it meets the other or the belt to it."""
+        """Yield pairs of discs, each with the point of its rim where it meets the other disc or the belt."""
         for index, joint in enumerate(self.given.joints):
             if isinstance(joint, file.RollingOnCircle | file.Gears):
                 yield joint.discs, (self.contacts[index], self.contacts[index])
@@ -92,13 +92,13 @@ class Layout:
                 yield joint.discs, self.belts[index]
 
     def own(self, body: int) -> list[str]:
-        """The points that stay on a body: not those in which it only touches another one at the instant."""
+        """Return the points that stay on a body, without those in which it only touches another body at the instant."""
         touching = {*self.contacts.values(), *(end for ends in self.belts.values() for end in ends)}
         declared = self.given.bodies[body].carried
         return [name for name in self.members[body] if name in declared or name not in touching]
 
     def in_line(self, point: str) -> bool:
-        """Return True if a point lies on one line with the guided points of each body that it is of."""
+        """Return True if a point lies on one line with the guided points of each of its bodies."""
         for names in (names for names in self.members.values() if point in names):
             ways = [self.points[name] - self.points[point] for name in names if name in self.guided and name != point]
             if any(abs((ways[0].conjugate() * way).imag) > SAME_PLACE * abs(ways[0]) for way in ways):
@@ -106,7 +106,7 @@ class Layout:
         return True
 
     def arm(self, centre: InstantCentre, point: str) -> complex:
-        """From the instant centre to a point (m)."""
+        """Return the vector from the instant centre to a point (m)."""
         return self.points[point] - centre.at
 
     def is_centre(self, centre: InstantCentre, point: str) -> bool:
@@ -114,7 +114,7 @@ class Layout:
 
 
 def lay_out(given: file.Parameters, motion: InstantMotion) -> Layout:
-    """Everything about directions and centres that the joints and the given directions tell."""
+    """Find all directions and centres that follow from the joints and the given directions."""
     system = motion.system
     layout = Layout(given, motion, dict(system.points), {body: [] for body in system.bodies})
     for body, names in system.bodies.items():
@@ -131,7 +131,9 @@ def lay_out(given: file.Parameters, motion: InstantMotion) -> Layout:
 
 
 def _guided(layout: Layout) -> dict[str, complex]:
-    """The directions that joints and the data tell, and those that are across the line to a point moving across it."""
+    """Return the directions that follow from joints and data, and those normal to the line to a point that moves across
+    it.
+    """
     guided = replace(layout, directions=dict(layout.directions))
     while _next_directions(guided):
         pass
@@ -139,7 +141,9 @@ def _guided(layout: Layout) -> dict[str, complex]:
 
 
 def _moves_alike(given: file.Parameters, body: int, owner: int, point: str) -> bool:
-    """Return True if a point of a body is the same as that of its owner: pinned together, over any number of bodies."""
+    """Return True if a point of a body coincides with the same point of its owner, pinned together over any number of
+    bodies.
+    """
     reached, waiting = {owner}, [owner]
     while waiting:
         carrier = waiting.pop()
@@ -183,7 +187,7 @@ def _enter(layout: Layout, joint: file.Joint, index: int) -> None:
 
 
 def _belt_ends(layout: Layout, joint: file.Belt, index: int) -> None:
-    """The points in which a straight part of a belt touches its discs, each a point of its disc."""
+    """Enter the points in which a straight part of a belt touches its discs; each is a point of its disc."""
     ends = layout.geometry.belt_ends(joint)
     names = tuple(layout.point_at(at, "K") for at in ends)
     layout.belts[index] = names[0], names[1]
@@ -192,14 +196,14 @@ def _belt_ends(layout: Layout, joint: file.Belt, index: int) -> None:
 
 
 def _share(layout: Layout, point: str, *bodies: int) -> None:
-    """A point of contact moves alike with both bodies."""
+    """Let a point of contact move with both bodies."""
     for body in bodies:
         if body != GROUND and point not in layout.members[body]:
             layout.members[body].append(point)
 
 
 def _next_centre(layout: Layout) -> bool:
-    """Finds the centre of one more body from directions; whether there was one."""
+    """Find the centre of one more body from directions; return False if none follows."""
     for body, names in layout.members.items():
         if body in layout.centres:
             continue
@@ -229,7 +233,7 @@ def name_of_centre(layout: Layout, body: int, at: complex) -> str:
 
 
 def _next_directions(layout: Layout) -> bool:
-    """Finds the directions of the points of bodies whose centres are known; whether any was new."""
+    """Find the directions of points of bodies with known centres; return False if none is new."""
     new = {
         name: direction
         for body, centre in layout.centres.items()
@@ -243,7 +247,7 @@ def _next_directions(layout: Layout) -> bool:
 
 
 def _by_projection(layout: Layout) -> Iterator[tuple[str, complex]]:
-    """Points of a body whose velocity has no component along the line to a point that moves across that line."""
+    """Yield points of a body whose velocity has no component along the line to a point that moves across that line."""
     for body, names in layout.members.items():
         known = [name for name in names if name in layout.directions]
         for name in names if body not in layout.centres else ():

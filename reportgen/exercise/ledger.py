@@ -1,6 +1,6 @@
-"""Exercise → Ledger: the numbers of all steps that lead to what is asked, with their definitions.
+"""Work out an exercise: the ledger with the numbers of all steps that lead to the requested quantities (`work_out`).
 
-The methods by which velocities are found are the steps that are each one's own, in the order in which they are tried.
+Each velocity method is the set of steps that belong to it, tried in a fixed order.
 """
 
 from __future__ import annotations
@@ -37,18 +37,17 @@ from reportgen.formula.ledger import Ledger
 from reportgen.formula.printed_decimals import carried
 
 BELOW_A_TURN = 1e-9
-"""An angle this little below a whole turn (degrees) is none."""
+"""An angle less than this below a whole turn (degrees) counts as 0."""
 SAME_SHARE, SAME_SI = 1e-6, 1e-9
-"""Values that differ by this share, or in SI units by this much, are one."""
+"""Values that differ by less than this share, or by less than this in SI units, are equal."""
 POSITIONS = 1
-"""The instant."""
+"""The position index of the only instant."""
 
 
 @dataclass(frozen=True)
 class Worked:
-    """The ledger of an exercise, its layout, and the steps in their order.
-
-    `missing` are the ids of what is asked and no step leads to.
+    """The ledger of an exercise, its layout, and its steps in order; `missing` are requested ids that no step
+    computes.
     """
 
     ledger: Ledger
@@ -57,11 +56,13 @@ class Worked:
     missing: tuple[str, ...]
     method: Method | None = None
     named: frozenset[str] = frozenset()
-    """The ids of what comes to the value of a symbol of the file."""
+    """The ids of quantities whose value is that of a symbol of the file."""
 
     @cached_property
     def printed(self) -> Ledger:
-        """Every number as it is written down; where it is that of a symbol of the file, as the file has it."""
+        """Return the ledger with printed decimals; a quantity that equals a symbol of the file is printed as in the
+        file.
+        """
         families = self.ledger.families
         named = {id: replace(families[id], definition=None, exact=True) for id in self.named}
         rounded = carried(replace(self.ledger, families={**families, **named}))
@@ -70,7 +71,7 @@ class Worked:
 
     @property
     def by_method(self) -> bool:
-        """Return True if a step of it is its method's own."""
+        """Return True if at least one step belongs to the method."""
         return self.method is None or any(belongs(step, self.method) for step in self.steps)
 
 
@@ -81,10 +82,10 @@ def work_out(
     method: Method | None = None,
     velocities_alone: bool = False,
 ) -> Worked:
-    """The exercise worked out step by step; what nothing asked stands on is left out.
+    """Work out an exercise step by step; steps that no requested quantity needs are omitted.
 
-    `units` and `names` are the units and the indices of symbols as a language has them.  Velocities are found by the
-    `method` if one is named; where they alone are wanted, by no other.
+    `units` and `names` are units and indices of symbols in a language.  If a `method` is given, it finds the
+    velocities; with `velocities_alone`, no other method may help.
     """
     derivation = Derivation(Quantities(POSITIONS, exercise.motion), lay_out(exercise.given, exercise.motion))
     enter_given(derivation)
@@ -106,7 +107,7 @@ def work_out(
         wanted += _among(derivation, ids.velocity, ids.velocity_component, ids.sliding_velocity, ids.angular_velocity)
     needed = _with_ancestors(derivation, wanted)
     steps = tuple(step for step in derivation.steps if _leads_on(step, needed))
-    # A step that is taken is written out whole.
+    # A step that is used at all is written out completely.
     needed |= _with_ancestors(derivation, [id for step in steps for id in (*step.ids, *step.read)])
     steps = _told_once(step for step in derivation.steps if _leads_on(step, needed))
     q = Calculation(POSITIONS)
@@ -129,7 +130,7 @@ def _named(exercise: Exercise, ledger: Ledger) -> frozenset[str]:
 
 
 def _leads_to(derivation: Derivation, asked: Asked) -> bool:
-    """Return True if the steps lead to the requested value: that of the whole system, and no other."""
+    """Return True if the steps lead to the requested value and it equals that of the whole system."""
     if asked.id not in derivation.q:
         return False
     value = derivation.motion.turn(asked.what, asked.body) if asked.of_body else abs(_vector(derivation, asked))
@@ -141,7 +142,7 @@ def _is_worked_out(derivation: Derivation, id: str) -> bool:
 
 
 def _signed(derivation: Derivation, asked: Asked) -> None:
-    """A rotation with its sign, positive anticlockwise, beside its size that is worked out, if the data tell it."""
+    """Enter a rotation with its sign, positive anticlockwise, beside its magnitude, if the data determine the sense."""
     if _is_worked_out(derivation, asked.id) and derivation.motion.knows_sense(asked.what, asked.body):
         size = derivation.q[asked.id]
         turn = size if derivation.motion.turn(asked.what, asked.body) >= 0 else -size
@@ -149,7 +150,7 @@ def _signed(derivation: Derivation, asked: Asked) -> None:
 
 
 def _directed(derivation: Derivation, asked: Asked) -> None:
-    """Where an asked vector goes, as its angle from +x in [0, 2π), beside its size; a vector of no length has none."""
+    """Enter the direction of a requested vector as its angle from +x in [0, 2π); a zero vector has none."""
     vector, what, point = _vector(derivation, asked), asked.what, asked.of
     if vector and _is_worked_out(derivation, asked.id):
         angle = (math.degrees(cmath.phase(vector)) + BELOW_A_TURN) % 360.0 - BELOW_A_TURN
@@ -158,17 +159,17 @@ def _directed(derivation: Derivation, asked: Asked) -> None:
 
 
 def _vector(derivation: Derivation, asked: Asked) -> complex:
-    """The velocity or the acceleration that is asked."""
+    """Return the requested velocity (m/s) or acceleration (m/s²)."""
     return derivation.motion.v(asked.of) if asked.what == "v" else derivation.motion.a(asked.of)
 
 
 def _among(derivation: Derivation, *families: ids.Name) -> list[str]:
-    """The ids in the derivation that are of these families."""
+    """Return the ids in the derivation that belong to these families."""
     return [id for id in derivation.q.families if any(id in family for family in families)]
 
 
 def _with_ancestors(derivation: Derivation, some: Sequence[str]) -> set[str]:
-    """Those of some ids that are in the derivation, and everything that they stand on."""
+    """Return those of some ids that are in the derivation, with all quantities that they depend on."""
     families = derivation.q.families
     waiting = [id for id in some if id in families]
     leading: set[str] = set()
@@ -182,7 +183,7 @@ def _with_ancestors(derivation: Derivation, some: Sequence[str]) -> set[str]:
 
 
 def _told_once(steps: Iterable[Step]) -> tuple[Step, ...]:
-    """Steps without what is read off the figure and an earlier one tells."""
+    """Return steps without readings that an earlier step has printed."""
     known, kept = set[str](), list[Step]()
     for step in steps:
         kept.append(replace(step, read=tuple(id for id in step.read if id not in {*known, *step.ids})))
@@ -196,14 +197,14 @@ def _leads_on(step: Step, needed: set[str]) -> bool:
     return any(id in needed for id in worked or [ids.velocity(step.point)])
 
 
-# --- methods: the steps that are each one's own, and in which order they are tried ----------------
+# --- methods: the steps of each, in the order in which they are tried ----------------------------------
 
 
 VelocityStep = Callable[[Derivation], bool]
-"""Enters one more velocity, or those of one more body; whether there was one."""
+"""A step that enters one more velocity, or those of one more body; returns False if it cannot."""
 
 CHOSEN: tuple[VelocityStep, ...] = (derive, by_base_point, enter_proportion, by_train, solve_velocities_together)
-"""Chosen well for each step: the instant centre wherever there is one; all that is left over together."""
+"""The default choice for each step: the instant centre if there is one, and last all remaining rates together."""
 
 ACCELERATIONS: tuple[Callable[[Parts], bool], ...] = (
     about_points,
@@ -214,7 +215,7 @@ ACCELERATIONS: tuple[Callable[[Parts], bool], ...] = (
     lambda parts: enter_blocks(parts.derivation, "eps"),
     solve_accelerations_together,
 )
-"""By the base point, by radii, along the lines of moving bodies; all that is left over together."""
+"""Steps by base points, by radii, and along the lines of moving bodies; last all remaining rates together."""
 
 OWN: Mapping[Method, tuple[VelocityStep, ...]] = {
     "instant centre": (by_centre, enter_proportion),
@@ -247,11 +248,11 @@ def belongs(step: Step, method: Method) -> bool:
 
 
 def find_velocities(derivation: Derivation, method: Method | None, alone: bool = False) -> None:
-    """Enters all velocities that the method leads to, and unless it stands alone, those that others then lead to.
+    """Enter all velocities that the method finds and, unless it must work alone, those that other methods then find.
 
-    What a joint makes turn about a fixed point or move in translation belongs to every method, and so does the motion
-    along the line of a moving body, for which there is no other one; a moving frame in its turn may be carried by
-    bodies of any motion.  Only by instant centres is it known how a point moves that no joint guides.
+    Bodies that a joint makes rotate about a fixed point or move in translation belong to every method.  So does motion
+    along the line of a moving body, for which there is no alternative; a moving frame may be carried by bodies of any
+    motion.  Only instant centres give the direction of a point that no joint guides.
     """
     finders = CHOSEN
     if method is not None:
@@ -266,7 +267,7 @@ def find_velocities(derivation: Derivation, method: Method | None, alone: bool =
 
 
 def enter_centre(derivation: Derivation, body: int) -> bool:
-    """Enters the coordinates of a body's instant centre; whether it is known, which one infinitely far is, too."""
+    """Enter the coordinates of a body's instant centre; return True if it is known, even if it is infinitely far."""
     if body not in derivation.layout.centres:
         _from_rate(derivation, body)
     centre = derivation.layout.centres.get(body)
@@ -281,7 +282,7 @@ def enter_centre(derivation: Derivation, body: int) -> bool:
 
 
 def _from_rate(derivation: Derivation, body: int) -> None:
-    """The centre on the normal to a known velocity, at the distance v/ω; infinitely far in translation."""
+    """Enter the centre on the normal to a known velocity, at the distance v/ω; it is infinitely far in translation."""
     layout, q = derivation.layout, derivation.q
     known = [name for name in layout.members[body] if derivation.knows_velocity(name)]
     if not derivation.knows_omega(body) or not known:

@@ -1,7 +1,7 @@
-"""The literal solution: every quantity of the derivation as an expression of the symbols that the file has.
+"""The literal solution: every quantity of the derivation as an expression of the symbols in the file.
 
-The same conditions as those of the numbers are solved with symbols; sizes, senses and which of two places a point has
-are those at the symbols' values.
+The conditions that give the numbers are solved again with symbols; magnitudes, senses and the choice between two
+possible positions are those at the symbols' values.  `LiteralBoard` looks up an expression by id.
 """
 
 from __future__ import annotations
@@ -28,15 +28,15 @@ from reportgen.formula.constructions import dot
 
 ZERO = Plane(0, 0)
 LONGEST = 40
-"""An expression of more operations is not written: it would fill a line and more, and say little."""
+"""Expressions with more operations are not printed: they fill more than a line and say little."""
 WITHIN_WORDS = 20
-"""Nor is a coordinate of more, which stands within a sentence or a table."""
+"""Coordinates with more operations are not printed: they are set within a sentence or a table."""
 MOST = 100
-"""One of more operations is not even simplified, which may take minutes; published examples have 73 at most."""
+"""Expressions with more operations are not simplified, which may take minutes; published examples have at most 73."""
 
 
 def symbolic(given: Given) -> Algebraic:
-    """A quantity of the file, by its formula or as the number that was typed."""
+    """Return a quantity of the file by its formula, or the number that was typed."""
     if isinstance(given, Literal):
         return algebra.algebraic(given.formula, algebra.symbol)
     return algebra.exact(float(f"{given.si:.15g}"))
@@ -62,7 +62,7 @@ class LiteralGeometry(Geometry):
         return Plane(x, y)
 
     def root(self, of: Algebraic) -> Plane:
-        """A vector along x, which is turned as a number is."""
+        """Return a vector along x, so that it can be turned like a number."""
         return Plane.of(algebra.root(of))
 
     def is_inner(self, joint: file.RollingOnCircle | file.Gears) -> bool:
@@ -110,7 +110,7 @@ class LiteralMotion:
         rates = {}
         for index, body in enumerate(self.bodies):
             turn, x, y = unknowns[3 * index : 3 * index + 3]
-            # A `Plane` is added and multiplied as the complex number whose place it takes.
+            # Addition and multiplication of `Plane` are those of complex numbers.
             rates[body] = Rates(cast("float", turn), cast("complex", Plane(x, y)))
         return rates
 
@@ -146,15 +146,12 @@ class LiteralBoard:
         self._found: dict[str, Algebraic | None] = {}
 
     def __getitem__(self, id: str) -> Expression | None:
-        """The expression of a quantity over the names of symbols; None where there is none."""
+        """Return a quantity as an expression over the names of symbols; None if there is none or it is too long."""
         known = self.algebraic(id)
         return None if known is None else algebra.expression(known, self.at)
 
     def place(self, point: str) -> tuple[Expression, Expression] | None:
-        """The coordinates of a point, instant centres among them; lengths in numbers are metres.
-
-        None where they would be too long.
-        """
+        """Return the coordinates (m) of a point or instant centre; None if they would be too long."""
         at = {**self._centres, **self.motion.geometry.points}[point]
         x, y = (_short(part, algebra.simplified, WITHIN_WORDS) for part in (at.real, at.imag))
         return None if x is None or y is None else (algebra.expression(x, self.at), algebra.expression(y, self.at))
@@ -166,7 +163,9 @@ class LiteralBoard:
         return self._found[id]
 
     def _of(self, id: str) -> Any:
-        """A number or a vector whose size the quantity is: from the motion, else by the formula of its line."""
+        """Return the number or vector whose magnitude the quantity is: from the motion, otherwise by the formula of its
+        line.
+        """
         points = self.motion.geometry.points
         if names := ids.angular_velocity.read(id):
             return self.motion.velocities.omega(int(names["link"]))
@@ -182,13 +181,15 @@ class LiteralBoard:
         return None if definition is None else algebra.algebraic(definition, self.algebraic)
 
     def _between(self, tip: str, base: str) -> Plane | None:
-        """From the other point to the one; None where a place is not known by symbols, as that of the end of a belt."""
+        """Return the vector from `base` to `tip`; None if one of the positions is not known by symbols, as the end of a
+        belt.
+        """
         places = {**self.motion.geometry.points, **self._centres}
         return places[tip] - places[base] if tip in places and base in places else None
 
     @cached_property
     def _centres(self) -> dict[str, Plane]:
-        """Instant centres, where a body's velocity is zero, and the points in which discs touch."""
+        """Return the instant centres, where a body's velocity is zero, and the points in which discs touch, by name."""
         places, geometry, layout = {}, self.motion.geometry, self.worked.layout
         for index, joint in enumerate(self.exercise.given.joints):
             match joint:
@@ -203,8 +204,8 @@ class LiteralBoard:
         return places
 
 
-# --- an exercise with all that is computed of it --------------------------------------------------
-# Each part when it is first asked for.
+# --- an exercise with all computed results ------------------------------------------------------------
+# Each result is computed when it is first requested.
 
 
 @dataclass(frozen=True)
@@ -213,14 +214,14 @@ class SolvedExercise(LoadedAssignment):
 
     @cached_property
     def exercise(self) -> Exercise:
-        """The system and what is asked of it."""
+        """Return the system and the questions about it."""
         return exercise_of(self.assignment)
 
     @cached_property
     def worked(self) -> Worked:
-        """The steps of its solution with their numbers.
+        """Return the steps of its solution with their numbers.
 
-        Raises `NotOfferedError` if no steps that are known here lead to something that is asked.
+        Raises `NotOfferedError` if no known steps lead to a requested quantity.
         """
         first = next(iter(self.exercise.given.methods), None)
         worked = work_out(self.exercise, self.unit_names, self.words["symbols"], first)
@@ -230,9 +231,9 @@ class SolvedExercise(LoadedAssignment):
 
     @cached_property
     def further(self) -> tuple[Worked, ...]:
-        """The velocities worked out anew by each further method that the file asks for.
+        """Return the velocities worked out anew by each further method that the file requests.
 
-        Raises `NotOfferedError` for a method of which no steps are known here.
+        Raises `NotOfferedError` for a method without known steps.
         """
         rest = self.exercise.given.methods[1:]
         each = (work_out(self.exercise, self.unit_names, self.words["symbols"], one, True) for one in rest)
@@ -240,7 +241,7 @@ class SolvedExercise(LoadedAssignment):
 
     @cached_property
     def alone(self) -> tuple[Worked, ...]:
-        """The velocities by each method that the file asks for, with nothing but what it finds itself."""
+        """Return the velocities by each method that the file requests, using only results of that method."""
         if not self.exercise.given.methods:
             return ()
         first = self.exercise.given.methods[0]
@@ -253,5 +254,5 @@ class SolvedExercise(LoadedAssignment):
 
     @cached_property
     def literal(self) -> LiteralBoard | None:
-        """The quantities of the solution by symbols; None where the file has none."""
+        """Return the quantities of the solution by symbols; None if the file has no symbols."""
         return LiteralBoard(self.exercise, self.worked) if self.exercise.given.literal else None

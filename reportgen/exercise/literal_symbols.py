@@ -1,7 +1,7 @@
-"""Symbols in place of numbers: r, omega, v1 with their values, and what a file states with them, such as 3*r/2.
+"""Symbols in exercise files: r, omega, v1 with their values, and formulas of them, such as 3*r/2.
 
-What is stated by symbols is a quantity like any other, worked out at the symbols' values; its formula is kept for the
-literal solution.
+A quantity stated by a formula is evaluated at the symbols' values; the formula is kept for the literal solution.
+`parsed` reads a formula.
 """
 
 from __future__ import annotations
@@ -25,11 +25,11 @@ MOST_SYMBOLS = 20
 LONGEST = 80
 """Largest length of a formula, in characters."""
 MOST_NESTED = 3
-"""Parentheses within each other."""
+"""Largest depth of nested parentheses."""
 _NAME = re.compile(r"[A-Za-z]{1,10}[0-9]{0,2}")
 _GREEK = {"omega": "ω", "eps": "ε", "epsilon": "ε", "rho": "ρ", "lambda": "λ", "mu": "μ"}
 _UNITS = {"mm": (1, 0), "m/s": (1, -1), "m/s2": (1, -2), "rad/s": (0, -1), "rad/s2": (0, -2)}
-"""The kinds of quantities, each by a unit and its powers of length and time; angles have none."""
+"""The kinds of quantities, each with a unit and its powers of length and time; those of angles are 0."""
 
 Powers = tuple[float, float]
 """Powers of length and time."""
@@ -47,7 +47,7 @@ class Literal(Given):
 
 @dataclass(frozen=True, slots=True)
 class Substitution:
-    """Value of a symbol; `put_in` unless the answer is to stay an expression."""
+    """Value of a symbol; with `put_in` False the answer stays an expression of the symbol."""
 
     given: Given
     powers: Powers
@@ -59,7 +59,7 @@ Symbols = Mapping[str, Substitution]
 
 @dataclass(frozen=True, slots=True)
 class SymbolValue(Reader):
-    """A quantity of any kind, or  {drawn: 100 mm}  for one that is not to be put in."""
+    """A quantity of any kind, or {drawn: 100 mm} for a value that stays a symbol in the answer."""
 
     def read(self, value: object) -> Substitution:
         if isinstance(value, dict) and set(value) == {"drawn"}:
@@ -88,7 +88,7 @@ class SymbolValue(Reader):
 
 @dataclass(frozen=True, slots=True)
 class SymbolName(Reader):
-    """Letters, then at most two digits: r, v1, omega."""
+    """Name of a symbol: letters, then at most two digits: r, v1, omega."""
 
     def read(self, value: object) -> str:
         if not isinstance(value, str) or not _NAME.fullmatch(value) or value == "sqrt":
@@ -100,7 +100,7 @@ class SymbolName(Reader):
 
 
 def _sums(nested: int) -> str:
-    """The pattern of a formula as a file has it, with so many parentheses within each other."""
+    """Return the pattern of a formula in a file, with at most `nested` levels of parentheses."""
     number = r"(?:0|[1-9][0-9]{0,5})(?:\.[0-9]*)?|\.[0-9]+"
     name = rf"(?!sqrt\b){_NAME.pattern}(?![A-Za-z0-9])"
     inner = rf"|(?:sqrt *)?\( *{_sums(nested - 1)} *\)" if nested else ""
@@ -110,13 +110,13 @@ def _sums(nested: int) -> str:
 
 _WITH_A_SYMBOL = r"(?=(?:.*[^A-Za-z0-9])?(?!sqrt\b)[A-Za-z])"
 FORMULA = rf"^(?=.{{1,{LONGEST}}}$){_WITH_A_SYMBOL} *{_sums(MOST_NESTED)} *$"
-"""Pattern of a formula: no text matches both this and a quantity with its unit."""
+"""Pattern of a formula; no text matches both this and a quantity with its unit."""
 _FORMULA = re.compile(FORMULA)
 
 
 @dataclass(frozen=True, slots=True)
 class Stated:
-    """Text in a file that has symbols, before it is read."""
+    """Text of a file with symbols, before it is parsed."""
 
     text: str
     symbols: Symbols
@@ -124,7 +124,7 @@ class Stated:
 
 @dataclass(frozen=True, slots=True)
 class Told(Reader):
-    """A quantity, by a number with its unit or by symbols."""
+    """A quantity, as a number with its unit or as a formula of symbols."""
 
     by_number: Quantity
 
@@ -147,9 +147,7 @@ class Told(Reader):
 
 
 def _at_values(formula: Expression, stated_text: Stated) -> float:
-    """Return the value of a formula; raise the fault of one that divides by 0 or takes the root of a negative
-    number.
-    """
+    """Return the value of a formula; raise a fault if it divides by 0 or takes the root of a negative number."""
     try:
         with np.errstate(all="ignore"):
             si = float(evaluate(formula, {name: one.given.si for name, one in stated_text.symbols.items()}))
@@ -172,18 +170,21 @@ def symbol(name: str) -> Symbol:
     return Symbol(_GREEK.get(letters, letters), name[len(letters) :])
 
 
-# --- formulas as a file has them ------------------------------------------------------------------
+# --- formulas in files ----------------------------------------------------------------------------
 
 Parsed = tuple[Expression, Powers | None]
-"""An expression over the names of symbols with its dimension; None for 0, which is of any."""
+"""An expression over the names of symbols with its dimension; None for 0, which may have any dimension."""
 
 
 def parsed(text: str, symbols: Symbols) -> Parsed:
-    """Raises the fault of text that is no formula, names no symbol, or adds what cannot be added."""
+    """Parse a formula.
+
+    Raises a fault if the text is not a formula, names an unknown symbol, or adds quantities of different kinds.
+    """
     if not _FORMULA.fullmatch(text):
         raise fault("no-formula", text=text)
     spelled = text.strip().replace("−", "-").replace("^", "**")
-    # A symbol may be called as a word of Python is: lambda.
+    # A symbol's name may be a Python keyword, such as lambda.
     marked = _NAME.sub(lambda name: name[0] if name[0] == "sqrt" else f"_{name[0]}", spelled)
     return _parsed(ast.parse(marked, mode="eval").body, text, symbols)
 
@@ -242,7 +243,7 @@ def _(node: ast.BinOp, text: str, symbols: Symbols) -> Parsed:
 
 
 def stated(content: Any, symbols: Symbols, keys: frozenset[str]) -> Any:
-    """The content of a file with the text behind those keys kept together with the symbols."""
+    """Return the content of a file in which the texts at certain keys carry the symbols."""
     if isinstance(content, dict):
         return {
             key: _marked(part, symbols) if key in keys else stated(part, symbols, keys) for key, part in content.items()

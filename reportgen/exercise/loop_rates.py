@@ -1,11 +1,12 @@
-"""Rates that no vector equation gives alone: all loops of the bodies left over.
+"""Rates that no single vector equation gives: all loops of the remaining bodies, solved together.
 
-From points whose rates are known each body leads on to its other points, with its own rotation as an unknown.  Where a
-point is reached twice, both rates agree; where a point is guided, nothing goes across its guide: linear equations.
+From points with known rates, each body leads to its other points, with its rotation as an unknown.  If a point is
+reached twice, both rates agree; if a point is guided, the component across the guide is zero.  These are linear
+equations.
 
-A lever whose two ends are driven from one shaft, and whose middle has a known velocity, needs no such system: the
-velocities of both ends are written as v = k ω of the shaft, with k made of lengths alone; the known velocity divides
-them as its point divides the lever, which gives ω.
+A lever whose two ends are driven from one shaft and whose middle has a known velocity needs no system: the velocities
+of both ends are v = k ω of the shaft with k a product of lengths; the known velocity divides them as its point divides
+the lever, which gives ω.
 """
 
 from __future__ import annotations
@@ -40,7 +41,7 @@ from reportgen.formula import (
 from reportgen.formula.calculation import Calculation
 
 FIGURES = 4
-"""Significant figures of the numbers in a system."""
+"""Significant digits of the numbers in a system."""
 
 KnownPower = tuple[str, int]
 """A quantity of the derivation and its power: v.A, or ω² as omega.2 with 2."""
@@ -54,7 +55,7 @@ class Reached:
     unknown: Mapping[int, complex]
 
     def plus(self, reached: Reached, factor: float = 1.0) -> Reached:
-        """Both rates, the other one times a factor."""
+        """Return the sum of both rates, the second multiplied by a factor."""
         known, unknown = dict(self.known), dict(self.unknown)
         for quantity, vector in reached.known.items():
             known[quantity] = known.get(quantity, 0j) + factor * vector
@@ -68,7 +69,7 @@ NOTHING = Reached({}, {})
 
 @dataclass
 class Loops:
-    """The points that were reached, and what was found to be nothing."""
+    """The points that were reached, and the sums that must be zero."""
 
     derivation: Derivation
     what: str
@@ -77,7 +78,7 @@ class Loops:
     closed: list[Reached] = field(default_factory=list)
 
     def lead_on(self) -> None:
-        """From every body with a point reached to its other points, each body once."""
+        """Reach the other points of every body with a reached point, each body once."""
         waiting = dict(self.bodies())
         while True:
             body = next((one for one, names in waiting.items() if any(name in self.points for name in names)), None)
@@ -96,7 +97,7 @@ class Loops:
     def bodies(self) -> Iterator[tuple[int, list[str]]]:
         layout = self.derivation.layout
         for body in layout.members:
-            # Points of contact move alike at the instant; their accelerations differ.
+            # Points of contact have the same velocity at the instant but different accelerations.
             names = layout.members[body] if self.what == "omega" else layout.own(body)
             centre = layout.centres.get(body)
             pivot = [centre.name] if centre is not None and centre.rule == "pivot" else []
@@ -105,7 +106,9 @@ class Loops:
                 yield body, [*pivot, *(name for name in names if name not in pivot)]
 
     def across_slots(self) -> Iterator[tuple[Reached, complex]]:
-        """What a point on a moving line does across it (of length 1), against the body's own point there."""
+        """Yield the rate of a point on a moving line relative to the body's own point there, with the unit normal to
+        the line.
+        """
         members = dict(self.bodies())
         for joint in self.derivation.layout.given.slots:
             if joint.point in self.points:
@@ -131,7 +134,7 @@ class Loops:
 
 
 def solve_velocities_together(derivation: Derivation) -> bool:
-    """The angular velocities of all bodies that are reached; whether there were any."""
+    """Enter the angular velocities of all bodies that are reached; return False if there are none."""
     known = [name for name in derivation.layout.points if derivation.knows_velocity(name)]
     start = {name: Reached({(ids.velocity(name), 1): direction_of(derivation.at(name))}, {}) for name in known}
     start |= {one.name: NOTHING for one in derivation.layout.centres.values() if one.rule in ("pivot", "contact")}
@@ -142,7 +145,7 @@ def solve_velocities_together(derivation: Derivation) -> bool:
 
 
 def solve_accelerations_together(parts: Parts) -> bool:
-    """The angular accelerations of all bodies that are reached; whether there were any."""
+    """Enter the angular accelerations of all bodies that are reached; return False if there are none."""
     derivation = parts.derivation
     start = {
         name: Reached({(vector.id, 1): vector.direction for vector in vectors}, {})
@@ -183,7 +186,7 @@ def _solved(loops: Loops, directions: Mapping[str, complex], more: Sequence[tupl
 
 
 def _independent(left: np.ndarray) -> list[int]:
-    """The first equations that do not follow from those before them, as many as there are unknowns."""
+    """Return the indices of the first linearly independent equations, as many as there are unknowns."""
     kept: list[int] = []
     largest = np.abs(left).max(initial=0.0)
     for index in range(len(left)):
@@ -196,7 +199,9 @@ def _independent(left: np.ndarray) -> list[int]:
 
 
 def _enter_rotation(loops: Loops, body: int, shares: Mapping[KnownPower, float]) -> str:
-    """The size of a rotation from what is known, with factors that the places alone tell."""
+    """Enter the magnitude of a rotation from known quantities with factors that depend on positions only; return its
+    id.
+    """
     q, what = loops.derivation.q, loops.what
     sense = math.copysign(1.0, loops.derivation.motion.turn(what, body))
     terms: list[Expression] = []
@@ -204,7 +209,7 @@ def _enter_rotation(loops: Loops, body: int, shares: Mapping[KnownPower, float])
         if abs(share) > NEGLIGIBLE:
             factor = q.give(ids.share(what, body, of), sense * share, Symbol("c"), "ratio", hidden=True)
             terms.append(Product((factor, q[of] if power == 1 else q[of] ** power)))
-    # As a construction it has no line of its own: the system is set out, and its solution told.
+    # A construction has no line: the page prints the system and its solution instead.
     return q.define(ids.LINK_RATE[what](body), call("re", total(terms) if terms else Number(0.0))).id
 
 
@@ -213,7 +218,7 @@ def _along(vector: complex, axis: complex) -> float:
 
 
 def _row(what: str, bodies: list[int], factors: np.ndarray, value: float) -> Chain:
-    """An equation of the system with its numbers."""
+    """Return an equation of the system with its numbers."""
     largest = float(np.abs(factors).max())
     terms: list[Expression] = []
     for body, factor in zip(bodies, factors, strict=True):
@@ -228,21 +233,21 @@ def _symbol(what: str, body: int) -> Symbol:
 
 
 def _number(value: float, unit: str = "") -> Number:
-    """A number with so many significant figures."""
+    """Return a number with the significant digits of a system."""
     if abs(value) < 1e-12:
         return Number(0.0, None, unit)
     return Number(value, max(0, FIGURES - 1 - math.floor(math.log10(abs(value)))), unit)
 
 
 Ratio = tuple[tuple[Ref, ...], tuple[Ref, ...]]
-"""The lengths above and below the line of a fraction."""
+"""The lengths in the numerator and in the denominator of a fraction."""
 
 
 # --- in proportion to one shaft -------------------------------------------------------------------
 
 
 def enter_proportion(derivation: Derivation) -> bool:
-    """Finds the angular velocity of one more body through a lever; whether there was one."""
+    """Enter the angular velocity of one more body through a lever; return False if there is no such lever."""
     for body, centre in derivation.layout.centres.items():
         if centre.rule != "pivot" or derivation.knows_omega(body) or not derivation.motion.omega(body):
             continue
@@ -257,7 +262,7 @@ def enter_proportion(derivation: Derivation) -> bool:
 
 
 def _through_lever(derivation: Derivation, trial: Derivation, body: int, lever: int, names: list[str]) -> bool:
-    """ω of a body from a lever with a point M known, whose points P and Q move in proportion to ω."""
+    """Enter ω of a body from a lever with known v_M, whose points P and Q have velocities proportional to ω."""
     driven = [name for name in names if trial.knows_velocity(name)]
     known = [name for name in names if derivation.knows_velocity(name) and derivation.q.si(ids.velocity(name))]
     for p, q in combinations(driven, 2):
@@ -271,7 +276,7 @@ def _through_lever(derivation: Derivation, trial: Derivation, body: int, lever: 
 def _enter_proportion(
     derivation: Derivation, trial: Derivation, body: int, lever: int, names: tuple[str, str, str]
 ) -> None:
-    """v_M PQ = v_P MQ + v_Q PM, each with its sense, and M between P and Q or beyond them."""
+    """Enter v_M PQ = v_P MQ + v_Q PM, each velocity with its sense and M between P and Q or beyond them."""
     p, q, m = names
     line = derivation.layout.points[q] - derivation.layout.points[p]
     share = ((derivation.layout.points[m] - derivation.layout.points[p]) / line).real
@@ -289,7 +294,7 @@ def _enter_proportion(
 
 
 def _factor(derivation: Derivation, trial: Derivation, name: str, shaft: str) -> Ref:
-    """Enters k of a point, v = k ω, as a product of lengths."""
+    """Enter k of a point, v = k ω, as a product of lengths."""
     above, below = _ratio(trial, ids.velocity(name), shaft)
     for length in (*above, *below):
         if length.id not in derivation.q:
@@ -300,7 +305,9 @@ def _factor(derivation: Derivation, trial: Derivation, name: str, shaft: str) ->
 
 
 def _ratio(trial: Derivation, id: str, shaft: str) -> Ratio:
-    """The lengths that a rate has over the shaft's; every step from body to body multiplies or divides by one."""
+    """Return the lengths in a rate divided by the shaft's rate; each step from body to body multiplies or divides by
+    one.
+    """
     if id == shaft:
         return (), ()
     match trial.q.families[id].definition:

@@ -1,8 +1,7 @@
-"""Equations of motion of a system with one coordinate: its loops, their first and their second derivatives.
+"""Equations of motion of a system with one coordinate: its loops and their first and second derivatives.
 
-Each loop is a linear equation for the unknown rates, of order 1 for velocities and of order 2 for accelerations, with
-the same factors in both.  One with two unknown rates is solved by Cramer's rule, a larger system of them with its
-numbers.
+Each loop is a linear equation for the unknown rates, of order 1 for velocities and 2 for accelerations, with the same
+factors in both.  An equation with two unknown rates is solved by Cramer's rule, larger systems numerically.
 """
 
 from __future__ import annotations
@@ -53,13 +52,13 @@ from reportgen.formula.vocabulary import KINDS
 READ = (ids.formula_angle, ids.inner_angle, ids.slide_way, ids.loop_distance)
 """Quantities read off the figure."""
 Formulas = Mapping[CoordinateRate, Expression]
-"""Unknown rates by what is known."""
+"""Formulas of unknown rates in terms of known quantities."""
 RateFactors = dict[tuple[CoordinateRate, ...], float]
 """The factors of products of rates."""
 MOST_TERMS = 4
-"""Largest number of terms of a numerator; the right sides of equations with more terms are computed first."""
+"""Largest number of terms of a numerator; right sides with more terms are computed first."""
 FIGURES = 4
-"""Significant figures of the numbers in a system."""
+"""Significant digits of the numbers in a system."""
 
 
 @dataclass(frozen=True)
@@ -79,18 +78,18 @@ class EquationsOfMotion(RateFormulas):
     order: int = VELOCITY
     known: set[CoordinateRate] = field(default_factory=set)
 
-    # --- what is to be solved
+    # --- the unknowns
 
     def unknown(self, vectors: Iterable[LoopVector]) -> list[CoordinateRate]:
         rates = (rate for vector in vectors for rate in vector.rates if rate.order == self.order)
         return [one for one in dict.fromkeys(rates) if one not in self.known]
 
     def part(self, vectors: Iterable[LoopVector], rate: CoordinateRate) -> list[LoopVector]:
-        """The factors of an unknown rate, which is taken out."""
+        """Remove an unknown rate from vectors and return its factors."""
         return [replace(vector, rates=()) for vector in vectors if vector.rates == (rate,)]
 
     def resolved(self, vectors: Sequence[LoopVector]) -> list[LoopVector]:
-        """Spokes with the unknown rates put in that relations give by others."""
+        """Return vectors in which relations replace unknown rates by others."""
         resolved = list(vectors)
         for rate, by in self._eliminated().items():
             if rate in self.unknown(resolved):
@@ -103,7 +102,9 @@ class EquationsOfMotion(RateFormulas):
         return resolved
 
     def _eliminated(self) -> dict[CoordinateRate, dict[CoordinateRate, tuple[Expression, float]]]:
-        """Of each relation with several unknown rates one of them, by the others: a way, else the last angle."""
+        """Return one rate of each relation with several unknowns in terms of the others: a travel, otherwise the last
+        angle.
+        """
         eliminated: dict[CoordinateRate, dict[CoordinateRate, tuple[Expression, float]]] = {}
         for relation in self.linked.relations:
             rates = {CoordinateRate(of, self.order): told for of, told in relation.items()}
@@ -119,7 +120,7 @@ class EquationsOfMotion(RateFormulas):
         return eliminated
 
     def solve(self, sums: list[VectorSum]) -> None:
-        """All rates that follow, each sum or relation as soon as it has few enough unknown ones."""
+        """Solve for all rates that follow, each sum or relation as soon as it has few enough unknowns."""
         waiting = list(sums)
         while self._by_relation() or self._by_sum(waiting) or self._together(waiting):
             pass
@@ -160,7 +161,7 @@ class EquationsOfMotion(RateFormulas):
         return False
 
     def _gathered(self, point: str, vectors: list[LoopVector], unknown: Sequence[CoordinateRate]) -> list[LoopVector]:
-        """Many known vectors by the components b of their opposite, the right sides of the equations."""
+        """Replace many known vectors by the components b of their opposite, the right sides of the equations."""
         rest = self._rest(vectors, unknown)
         if len(rest) * max(len(self.part(vectors, rate)) for rate in unknown) <= MOST_TERMS:
             return vectors
@@ -177,25 +178,25 @@ class EquationsOfMotion(RateFormulas):
         return gathered
 
     def _place(self, whole: VectorSum, unknown: Sequence[CoordinateRate]) -> tuple[str, ...]:
-        """The coordinates of a loop by the others, where that is a closed form; the rest of them is read off."""
+        """Enter the coordinates of a loop in closed form if there is one; read the remaining ones off the figure."""
         lines: tuple[str, ...] = ()
         of: list[GeneralizedCoordinate] = [rate.of for rate in unknown if not isinstance(rate.of, str)]
         if whole.loop is not None and self.order == VELOCITY and len(of) == 2 and all(map(self._is_open, of)):
-            legs = [leg for leg in legs_of(whole.loop) if {Turn(leg.direction.body), leg.way} & {*of}]
+            legs = [leg for leg in legs_of(whole.loop) if {Turn(leg.direction.body), leg.slide} & {*of}]
             lines = closed_form(self, whole.loop, legs, of)
         return lines
 
     def _is_open(self, of: GeneralizedCoordinate) -> bool:
         """Return True if a coordinate is not in the derivation yet."""
-        id = ids.formula_angle(of.body) if isinstance(of, Turn) else self.linked.way_id(of)
+        id = ids.formula_angle(of.body) if isinstance(of, Turn) else self.linked.travel_id(of)
         return id not in self.derivation.q
 
     def _loop(self, whole: VectorSum) -> tuple[Chain, ...]:
-        """The loop itself, told with its first derivative."""
+        """Return the loop itself, which is printed with its first derivative."""
         return () if whole.loop is None or self.order != VELOCITY else self.closure(whole.loop)
 
     def _single(self, vectors: Sequence[LoopVector], rate: CoordinateRate) -> Formulas | None:
-        """u x + k = 0: along u, or on the axis along which u is longer."""
+        """Solve u x + k = 0, along u or on the axis along which u is longer."""
         u, k = self.part(vectors, rate), self._rest(vectors, [rate])
         whole = sum(map(self.vector, u))
         if abs(whole) < NEGLIGIBLE * sum(abs(self.vector(one)) for one in u):
@@ -207,7 +208,7 @@ class EquationsOfMotion(RateFormulas):
         return {rate: over(minus(self.component(k, axis)), self.component(u, axis))}
 
     def _cramer(self, vectors: Sequence[LoopVector], x_rate: CoordinateRate, y_rate: CoordinateRate) -> Formulas | None:
-        """u x + w y + k = 0: x = −(k × w)/(u × w), y = −(u × k)/(u × w)."""
+        """Solve u x + w y + k = 0: x = −(k × w)/(u × w), y = −(u × k)/(u × w)."""
         u, w, k = self.part(vectors, x_rate), self.part(vectors, y_rate), self._rest(vectors, [x_rate, y_rate])
         first, second = sum(map(self.vector, u)), sum(map(self.vector, w))
         if abs(cross(first, second)) < NEGLIGIBLE * abs(first) * abs(second) or not (first and second):
@@ -220,7 +221,7 @@ class EquationsOfMotion(RateFormulas):
 
     @staticmethod
     def _bare(vector: LoopVector) -> LoopVector:
-        """Its direction alone."""
+        """Return the direction of a vector alone, without its rates."""
         return replace(vector, length=ONE, value=1.0)
 
     def _rest(self, vectors: Sequence[LoopVector], unknown: Sequence[CoordinateRate]) -> list[LoopVector]:
@@ -228,7 +229,9 @@ class EquationsOfMotion(RateFormulas):
         return [one for one in kept if self.product(one.rates) != NOTHING]
 
     def _together(self, waiting: list[VectorSum]) -> bool:
-        """The fewest sums that have as many unknown rates as equations, as one system with numbers."""
+        """Solve the fewest sums that have as many unknown rates as equations, as one numeric system; return False
+        without one.
+        """
         for count in range(2, len(waiting) + 1):
             for some in combinations(waiting, count):
                 resolved = [self.resolved(one.vectors) for one in some]
@@ -265,7 +268,9 @@ class EquationsOfMotion(RateFormulas):
         return rows
 
     def _by_shares(self, known: Sequence[tuple[CoordinateRate, ...]], shares: Sequence[float]) -> Expression:
-        """As a construction it has no line of its own: the system is set out, and its solution told."""
+        """Return the solution of a numeric system as a construction: the page prints the system and its solution
+        instead of a line.
+        """
         terms = (
             times(Number(float(share)), self.product(rates))
             for rates, share in zip(known, shares, strict=True)
@@ -273,10 +278,10 @@ class EquationsOfMotion(RateFormulas):
         )
         return call("re", plus(*terms))
 
-    # --- what is put in the derivation
+    # --- entries in the derivation
 
     def _define(self, formulas: Mapping[CoordinateRate, Expression]) -> tuple[str, ...]:
-        """Enters sizes of rates; the ids of those that were not in the derivation."""
+        """Enter magnitudes of rates; return the ids of those that were not in the derivation."""
         lines = []
         for rate, formula in formulas.items():
             id, sense = self.id(rate), 1.0 if self.value(rate) >= 0 else -1.0
@@ -296,16 +301,16 @@ class EquationsOfMotion(RateFormulas):
         return minus(formula)
 
     def _read(self, vectors: Iterable[LoopVector], loop: Closure | None = None) -> tuple[str, ...]:
-        """The angles and lengths of a sum that are read off the figure."""
+        """Enter the angles and lengths of a sum that are read off the figure; return their ids."""
         read_off: dict[str, None] = {}
         legs = [] if loop is None else [leg for place in (loop.outward, loop.back) for leg in place.legs]
         for vector in (*vectors, *legs):
-            for formula in (self.linked.way(vector.length), self.linked.angle(vector.direction)):
+            for formula in (self.linked.with_travels(vector.length), self.linked.angle(vector.direction)):
                 read_off |= dict.fromkeys(id for id in refs(formula) if any(id in family for family in READ))
         return tuple(read_off)
 
     def rows(self, vectors: Sequence[LoopVector]) -> tuple[Chain, ...]:
-        """A sum along x and y, the unknown rates to the left."""
+        """Return a sum along x and y, with the unknown rates on the left."""
         unknown = {*self.unknown(vectors)}
         left = [vector for vector in vectors if {*vector.rates} & unknown]
         right = [replace(vector, length=minus(vector.length)) for vector in vectors if vector not in left]
@@ -336,7 +341,7 @@ class EquationsOfMotion(RateFormulas):
     # --- points
 
     def points(self) -> None:
-        """Every point as a function of the coordinates, and its derivatives at the instant."""
+        """Enter every point as a function of the coordinates, and its derivatives at the instant."""
         for body, names in self.derivation.layout.motion.system.bodies.items():
             for name in names:
                 place = self.linked.places.get(name)

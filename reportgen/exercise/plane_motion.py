@@ -1,8 +1,8 @@
-"""Exercises of plane motion: one instant of a system of rigid bodies, as the file declares it.
+"""The case of a `plane-motion` exercise, and the checks of its file.
 
-There is no machine in it: no driver that goes round, no positions, no forces; so its case is one of its own.  It is
-checked in this order: names, places and contacts, whether it can move as is given and what is asked follows from that,
-and whether the methods that are asked for can find it.
+The system has no driver, no positions and no forces, so it has its own kind of case.  Checks run in this order: names,
+positions and contacts, whether the system can move as given and determines the answers, and whether the requested
+methods can find them.
 """
 
 from __future__ import annotations
@@ -33,21 +33,21 @@ HAS_POSITIONS = False
 
 
 def case(assignment: Assignment) -> ExerciseCase:
-    """The case of an assignment."""
+    """Return the case of an assignment."""
     from reportgen.exercise.case import ExerciseCase
 
     return ExerciseCase(assignment)
 
 
-# --- what no single value of a file shows ----------------------------------------------------------
+# --- checks across several values of a file -------------------------------------------------------
 
 
 CHANGED = 0.0137
-"""By which share the first symbol is changed to see whether the system still moves; the next ones by more."""
+"""Relative change of the first symbol in the check that the system still moves; the next symbols change by more."""
 
 
 def check(draft: Draft) -> Iterator[Finding]:
-    """Names first, then places, then the motion: each only where what it stands on is in order."""
+    """Yield findings about names, then positions, then motion; a later check runs only if the earlier ones passed."""
     given: file.Parameters | None = draft.sections.get("parameters")
     if given is None:
         return
@@ -57,23 +57,25 @@ def check(draft: Draft) -> Iterator[Finding]:
 
 
 class _Names:
-    """Every point, body and disc is declared where it is named."""
+    """Checks that every point, body and disc that is named is declared."""
 
     def __init__(self, given: file.Parameters) -> None:
         self.given = given
 
     def symbols(self) -> Iterator[Finding]:
-        """No symbol is printed as the rotation of a body is, unless it stands for that: ω₂."""
+        """Yield findings about symbols that are printed like the rotation of a body, such as ω₂, unless they
+        mean that.
+        """
         for name in self.given.symbols:
-            shown = literal_symbols.symbol(name)
-            if shown.base not in ("ω", "ε") or not shown.sub or int(shown.sub) not in self.given.bodies:
+            symbol = literal_symbols.symbol(name)
+            if symbol.base not in ("ω", "ε") or not symbol.sub or int(symbol.sub) not in self.given.bodies:
                 continue
-            kind = "omega" if shown.base == "ω" else "epsilon"
+            kind = "omega" if symbol.base == "ω" else "epsilon"
             rates = [one for one in self.given.given if isinstance(one, file.OmegaOf | file.EpsilonOf)]
-            stated = [rate.value for rate in rates if rate.type == kind and rate.body == int(shown.sub)]
+            stated = [rate.value for rate in rates if rate.type == kind and rate.body == int(symbol.sub)]
             formulas = [one.formula for one in stated if isinstance(one, literal_symbols.Literal)]
             if not any(formula in (Ref(name), Negative(Ref(name))) for formula in formulas):
-                yield Finding("symbol-of-body", (*TOP, "symbols", name), {"text": name, "body": shown.sub}, at="key")
+                yield Finding("symbol-of-body", (*TOP, "symbols", name), {"text": name, "body": symbol.sub}, at="key")
 
     def points(self) -> Iterator[Finding]:
         for name, point in self.given.points.items():
@@ -148,7 +150,7 @@ class _Names:
             yield Finding("no-such-point", where, {"text": name, "known": ", ".join(self.given.points)})
 
     def _moving(self, name: str, where: Where) -> Iterator[Finding]:
-        """A point of which a rate is given or asked moves with some body."""
+        """Yield a finding if a rate of a point is given or asked and the point moves with no body."""
         moving = {point for number, body in self.given.bodies.items() if number for point in body.carried}
         if name in self.given.points and name not in moving:
             yield Finding("point-at-rest", where, {"text": name})
@@ -194,7 +196,7 @@ def _one_of(given: list[str], keys: tuple[str, ...], where: Where) -> Iterator[F
 
 
 def _motion(given: file.Parameters, raw: Mapping[str, Any]) -> Iterator[Finding]:
-    """The system can move as is given, and what is asked follows from that."""
+    """Yield findings if the system cannot move as given, or does not determine a requested quantity."""
     try:
         motion = InstantMotion(system(given))
     except MisplacedError as fault:
@@ -232,12 +234,13 @@ def _motion(given: file.Parameters, raw: Mapping[str, Any]) -> Iterator[Finding]
 
 
 def _by_symbols(given: file.Parameters, raw: Mapping[str, Any]) -> Iterator[Finding]:
-    """The system moves whatever the symbols stand for, and not only at the values that they have."""
+    """Yield a finding if the system moves only at the values that the symbols have now."""
     if not given.symbols:
         return
     changes = {name: 1 + CHANGED * (index + 1) for index, name in enumerate(given.symbols)}
     changed = {
-        name: f"{one.given.si * changes[name]!r} {literal_symbols.si_unit(one)}" for name, one in given.symbols.items()
+        name: f"{stated.given.si * changes[name]!r} {literal_symbols.si_unit(stated)}"
+        for name, stated in given.symbols.items()
     }
     try:
         changed_motion = InstantMotion(system(file.Parameters.model_validate({**raw, "symbols": changed})))
@@ -245,12 +248,12 @@ def _by_symbols(given: file.Parameters, raw: Mapping[str, Any]) -> Iterator[Find
     except (MisplacedError, ValidationError):
         moves = False
     if not moves:
-        shown = ", ".join(f"{name} = {text}" for name, text in changed.items())
-        yield Finding("only-at-values", (*TOP, "symbols"), {"text": shown})
+        values = ", ".join(f"{name} = {text}" for name, text in changed.items())
+        yield Finding("only-at-values", (*TOP, "symbols"), {"text": values})
 
 
 def _methods(given: file.Parameters, layout: Layout) -> Iterator[Finding]:
-    """Every method that is asked for can apply, and is asked for once."""
+    """Yield findings about requested methods that cannot apply or are requested twice."""
     for index, method in enumerate(given.methods):
         where = (*TOP, "methods", index)
         if method in given.methods[:index]:
@@ -264,7 +267,7 @@ def _is_acceleration_on(rate: file.GivenRate, body: int, given: file.Parameters)
 
 
 def _open(motion: InstantMotion, asked: file.Asked) -> str:
-    """The bodies whose motion stays open, by number."""
+    """Return the numbers of the bodies whose motion is undetermined."""
     bodies = motion.system.bodies
     if asked.what in ("omega", "v", "centre"):
         loose = [body for body in bodies if not (motion.knows_omega(body) and motion.knows_centre(body))]
@@ -281,7 +284,7 @@ def _open(motion: InstantMotion, asked: file.Asked) -> str:
 
 
 def why_not(method: file.Method, layout: Layout) -> str:
-    """The code of the fault of a method that cannot apply; "" for one that can."""
+    """Return the fault code of a method that cannot apply; "" if it can."""
     plane = [*_in_plane_motion(layout)]
     match method:
         case "moving frame":
@@ -297,7 +300,7 @@ def why_not(method: file.Method, layout: Layout) -> str:
             has_base = any(_rolls(layout, body) or len(_guided(layout, body)) > 1 for body in plane)
             return "" if has_base or _two_bases(layout, plane) else "no-base-point"
         case "projection":
-            # It tells no angular velocity.
+            # Projections give no angular velocity.
             asked = any(one.what in ("v", "a") for one in layout.given.find)
             return "" if asked and any(_projects(layout, body) for body in plane) else "no-projection"
 
@@ -332,12 +335,14 @@ def _across(layout: Layout, body: int) -> bool:
 
 
 def _projects(layout: Layout, body: int) -> bool:
-    """Return True if a body has two guided points of which one at least does not move across the line between them."""
+    """Return True if a body has two guided points, at least one of which does not move across the line between them."""
     return any(not all(across) for across in _pairs_across(layout, body, layout.guided))
 
 
 def _pairs_across(layout: Layout, body: int, directions: Mapping[str, complex]) -> Iterator[tuple[bool, bool]]:
-    """Yield, for each two points of a body with known directions, whether they move across the line between them."""
+    """Yield, for each pair of points of a body with known directions, whether each moves across the line
+    between them.
+    """
     for base, tip in combinations([name for name in layout.members[body] if name in directions], 2):
         line = layout.points[tip] - layout.points[base]
         if abs(line) > SAME_PLACE:

@@ -1,4 +1,4 @@
-"""Places of the points of a plane-motion exercise, its lines, and the conditions from its joints."""
+"""Positions of the points of a plane-motion exercise, its lines, and the conditions of its joints (`exercise_of`)."""
 
 from __future__ import annotations
 
@@ -18,15 +18,15 @@ from reportgen.formula.constructions import circle_circle, circle_line, cross, f
 
 TOP: Where = ("parameters",)
 TOUCHING = 1e-6
-"""Discs and lines whose distance is off by less than this share of the radius touch."""
+"""Discs and lines touch if their distance is off by less than this share of the radius."""
 PARALLEL = 1e-9
 DUST = 1e-12
 SAME_DIRECTION = 1e-9
-"""Directions nearer than this (radians) are one."""
+"""Directions nearer than this (rad) are equal."""
 
 
 class MisplacedError(Exception):
-    """Fault of a point, a line or a contact."""
+    """Raised for a point, line or contact that does not exist."""
 
     def __init__(self, code: str, *where: str | int, **arguments: str) -> None:
         super().__init__(code)
@@ -34,7 +34,7 @@ class MisplacedError(Exception):
 
 
 def unit(angle: float) -> complex:
-    """The unit vector at an angle; whole quarters of a turn are exact."""
+    """Return the unit vector at an angle (rad); multiples of a quarter turn are exact."""
     quarters = angle / (cmath.pi / 2)
     if abs(quarters - round(quarters)) < 1e-12:
         return (1 + 0j, 1j, -1 + 0j, -1j)[round(quarters) % 4]
@@ -42,24 +42,24 @@ def unit(angle: float) -> complex:
 
 
 def direction_of(vector: complex) -> complex:
-    """The direction of a vector, of length 1; 0 for none."""
+    """Return the unit direction of a vector; 0 for a zero vector."""
     return vector / abs(vector) if vector else 0j
 
 
 def perpendicular(u: complex, w: complex) -> bool:
-    """Return True if two directions of length 1 are at a right angle."""
+    """Return True if two unit directions are perpendicular."""
     return abs((u.conjugate() * w).real) < SAME_DIRECTION
 
 
 def parallel(u: complex, w: complex) -> bool:
-    """Return True if two directions of length 1 are the same or opposite."""
+    """Return True if two unit directions are equal or opposite."""
     return abs((u.conjugate() * w).imag) < SAME_DIRECTION
 
 
 class Geometry:
-    """The points and lines of a file in numbers; whoever works with symbols has another arithmetic.
+    """The points and lines of a file in numbers (m); a subclass computes with symbols instead.
 
-    What is constructed exists; whether it does is asked before, of the numbers.
+    Constructions do not check that their result exists; `placed` has checked that with numbers.
     """
 
     def __init__(self, given: file.Parameters, points: Mapping[str, Any]) -> None:
@@ -86,10 +86,10 @@ class Geometry:
         apart, smaller = abs(self.points[outer.centre] - self.points[inner.centre]), outer.radius.si - inner.radius.si
         return smaller > 0 and abs(apart - smaller) <= TOUCHING * (inner.radius.si + outer.radius.si)
 
-    # --- what is constructed
+    # --- constructed points
 
     def place(self, point: file.PointAt) -> Any:
-        """Return the place of a point, from the points before it."""
+        """Return the position of a point (m), from the points before it."""
         if point.at is not None:
             return self.point(*map(self.size, point.at))
         if point.lines is not None:
@@ -109,7 +109,7 @@ class Geometry:
         return circle_line(centre, radius, start, u, 1 if point.end == "far" else -1, self.root)
 
     def direction(self, line: file.Directed) -> Any:
-        """The unit vector of a line."""
+        """Return the unit vector of a line."""
         if line.along is not None:
             start, end = (self.points[name] for name in line.along)
             return (end - start) / abs(end - start)
@@ -117,7 +117,10 @@ class Geometry:
         return self.unit(line.angle)
 
     def disc(self, body: int) -> file.Disc:
-        """The disc that a body is.  Raises `ValueError` for one that is none."""
+        """Return the disc of a body.
+
+        Raises `ValueError` for a body that is not a disc.
+        """
         disc = self.given.disc(body)
         if disc is None:
             raise ValueError(f"body {body} is no disc")
@@ -128,19 +131,21 @@ class Geometry:
         return self.disc(first), self.disc(second)
 
     def contact_on_line(self, joint: file.RollingOnLine) -> Any:
-        """Return the place where a disc touches its line."""
+        """Return the point (m) where a disc touches its line."""
         return foot(self.points[self.disc(joint.disc).centre], self.points[joint.through], self.direction(joint))
 
     def contact_of_discs(self, joint: file.RollingOnCircle | file.Gears) -> Any:
-        """Return the contact of two discs on the line of their centres: away from the second's if the first lies
-        within it.
+        """Return the contact (m) of two discs on the line of their centres, beyond the first centre if that disc lies
+        within the second.
         """
         disc, touched = self.discs(joint)
         start, end, radius = self.points[disc.centre], self.points[touched.centre], self.size(disc.radius)
         return start + (end - start) / abs(end - start) * (-radius if self.is_inner(joint) else radius)
 
     def belt_ends(self, joint: file.Belt) -> tuple[Any, Any]:
-        """Return where a belt leaves one disc, to the left of the way to the other, and where it reaches the other."""
+        """Return the points (m) where a belt leaves one disc, on the left side towards the other, and where it reaches
+        the other.
+        """
         left, reached = self.discs(joint)
         first, second = self.points[left.centre], self.points[reached.centre]
         r1, r2 = self.size(left.radius), self.size(reached.radius)
@@ -152,13 +157,13 @@ class Geometry:
         return first + out * r1, second + out * reach
 
 
-# --- whether it exists ----------------------------------------------------------------------------
+# --- checks that constructions exist --------------------------------------------------------------
 
 
 def placed(given: file.Parameters) -> Geometry:
-    """The geometry of a file, its points placed in their order.
+    """Return the geometry of a file, its points placed in order.
 
-    Raises `MisplacedError` for the first point that has no place, else for the first contact or belt that is none.
+    Raises `MisplacedError` for the first point without a position, otherwise for the first invalid contact or belt.
     """
     points: dict[str, complex] = {}
     geometry = Geometry(given, points)
@@ -242,14 +247,17 @@ def _require_length(joint: file.Belt, index: int, geometry: Geometry) -> None:
 
 
 def system(given: file.Parameters) -> System:
-    """The whole system of a file that is in order.  Raises `MisplacedError`."""
+    """Return the whole system of a valid file.
+
+    Raises `MisplacedError`.
+    """
     geometry = placed(given)
     bare = System(geometry.points, carried(given), ())
     return replace(bare, conditions=tuple(conditions(geometry, bare)))
 
 
 def carried(given: file.Parameters) -> dict[int, tuple[str, ...]]:
-    """The points that move with each body but the ground."""
+    """Return the points that move with each body except the ground."""
     return {number: body.carried for number, body in given.bodies.items() if number}
 
 
@@ -262,12 +270,12 @@ def conditions(geometry: Geometry, bare: System) -> Iterator[Condition]:
 
 
 def name_of(index: int, section: str, *called: object) -> str:
-    """The name of the conditions of a joint or of a given quantity: joints[2] (pin A)."""
+    """Return the name of the conditions of a joint or of a given quantity: joints[2] (pin A)."""
     return f"{section}[{index}] ({' '.join(map(str, called))})"
 
 
 def named(given: file.Parameters) -> dict[str, tuple[Where, str]]:
-    """Return the place of each joint and given quantity, and its name in messages, by the name of its conditions."""
+    """Return the location of each joint and given quantity, and its name in messages, by the name of its conditions."""
     listed = {"joints": given.joints, "given": given.given}
     return {
         name_of(index, section, *named_rate.called): ((*TOP, section, index), " ".join(map(str, named_rate.called)))
@@ -330,7 +338,9 @@ def _rate(rate: file.GivenRate, index: int, geometry: Geometry, bare: System) ->
 def _vector(
     make: on.GivenComponent, name: str, bare: System, point: str, along: complex, size: float | None
 ) -> Iterator[Condition]:
-    """A vector of known direction: nothing across it, and along it its size if that is known."""
+    """Yield the conditions of a vector of known direction: zero across it, and its magnitude (SI) along it if that is
+    known.
+    """
     at, body = bare.points[point], bare.body_of(point)
     yield make(name, at, body, 1j * along, 0.0)
     if size is not None:
@@ -342,7 +352,7 @@ def _vector(
 
 @dataclass(frozen=True)
 class Exercise:
-    """A system in motion at one instant, and what is to be found of it."""
+    """A system in motion at one instant, with the requested quantities."""
 
     given: file.Parameters
     motion: InstantMotion
@@ -357,6 +367,6 @@ class Exercise:
 
 
 def exercise_of(assignment: Assignment) -> Exercise:
-    """The exercise of an assignment that is in order."""
+    """Return the exercise of a valid assignment."""
     given: file.Parameters = assignment.parameters
     return Exercise(given, InstantMotion(system(given)))

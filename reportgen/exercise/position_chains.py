@@ -1,8 +1,8 @@
-"""Places of points by the coordinates of the bodies: chains of vectors from the ground, and the loops that they close.
+"""Positions of points by the coordinates of the bodies: chains of vectors from the ground, and loops that they close.
 
-Each body has an angle φ, each point on a straight line its way s along it.  A point reached in two ways closes a loop,
-Σ legs = Σ legs; a disc that rolls or meshes relates angles and ways by constant factors, Σ factor · coordinate = const.
-Both hold at any time, so that their derivatives hold, too.
+Each body has an angle φ, each point on a straight line its travel s along it.  A point reached by two chains closes a
+loop, Σ legs = Σ legs; a disc that rolls or meshes relates angles and travels by constant factors, Σ factor · coordinate
+= const.  Both hold at any time, so their derivatives hold, too.
 """
 
 from __future__ import annotations
@@ -41,14 +41,14 @@ SAME_ANGLE = 1e-9
 
 @dataclass(frozen=True, slots=True)
 class Turn:
-    """The angle of a body; of a rod that only keeps two points apart, the number is none of the file's."""
+    """The angle of a body; a rod that only keeps two points apart has a number that the file does not use."""
 
     body: int
 
 
 @dataclass(frozen=True, slots=True)
 class SlideTravel:
-    """The way of a point along a straight line, by its number among all of them."""
+    """The travel of a point along a straight line, by the number of the line."""
 
     number: int
 
@@ -58,7 +58,7 @@ GeneralizedCoordinate = Turn | SlideTravel
 
 @dataclass(frozen=True, slots=True)
 class Direction:
-    """A direction that turns with a body: at `offset` (rad) from its φ; of the ground, from the x-axis."""
+    """A direction that turns with a body, at `offset` (rad) from its φ; on the ground, from the x-axis."""
 
     body: int
     offset: float
@@ -66,7 +66,7 @@ class Direction:
 
 @dataclass(frozen=True, slots=True)
 class CoordinateRate:
-    """The derivative of a coordinate; of a point's speed that is no coordinate, the point."""
+    """The derivative of a coordinate, or the speed of a point if that is not a coordinate."""
 
     of: GeneralizedCoordinate | str
     order: int
@@ -76,14 +76,14 @@ class CoordinateRate:
 class LoopVector:
     """A vector of a loop or of its derivative: a length along a direction turned by right angles.
 
-    A `way` is the coordinate that the length is; in a derivative, the length has the `rates` as further factors.
+    `slide` is the coordinate that the length represents; in a derivative, `rates` are further factors of the length.
     """
 
     length: Expression
     value: float
     direction: Direction
     quarters: int = 0
-    way: SlideTravel | None = None
+    slide: SlideTravel | None = None
     rates: tuple[CoordinateRate, ...] = ()
 
     def reversed(self) -> LoopVector:
@@ -92,18 +92,18 @@ class LoopVector:
 
 @dataclass(frozen=True, slots=True)
 class Place:
-    """Place of a point: coordinates of a fixed point and a chain of legs from there."""
+    """Position of a point: the coordinates of a fixed point and a chain of legs from there."""
 
     fixed: tuple[Expression, Expression] = (NOTHING, NOTHING)
     legs: tuple[LoopVector, ...] = ()
 
     def by(self, *legs: LoopVector) -> Place:
-        return replace(self, legs=(*self.legs, *(leg for leg in legs if abs(leg.value) > SAME_PLACE or leg.way)))
+        return replace(self, legs=(*self.legs, *(leg for leg in legs if abs(leg.value) > SAME_PLACE or leg.slide)))
 
 
 @dataclass(frozen=True, slots=True)
 class Closure:
-    """A point that is reached in two ways: outward by one, and back by the other the loop closes."""
+    """A point reached by two chains; the loop runs outward along one and back along the other."""
 
     point: str
     outward: Place
@@ -112,7 +112,7 @@ class Closure:
 
 @dataclass(frozen=True, slots=True)
 class StraightPath:
-    """Point that slides along a straight line: the point, its body, the body of the line and its direction."""
+    """A point that slides along a straight line: the point, its body, the body of the line and its unit direction."""
 
     point: str
     body: int
@@ -126,7 +126,7 @@ Relation = dict[GeneralizedCoordinate, tuple[Expression, float]]
 
 @dataclass
 class Linked:
-    """The places of all points of a system, its loops and relations, as functions of its coordinates."""
+    """The positions of all points of a system, its loops and relations, as functions of its coordinates."""
 
     derivation: Derivation
     places: dict[str, Place] = field(default_factory=dict)
@@ -134,13 +134,13 @@ class Linked:
     relations: list[Relation] = field(default_factory=list)
     lines: list[StraightPath] = field(default_factory=list)
     rods: dict[int, tuple[str, str]] = field(default_factory=dict)
-    """The ends of rods that are no bodies of the file, by their numbers."""
+    """The ends of rods that are not bodies of the file, by their numbers."""
     reference: dict[int, float] = field(default_factory=dict)
     """The φ of each body at the instant (rad)."""
     turning: dict[int, int] = field(default_factory=dict)
-    """The body that each one turns with."""
+    """The body with which each body turns."""
     read_off: dict[str, tuple[float, Symbol]] = field(default_factory=dict)
-    """The ways along lines, read off the figure unless a formula gives them before they are needed."""
+    """The travels along lines that are read off the figure unless a formula gives them before they are needed."""
 
     def __post_init__(self) -> None:
         given, layout = self.derivation.layout.given, self.derivation.layout
@@ -168,7 +168,7 @@ class Linked:
     # --- angles
 
     def _join_turns(self) -> None:
-        """Bodies that slide along a guide without turning against it turn as its body does."""
+        """Let bodies that slide along a guide without rotating relative to it turn with its body."""
         self.turning = {GROUND: GROUND, **{body: body for body in self.members}}
         for joint in self.derivation.layout.given.joints:
             match joint:
@@ -182,7 +182,7 @@ class Linked:
         self.turning |= {body: least for body, leader in self.turning.items() if leader == most}
 
     def direction(self, body: int, of: complex) -> tuple[Direction, int]:
-        """A direction (of length 1) as it turns with a body, and its sense along φ itself: +1, or −1 against it."""
+        """Return a unit direction as it turns with a body, and its sense along φ: +1, or −1 against it."""
         leader, now = self.turning.get(body, body), cmath.phase(of)
         if leader == GROUND:
             return Direction(GROUND, now), 1
@@ -195,7 +195,7 @@ class Linked:
         return Direction(leader, 0.0 if abs(offset) < SAME_ANGLE else offset), 1
 
     def heading(self, direction: Direction) -> float:
-        """A direction at the instant, rad from +x."""
+        """Return a direction at the instant (rad from +x)."""
         return self.reference.get(direction.body, 0.0) + direction.offset
 
     def angle(self, direction: Direction) -> Expression:
@@ -203,15 +203,15 @@ class Linked:
         return self._from(self.phi(direction.body) if direction.body else NOTHING, direction.offset)
 
     def phi(self, body: int) -> Expression:
-        """The angle of a body, as it is read off the figure."""
+        """Return the angle of a body as read off the figure."""
         q, id = self.derivation.q, ids.formula_angle(body)
         return q.find(id) or q.give(id, self.reference[body], Symbol("φ", self.letter(body)), exact=False)
 
-    def way_id(self, slide: SlideTravel) -> str:
+    def travel_id(self, slide: SlideTravel) -> str:
         return ids.slide_way(f"{self.lines[slide.number].body},{slide.number}")
 
-    def way(self, of: Expression) -> Expression:
-        """A length with the ways in it put in the derivation."""
+    def with_travels(self, of: Expression) -> Expression:
+        """Return a length after its travels have been entered in the derivation."""
         for id in refs(of):
             if id not in self.derivation.q:
                 value, symbol = self.read_off[id]
@@ -231,7 +231,7 @@ class Linked:
         return plus(start, size if offset > 0 else minus(size))
 
     def between(self, start_direction: Direction, end_direction: Direction) -> Expression:
-        """The angle from one direction to another."""
+        """Return the angle from one direction to another, as an expression."""
         if start_direction.body == end_direction.body:
             return self._from(NOTHING, math.remainder(end_direction.offset - start_direction.offset, 2 * math.pi))
         start, end = self.angle(start_direction), self.angle(end_direction)
@@ -251,7 +251,7 @@ class Linked:
         return q.find(id) or q.give(id, value, exact=is_short(value))
 
     def arm(self, body: int, base: str, point: str) -> tuple[LoopVector, ...]:
-        """From one point of a body to another; none where both are one."""
+        """Return the legs from one point of a body to another; `()` if they coincide."""
         reach = self.derivation.layout.points[point] - self.derivation.layout.points[base]
         if abs(reach) < SAME_PLACE:
             return ()
@@ -261,7 +261,7 @@ class Linked:
     # --- chains
 
     def _next_body(self, waiting: dict[int, list[str]], driven: bool) -> bool:
-        """Leads on from a body that is reached to all of its points: first the driving ones, then what they drive."""
+        """Reach all points of a body that has a reached point: first driving bodies, then driven ones."""
 
         def is_driven(body: int) -> bool:
             return self.derivation.knows_omega(body) or any(
@@ -290,7 +290,7 @@ class Linked:
             self.places[point] = place
 
     def _next_joint(self, waiting: dict[int, list[str]], joints: list[tuple[int, file.Joint]]) -> bool:
-        """Leads on over a joint by which points move along lines or keep their distance."""
+        """Reach points over a joint by which points move along lines or keep their distance."""
         for number, (_, joint) in enumerate(joints):
             if isinstance(joint, file.SlotJoint | file.Slider | file.RollingOnLine):
                 line = self._line(joint)
@@ -319,7 +319,9 @@ class Linked:
         return StraightPath(self.derivation.layout.geometry.disc(joint.disc).centre, joint.disc, joint.on, along)
 
     def _slide(self, joint: file.Joint, line: StraightPath) -> None:
-        """P = T + s e + h n: along the line and across it from a point of its body, on the ground from the origin."""
+        """Enter P = T + s e + h n, along and across the line from a point of its body, or from the origin on the
+        ground.
+        """
         q, points, number = self.derivation.q, self.derivation.layout.points, len(self.lines)
         self.lines.append(line)
         on_ground = self.turning.get(line.on, line.on) == GROUND and line.on == GROUND
@@ -328,9 +330,9 @@ class Linked:
         direction, sense = self.direction(line.on, line.along)
         slide, relative = SlideTravel(number), "" if on_ground else "r"
         gone = sense * dot(line.along, there)
-        id = self.way_id(slide)
+        id = self.travel_id(slide)
         self.read_off[id] = (gone, Symbol("s", line.point, relative))
-        legs = [LoopVector(Ref(id), gone, direction, way=slide)]
+        legs = [LoopVector(Ref(id), gone, direction, slide=slide)]
         if abs(off := sense * cross(line.along, there)) > SAME_PLACE:
             id = ids.loop_distance(f"{line.body},{number}")
             h = q.give(id, abs(off), Symbol("h", line.point, relative), exact=is_short(abs(off)))
@@ -345,7 +347,7 @@ class Linked:
             self._roll(joint, slide, self.lines[number])
 
     def _base(self, line: StraightPath) -> str:
-        """The point of a line's body that ways along it count from: one that is reached, and on the line at best."""
+        """Return the reached point of a line's body from which travels count, on the line if possible."""
         points, names = self.derivation.layout.points, self.members[line.on]
         known = [name for name in names if name in self.places] or names
 
@@ -356,7 +358,7 @@ class Linked:
         return min(known, key=rank)
 
     def _roll(self, joint: file.RollingOnLine, slide: SlideTravel, line: StraightPath) -> None:
-        """ṡ = R (ω of the line − ω of the disc), of a disc to the left of the line."""
+        """Relate ṡ = R (ω of the line − ω of the disc), for a disc to the left of the line."""
         layout = self.derivation.layout
         touch = layout.geometry.contact_on_line(joint)
         side = math.copysign(1.0, cross(line.along, layout.points[line.point] - touch))
@@ -380,7 +382,7 @@ class Linked:
         return first.centre, second.centre
 
     def _apart(self, base: str, tip: str) -> int:
-        """A rod between two points, one of which is reached; its number."""
+        """Add a rod between two points, one of which is reached, and return its number."""
         if tip in self.places and base not in self.places:
             base, tip = tip, base
         number = 1 + max((*self.turning, *self.rods))
@@ -390,7 +392,7 @@ class Linked:
         return number
 
     def _arm_of(self, *ends: str) -> int | None:
-        """The body that carries both points; None if none does, the ground if both are fixed."""
+        """Return the body that carries both points; None if no body does, the ground if both are fixed."""
         fixed = [end for end in ends if end in self.places and not self.places[end].legs]
         if len(fixed) == len(ends):
             return GROUND
@@ -399,7 +401,9 @@ class Linked:
         return next(iter((*carrying, *rods)), None)
 
     def _relate_discs(self, joint: file.Gears | file.RollingOnCircle | file.Belt) -> None:
-        """(ω₁ − ω_c) r₁ ± (ω₂ − ω_c) r₂ = 0 about the line of the centres, + for discs that turn in opposite senses."""
+        """Relate (ω₁ − ω_c) r₁ ± (ω₂ − ω_c) r₂ = 0 about the line of centres, + for discs that turn in
+        opposite senses.
+        """
         layout, index = self.derivation.layout, self.derivation.layout.given.joints.index(joint)
         ends = self._ends(joint)
         if not all(end in self.places for end in ends):
@@ -425,7 +429,7 @@ class Linked:
 
 
 def legs_of(closure: Closure) -> Iterator[LoopVector]:
-    """The legs of a loop, one way and back, without those that both ways have."""
+    """Yield the legs of a loop, outward and back, without those that both chains share."""
     outward, back = list(closure.outward.legs), list(closure.back.legs)
     for leg in closure.outward.legs:
         if leg in back:
@@ -436,5 +440,5 @@ def legs_of(closure: Closure) -> Iterator[LoopVector]:
 
 
 def given_direction(degrees: float, size: float) -> Direction:
-    """The direction of a given vector at an angle (degrees) from +x, whose size (SI) may be negative."""
+    """Return the direction of a given vector at an angle (degrees) from +x; its magnitude (SI) may be negative."""
     return Direction(GROUND, cmath.phase(unit(degrees) * (1 if size >= 0 else -1)))

@@ -1,9 +1,9 @@
-"""Linear conditions on the rates of the bodies, from a joint or a given quantity.
+"""Linear conditions on the rates of the bodies, from joints and given quantities.
 
-The velocity of a point p that moves with a body is v(p) = v₀ + iω p, with v₀ that of the body's point at the origin;
-its acceleration is a(p) = a₀ + iε p − ω² p.  A condition is a sum of components of such vectors, and of angular
-rates, with its value.  Its coefficients are the same for velocities and for accelerations; only its value
-differs: the `drift` of a condition is the part of its accelerations that is known once the velocities are.
+The velocity of a point p that moves with a body is v(p) = v₀ + iω p, with v₀ of the body's point at the origin; its
+acceleration is a(p) = a₀ + iε p − ω² p.  A condition is a sum of components of such vectors, and of angular rates, with
+its value.  Velocities and accelerations share the coefficients; only the value differs: `drift` is the part of the
+accelerations that is known once the velocities are.
 """
 
 from __future__ import annotations
@@ -12,12 +12,12 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 GROUND = 0
-"""The number of the body that is at rest."""
+"""The number of the body at rest, the ground."""
 
 
 @dataclass(frozen=True, slots=True)
 class Rates:
-    """ω, v₀ of a body, or ε, a₀."""
+    """The rates of a body: ω (rad/s) and v₀ (m/s) of its point at the origin, or ε (rad/s²) and a₀ (m/s²)."""
 
     turn: float
     origin: complex
@@ -36,11 +36,11 @@ class Velocities:
         return STILL if body == GROUND else self.bodies[body]
 
     def omega(self, body: int) -> float:
-        """ω of a body (rad/s)."""
+        """Return ω of a body (rad/s)."""
         return self.of(body).turn
 
     def at(self, body: int, point: complex) -> complex:
-        """v(p) = v₀ + iω p (m/s), the velocity of a point (m) that moves with a body."""
+        """Return v(p) = v₀ + iω p (m/s), the velocity of a point (m) that moves with a body."""
         rates = self.of(body)
         return rates.origin + rates.turn * (1j * point)
 
@@ -49,13 +49,13 @@ Drift = Callable[[Velocities], float]
 
 
 def no_drift(_: Velocities) -> float:
-    """Components that keep their value (SI) as the bodies move on."""
+    """Return 0: the drift of components that keep their value as the bodies move."""
     return 0.0
 
 
 @dataclass(frozen=True, slots=True)
 class Component:
-    """The component along `direction` of the rate of a point that moves with a body."""
+    """The component along the unit `direction` of the rate of a point (m) that moves with a body."""
 
     body: int
     point: complex
@@ -64,9 +64,9 @@ class Component:
 
 @dataclass(frozen=True, slots=True)
 class Condition:
-    """Σ components + Σ factor · turn = value, by body; a value of None says nothing of that rate.
+    """Σ components + Σ factor · turn = value, by body; a value of None puts no condition on that rate.
 
-    `name` is what the file calls the joint or the given quantity that the condition is part of.
+    `name` is the name in the file of the joint or given quantity to which the condition belongs.
     """
 
     name: str
@@ -83,7 +83,7 @@ def _dot(a: complex, b: complex) -> float:
 def _between(
     name: str, direction: complex, point: complex, body: int, partner: int, drift: Drift | None = no_drift
 ) -> Condition:
-    """Two bodies' points at one place do not part along a direction."""
+    """Return the condition that two bodies' points at one place do not separate along a unit direction."""
     components = (Component(body, point, direction), Component(partner, point, -direction))
     return Condition(name, components, drift=drift)
 
@@ -92,14 +92,14 @@ def _between(
 
 
 def pin(name: str, point: complex, body: int, partner: int) -> tuple[Condition, ...]:
-    """Two bodies turn about a common point (m)."""
+    """Return the conditions of two bodies that turn about a common point (m)."""
     return tuple(_between(name, axis, point, body, partner) for axis in (1 + 0j, 1j))
 
 
 def slot(name: str, point: complex, body: int, carrier: int, angle: complex) -> tuple[Condition, ...]:
-    """A point (m) of a body moves along a straight line of the carrier, which has the direction `angle` (of length 1).
+    """Return the condition of a point (m) of a body on a straight line of the carrier, with unit direction `angle`.
 
-    Across the line the acceleration relative to the carrier's own point is Coriolis', 2 ω v_r.
+    Across the line the acceleration relative to the carrier's own point is the Coriolis acceleration, 2 ω v_r.
     """
 
     def coriolis(motion: Velocities) -> float:
@@ -110,12 +110,12 @@ def slot(name: str, point: complex, body: int, carrier: int, angle: complex) -> 
 
 
 def no_turning(name: str, body: int, partner: int = GROUND) -> tuple[Condition, ...]:
-    """Two bodies turn alike; beside the ground, a body is in translation."""
+    """Return the condition that two bodies rotate equally; with the ground, the body is in translation."""
     return (Condition(name, turns=((body, 1.0), (partner, -1.0))),)
 
 
 def distance(name: str, first: complex, body: int, second: complex, partner: int) -> tuple[Condition, ...]:
-    """Two points (m), each of its own body, keep their distance: a rod between them, or a taut cord."""
+    """Return the condition that two points (m), each of its own body, keep their distance: a rod or a taut cord."""
     span = first - second
     line = span / abs(span)
 
@@ -129,10 +129,11 @@ def distance(name: str, first: complex, body: int, second: complex, partner: int
 def rolling_on_line(
     name: str, disc: int, centre: complex, radius: float, contact: complex, carrier: int
 ) -> tuple[Condition, ...]:
-    """A disc rolls without slip on a straight line of the carrier, which it touches at `contact` (lengths in m).
+    """Return the conditions of a disc that rolls without slip on a line of the carrier, touching at `contact` (lengths
+    in m).
 
-    Its centre stays at the same distance from the line; along the line neither the points in contact part, nor
-    do their accelerations: where they touch moves along the line, and the relative acceleration across it.
+    The centre keeps its distance from the line.  Along the line, neither the velocities nor the accelerations of the
+    points in contact differ; across it the accelerations do, since the point of contact moves along the line.
     """
     across = (centre - contact) / radius
     return (*slot(name, centre, disc, carrier, -1j * across), _between(name, -1j * across, contact, disc, carrier))
@@ -141,7 +142,9 @@ def rolling_on_line(
 def rolling_on_circle(
     name: str, disc: int, centre: complex, partner: int, other_centre: complex, contact: complex
 ) -> tuple[Condition, ...]:
-    """A disc rolls without slip on the outside or the inside of a circle of another body (points in m)."""
+    """Return the conditions of a disc that rolls without slip on the outside or inside of a circle of another
+    body (m).
+    """
     return (
         *distance(name, centre, disc, other_centre, partner),
         *meshing(name, disc, centre, partner, other_centre, contact),
@@ -151,7 +154,7 @@ def rolling_on_circle(
 def meshing(
     name: str, disc: int, centre: complex, partner: int, other_centre: complex, contact: complex
 ) -> tuple[Condition, ...]:
-    """Two gears whose pitch circles touch at `contact` (m); something else keeps their centres apart."""
+    """Return the condition of two gears whose pitch circles touch at `contact` (m); other joints hold their centres."""
     along = 1j * (centre - other_centre) / abs(centre - other_centre)
     return (_between(name, along, contact, disc, partner),)
 
@@ -159,9 +162,9 @@ def meshing(
 def belt(
     name: str, ends: tuple[complex, complex], centres: tuple[complex, complex], driving: int, driven: int
 ) -> tuple[Condition, ...]:
-    """A belt runs without slip from a point (m) of one disc straight to one of another, and keeps its length.
+    """Return the condition of a belt without slip from a point (m) of one disc straight to one of another.
 
-    The centres stay at the same distance, so that the belt turns as their line does.
+    The centres keep their distance, so the belt turns as the line of centres does.
     """
     span, between = ends[1] - ends[0], centres[1] - centres[0]
     line = span / abs(span)
@@ -181,20 +184,20 @@ GivenComponent = Callable[[str, complex, int, complex, float], Condition]
 
 
 def given_velocity(name: str, point: complex, body: int, direction: complex, size: float) -> Condition:
-    """The component of a point's velocity (m/s) along a direction of length 1."""
+    """Return the condition for the component of a point's velocity (m/s) along a unit direction."""
     return Condition(name, (Component(body, point, direction),), velocity=size, drift=None)
 
 
 def given_acceleration(name: str, point: complex, body: int, direction: complex, size: float) -> Condition:
-    """The component of a point's acceleration (m/s²) along a direction of length 1."""
+    """Return the condition for the component of a point's acceleration (m/s²) along a unit direction."""
     return Condition(name, (Component(body, point, direction),), velocity=None, drift=lambda _: size)
 
 
 def given_omega(name: str, body: int, omega: float) -> Condition:
-    """ω of a body (rad/s)."""
+    """Return the condition for ω of a body (rad/s)."""
     return Condition(name, turns=((body, 1.0),), velocity=omega, drift=None)
 
 
 def given_epsilon(name: str, body: int, epsilon: float) -> Condition:
-    """ε of a body (rad/s²)."""
+    """Return the condition for ε of a body (rad/s²)."""
     return Condition(name, turns=((body, 1.0),), velocity=None, drift=lambda _: epsilon)

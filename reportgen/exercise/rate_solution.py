@@ -1,9 +1,9 @@
-"""The velocities, then the accelerations of all bodies from their conditions, as two linear systems.
+"""Solve the conditions for the velocities, then the accelerations of all bodies, as two linear systems.
 
-Both have one matrix but for the given quantities.  Conditions are taken in the order of the file.  One that follows
-from those before it is a passive one where its value fits, else it *contradicts* those it follows from.  What the
-conditions leave open is the null space of the matrix: a quantity that some motion of it changes is *undetermined*.
-`InstantMotion` asks for both and tells the rates of bodies and points, and the centres of rotation.
+Both systems share one matrix except for the given quantities.  Conditions are taken in file order; one that follows
+from earlier ones is redundant if its value fits, otherwise it *contradicts* them.  The null space of the matrix is the
+motion left open: a quantity that changes in it is *undetermined*.  `InstantMotion` gives the rates of bodies and
+points, conflicts, and instant centres.
 """
 
 from __future__ import annotations
@@ -17,27 +17,27 @@ import numpy as np
 from reportgen.exercise.rate_conditions import GROUND, STILL, Component, Condition, Rates, Velocities
 
 NEGLIGIBLE = 1e-9
-"""Below this share of its scale a number is nothing."""
+"""A number below this share of its scale counts as 0."""
 
 EquationRow = np.ndarray
 
 
 @dataclass(frozen=True)
 class System:
-    """Points by name, bodies by number with the points that move with them, and conditions in the order of the file."""
+    """Points (m) by name, bodies by number with the points that move with them, and conditions in file order."""
 
     points: Mapping[str, complex]
     bodies: Mapping[int, tuple[str, ...]]
     conditions: tuple[Condition, ...]
 
     def body_of(self, point: str) -> int:
-        """The body that a point's motion is that of: the first that carries it; the ground where none does."""
+        """Return the first body that carries a point; the ground if none does."""
         return next((body for body, points in self.bodies.items() if point in points), GROUND)
 
 
 @dataclass(frozen=True)
 class Conflict:
-    """A condition that those of the other names rule out, by what the file calls them."""
+    """A condition that contradicts the conditions named in `others`, all by their names in the file."""
 
     name: str
     others: tuple[str, ...]
@@ -45,9 +45,10 @@ class Conflict:
 
 @dataclass(frozen=True)
 class Solved:
-    """Rates of all bodies, or why there are none.
+    """Rates of all bodies, or the conflicts that exclude them.
 
-    `free` are the motions that the conditions leave open, one a row, over the unknowns of `Unknowns`.
+    `free` [number of free motions, number of unknowns] are the motions that the conditions leave open, over the
+    unknowns of `Unknowns`.
     """
 
     rates: Mapping[int, Rates]
@@ -69,10 +70,10 @@ class Solved:
 
 @dataclass(frozen=True)
 class Unknowns:
-    """What is unknown: of each body its turn (times the size of the system) and two components at the middle.
+    """The unknowns: for each body its turn (times the size of the system) and two components at the middle.
 
-    Lengths are measured from the middle of all points in units of their spread, so that the matrix is of the order 1.
-    `squared` are bodies whose ω² is an unknown too.
+    Lengths are measured from the middle of all points in units of their spread, so matrix entries are of order 1.
+    `squared` are bodies whose ω² is an unknown, too.
     """
 
     bodies: tuple[int, ...]
@@ -85,7 +86,7 @@ class Unknowns:
         return 3 * len(self.bodies) + len(self.squared)
 
     def place(self, point: complex) -> complex:
-        """From the middle of the system to a point, as a share of the system's size."""
+        """Return the vector from the middle of the system to a point (m), in units of the system's size."""
         return (point - self.middle) / self.size
 
     def row(self, condition: Condition) -> EquationRow:
@@ -106,11 +107,11 @@ class Unknowns:
         return row
 
     def scaled(self, condition: Condition, value: float) -> float:
-        """The value of a condition in the units of the unknowns: turns are ω times the size of the system."""
+        """Return a condition's value in the units of the unknowns: turns are ω times the size of the system."""
         return value * self.size if condition.turns else value
 
     def rates(self, values: np.ndarray) -> dict[int, Rates]:
-        """The rates (rad/s, m/s) of the bodies from the unknowns [3 × bodies + squared]."""
+        """Return the rates (rad/s, m/s) of the bodies from the unknowns [3 × bodies + squared]."""
         rates_of: dict[int, Rates] = {}
         for index, body in enumerate(self.bodies):
             turn, x, y = values[3 * index : 3 * index + 3]
@@ -118,7 +119,7 @@ class Unknowns:
         return rates_of
 
     def squares(self, values: np.ndarray) -> dict[int, float]:
-        """ω² (rad²/s²) of the bodies in `squared` from the unknowns [3 × bodies + squared]."""
+        """Return ω² (rad²/s²) of the bodies in `squared` from the unknowns [3 × bodies + squared]."""
         last = values[3 * len(self.bodies) :]
         return {body: float(value) / self.size for body, value in zip(self.squared, last, strict=True)}
 
@@ -131,7 +132,7 @@ def unknowns_of(system: System) -> Unknowns:
 
 
 def solve_velocities(system: System) -> Solved:
-    """The angular velocities and velocities of all bodies, with what stays open and what contradicts itself."""
+    """Return the angular velocities and velocities of all bodies, with free motions and conflicts."""
     unknowns = unknowns_of(system)
     driven = [(condition, condition.velocity) for condition in system.conditions if condition.velocity is not None]
     return _solve(unknowns, driven)[0]
@@ -139,9 +140,9 @@ def solve_velocities(system: System) -> Solved:
 
 @dataclass(frozen=True)
 class Accelerations:
-    """What the accelerations come to; `velocities` with the angular velocities that only they determine.
+    """Solved accelerations; `velocities` includes the angular velocities that only accelerations determine.
 
-    Bodies that are `parting` could have them only with a negative ω²: their points would move away from each other.
+    Bodies in `parting` would need a negative ω²: the given accelerations move their points away from each other.
     """
 
     solved: Solved
@@ -150,10 +151,10 @@ class Accelerations:
 
 
 def solve_accelerations(system: System, velocities: Solved) -> Accelerations:
-    """The angular accelerations and accelerations of all bodies, after their velocities.
+    """Return the angular accelerations and accelerations of all bodies, after their velocities.
 
-    A body without joints whose angular velocity is not known may have its accelerations given: then ω² is an unknown
-    as ε is, and ω is its positive root, since accelerations do not tell the sense of rotation.
+    A body without joints and with unknown angular velocity may have given accelerations: then ω² is an unknown like ε,
+    and ω is its positive root, since accelerations do not determine the sense of rotation.
     """
     squared = tuple(body for body in system.bodies if _turns_unknown(system, velocities, body))
     unknowns = replace(velocities.unknowns, squared=squared)
@@ -181,7 +182,7 @@ def solve_accelerations(system: System, velocities: Solved) -> Accelerations:
 
 
 def _along(part: Component, middle: complex) -> float:
-    """The component of the way from the middle to a point."""
+    """Return the component (m) of the vector from the middle to a point."""
     return (part.direction.conjugate() * (part.point - middle)).real
 
 
@@ -206,7 +207,7 @@ def _solve(unknowns: Unknowns, driven: Sequence[tuple[Condition, float]]) -> tup
 
 
 def _conflicts(names: Sequence[str], matrix: np.ndarray, values: np.ndarray) -> Iterable[Conflict]:
-    """Conditions whose left side follows from those before them, while their value does not."""
+    """Return the conditions whose left side follows from earlier ones while their value does not."""
     kept: list[int] = []
     largest = float(np.abs(values).max(initial=0.0))
     for index, row in enumerate(matrix):
@@ -224,7 +225,7 @@ def _conflicts(names: Sequence[str], matrix: np.ndarray, values: np.ndarray) -> 
 
 @dataclass(frozen=True)
 class InstantMotion:
-    """A system with its velocities and its accelerations, each solved when it is first asked for."""
+    """A system with its velocities and accelerations, each solved on first use."""
 
     system: System
 
@@ -240,7 +241,7 @@ class InstantMotion:
     def velocities(self) -> Velocities:
         return Velocities(self._second.velocities.rates)
 
-    # --- what is determined
+    # --- determined quantities
 
     @property
     def velocity_conflicts(self) -> tuple[Conflict, ...]:
@@ -248,12 +249,12 @@ class InstantMotion:
 
     @property
     def acceleration_conflicts(self) -> tuple[Conflict, ...]:
-        """Conditions that rule each other out in the accelerations, where the velocities are in order."""
+        """Return the conditions that contradict each other in the accelerations, if the velocities are consistent."""
         return () if self._first.conflicts else self._second.solved.conflicts
 
     @property
     def parting(self) -> tuple[int, ...]:
-        """Bodies whose points have accelerations away from each other, which no rigid body can have."""
+        """Return the bodies whose points would have accelerations away from each other, impossible for a rigid body."""
         return () if self._first.conflicts else self._second.parting
 
     def knows_omega(self, body: int) -> bool:
@@ -272,7 +273,7 @@ class InstantMotion:
         return body == GROUND or (self.knows_omega(body) and self._second.solved.determines_point(body, at))
 
     def knows_sense(self, rate: str, body: int) -> bool:
-        """Whether the sense of ω or ε is known too: where accelerations tell ω² alone, that of ω is not."""
+        """Return True if the sense of ω or ε is known, too; it is unknown for ω if accelerations give only ω²."""
         return rate != "omega" or not self._knows_square(body) or not self.omega(body)
 
     def knows_centre(self, body: int) -> bool:
@@ -281,49 +282,49 @@ class InstantMotion:
         return body != GROUND and all(self._first.determines_point(body, place) for place in places)
 
     def _knows_square(self, body: int) -> bool:
-        """Whether the accelerations tell ω² of a body, and with it all of its motion but its sense."""
+        """Return True if the accelerations determine ω² of a body, and with it all of its motion except the sense."""
         solved = self._second.solved
         return body in solved.unknowns.squared and not solved.free.size
 
-    # --- rates: what is nothing beside the others is 0
+    # --- rates: values negligible beside the others become 0
 
     def omega(self, body: int) -> float:
-        """ω of a body (rad/s)."""
+        """Return ω of a body (rad/s)."""
         return _without_dust(self.velocities.omega(body), self.fastest / self.size).real
 
     def epsilon(self, body: int) -> float:
-        """ε of a body (rad/s²)."""
+        """Return ε of a body (rad/s²)."""
         return _without_dust(self._acceleration_of(body).turn, self.steepest / self.size).real
 
     def turn(self, rate: str, body: int) -> float:
-        """ω (rad/s) or ε (rad/s²) of a body, by its name: omega or eps."""
+        """Return ω (rad/s) or ε (rad/s²) of a body, by the name omega or eps."""
         return self.omega(body) if rate == "omega" else self.epsilon(body)
 
     def v(self, point: str, body: int | None = None) -> complex:
-        """The velocity of a point (m/s), as it moves with its own body or with another."""
+        """Return the velocity of a point (m/s), as it moves with its own body or with `body`."""
         own = self.system.body_of(point) if body is None else body
         return _without_dust(self.velocities.at(own, self.system.points[point]), self.fastest)
 
     def a(self, point: str, body: int | None = None) -> complex:
-        """The acceleration of a point (m/s²), as it moves with its own body or with another."""
+        """Return the acceleration of a point (m/s²), as it moves with its own body or with `body`."""
         own = self.system.body_of(point) if body is None else body
         return _without_dust(self._acceleration_at(own, self.system.points[point]), self.steepest)
 
     @property
     def size(self) -> float:
-        """Spread of the points from their middle (m)."""
+        """Return the spread of the points from their middle (m)."""
         return self._first.unknowns.size
 
     @cached_property
     def fastest(self) -> float:
-        """The scale of the velocities (m/s)."""
+        """Return the scale of the velocities (m/s)."""
         middle = self._first.unknowns.middle
         each = ((abs(self.velocities.at(body, middle)), self.velocities.omega(body)) for body in self.system.bodies)
         return max((speed + abs(turn) * self.size for speed, turn in each), default=0.0)
 
     @cached_property
     def steepest(self) -> float:
-        """The scale of the accelerations (m/s²)."""
+        """Return the scale of the accelerations (m/s²)."""
         middle, bodies = self._first.unknowns.middle, self.system.bodies
         each = (
             abs(self._acceleration_at(body, middle)) + abs(self._acceleration_of(body).turn) * self.size
@@ -339,7 +340,7 @@ class InstantMotion:
         return STILL if body == GROUND else self._second.solved.rates[body]
 
     def centre(self, body: int) -> complex | None:
-        """The instant centre of a body (m); None where it is in translation, whose centre is infinitely far."""
+        """Return the instant centre of a body (m); None in translation, where it is infinitely far."""
         rates = self.velocities.of(body)
         if self.omega(body) == 0:
             return None
@@ -347,7 +348,7 @@ class InstantMotion:
 
 
 def _without_dust(value: complex, scale: float) -> complex:
-    """A vector whose components are 0 where they are nothing beside the scale."""
+    """Return a vector with components set to 0 that are negligible beside the scale."""
     least = NEGLIGIBLE * scale
     value = complex(value)
     return complex(value.real if abs(value.real) > least else 0.0, value.imag if abs(value.imag) > least else 0.0)

@@ -1,4 +1,4 @@
-"""Page of a solution: given data and questions, the figures, every step with its equation, the answer."""
+"""The page of a solution: given data and questions, figures, every step with its equations, and the answers."""
 
 from __future__ import annotations
 
@@ -38,19 +38,22 @@ if TYPE_CHECKING:
     pass
 
 TYPED = 6
-"""Significant figures of given data; more of them are those of a root or of π."""
+"""Significant digits of given data; a number with more of them comes from a root or π."""
 PLACES = (25.0, 35.0, 35.0)
 """Widths (mm) of the columns of the coordinates."""
 COMPARED = (25.0, 135.0)
-"""Widths (mm) in the comparison of methods: its first column, and all others together."""
+"""Widths (mm) in the comparison of methods: its first column, and the sum of the others."""
 METHODS_AGREE = 1e-9
-"""Values that differ by less than this share of the largest of their kind are one."""
+"""Values that differ by less than this share of the largest of their kind are equal."""
 ANSWER = (25.0, 65.0, 70.0)
 """Widths (mm) of the columns of the answers."""
 
 
 def solution(case: SolvedExercise) -> Document:
-    """The finished, numbered document; raises `TemplateError`, and `NotOfferedError` where no steps are known."""
+    """Return the finished, numbered document.
+
+    Raises `TemplateError`, and `NotOfferedError` if no known steps lead to an answer.
+    """
     return finished(case, Prose(case.places).render("exercise", names(case)), title=case.title)
 
 
@@ -101,7 +104,7 @@ def names(case: SolvedExercise) -> Mapping[str, Any]:
 @view()
 @dataclass(frozen=True)
 class GivenItem:
-    """A given quantity: the key of its words, and what they name."""
+    """A given quantity: the key of its phrase, and the values in the phrase."""
 
     form: str
     point: NamedPoint
@@ -114,7 +117,7 @@ class GivenItem:
 @view()
 @dataclass(frozen=True)
 class BodyItem:
-    """A body: what it is called, the points that move with it, and centre and radius of its disc if it is one."""
+    """A body: its name, the points that move with it, and centre and radius if it is a disc."""
 
     name: str
     points: Inlines
@@ -125,7 +128,7 @@ class BodyItem:
 @view()
 @dataclass(frozen=True)
 class JointItem:
-    """A joint: the key of its words, its points, its bodies in words, and a direction."""
+    """A joint: the key of its phrase, its points, its bodies in words, and a direction."""
 
     form: str
     points: Sequence[NamedPoint]
@@ -135,17 +138,17 @@ class JointItem:
 
 @dataclass(frozen=True)
 class SolutionPage(Solution):
-    """An exercise as its page shows it."""
+    """An exercise as its page prints it."""
 
     @property
     def who(self) -> str:
-        """The student's name, and what is known of the class."""
+        """Return the student's name and class, as far as known."""
         student = self.case.assignment.report.student
         return ", ".join(filter(None, (student.name, student.id, student.class_, student.section)))
 
     @property
     def whence(self) -> str:
-        """The school and its parts, the one who set the exercise, and when, as far as the file names them."""
+        """Return the school and department, the author of the exercise, and the date, as far as the file gives them."""
         report, labels = self.case.assignment.report, self.case.words["cover"]
         lecturer = f"{labels['supervisor']}: {report.supervisor}" if report.supervisor else None
         day = report.date.strftime("%d.%m.%Y") if report.date else None
@@ -159,7 +162,7 @@ class SolutionPage(Solution):
 
     @property
     def bodies(self) -> tuple[BodyItem, ...]:
-        """The bodies of the system, the ground if it has a disc."""
+        """Return the bodies of the system, with the ground if it has a disc."""
         return tuple(self._body(number, one) for number, one in self.case.exercise.given.bodies.items())
 
     def _body(self, number: int, declared: file.BodyOf) -> BodyItem:
@@ -177,7 +180,7 @@ class SolutionPage(Solution):
 
     @property
     def joints(self) -> tuple[JointItem, ...]:
-        """Joints of the bodies."""
+        """Return the joints of the bodies."""
         return tuple(self._joint(joint) for joint in self.case.exercise.given.joints)
 
     def _joint(self, joint: file.Joint) -> JointItem:
@@ -190,7 +193,7 @@ class SolutionPage(Solution):
         return JointItem(form, points, names, self._direction(joint) if isinstance(joint, file.Directed) else ())
 
     def _direction(self, joint: file.Directed) -> Inlines:
-        """At an angle to the +x axis, or along two points."""
+        """Return a direction in words: an angle to the +x axis, or a line through two points."""
         at_angle, along = self.case.words["instant"]["directions"]
         if joint.along is not None:
             return Text(f"{along} "), *(InlineMath(vocabulary.point(name)) for name in joint.along)
@@ -209,9 +212,9 @@ class SolutionPage(Solution):
                 case file.AccelerationOf():
                     yield self._given_vector("acceleration", ids.acceleration(rate.point), rate)
                 case file.FromRest(point=point, acceleration=acceleration, time=time, direction=direction):
-                    shown = self._typed(ids.acceleration(point), acceleration)
+                    typed = self._typed(ids.acceleration(point), acceleration)
                     after = (InlineMath(Chain((Symbol("t"), Number(time.value, None, time.unit)))),)
-                    yield GivenItem("from-rest", NamedPoint(point), 0, shown, self._angle(direction.si), after)
+                    yield GivenItem("from-rest", NamedPoint(point), 0, typed, self._angle(direction.si), after)
 
     def _given_rotation(self, form: str, id: str, rate: file.OmegaOf | file.EpsilonOf) -> GivenItem:
         sense = (Text(self._sense(rate.value.si)),)
@@ -232,21 +235,21 @@ class SolutionPage(Solution):
         if not isinstance(given, Literal):
             if given.unit != "rpm" or id not in self.worked.printed:
                 return Chain((vocabulary.symbol(id), size))
-            # The lines count in rad/s.
+            # The lines of the solution use rad/s.
             turned = 2 * PI * Number(size.value) / 60
             return Chain((vocabulary.symbol(id), size, turned, self.worked.printed.number(id, AT)))
         formula = lettered(given.formula)
-        shown = (formula.of if isinstance(formula, Negative) else formula,)
-        return Chain((vocabulary.symbol(id), *shown))
+        parts = (formula.of if isinstance(formula, Negative) else formula,)
+        return Chain((vocabulary.symbol(id), *parts))
 
     @property
     def symbols(self) -> Inlines:
-        """The symbols of the file with their values."""
-        shown: list[Any] = []
+        """Return the symbols of the file with their values."""
+        listing: list[Any] = []
         for name, stated in self.case.exercise.given.symbols.items():
             value = Number(stated.given.value, None, pretty(stated.given.unit))
-            shown += [*([Text(", ")] if shown else []), InlineMath(Chain((symbol(name), value)))]
-        return tuple(shown)
+            listing += [*([Text(", ")] if listing else []), InlineMath(Chain((symbol(name), value)))]
+        return tuple(listing)
 
     @property
     def expressions(self) -> tuple[Equation, ...]:
@@ -257,21 +260,21 @@ class SolutionPage(Solution):
 
     @property
     def unwritten(self) -> Inlines:
-        """The symbols of what was asked whose expressions are too long."""
+        """Return the symbols of requested quantities whose expressions are too long to print."""
         return listed(InlineMath(self.worked.printed.symbol(id)) for id, shown in self._by_symbols() if shown is None)
 
     @property
     def asked(self) -> Inlines:
-        """The symbols of what is asked."""
-        shown: list[Any] = []
+        """Return the symbols of the requested quantities."""
+        listing: list[Any] = []
         for asked in self.case.exercise.asked:
             centre = asked.what == "centre"
             symbol = self._centre_symbol(asked.body) if centre else self._asked_symbol(asked)
-            shown += [*([Text(", ")] if shown else []), InlineMath(symbol)]
-        return tuple(shown)
+            listing += [*([Text(", ")] if listing else []), InlineMath(symbol)]
+        return tuple(listing)
 
     def _asked_symbol(self, asked: file.Asked) -> Expression:
-        """The symbol of a rate, in bars where the data leave its sense open."""
+        """Return the symbol of a requested rate, in bars if the data leave its sense open."""
         symbol = vocabulary.symbol(asked.id)
         return symbol if self.case.exercise.tells_sense(asked) else abs(symbol)
 
@@ -280,14 +283,14 @@ class SolutionPage(Solution):
 
     @property
     def lengths(self) -> tuple[Equation, ...]:
-        """The distances that the solution uses."""
+        """Return the distances that the solution uses."""
         ledger = self.worked.printed
         lines = tuple(self._chain(id) for id in ledger.families if self._is_declared_length(id))
         return (Equation(lines),) if lines else ()
 
     @property
     def places(self) -> Table:
-        """The coordinates of the points."""
+        """Return the table of the points' coordinates."""
         words = self.case.words["instant"]
         head = tuple(
             Cell((Text(str(text)),)) for text in words["literal_heads" if self.case.literal else "place_heads"]
@@ -299,7 +302,7 @@ class SolutionPage(Solution):
         return Table(tuple(map(Column, PLACES)), (head,), body, (Text(str(words["places"])),), "tab.places")
 
     def _place(self, name: str) -> tuple[Inlines, Inlines]:
-        """The coordinates of a point in mm, or by symbols."""
+        """Return the coordinates of a point in mm, or by symbols."""
         literal = self.case.literal
         coordinates = None if literal is None else literal.place(name)
         if coordinates is not None:
@@ -314,7 +317,10 @@ class SolutionPage(Solution):
 
     @property
     def comparison(self) -> Table:
-        """Velocities asked for, by each method that leads to them.  Raises `ValueError` if two disagree."""
+        """Return the table of requested velocities by each method that finds them.
+
+        Raises `ValueError` if two methods disagree.
+        """
         words, pages = self.case.words["instant"], [SolutionPage(self.case, worked) for worked in self.case.alone]
         motion, rows = self.case.exercise.motion, list[tuple[Cell, ...]]()
         for asked in self.case.exercise.asked:
@@ -325,10 +331,10 @@ class SolutionPage(Solution):
             scale = motion.fastest / (motion.size if asked.of_body else 1.0)
             if sizes and max(sizes) - min(sizes) > METHODS_AGREE * scale:
                 raise ValueError(f"methods disagree on {asked.id}: {sizes}")
-            shown = [
+            cells = [
                 (Value(ledger.number(asked.id, AT)),) if asked.id in ledger else (Text("–"),) for ledger in ledgers
             ]
-            rows.append((Cell((InlineMath(vocabulary.symbol(asked.id)),)), *map(Cell, shown)))
+            rows.append((Cell((InlineMath(vocabulary.symbol(asked.id)),)), *map(Cell, cells)))
         head = (words["quantity"], *(page.method for page in pages))
         columns = (Column(COMPARED[0]), *(Column(COMPARED[1] / len(pages)) for _ in pages))
         heads = tuple(Cell((Text(str(text)),)) for text in head)
@@ -337,7 +343,7 @@ class SolutionPage(Solution):
     # --- figures and answers
 
     def figure(self, what: str) -> tuple[Block, ...]:
-        """The system with its velocities or its accelerations; none where none are asked."""
+        """Return the figure of velocities or accelerations; `()` if the exercise asks for none."""
         drawn = FIGURES[what](self.case)
         if drawn is None:
             return ()
@@ -347,7 +353,9 @@ class SolutionPage(Solution):
 
     @property
     def numbers(self) -> tuple[Equation, ...]:
-        """What the lines give by symbols alone, in numbers for the values of the symbols; () where they have these."""
+        """Return the results by symbols in numbers, for the values of the symbols; `()` if the lines have numbers
+        already.
+        """
         if self.case.literal is None or self.put_in:
             return ()
         ledger = self.worked.printed
@@ -361,16 +369,16 @@ class SolutionPage(Solution):
 
     @property
     def directions(self) -> Inlines:
-        """The angles of the vectors that were asked for, from the +x axis; a vector of no length has none."""
+        """Return the angles of the requested vectors from the +x axis; a zero vector has none."""
         ledger = self.worked.printed
         known = [id for id in ledger.families if ids.direction.read(id)]
         angles = [(id, number) for id in known if math.isfinite((number := ledger.number(id, AT)).value)]
-        shown = [InlineMath(Chain((ledger.symbol(id), number))) for id, number in angles]
-        return tuple(part for one in shown for part in (Text("; "), one))[1:]
+        chains = [InlineMath(Chain((ledger.symbol(id), number))) for id, number in angles]
+        return tuple(part for chain in chains for part in (Text("; "), chain))[1:]
 
     @property
     def answers(self) -> Table:
-        """Answers: symbol, number with its unit, sense or direction."""
+        """Return the table of answers: symbol, number with unit, sense or direction."""
         words = self.case.words["instant"]
         rows = tuple(tuple(map(Cell, row)) for row in self._answer_rows())
         columns = tuple(map(Column, ANSWER))
@@ -384,8 +392,8 @@ class SolutionPage(Solution):
                 yield self._centre_row(asked.body)
                 continue
             symbol = (InlineMath(self._asked_symbol(asked)),)
-            number, shown = ledger.number(asked.id, AT), self._literal(asked.id)
-            size: Inlines = (Value(number),) if self.put_in or shown is None else (InlineMath(shown, slashed=True),)
+            number, literal = ledger.number(asked.id, AT), self._literal(asked.id)
+            size: Inlines = (Value(number),) if self.put_in or literal is None else (InlineMath(literal, slashed=True),)
             if asked.of_body:
                 sense = self._sense(motion.turn(asked.what, asked.body), self.case.exercise.tells_sense(asked))
                 yield symbol, size, (Text(sense),)
@@ -403,5 +411,5 @@ class SolutionPage(Solution):
 
 
 def pretty(typed: str) -> str:
-    """A unit as typed, with its powers raised: mm/s2 → mm/s²."""
+    """Return a unit as printed, with raised powers: mm/s2 → mm/s²."""
     return typed.replace("s2", "s²").replace("^", "")

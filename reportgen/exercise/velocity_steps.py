@@ -1,6 +1,7 @@
-"""Velocities, step by step: from a body whose rates are known over its points to the next body.
+"""Steps that compute velocities: from a body with known rates over its points to the next body.
 
-About fixed points and instant centres, by a base point, by projection, and along the lines of moving bodies.
+They use fixed points, instant centres, base points, projections, and the lines of moving bodies.  Each returns True if
+it entered something.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ from reportgen.formula import Negative, Symbol, cos, ids, sin, sqrt, total
 
 
 def enter_given(derivation: Derivation) -> None:
-    """The rates that the file gives."""
+    """Enter the rates that the file gives."""
     for rate in derivation.layout.given.given:
         match rate:
             case file.OmegaOf(body=body, value=value):
@@ -32,37 +33,37 @@ def enter_given(derivation: Derivation) -> None:
 
 
 def derive(derivation: Derivation) -> bool:
-    """One more body whose rate, or whose points' velocities become known; whether there was one."""
+    """Enter the rate of one more body or the velocities of its points; return False if none follows."""
     known = _about(derivation, derivation.layout.centres.values()) or _by_belt(derivation)
     return known or by_parallels(derivation) or by_moving_frame(derivation)
 
 
 def about_joints(derivation: Derivation) -> bool:
-    """The same of a body that a joint makes turn about a fixed point or move in translation, by no method."""
+    """Enter the same for a body that a joint makes rotate about a fixed point or move in translation."""
     return _about(derivation, (centre for centre in derivation.layout.centres.values() if centre.by_joint)) or _by_belt(
         derivation
     )
 
 
 def by_centre(derivation: Derivation) -> bool:
-    """The same of a body in plane motion, about its instant centre."""
+    """Enter the same for a body in plane motion, about its instant centre."""
     return _about(derivation, (one for one in derivation.layout.centres.values() if not one.by_joint)) or by_parallels(
         derivation
     )
 
 
 def by_parallels(derivation: Derivation) -> bool:
-    """ω of one more body from two parallel velocities."""
+    """Enter ω of one more body from two parallel velocities."""
     return any(_parallel(derivation, body, names) for body, names in derivation.layout.members.items())
 
 
 def by_moving_frame(derivation: Derivation) -> bool:
-    """One more point along a line of a moving body."""
+    """Enter the velocity of one more point along a line of a moving body."""
     return _along_slots(derivation, derivation.layout.directions)
 
 
 def by_guided_frame(derivation: Derivation) -> bool:
-    """The same where joints or the data tell how the point moves, without instant centres."""
+    """Enter the same if joints or data give the direction of the point, without instant centres."""
     return _along_slots(derivation, derivation.layout.guided)
 
 
@@ -72,7 +73,7 @@ def _along_slots(derivation: Derivation, directions: Mapping[str, complex]) -> b
 
 
 def enter_blocks(derivation: Derivation, what: str) -> bool:
-    """One more body that turns as the one does along whose guide it slides; `what` is omega or eps."""
+    """Enter the rotation of one more body that turns with its guide; `what` is omega or eps."""
     rate = ids.LINK_RATE[what]
     for joint in derivation.layout.given.joints:
         if isinstance(joint, file.Slider) and joint.on:
@@ -85,7 +86,7 @@ def enter_blocks(derivation: Derivation, what: str) -> bool:
 
 
 def _by_belt(derivation: Derivation) -> bool:
-    """The rim of one more disc that turns about a fixed centre moves as fast as the belt."""
+    """Enter ω of one more disc with a fixed centre whose rim moves as fast as the belt."""
     for index, ends in derivation.layout.belts.items():
         joint = derivation.layout.given.joints[index]
         if not (isinstance(joint, file.Belt) and derivation.layout.turn_on_ground(joint.discs)):
@@ -109,7 +110,7 @@ def _about(derivation: Derivation, centres: Iterable[InstantCentre]) -> bool:
 
 
 def _translation(derivation: Derivation, body: int, centre: InstantCentre) -> bool:
-    """All points have one velocity."""
+    """Enter one velocity for all points of a body in translation."""
     q, names = derivation.q, derivation.layout.members[body]
     known = next((name for name in names if derivation.knows_velocity(name)), "")
     new = [name for name in names if known and not derivation.knows_velocity(name)]
@@ -124,7 +125,7 @@ def _translation(derivation: Derivation, body: int, centre: InstantCentre) -> bo
 
 
 def _rate(derivation: Derivation, body: int, centre: InstantCentre) -> bool:
-    """ω = v/l from one velocity, about the centre."""
+    """Enter ω = v/l about the centre, from one velocity."""
     if derivation.knows_omega(body):
         return False
     names = derivation.layout.members[body]
@@ -140,7 +141,7 @@ def _rate(derivation: Derivation, body: int, centre: InstantCentre) -> bool:
 
 
 def _points(derivation: Derivation, body: int, centre: InstantCentre) -> bool:
-    """v = ω l of every point, about the centre; what is at the centre is at rest."""
+    """Enter v = ω l of every point about the centre; a point at the centre is at rest."""
     q, layout = derivation.q, derivation.layout
     new = [name for name in layout.members[body] if not derivation.knows_velocity(name)]
     if not new or not derivation.knows_omega(body):
@@ -168,7 +169,7 @@ def is_across(derivation: Derivation, *names: str) -> bool:
 
 
 def _parallel(derivation: Derivation, body: int, names: list[str]) -> bool:
-    """ω from two velocities that are perpendicular to the line of their points."""
+    """Enter ω from two velocities that are perpendicular to the line of their points."""
     q = derivation.q
     if body in derivation.layout.centres:
         return False
@@ -191,9 +192,9 @@ def _parallel(derivation: Derivation, body: int, names: list[str]) -> bool:
 
 
 def _slot(derivation: Derivation, joint: file.SlotJoint, directions: Mapping[str, complex]) -> bool:
-    """v_P = v_X + v_PX + v_r for a point P on a line of a body with a known point X, with two unknown sizes.
+    """Solve v_P = v_X + v_PX + v_r for a point P on a line of a body with a known point X, with two unknown magnitudes.
 
-    `directions` are those of velocities that may be used.
+    `directions` are the directions of velocities that may be used.
     """
     body, point, q, layout = joint.on, joint.point, derivation.q, derivation.layout
     if derivation.knows(ids.sliding_velocity(point)):
@@ -204,7 +205,7 @@ def _slot(derivation: Derivation, joint: file.SlotJoint, directions: Mapping[str
     u = layout.geometry.direction(joint)
     arm_way = layout.points[point] - layout.points[base]
     if abs(arm_way) < SAME_PLACE or (not derivation.knows_omega(body) and perpendicular(u, arm_way / abs(arm_way))):
-        # As the body turns, its own point moves along the line alone, which tells nothing of how fast.
+        # As the body turns, its own point moves along the line, which gives no speed.
         return False
     known_rate, new = derivation.knows_omega(body), not derivation.knows_velocity(point)
     if new and (point not in directions or parallel(directions[point], u)):
@@ -234,7 +235,9 @@ def _slot(derivation: Derivation, joint: file.SlotJoint, directions: Mapping[str
 
 
 def _base(derivation: Derivation, body: int) -> str | None:
-    """A point of a body whose velocity is known: its pivot, or one that another body carries."""
+    """Return a point of a body with known velocity: its pivot, or a point that another body carries; None
+    without one.
+    """
     centre = derivation.layout.centres.get(body)
     if centre is not None and centre.rule in ("pivot", "contact"):
         if not derivation.knows_velocity(centre.name):
@@ -247,11 +250,11 @@ def _base(derivation: Derivation, body: int) -> str | None:
 
 
 def by_base_point(derivation: Derivation) -> bool:
-    """One more velocity v_M = v_A + v_MA of a body that turns at a known rate, or the rates of two such bodies."""
+    """Enter v_M = v_A + v_MA of one more point of a body with known ω, or the rates of two such bodies."""
     bodies = {body: names for body, names in derivation.layout.members.items() if body not in derivation.layout.centres}
     for body, names in bodies.items():
         known = [name for name in names if derivation.knows_velocity(name)]
-        # A base point that is worked out by components itself comes last.
+        # A base point that was itself computed by components is the last choice.
         base = min(known, key=lambda name: _by_components(derivation, name), default="")
         new = next((name for name in names if name not in known), "")
         if base and new and derivation.knows_omega(body) and _point(derivation, body, new, base):
@@ -269,7 +272,7 @@ def _by_components(derivation: Derivation, point: str) -> bool:
 
 
 def from_base_point(derivation: Derivation) -> bool:
-    """One more body in plane motion whose ω follows from a base point, or one more point of one whose ω is known."""
+    """Enter ω of one more body in plane motion from a base point, or one more point of a body with known ω."""
     layout = derivation.layout
     for body, names in layout.members.items():
         centre = layout.centres.get(body)
@@ -292,7 +295,7 @@ def from_base_point(derivation: Derivation) -> bool:
 
 
 def _rate_from_base(derivation: Derivation, body: int, point: str, base: str) -> bool:
-    """ω from v_B = v_A + v_BA, with v_B known, or its line: projected on AB, then on the perpendicular to it."""
+    """Enter ω from v_B = v_A + v_BA, with v_B or its line known, by projection on AB and on the perpendicular to it."""
     q, layout = derivation.q, derivation.layout
     arm = layout.points[point] - layout.points[base]
     line, new = direction_of(arm), not derivation.knows_velocity(point)
@@ -324,7 +327,7 @@ def _relative(derivation: Derivation, body: int, point: str, base: str) -> Vecto
 
 
 def _point(derivation: Derivation, body: int, point: str, base: str) -> bool:
-    """v_B = v_A + v_BA with v_A and ω known, by its components along x and y."""
+    """Enter v_B = v_A + v_BA with v_A and ω known, by its components along x and y."""
     q, relative = derivation.q, _relative(derivation, body, point, base)
     lines: tuple[str, ...] = ()
     if not derivation.knows(relative.id):
@@ -340,7 +343,7 @@ def _point(derivation: Derivation, body: int, point: str, base: str) -> bool:
 
 
 def _between(derivation: Derivation, body: int, partner: int, point: str) -> bool:
-    """v_A + v_CA = v_B + v_CB: two unknown sizes, the first by projection on the line CB."""
+    """Solve v_A + v_CA = v_B + v_CB for two unknown magnitudes, the first by projection on the line CB."""
     q, members = derivation.q, derivation.layout.members
     bases = [next((n for n in members[one] if derivation.knows_velocity(n)), "") for one in (body, partner)]
     if "" in bases or derivation.knows_omega(body) or derivation.knows_omega(partner):
@@ -362,7 +365,7 @@ def _between(derivation: Derivation, body: int, partner: int, point: str) -> boo
 
 
 def by_projection(derivation: Derivation) -> bool:
-    """One more velocity of a body in plane motion by the theorem of projections."""
+    """Enter one more velocity of a body in plane motion by the theorem of projections."""
     layout = derivation.layout
     for body, names in layout.members.items():
         if body in layout.centres and layout.centres[body].by_joint:
@@ -378,7 +381,7 @@ def by_projection(derivation: Derivation) -> bool:
 
 
 def _on_one_line(derivation: Derivation, body: int, point: str, base: str) -> bool:
-    """v_B cos β = v_A cos α for a point B that moves along a known line, not across AB."""
+    """Enter v_B from v_B cos β = v_A cos α for a point B that moves along a known line, not across AB."""
     points, directions = derivation.layout.points, derivation.layout.guided
     line = direction_of(points[point] - points[base])
     if point not in directions or not line or perpendicular(directions[point], line):
@@ -392,7 +395,7 @@ def _on_one_line(derivation: Derivation, body: int, point: str, base: str) -> bo
 
 
 def _on_two_lines(derivation: Derivation, body: int, point: str, base_a: str, base_b: str) -> bool:
-    """v_M from its projections p on AM and BM, which are those of v_A and v_B; not where A, B, M are in line.
+    """Enter v_M from its projections p on AM and BM, which equal those of v_A and v_B, if A, B, M are not in line.
 
     The lines enclose γ, and v_M² sin²γ = p_A² + p_B² − 2 p_A p_B cos γ.
     """
@@ -408,7 +411,7 @@ def _on_two_lines(derivation: Derivation, body: int, point: str, base_a: str, ba
     ]
     if not sizes:
         q.give(ids.velocity(point), 0.0)
-        derivation.steps.append(Step("projection-nothing", (), body, point, base_a, other=base_b))
+        derivation.steps.append(Step("projection-nothing", (), body, point, base_a, second_base=base_b))
         return True
     whole = size_of(q, sizes)
     if not perpendicular(u, w):
@@ -419,6 +422,6 @@ def _on_two_lines(derivation: Derivation, body: int, point: str, base_a: str, ba
         whole = whole / sin(γ)
     v = q.define(ids.velocity(point), whole)
     derivation.steps.append(
-        Step("projections", (*(size.id for size in sizes), v.id), body, point, base_a, other=base_b)
+        Step("projections", (*(size.id for size in sizes), v.id), body, point, base_a, second_base=base_b)
     )
     return True

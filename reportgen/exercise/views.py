@@ -1,7 +1,7 @@
-"""The steps of an exercise's solution as templates name them: words' keys, points, equations, senses.
+"""The steps of an exercise's solution as templates read them: keys of phrases, points, equations, senses.
 
-How a quantity is shown, by numbers or by the symbols of the file, is decided here for the whole page; so is the letter
-of each axis that steps project on.
+This module also decides for the whole page whether a quantity is printed by numbers or by symbols, and which letter
+each axis of projection has.
 """
 
 from __future__ import annotations
@@ -26,14 +26,14 @@ from reportgen.exercise.point_positions import parallel
 from reportgen.formula import Chain, Expression, Number, Symbol, Term, VectorEquation, ids, refs, substitute, vocabulary
 
 AT = 1
-"""The one position of an exercise."""
+"""The number of the only position of an exercise."""
 COORDINATES = ("x", "y")
 
 
 @view()
 @dataclass(frozen=True)
 class StepView:
-    """A step as templates name it."""
+    """A step as templates read it."""
 
     kind: str
     of_accelerations: bool
@@ -43,7 +43,7 @@ class StepView:
     centre: NamedPoint
     one: NamedPoint
     other: NamedPoint
-    """The points whose normals meet in the centre; a second base point stands in place of the other."""
+    """The points whose normals meet in the centre; a second base point replaces the other one."""
     lines: tuple[Equation, ...]
     equation: tuple[Equation, ...]
     angles: tuple[Inlines, ...]
@@ -52,7 +52,7 @@ class StepView:
     place: Inlines
     """The coordinates of the instant centre."""
     frame: int
-    """The body that the motion is seen from."""
+    """The body that is the frame of reference."""
     system: tuple[Equation, ...]
     results: tuple[Equation, ...]
     along: Symbol
@@ -63,23 +63,23 @@ class StepView:
     on_coordinates: bool
     """True if it projects on x or y."""
     contact: NamedPoint | str
-    """The point that the body rolls on the ground with, if it is one of the two that the step is about."""
+    """The point in which the body rolls on the ground, if the step is about it."""
     turns: Inlines
-    """The rotations that are worked out, each with its sense."""
+    """The computed rotations, each with its sense."""
     has_angles: bool
-    """True if angles of bodies are shown for the first time."""
+    """True if angles of bodies are printed for the first time."""
     has_ways: bool
-    """True if ways along straight lines are shown for the first time."""
+    """True if travels along straight lines are printed for the first time."""
     has_right_sides: bool
     """True if the right sides of equations are computed first."""
     has_distance: bool
-    """Whether the distance of the outer ends of two bodies is told."""
+    """True if the distance of the outer ends of two bodies is printed."""
 
 
 @view()
 @dataclass(frozen=True)
 class Unfound:
-    """What is asked and a method does not lead to by itself; the reason is the key of its words."""
+    """Requested quantities that a method alone does not find; the reason is the key of a phrase."""
 
     reason: str
     symbols: Inlines
@@ -88,7 +88,7 @@ class Unfound:
 @view()
 @dataclass(frozen=True)
 class FurtherView:
-    """A further solution as templates name it."""
+    """A further solution as templates read it."""
 
     name: str
     steps: tuple[StepView, ...]
@@ -97,7 +97,7 @@ class FurtherView:
 
 @dataclass(frozen=True)
 class Solution:
-    """A solution of an exercise, as it is set out step by step."""
+    """A solution of an exercise, step by step."""
 
     case: SolvedExercise
     worked: Worked
@@ -107,21 +107,21 @@ class Solution:
         return tuple(map(self._step, self.worked.steps))
 
     def steps_beside(self, first: Worked) -> tuple[StepView, ...]:
-        """The steps without those that another solution has already."""
+        """Return the steps without those that another solution contains already."""
         return tuple(self._step(step) for step in self.worked.steps if step not in first.steps)
 
     @property
     def axes(self) -> Axes:
-        """The axes of projection of all solutions of the case."""
+        """Return the axes of projection of all solutions of the case."""
         return Axes((self.case.worked, *self.case.further))
 
     @property
     def method(self) -> str:
-        """Name of its method; "" if it is chosen for each step."""
+        """Return the name of the method; "" if it is chosen for each step."""
         return str(self.case.words["instant"]["methods"][self.worked.method]) if self.worked.method else ""
 
     def unfound(self, alone: Worked) -> tuple[Unfound, ...]:
-        """The velocities asked that its method `alone` does not lead to, by the reasons why."""
+        """Return the requested velocities that the method `alone` does not find, by reason."""
         missing: dict[str, list[Symbol]] = {}
         for asked in self.case.exercise.asked:
             if asked.what in ("v", "omega") and asked.id not in alone.ledger:
@@ -129,7 +129,9 @@ class Solution:
         return tuple(Unfound(reason, listed(map(InlineMath, symbols))) for reason, symbols in missing.items())
 
     def _why_unfound(self, asked: Asked, alone: Worked) -> str:
-        """Projections tell no rotation, and no velocity of a point in line with all those that are guided."""
+        """Return the reason: projections give no rotation, and no velocity of a point in line with all guided
+        points.
+        """
         if alone.method != "projection":
             return "way"
         return "turn" if asked.of_body else "in-line" if alone.layout.in_line(asked.of) else "way"
@@ -137,16 +139,16 @@ class Solution:
     def _step(self, step: Step) -> StepView:
         worked, motion = self.worked, self.case.exercise.motion
         ledger, layout = worked.printed, worked.layout
-        shown = [id for id in (*step.read, *step.ids) if id in ledger and not self._is_declared_length(id)]
-        # What a system comes to is told by its results.
-        lines = [id for id in shown if not (step.results and ledger[id].constructed)]
+        printed = [id for id in (*step.read, *step.ids) if id in ledger and not self._is_declared_length(id)]
+        # The results of a system are printed after it, so it needs no lines.
+        lines = [id for id in printed if not (step.results and ledger[id].constructed)]
         centre = layout.centres.get(step.body)
         rate = motion.omega(step.body) if step.body else 0.0
-        if any(id in ids.angular_acceleration for id in shown):
+        if any(id in ids.angular_acceleration for id in printed):
             rate = motion.epsilon(step.body)
         rolling = centre is not None and centre.rule == "contact" and centre.name in (step.point, step.base)
         others = (*(centre.points if centre is not None else ()), "", "")
-        angles = dict.fromkeys(id for one in shown for id in self._angles_of(one))
+        angles = dict.fromkeys(id for one in printed for id in self._angles_of(one))
         return StepView(
             kind=step.kind,
             of_accelerations=step.of_accelerations,
@@ -155,7 +157,7 @@ class Solution:
             base=NamedPoint(step.base),
             centre=NamedPoint(centre.name if centre is not None else ""),
             one=NamedPoint(others[0]),
-            other=NamedPoint(step.other or others[1]),
+            other=NamedPoint(step.second_base or others[1]),
             lines=(Equation(tuple(map(self._chain, lines))),) if lines else (),
             equation=(self._equation(step),) if step.equation is not None and step.equation.left else (),
             angles=tuple((InlineMath(Chain((ledger.symbol(id), ledger.number(id)))),) for id in angles),
@@ -170,23 +172,23 @@ class Solution:
             on_line=any(axis.letter == "ξ" for axis in step.axes),
             on_coordinates=any(axis.letter in COORDINATES for axis in step.axes),
             contact=NamedPoint(centre.name) if rolling and centre is not None else "",
-            turns=self._turns(shown),
+            turns=self._turns(printed),
             has_angles=self._is_first(step, ids.formula_angle),
             has_ways=self._is_first(step, ids.slide_way),
-            has_right_sides=any(id in ids.right_side for id in shown),
-            has_distance=any(id in ids.loop_distance and ledger.symbol(id).base == "d" for id in shown),
+            has_right_sides=any(id in ids.right_side for id in printed),
+            has_distance=any(id in ids.loop_distance and ledger.symbol(id).base == "d" for id in printed),
         )
 
     def _is_first(self, step: Step, family: ids.Name) -> bool:
-        """Whether a step is the first that tells a quantity of a family."""
+        """Return True if a step is the first that prints a quantity of a family."""
         telling = (one for one in self.worked.steps if any(id in family for id in (*one.read, *one.ids)))
         return next(telling, None) is step
 
-    def _turns(self, shown: Sequence[str]) -> Inlines:
-        """The rotations of bodies among some ids, each with its sense: ω₂ anticlockwise, ω₃ clockwise."""
+    def _turns(self, printed: Sequence[str]) -> Inlines:
+        """Return the rotations of bodies among some ids, each with its sense: ω₂ anticlockwise, ω₃ clockwise."""
         motion, turns = self.case.exercise.motion, list[Inline]()
         for rate, family in ids.LINK_RATE.items():
-            for id in shown:
+            for id in printed:
                 names = family.read(id)
                 if names is not None and (body := int(names["link"])) in motion.system.bodies:
                     sense = Text(f" {self._sense(motion.turn(rate, body))}")
@@ -198,7 +200,7 @@ class Solution:
         return [one for one in refs(definition) if one in ids.inner_angle] if definition is not None else []
 
     def _heading(self, step: Step) -> str:
-        """Where the vector of the step's point goes, in words; "" for several points or a zero vector."""
+        """Return the direction of the step's vector in words; "" for several points or a zero vector."""
         motion, layout = self.case.exercise.motion, self.worked.layout
         if step.kind.startswith("acceleration") and step.point in motion.system.points:
             return self._towards(motion.a(step.point))
@@ -218,7 +220,7 @@ class Solution:
         return Equation((VectorEquation(sides, tuple(self.case.words["vector"]["rows"])),))
 
     def _term(self, vector: Vector, unknown: bool) -> Term:
-        """A vector with what is known of it: its line, its sense by the angle from +x, its size."""
+        """Return a vector with what is known of it: its line, its sense by the angle from +x, its magnitude."""
         ledger = self.worked.printed
         degrees = round(math.degrees(cmath.phase(vector.direction)) % 360.0, 2) % 360.0
         line = Number(round(degrees % 180.0, 2), None, "°")
@@ -231,7 +233,7 @@ class Solution:
 
     @property
     def put_in(self) -> bool:
-        """Whether numbers are put in, at the end of each line: also where the file wants none but an answer has one."""
+        """Return True if lines end with numbers: by the choice of the file, or because an answer has no expression."""
         wanted = all(symbol.put_in for symbol in self.case.exercise.given.symbols.values())
         return wanted or any(shown is None for _, shown in self._by_symbols())
 
@@ -242,12 +244,12 @@ class Solution:
         return [(one.id, self._literal(one.id)) for one in self.case.exercise.asked if one.what != "centre"]
 
     def _literal(self, id: str) -> Expression | None:
-        """A quantity by the symbols of the file; None where it is not known so."""
+        """Return a quantity by the symbols of the file; None if it has no such expression."""
         known = self.case.literal[id] if self.case.literal is not None else None
         return None if known is None else lettered(known)
 
     def _chain(self, id: str) -> Chain:
-        """The worked line: with numbers, or with symbols, behind which numbers stand if they are put in."""
+        """Return the worked line with numbers, or with symbols that numbers follow if they are put in."""
         chain = self.worked.printed.chain(id, AT)
         if self.case.literal is None:
             return chain
@@ -285,11 +287,11 @@ class Solution:
         return str(words["none"] if value == 0 else words["anticlockwise"] if value > 0 else words["clockwise"])
 
     def _coordinate(self, value: float) -> Number:
-        """A coordinate in mm, without the dust of floats."""
+        """Return a coordinate in mm, without rounding errors."""
         return Number(round(value * MM, 6 - math.ceil(math.log10(self.case.exercise.motion.size * MM))) + 0.0)
 
     def _coordinates(self, body: int) -> Inlines:
-        """Where the instant centre of a body is: x and y, in numbers as in the table of points."""
+        """Return the coordinates x and y of a body's instant centre, as in the table of points."""
         centre = self.worked.layout.centres[body]
         numbers = [
             Number(self._coordinate(part).value, None, self.case.unit_names.get("mm"))
@@ -298,19 +300,19 @@ class Solution:
         literal = self.case.literal
         coordinates = None if literal is None else literal.place(centre.name)
         formulas = None if coordinates is None else [*map(lettered, coordinates)]
-        shown: list[Any] = []
+        listing: list[Any] = []
         for index, axis in enumerate("xy"):
             parts: list[Expression] = [] if formulas is None else [formulas[index]]
-            # Nothing is 0, whatever its unit.
+            # 0 is printed without regard to its unit.
             if not parts or (self.put_in and numbers[index].value):
                 parts.append(numbers[index])
             chain = Chain((Symbol(axis, centre.name), *parts))
-            shown += [*([Text("; ")] if shown else []), InlineMath(chain, slashed=True)]
-        return tuple(shown)
+            listing += [*([Text("; ")] if listing else []), InlineMath(chain, slashed=True)]
+        return tuple(listing)
 
 
 def lettered(formula: Expression) -> Expression:
-    """A formula over the names of symbols with the letters that are printed for them."""
+    """Return a formula with the printed letters of its symbols."""
     return substitute(formula, lambda ref: symbol(ref.id))
 
 
@@ -319,7 +321,7 @@ def lettered(formula: Expression) -> Expression:
 
 @dataclass(frozen=True, slots=True)
 class DrawnAxis:
-    """An axis of projection towards `direction`, from `start` to `end` of the points it is about, which may be one."""
+    """An axis of projection towards `direction`, from `start` to `end` of its points (mm), which may coincide."""
 
     symbol: Symbol
     direction: complex
@@ -331,19 +333,21 @@ class DrawnAxis:
 class Axes:
     """The axes of all solutions of an exercise.
 
-    Axes ξ on one line are one axis, whichever step uses it, and each has its η at the point of its first step.
+    All ξ on one line are one axis, whichever step uses it; its η is at the point of its first step.
     """
 
     solutions: Sequence[Worked]
 
     def symbol(self, step: Step, letter: str) -> Symbol:
-        """The letter of a step's axis, with a number where ξ lies on several lines."""
+        """Return the letter of a step's axis, with a number if ξ lies on several lines."""
         if not step.axes or step.axes[0].letter in COORDINATES:
             return Symbol(letter)
         return self._symbol(step.axes[0], letter)
 
     def drawn(self, accelerations: bool, scale: float) -> Iterator[DrawnAxis]:
-        """The axes ξ and η of the steps for velocities or for accelerations; `scale` is the mm of a metre."""
+        """Yield the axes ξ and η of the steps for velocities or accelerations; `scale` is the mm of paper for
+        a metre.
+        """
         letters: set[Symbol] = set()
         for step, axis in self._of(accelerations):
             symbol = self._symbol(axis, axis.letter)
@@ -359,7 +363,7 @@ class Axes:
         return any(axis.letter in COORDINATES for _, axis in self._of(accelerations))
 
     def _on_it(self, body: int, direction: complex, at: complex) -> Iterator[float]:
-        """Where points of the body lie on an axis, which is to show beyond them."""
+        """Yield the coordinates of the body's points along an axis, which extends beyond them."""
         for name in self.solutions[0].layout.members.get(body, ()):
             there = direction.conjugate() * (self._at(name) - at)
             if abs(there.imag) < SAME_PLACE:
@@ -375,7 +379,7 @@ class Axes:
         return self.solutions[0].layout.points[point]
 
     def _lines(self) -> list[Axis]:
-        """One axis of each line of ξ."""
+        """Return one axis for each line of ξ."""
         lines: list[Axis] = []
         for _, axis in self._of():
             if axis.letter not in COORDINATES and not any(self._same(axis, line) for line in lines):

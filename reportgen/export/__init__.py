@@ -1,1 +1,1 @@
-"""Export of figures and numbers for any kind of work: figures as files, quantities as curves."""
+"""Export figures and numbers of any kind of work: figures as files, quantities as arrays, curves and studies."""

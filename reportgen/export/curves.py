@@ -1,4 +1,4 @@
-"""Plot quantities of several files as curves over the way of the driver or over time, beside measured values."""
+"""Plot quantities of several files as curves over the driver's travel or over time, beside measured values."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from reportgen.base.units import MM, Language, QuantityFault, read_number, read_
 from reportgen.base.words import as_error, word
 from reportgen.case import Case, DriverMotion
 from reportgen.drawing import Content, Diagram, PlottedCurve
-from reportgen.export.quantities import Found, quantity
+from reportgen.export.quantities import CaseQuantity, quantity
 from reportgen.formula import Chain, Symbol
 from reportgen.report.template_equations import heading_of
 from reportgen.workbook import SheetCell, read
@@ -27,17 +27,20 @@ Over = Literal["phi", "time"]
 POINTS = 360
 """Number of points per turn."""
 AXES: Mapping[str, Over] = {"phi": "phi", "φ": "phi", "t": "time"}
-"""Head of a table's first column, and the abscissa that it means."""
+"""Abscissas by the heading of a table's first column."""
 _HEAD = re.compile(r"\s*(.+?)\s*(?:\(([^()]*(?:\([^()]*\)[^()]*)*)\))?\s*")
 """Head of a column: an id, and its unit in parentheses."""
 
 
 def dense(assignment: Assignment, count: int = POINTS) -> Assignment:
-    """An assignment with so many positions a turn, those of its parts too, as far as they count theirs."""
+    """Return an assignment with `count` positions per turn, also in its parts.
+
+    A kind whose positions are not counted per turn is returned unchanged.
+    """
     from reportgen import catalogue
 
-    def counted(one: Assignment) -> Assignment:
-        return one.with_positions(count) if catalogue.kind(one.kind).counts_positions else one
+    def counted(assignment: Assignment) -> Assignment:
+        return assignment.with_positions(count) if catalogue.kind(assignment.kind).counts_positions else assignment
 
     parts = tuple(replace(part, alone=counted(part.alone)) for part in assignment.parts)
     return replace(counted(assignment), parts=parts)
@@ -45,7 +48,10 @@ def dense(assignment: Assignment, count: int = POINTS) -> Assignment:
 
 @dataclass(frozen=True, slots=True)
 class Measured:
-    """A column of a table of measured values: of which quantity, over which angle (rad) or time (s), in SI units."""
+    """A column of a table of measured values of one quantity.
+
+    The `values` (SI) [N] belong to `x` [N]: an angle (rad) or a time (s).
+    """
 
     id: str
     over: Over
@@ -55,7 +61,7 @@ class Measured:
 
 
 def check_turning(cases: Sequence[Case]) -> None:
-    """Raise `NotOfferedError` for a case whose driver, once asked for single instants, does not go all its way."""
+    """Raise `NotOfferedError` for a case that was opened for single instants and cannot go through its cycle."""
     for case in cases:
         if any(one.fault() for one in case.parts.values() or [case]):
             raise NotOfferedError(word("no_turn", cases[0].assignment.language, text=case.assignment.id))
@@ -64,15 +70,15 @@ def check_turning(cases: Sequence[Case]) -> None:
 def diagrams(
     cases: Sequence[Case], of: Sequence[str], over: Over = "phi", measured: Sequence[Measured] = ()
 ) -> dict[str, Diagram]:
-    """A diagram for each unit of the quantities, by the ids that it shows; several cases give several curves each.
+    """Return a diagram for each unit of the quantities, by the ids that it shows, with a curve for each case.
 
-    Raises `UnknownNameError`, `NotOfferedError` for a quantity that is no curve.
+    Raise `UnknownNameError`, or `NotOfferedError` for a quantity that is not a curve.
     """
     by_unit: dict[tuple[str, bool], list[str]] = {}
     for id in dict.fromkeys(quantity(cases[0], one).id for one in of):
-        found = quantity(cases[0], id)
-        slides = found.over(cases[0].assignment.language).slides
-        by_unit.setdefault((found.family.how.unit, slides), []).append(id)
+        reference = quantity(cases[0], id)
+        slides = reference.over(cases[0].assignment.language).slides
+        by_unit.setdefault((reference.family.how.unit, slides), []).append(id)
     return {"-".join(ids): _diagram(cases, ids, over, measured) for ids in by_unit.values()}
 
 
@@ -84,80 +90,84 @@ def _diagram(cases: Sequence[Case], ids: Sequence[str], over: Over, measured: Se
     ]
     first = quantity(cases[0], ids[0])
     motion = first.over(cases[0].assignment.language)
-    for one in measured:
-        if one.id in ids:
-            symbol, how = first.case.ledger.symbol(one.id), first.case.ledger[one.id].how
-            x = _across(one, over, motion, cases[0].assignment.language)
-            curves.append(PlottedCurve(_told(symbol, one.name), x, one.values / how.scale, dots=True))
+    for series in measured:
+        if series.id in ids:
+            symbol, how = first.case.ledger.symbol(series.id), first.case.ledger[series.id].how
+            x = _across(series, over, motion, cases[0].assignment.language)
+            curves.append(PlottedCurve(_labelled(symbol, series.name), x, series.values / how.scale, dots=True))
     turn = over == "phi" and not motion.slides
     return Diagram(tuple(curves), axis_across(motion, over), axis_up(first, ids), turn=turn)
 
 
-def curve(found: Found, over: Over, told: str, language: Language) -> PlottedCurve:
-    """Return a quantity over the driver's way (degrees, or mm) or over time (s), for the whole cycle; `told` is
-    appended.
+def curve(source: CaseQuantity, over: Over, note: str, language: Language) -> PlottedCurve:
+    """Return a quantity over the driver's travel (degrees, or mm) or over time (s), for the whole cycle.
+
+    A `note` follows the symbol of the quantity.
     """
-    motion, values = found.over(language), found.values / found.family.how.scale
+    motion, values = source.over(language), source.values / source.family.how.scale
     gone = motion.gone
     if not motion.slides:
         # A cycle ends where it begins.
         gone, values = np.append(gone, motion.whole), np.append(values, values[0])
     per = _speed(motion, language) if over == "time" else 1 / MM if motion.slides else math.pi / 180
-    return PlottedCurve(_told(found.family.symbol, told), gone / per, values)
+    return PlottedCurve(_labelled(source.family.symbol, note), gone / per, values)
 
 
-def _told(symbol: Symbol, name: str) -> Content:
+def _labelled(symbol: Symbol, name: str) -> Content:
     return Chain((symbol,), name) if name else symbol
 
 
 def axis_across(motion: DriverMotion, over: Over) -> Chain:
-    """The axis of the driver's way or of time."""
+    """Return the label of the axis of the driver's travel or of time."""
     if over == "time":
         return Chain((Symbol("t"),), "s")
     return Chain((Symbol("s" if motion.slides else "φ"),), motion.called)
 
 
-def axis_up(found: Found, ids: Sequence[str]) -> Content:
-    """The axis of the quantities: the symbol of one, the unit, and in which sense they are positive, if in one."""
-    unit, motion = found.family.how.unit, found.case.driver_motion
+def axis_up(source: CaseQuantity, ids: Sequence[str]) -> Content:
+    """Return the label of the axis of the quantities.
+
+    It has the symbol of a single quantity, the unit, and the positive direction if all have the same one.
+    """
+    unit, motion = source.family.how.unit, source.case.driver_motion
     ways = {motion.signed[id][1] if motion and id in motion.signed else None for id in ids}
-    note, words = unit, found.case.words
-    if len(ways) == 1 and (way := ways.pop()) is not None:
-        sense = heading_of(words, math.degrees(cmath.phase(way)))
+    note, words = unit, source.case.words
+    if len(ways) == 1 and (direction := ways.pop()) is not None:
+        sense = heading_of(words, math.degrees(cmath.phase(direction)))
         note = str(words["figure"]["positive"]).format(title=unit, sense=sense)
-    return Chain((found.family.symbol,), note) if len(ids) == 1 else note
+    return Chain((source.family.symbol,), note) if len(ids) == 1 else note
 
 
-# --- what was measured ------------------------------------------------------------------------------
+# --- measured values --------------------------------------------------------------------------------
 
 
-def _across(one: Measured, over: Over, motion: DriverMotion, language: Language) -> np.ndarray:
-    """Measured places on the axis: degrees or seconds."""
-    x = one.x
-    if one.over != over:
+def _across(series: Measured, over: Over, motion: DriverMotion, language: Language) -> np.ndarray:
+    """Return the abscissas of measured values [N]: degrees or seconds."""
+    x = series.x
+    if series.over != over:
         speed = _speed(motion, language)
         x = x * speed if over == "phi" else x / speed
     return np.degrees(x) if over == "phi" else x
 
 
 def _speed(motion: DriverMotion, language: Language) -> float:
-    """The driver's speed; raises `NotOfferedError` where none is given."""
+    """Return the driver's speed (rad/s or m/s); raise `NotOfferedError` if the file gives none."""
     if motion.speed is None:
         raise NotOfferedError(word("no_speed", language))
     return motion.speed
 
 
 def read_measured(path: Path, case: Case, of: Sequence[str]) -> list[Measured]:
-    """The columns of a table (CSV, XLSX) that a plot shows, each headed by an id and its unit, v.E (m/s).
+    """Return the columns of a table (CSV, XLSX) that a plot shows; headings are an id and its unit, v.E (m/s).
 
-    The first column is phi (deg) from position 1, or t (s).  Raises `AssignmentError` for what cannot be read, and for
-    a table without a column that is plotted.
+    The first column is phi (deg) from position 1, or t (s). Raise `AssignmentError` for a file that cannot be read and
+    for a table without a plotted column.
     """
     page = read(path, case.assignment.language)[0]
     head, *rows = page.rows or ((),)
     faults: list[Fault] = []
     wanted = [quantity(case, one).id for one in of]
-    found: list[Measured] = []
+    measured: list[Measured] = []
     over = AXES.get(_name_and_unit(head[0])[0]) if head else None
     if over is None:
         where = head[0].location if head else Location(str(path))
@@ -168,12 +178,12 @@ def read_measured(path: Path, case: Case, of: Sequence[str]) -> list[Measured]:
         id = next((one for one, asked in zip(wanted, of, strict=True) if name in (one, asked)), None)
         if id is not None:
             unit = quantity(case, id).family.how.unit
-            found.append(Measured(id, over, x, _column(cell, rows, place, unit, faults), path.stem))
-    if not found:
+            measured.append(Measured(id, over, x, _column(cell, rows, place, unit, faults), path.stem))
+    if not measured:
         faults.append(Fault("measured-nothing", head[0].location, {"known": ", ".join(of)}))
     if faults:
         raise as_error(faults, case.assignment.language)
-    return found
+    return measured
 
 
 def _name_and_unit(cell: SheetCell) -> tuple[str, str]:
@@ -184,7 +194,7 @@ def _name_and_unit(cell: SheetCell) -> tuple[str, str]:
 def _column(
     head: SheetCell, rows: Sequence[Sequence[SheetCell]], place: int, unit: str, faults: list[Fault]
 ) -> np.ndarray:
-    """The numbers of a column in SI units; an empty cell is a gap."""
+    """Return the numbers of a column in SI units [N]; an empty cell gives NaN."""
     factor, given = 1.0, _name_and_unit(head)[1]
     if unit and not given:
         faults.append(Fault("missing-unit", head.location, {"text": head.text, "unit": unit}))

@@ -1,7 +1,7 @@
-"""Export figures of a case as separate files: those of its report, and the animations of its page.
+"""Export the figures of a case as files: those of its report, and the animations of its page.
 
-The name of a report's figure is its key without the mark of a figure: v.4, motion, cam.law.  An animation has the
-name of its drawing: machine, v, R23; that of a part comes after the part's name: cam.cam.
+A figure of the report is named by its key without the prefix of figures: v.4, motion, cam.law. An animation has the
+name of its drawing: machine, v, R23; the name of a part precedes it: cam.cam.
 """
 
 from __future__ import annotations
@@ -27,45 +27,48 @@ from reportgen.drawing.still_frames import sample_at, stills
 FORMATS = names("figures")
 """File formats of figures."""
 MOVING = tuple(row.name for row in rows("figures") if row.moves)
-"""The formats of what moves alone."""
+"""Formats of animations."""
 STILL = tuple(name for name in FORMATS if name not in MOVING)
 SHOWN = LAYERS[:1]
 """Layers drawn on a machine by default, as its page first shows it."""
 FRAMES = 60
 """Number of frames per turn."""
 MOVING_DPI = 110
-"""Dots an inch of what moves."""
+"""Dots per inch of animations."""
 
 
 @dataclass(frozen=True, slots=True)
 class MovingFigure:
-    """A drawing that moves, by its name."""
+    """A named animation: one pane of an animated panel."""
 
     name: str
     animation: Animation
     pane: Pane
 
     def at(self, label: str, layers: Collection[str]) -> Scene:
-        """It at a position, by its label; at the one that the page opens at where there is none."""
+        """Return its drawing at a position, by the label.
+
+        At the position that the page opens with if `label` is unknown.
+        """
         angles = dict(self.animation.positions)
-        angle = angles.get(label, self.animation.positions[self.animation.shown][1])
+        angle = angles.get(label, self.animation.positions[self.animation.opening][1])
         return next(stills(self.animation, self.pane, [sample_at(self.animation, angle)], layers))
 
     def frames(self, layers: Collection[str]) -> list[Scene]:
-        """It through a turn, or through the cycle if that is longer for what is shown."""
-        turns = self.animation.turns if self._goes_on(layers) else 1
+        """Return its drawings through a turn, or through the cycle if the visible items need it."""
+        turns = self.animation.turns if self._needs_cycle(layers) else 1
         ends = not self.animation.span
         angles = np.linspace(0.0, 360.0 * turns, FRAMES * turns + (not ends), endpoint=not ends)
         return list(
             stills(self.animation, self.pane, [sample_at(self.animation, float(one)) for one in angles], layers)
         )
 
-    def _goes_on(self, layers: Collection[str]) -> bool:
-        """Return True if something is shown that does not repeat from turn to turn."""
-        shown = (item for item in self.pane.items if not item.layer or item.layer in layers)
+    def _needs_cycle(self, layers: Collection[str]) -> bool:
+        """Return True if a visible item does not repeat from turn to turn."""
+        visible = (item for item in self.pane.items if not item.layer or item.layer in layers)
         return any(
             track.values.size > self.animation.knots.size
-            for item in shown
+            for item in visible
             for track in (getattr(item, name, None) for name in ("at", "start", "end"))
             if isinstance(track, Track)
         )
@@ -86,47 +89,47 @@ class FigureQuery:
 
 
 def listed(case: Case) -> tuple[tuple[NamedFigure, ...], tuple[MovingFigure, ...]]:
-    """The figures of the report in their order, and what moves."""
+    """Return the figures of the report in their order, and the animations."""
     return named_figures(case.document()), moving(case)
 
 
 def moving(case: Case) -> tuple[MovingFigure, ...]:
     """Return the animations of all parts."""
     return tuple(
-        MovingFigure(f"{one.name}.{pane.key}" if one.name else pane.key, one, pane)
-        for one in case.animations()
-        for pane in one.panes
+        MovingFigure(f"{animation.name}.{pane.key}" if animation.name else pane.key, animation, pane)
+        for animation in case.animations()
+        for pane in animation.panes
     )
 
 
 def figure_files(case: Case, query: FigureQuery) -> Mapping[str, bytes]:
-    """The figures that are wanted, by the names of their files.
+    """Return the requested figures as files, by file name.
 
-    Raises `UnknownNameError` for a figure or a layer that there is not, `NotOfferedError` for a figure in a format that
-    it cannot have, `TypesetterError`.
+    Raise `UnknownNameError` for an unknown figure or layer, `NotOfferedError` for a figure that cannot have the format,
+    and `TypesetterError`.
     """
     language = case.assignment.language
     still = [name for name in query.formats if name in STILL]
     moved = [name for name in query.formats if name in MOVING]
-    # Opening what moves takes as long as all else.
+    # Opening the animations takes as long as everything else.
     movable = cache(partial(moving, case))
     if query.layers != SHOWN:
         _check_layers(query, movable(), language)
     files: dict[str, bytes] = {}
     if still:
         scenes = dict(drawings(named_figures(case.document()), query, movable, language))
-        found = bounded(case.assignment, drawn, tuple(scenes.values()), language, still, query.dpi)
-        if "svg" in found:
+        rendered = bounded(case.assignment, drawn, tuple(scenes.values()), language, still, query.dpi)
+        if "svg" in rendered:
             phrases = case.words["told"]
             said = (". ".join(sentences(scene.description, phrases, language)) for scene in scenes.values())
-            found["svg"] = list(map(_described, found["svg"], said))
+            rendered["svg"] = list(map(_described, rendered["svg"], said))
         for row in chosen("figures", still):
-            files |= {f"{name}.{row.suffix}": one for name, one in zip(scenes, found[row.name], strict=True)}
-    for one in _wanted(case, query, movable()) if moved else ():
-        frames = one.frames(query.layers)
+            files |= {f"{name}.{row.suffix}": made for name, made in zip(scenes, rendered[row.name], strict=True)}
+    for figure in _wanted(case, query, movable()) if moved else ():
+        frames = figure.frames(query.layers)
         for row in chosen("figures", moved):
             made = bounded(case.assignment, animated, frames, language, row.name, query.dpi)
-            files[f"{safe(one.name)}.{row.suffix}"] = made
+            files[f"{safe(figure.name)}.{row.suffix}"] = made
     return files
 
 
@@ -144,7 +147,7 @@ def _described(svg: bytes, text: str) -> bytes:
 
 
 def animated(scenes: Sequence[Scene], language: Language, format: str, dpi: int = 0) -> bytes:
-    """Scenes one after the other in one of the formats that move."""
+    """Return scenes as successive frames of a file in one of the formats of animations."""
     (row,) = chosen("figures", (format,))
     made: bytes = row.load()(scenes, language, dpi or MOVING_DPI)
     return made
@@ -161,22 +164,22 @@ def drawings(
     Raises `UnknownNameError`, or `NotOfferedError` if no figure shows the requested position.
     """
     if not query.names:
-        shown = [one.shown_at(query.labels) for one in figures] if query.labels else figures
-        if not any(shown):
+        at_position = [figure.shown_at(query.labels) for figure in figures] if query.labels else figures
+        if not any(at_position):
             raise NotOfferedError(word("no_figure_at", language, label=query.labels[0] if query.labels else ""))
-        for one in filter(None, shown):
-            yield from one.files.items()
+        for figure in filter(None, at_position):
+            yield from figure.files.items()
     for name in query.names:
         # With a position v is the plan of that one.
-        of_name = [one for one in figures if name == one.name or (query.labels and name == one.kind)]
+        of_name = [figure for figure in figures if name == figure.name or (query.labels and name == figure.kind)]
         if of_name:
-            for one in of_name:
-                yield from ((query.labels and one.shown_at(query.labels)) or one).files.items()
-        elif found := next((one for one in movable() if one.name == name), None):
+            for figure in of_name:
+                yield from ((query.labels and figure.shown_at(query.labels)) or figure).files.items()
+        elif moving_figure := next((figure for figure in movable() if figure.name == name), None):
             label = query.labels[0] if query.labels else ""
-            yield safe(f"{name}-{label}" if label else name), found.at(label, query.layers)
+            yield safe(f"{name}-{label}" if label else name), moving_figure.at(label, query.layers)
         else:
-            known = [*(one.name for one in figures), *(one.name for one in movable())]
+            known = [*(figure.name for figure in figures), *(figure.name for figure in movable())]
             raise UnknownNameError(unknown("no_figure", name, known, language))
 
 
@@ -187,9 +190,9 @@ def _wanted(case: Case, query: FigureQuery, movable: Sequence[MovingFigure]) -> 
         raise NotOfferedError(word("nothing_moves", language))
     for name in query.names or by_name:
         if name not in by_name:
-            stands = any(name in (one.name, one.kind) for one in named_figures(case.document()))
+            in_report = any(name in (one.name, one.kind) for one in named_figures(case.document()))
             known = list(by_name)
-            if stands:
+            if in_report:
                 raise NotOfferedError(word("figure_stands", language, text=name, known=", ".join(known)))
             raise UnknownNameError(unknown("no_figure", name, known, language))
         yield by_name[name]

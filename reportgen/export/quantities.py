@@ -1,4 +1,4 @@
-"""Quantities of a case by their ids: arrays with their metadata, over the way of the driver."""
+"""Quantities of a case by their ids, as arrays with their metadata, over the driver's travel: `quantity`."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _IN_SI = {"°": "rad", "%": "", "cm": "m", "cm²": "m²", "N/cm²": "Pa", "N/(cm
 
 
 def si_unit(kind: str) -> str:
-    """The unit of a kind's values, which are in SI: m for what is printed in mm."""
+    """Return the SI unit of a kind's values: m if it is printed in mm."""
     unit = KINDS[kind].unit
     return unit if KINDS[kind].scale == 1.0 else _IN_SI.get(unit, unit.replace("mm", "m"))
 
@@ -35,7 +35,10 @@ class QuantityArray(np.ndarray):
 
     @classmethod
     def of(cls, values: np.ndarray, family: Family) -> QuantityArray:
-        """Values of a family, which may be others than its own."""
+        """Return values (SI) [N] as an array with the metadata of a family.
+
+        They need not be the family's own values.
+        """
         made = np.asarray(values).view(cls)
         made.name, made.symbol, made.unit = family.id, family.symbol, si_unit(family.kind)
         return made
@@ -59,8 +62,8 @@ class QuantityArray(np.ndarray):
 
 
 @dataclass(frozen=True, slots=True)
-class Found:
-    """A quantity of a case or of one of its parts, `over` the way of that one's driver."""
+class CaseQuantity:
+    """A quantity of a case, or of one of its parts."""
 
     id: str
     case: Case
@@ -71,12 +74,13 @@ class Found:
 
     @property
     def values(self) -> np.ndarray:
-        """Its values; what moves on a line has its sign along it, as in the report's curves."""
+        """Its values (SI) [N]; motion on a line is signed along it, as in the report's curves."""
         over = self.case.driver_motion
         return over.signed[self.id][0] if over is not None and self.id in over.signed else self.family.values
 
     @property
     def array(self) -> QuantityArray:
+        """Its values (SI) [N] with their metadata."""
         return QuantityArray.of(self.values, self.family)
 
     def over(self, language: Language) -> DriverMotion:
@@ -87,26 +91,26 @@ class Found:
         return over
 
 
-def quantity(case: Case, id: str) -> Found:
-    """A quantity by its id, or by its symbol in letters, M.cb for M_cb, that of the machine first.
+def quantity(case: Case, id: str) -> CaseQuantity:
+    """Return a quantity by its id, or by its symbol as text (M.cb for M_cb); the machine precedes its parts.
 
-    Raises `UnknownNameError`.
+    Raise `UnknownNameError`.
     """
     cases = list(case.parts.values()) or [case]
-    for one in cases:
-        if id in one.ledger:
-            return Found(id, one)
-    for one in cases:
-        for own, family in one.ledger.families.items():
+    for part in cases:
+        if id in part.ledger:
+            return CaseQuantity(id, part)
+    for part in cases:
+        for own, family in part.ledger.families.items():
             if not family.hidden and id == f"{family.symbol.base}.{family.symbol.sub}":
-                return Found(own, one)
-    raise UnknownNameError(unknown("no_quantity", id, list(shown(case)), case.assignment.language))
+                return CaseQuantity(own, part)
+    raise UnknownNameError(unknown("no_quantity", id, list(visible_ids(case)), case.assignment.language))
 
 
-def shown(case: Case) -> Iterator[str]:
-    """The ids of what is printed at the positions, numbers of the plane left out."""
-    for one in case.parts.values() or [case]:
-        over = one.driver_motion
-        for id, family in one.ledger.families.items():
+def visible_ids(case: Case) -> Iterator[str]:
+    """Yield the ids of quantities that are printed at the positions and are not vectors of the plane."""
+    for part in case.parts.values() or [case]:
+        over = part.driver_motion
+        for id, family in part.ledger.families.items():
             if over is not None and len(family.values) == len(over.gone) and not (family.hidden or family.is_plane):
                 yield id

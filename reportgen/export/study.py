@@ -1,10 +1,9 @@
-"""Quantities over a range of parameters: the ledger is evaluated once with one more axis, in front, for the values.
+"""Compute quantities over a range of parameters: the ledger is evaluated once, with a further first axis.
 
 This requires that every number on which a quantity depends is given, has a formula, or is the same for all values.
-Other dependencies, such as the load of a stroke that becomes longer, have no formula in the ledger: then each value
-has
-a separate case, as a separate file would have.  The scales of plans may be any: lengths are laid off and measured
-to the same scale.
+Other dependencies have no formula in the ledger, for example the load of a stroke that becomes longer. Then each value
+has its own case, as its own file would have. The scales of plans do not matter, because lengths are laid off and
+measured at the same scale.
 """
 
 from __future__ import annotations
@@ -32,23 +31,25 @@ PROBED = 5
 
 @dataclass(frozen=True)
 class Study:
-    """Assignments that differ in values of parameters; None where `check` refuses a value."""
+    """Assignments that differ in values of parameters; None for a value that `check` rejects."""
 
     variants: Sequence[Assignment | None]
     opened: Callable[[Assignment], Case]
 
     def values(self, of: Sequence[str]) -> dict[str, QuantityArray]:
-        """The values in SI units [variants, positions] of some quantities, nan where a value is refused.
+        """Return quantities by id as arrays (SI) [variants, positions], with NaN for rejected values.
 
-        Raises `UnknownNameError` for an id that there is not.
+        Raise `UnknownNameError` for an unknown id.
         """
-        found = [quantity(self._base, id) for id in of]
-        together = [one.id for one in found if one.case is self._base and self.is_told(one.id)]
+        quantities = [quantity(self._base, id) for id in of]
+        together = [source.id for source in quantities if source.case is self._base and self.is_determined(source.id)]
         values = self._evaluated(together)
-        for one in found:
-            if one.id not in values:
-                values[one.id] = self._one_by_one(one.id)
-        return {id: QuantityArray.of(values[one.id], one.family) for id, one in zip(of, found, strict=True)}
+        for source in quantities:
+            if source.id not in values:
+                values[source.id] = self._one_by_one(source.id)
+        return {
+            id: QuantityArray.of(values[source.id], source.family) for id, source in zip(of, quantities, strict=True)
+        }
 
     # --- a case a value
 
@@ -105,7 +106,7 @@ class Study:
         rate, point = next((rate, read["point"]) for rate, name in ids.POINT_RATE.items() if (read := name.read(id)))
         return ids.plan_point(rate, image(point)), ids.scale(rate), motion.signed[id][1]
 
-    def is_told(self, id: str) -> bool:
+    def is_determined(self, id: str) -> bool:
         """Return True if formulas and given data determine a quantity for every value, without other changing
         numbers.
         """
@@ -142,13 +143,13 @@ class Study:
         ledger = self._base.ledger
         needed = frozenset(other for id in wanted for other in self._needed(id))
         changes = {id: values for id, values in self._given.items() if id in needed}
-        found = ledger.evaluate(changes, only=needed)
+        values_of = ledger.evaluate(changes, only=needed)
         made = {}
         for id in wanted:
-            values = found[id]
+            values = values_of[id]
             if signed := self._signed(id):
-                corner, scale, way = signed
-                values = np.real(np.conj(way) * found[corner]) * found[scale]
+                corner, scale, direction = signed
+                values = np.real(np.conj(direction) * values_of[corner]) * values_of[scale]
             size = len(ledger[id].values)
             rows = np.full((len(self.variants), size), np.nan, dtype=values.dtype)
             rows[[one is not None for one in self.variants]] = values

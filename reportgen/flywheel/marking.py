@@ -35,9 +35,9 @@ def errors_of_positions(ledger: Ledger) -> Mapping[str, np.ndarray]:
     return {id: np.abs(values - ledger[id].values.real) for id, values in by_rule.items()}
 
 
-def stands_on(ledger: Ledger, id: str) -> str:
+def integral_of(ledger: Ledger, id: str) -> str:
     """Return "A.excess" for the regulated speed, which is computed from it; any other id unchanged."""
     return "A.excess" if id == "omega.of" else id
 
 
-HOOKS = MarkHooks(errors_of_positions=errors_of_positions, stands_on=stands_on)
+HOOKS = MarkHooks(errors_of_positions=errors_of_positions, integral_of=integral_of)

@@ -93,7 +93,7 @@ class Number(_Algebra):
     unit: str = ""
 
     @property
-    def shown(self) -> float:
+    def printed(self) -> float:
         """The value a reader of the page sees, in the number's unit."""
         return self.value if self.decimals is None else rounded(self.value, self.decimals)
 

@@ -246,7 +246,7 @@ def evaluate(node: Expression, values: Mapping[str, Value] | None = None) -> Val
     # Searches run this a hundred thousand times, and a list is ready sooner than a generator.
     match node:
         case Number():
-            return math.radians(node.shown) if node.unit == "°" else node.shown
+            return math.radians(node.printed) if node.unit == "°" else node.printed
         case Ref(id):
             if values is None:
                 raise KeyError(id)

@@ -258,7 +258,7 @@ def level(node: Expression, linear: bool = False) -> int:
             return SUM
         case Number():
             large = by_power_of_ten(node.value, node.decimals)
-            return SUM if node.shown < 0 else PRODUCT if large else MARKED if node.unit else ATOM
+            return SUM if node.printed < 0 else PRODUCT if large else MARKED if node.unit else ATOM
         case Product():
             return PRODUCT
         case Call("beyond" | "where_positive", (value, *_)):
@@ -392,7 +392,7 @@ def pieces(part: Part) -> list[Part]:
 
 def short_end(row: Expression) -> bool:
     """Return True if a row ends in "= 0", which must not be alone on a line."""
-    return isinstance(row, Chain) and isinstance(row.parts[-1], Number) and row.parts[-1].shown == 0
+    return isinstance(row, Chain) and isinstance(row.parts[-1], Number) and row.parts[-1].printed == 0
 
 
 # --- vector equations -----------------------------------------------------------------------------

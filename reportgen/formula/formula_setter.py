@@ -110,10 +110,10 @@ class TextSetter(Setter[str]):
             case Parenthesis():
                 return self.mark(part)
 
-    def lowered(self, pieces: Iterable[tuple[str, str]], shown: Callable[[str], str]) -> str:
+    def lowered(self, pieces: Iterable[tuple[str, str]], as_letters: Callable[[str], str]) -> str:
         """Return a symbol's letters with the digits of points below them, no smaller than an index."""
         return "".join(
-            self.BELOW % (shown(letters), self.upright(digits)) if digits else shown(letters)
+            self.BELOW % (as_letters(letters), self.upright(digits)) if digits else as_letters(letters)
             for letters, digits in pieces
         )
 

@@ -117,8 +117,8 @@ class Ledger:
 
     def in_language(self, names: Mapping[str, str]) -> Ledger:
         """Return the same ledger with its symbols in a language; `names` are the indices as that language has them."""
-        shown = {id: vocabulary.in_language(family.symbol, names) for id, family in self.families.items()}
-        return replace(self, families={id: replace(one, symbol=shown[id]) for id, one in self.families.items()})
+        symbols = {id: vocabulary.in_language(family.symbol, names) for id, family in self.families.items()}
+        return replace(self, families={id: replace(one, symbol=symbols[id]) for id, one in self.families.items()})
 
     def __contains__(self, id: str) -> bool:
         return id in self.families
@@ -161,7 +161,7 @@ class Ledger:
         """
         number, usual = self.number(id, position), self.families[id].how.decimals
         carried = usual is not None and number.decimals is not None and number.decimals > usual
-        return Number(number.shown, usual, number.unit) if carried else number
+        return Number(number.printed, usual, number.unit) if carried else number
 
     def symbol(self, id: str) -> Symbol:
         return self.families[id].symbol
@@ -177,11 +177,11 @@ class Ledger:
             result = Number(abs(result.value), result.decimals, result.unit)
         if family.line is None or family.constructed or self._says_its_symbol(family):
             return Chain((family.symbol, result), note)
-        shown = self._signs_out(family.line, position)
-        formula = _replace(shown, lambda ref: self.symbol(ref.id))
-        numbers = _in_radians(_replace(shown, lambda ref: self._bare(ref.id, position)), result)
+        line = self._signs_out(family.line, position)
+        formula = _replace(line, lambda ref: self.symbol(ref.id))
+        numbers = _in_radians(_replace(line, lambda ref: self._bare(ref.id, position)), result)
         parts: list[Expression] = [family.symbol, formula]
-        if numbers != formula and not (isinstance(numbers, Number) and numbers.shown == result.shown):
+        if numbers != formula and not (isinstance(numbers, Number) and numbers.printed == result.printed):
             parts.append(numbers)
         return Chain((*parts, result), note)
 
@@ -341,7 +341,7 @@ def _power_of_angle(node: Expression) -> int | None:
 def _with_arcs(node: Expression, decimals: int) -> Expression:
     match node:
         case Number(unit="°"):
-            return Number(math.radians(node.shown), decimals)
+            return Number(math.radians(node.printed), decimals)
         case Call():
             return node
         case _:
@@ -350,7 +350,7 @@ def _with_arcs(node: Expression, decimals: int) -> Expression:
 
 def _comes_to(numbers: Expression, result: Number) -> bool:
     value = float(evaluate(numbers))
-    return (value if result.decimals is None else rounded(value, result.decimals)) == result.shown
+    return (value if result.decimals is None else rounded(value, result.decimals)) == result.printed
 
 
 def follow(

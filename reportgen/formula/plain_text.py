@@ -92,7 +92,7 @@ def python(node: Expression, names: Mapping[str, str]) -> str:
 
     match node:
         case Number():
-            return f"np.radians({node.shown:g})" if node.unit == "°" else repr(node.shown).removesuffix(".0")
+            return f"np.radians({node.printed:g})" if node.unit == "°" else repr(node.printed).removesuffix(".0")
         case Symbol(value=float()):
             return "np.pi" if node == PI else "np.e"
         case Ref(id):

@@ -121,12 +121,12 @@ def _causes(ledger: Ledger, rounded: Ledger, derivatives: Derivatives, roundings
             continue
         at = int(np.argmax(size))
         shares = {
-            other: float((derivative * roundings[other] * np.ones(len(size)))[at] * np.sign(apart[at]))
-            for other, derivative in by.items()
+            source: float((derivative * roundings[source] * np.ones(len(size)))[at] * np.sign(apart[at]))
+            for source, derivative in by.items()
             # An exact value gets no further decimals.
-            if rounded.decimals[other] is not None
+            if rounded.decimals[source] is not None
         }
-        cause = max(shares, key=lambda other: shares[other], default="")
+        cause = max(shares, key=lambda source: shares[source], default="")
         if cause and (rounded.decimals[cause] or 0) < MOST:
             causes.add(cause)
     return causes

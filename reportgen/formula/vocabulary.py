@@ -436,14 +436,14 @@ def vector_of(id: str) -> str:
     return ""
 
 
-def wording(id: str, shown: Symbol) -> tuple[str, dict[str, str]]:
+def wording(id: str, symbol: Symbol) -> tuple[str, dict[str, str]]:
     """Return the key of an id's phrase under `quantities` in `words.yaml`, and the words that are put into it.
 
-    `shown` is the quantity's symbol, whose points may say more than the id's (B₃B₂ for B3B).
+    `symbol` is the quantity's symbol, whose points may say more than the id's (B₃B₂ for B3B).
     """
     family, parts = _found(id)
     index = family.index(parts)
-    points = ids.points(shown.sub if family.kind in ("velocity", "acceleration") else index)
+    points = ids.points(symbol.sub if family.kind in ("velocity", "acceleration") else index)
     link, acted_on = (
         ids.linked(parts["joint"]) if "joint" in parts else (parts.get("link", parts.get("wheel", index)), "")
     )
@@ -455,7 +455,7 @@ def wording(id: str, shown: Symbol) -> tuple[str, dict[str, str]]:
         "nth": f" ({parts['letter']})" if parts.get("letter") else "",
         "axis": parts.get("axis", ""),
         "about": lowered(parts.get("about", "")),
-        "plan": shown.sub.removeprefix("R"),
+        "plan": symbol.sub.removeprefix("R"),
         **dict(zip(("point", "base"), map(lowered, points), strict=False)),
     }
     name = f"{family.name}.{parts['part']}" if family.letter and parts.get("part") else family.name.format(**parts)
@@ -465,7 +465,7 @@ def wording(id: str, shown: Symbol) -> tuple[str, dict[str, str]]:
     return (f"{name}.relative" if name in _OF_POINTS and len(points) > 1 else name), words
 
 
-def words_of(table: Mapping[str, str], id: str, kind: str, shown: Symbol) -> Iterator[str]:
+def words_of(table: Mapping[str, str], id: str, kind: str, symbol: Symbol) -> Iterator[str]:
     """Yield the texts that a table of `words.yaml` has for a quantity, nearest first: for its id, its family, its kind.
 
     A key names one or several quantities, separated by commas. A kind behind a colon limits it to quantities of
@@ -476,7 +476,7 @@ def words_of(table: Mapping[str, str], id: str, kind: str, shown: Symbol) -> Ite
         for name in key.split(", "):
             said.setdefault(name, text)
     family, parts = _found(id)
-    named = id, f"{family.name}.{parts.get('axis', '')}", wording(id, shown)[0]
+    named = id, f"{family.name}.{parts.get('axis', '')}", wording(id, symbol)[0]
     nearest = (*(one for name in named if name for one in (f"{name}:{kind}", name)), f":{kind}")
     return (said[one] for one in nearest if one in said)
 

@@ -23,7 +23,7 @@ def force_scale(*forces: float) -> float:
     return nice_up(max(map(abs, forces)) / TALL) * MM
 
 
-def incline_sheet(given: Incline) -> Calculation:
+def incline_calculation(given: Incline) -> Calculation:
     """Calculate a body on a plane: P = Q sin(α + φ)/cos(β − φ) raises it, P′ = Q sin(α − φ)/cos(β + φ) lowers it."""
     q = Calculation()
     with q.within(KeyChapter.data):
@@ -56,7 +56,7 @@ def incline_sheet(given: Incline) -> Calculation:
     return q
 
 
-def wedge_sheet(given: Wedge) -> Calculation:
+def wedge_calculation(given: Wedge) -> Calculation:
     """Calculate a wedge under a load: P = Q cos φ₃ sin(α + φ₁ + φ₂)/(cos φ₂ cos(α + φ₁ + φ₃)), and back with −φ."""
     q = Calculation()
     coefficients = {"1": given.f1, "2": given.f2, **({"3": given.f3} if given.f3 else {})}
@@ -99,7 +99,7 @@ def wedge_sheet(given: Wedge) -> Calculation:
     return q
 
 
-def screw_sheet(given: Screw) -> Calculation:
+def screw_calculation(given: Screw) -> Calculation:
     """Calculate a screw: M = Q d₂/2 tan(γ + φ′) + M_c, the profile in φ′ = arctan(f/cos β), η = Q l/(2π M)."""
     q = Calculation()
     with q.within(KeyChapter.data):
@@ -148,7 +148,7 @@ def wrap(q: Calculation, task: str, d: Ref, θ: Ref, f: Ref) -> tuple[Ref, Ref]:
     return r, k
 
 
-def belt_sheet(given: BeltOnDrum) -> Calculation:
+def belt_calculation(given: BeltOnDrum) -> Calculation:
     """Calculate a belt about to slip: S₁ = S₂ e^{fθ}, M = (S₁ − S₂) r, the force on the axle, the greatest pressure."""
     q = Calculation()
     with q.within(KeyChapter.data):
@@ -184,7 +184,7 @@ def tensions(q: Calculation, task: str, M: Ref, r: Ref, k: Ref) -> tuple[Ref, Re
     return S1, S2
 
 
-def band_sheet(given: Band) -> Calculation:
+def band_calculation(given: Band) -> Calculation:
     """Calculate a band brake: P l = S₁ a + S₂ b in one sense of rotation, S₂ a + S₁ b in the other."""
     q = Calculation()
     with q.within(KeyChapter.data):
@@ -203,7 +203,7 @@ def band_sheet(given: Band) -> Calculation:
     return q
 
 
-def shoe_sheet(given: Shoe) -> Calculation:
+def shoe_calculation(given: Shoe) -> Calculation:
     """Calculate a shoe on a lever: P l = N a ∓ F c, less if friction presses the shoe on the drum; it locks if
     a ≤ f c.
     """

@@ -29,7 +29,7 @@ class FrictionTask:
     """Functions that make the calculation and the drawings of a task: its scheme, and its force plans if it has any."""
 
     name: str
-    sheet: Callable[[Any], Calculation]
+    calculate: Callable[[Any], Calculation]
     scheme: Callable[[FrictionCase], Scene]
     plans: Callable[[FrictionCase, FigureSize], tuple[Scene, ...]] | None = None
 
@@ -77,7 +77,7 @@ class FrictionCase(DesignCase):
 
     @cached_property
     def sheet(self) -> Calculation:
-        return self.TASK.sheet(self.given)
+        return self.TASK.calculate(self.given)
 
     @property
     @abstractmethod
@@ -147,7 +147,7 @@ class InclineCase(FrictionCase):
     PAGE = InclinePage
     TASK = FrictionTask(
         "incline",
-        exercise_calculations.incline_sheet,
+        exercise_calculations.incline_calculation,
         exercise_drawings.incline_scheme,
         exercise_drawings.incline_plans,
     )
@@ -176,7 +176,7 @@ class WedgeCase(FrictionCase):
 
     PAGE = WedgePage
     TASK = FrictionTask(
-        "wedge", exercise_calculations.wedge_sheet, exercise_drawings.wedge_scheme, exercise_drawings.wedge_plans
+        "wedge", exercise_calculations.wedge_calculation, exercise_drawings.wedge_scheme, exercise_drawings.wedge_plans
     )
 
     @property
@@ -203,7 +203,7 @@ class ScrewCase(FrictionCase):
     """A screw under a load."""
 
     PAGE = ScrewPage
-    TASK = FrictionTask("screw", exercise_calculations.screw_sheet, exercise_drawings.screw_scheme)
+    TASK = FrictionTask("screw", exercise_calculations.screw_calculation, exercise_drawings.screw_scheme)
 
     @property
     def locks(self) -> bool:
@@ -231,7 +231,7 @@ class BeltCase(FrictionCase):
     """A belt on a drum."""
 
     PAGE = BeltPage
-    TASK = FrictionTask("belt", exercise_calculations.belt_sheet, brake_drawings.belt_scheme)
+    TASK = FrictionTask("belt", exercise_calculations.belt_calculation, brake_drawings.belt_scheme)
 
     @property
     def locks(self) -> None:
@@ -253,7 +253,7 @@ class BandCase(FrictionCase):
     """A band brake."""
 
     PAGE = BandPage
-    TASK = FrictionTask("band", exercise_calculations.band_sheet, brake_drawings.band_scheme)
+    TASK = FrictionTask("band", exercise_calculations.band_calculation, brake_drawings.band_scheme)
 
     @property
     def locks(self) -> bool:
@@ -275,7 +275,7 @@ class ShoeCase(FrictionCase):
     """A brake with one shoe."""
 
     PAGE = ShoePage
-    TASK = FrictionTask("shoe", exercise_calculations.shoe_sheet, brake_drawings.shoe_scheme)
+    TASK = FrictionTask("shoe", exercise_calculations.shoe_calculation, brake_drawings.shoe_scheme)
 
     @property
     def locks(self) -> bool:

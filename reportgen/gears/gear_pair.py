@@ -1,4 +1,4 @@
-"""The kind `gear-pair`: its file, faults of impossible pairs, and warnings of improbable ones."""
+"""The kind `gear-pair`: the parameters of its file, faults of impossible pairs, and warnings about unusual ones."""
 
 from __future__ import annotations
 
@@ -24,21 +24,21 @@ if TYPE_CHECKING:
 
 TURNS = 1
 PART = "gears"
-"""Beginning of its ids, in a coursework too."""
+"""Prefix of its ids, also in a coursework."""
 HAS_POSITIONS = False
 TOP = ("parameters",)
 FIND = "find"
 
 
 def case(assignment: Assignment) -> PairCase:
-    """The case of an assignment."""
+    """Return the case of an assignment."""
     from reportgen.gears.pair_case import PairCase
 
     return PairCase(assignment)
 
 
 def table_rows(position: Mapping[str, Any]) -> dict[str, dict[str, float]]:
-    """The row that `solve` prints of a position of the results: radii of curvature in mm."""
+    """Return the row that `solve` prints for a position of the results: radii of curvature in mm."""
     scales = {"rho.1": MM, "rho.2": MM}
     return {"contact": {name: value * scales.get(name, 1.0) for name, value in position["contact"].items()}}
 
@@ -47,7 +47,7 @@ def table_rows(position: Mapping[str, Any]) -> dict[str, dict[str, float]]:
 
 
 class SoughtDistance(Reader):
-    """A centre distance, or `find` (None)."""
+    """A centre distance, or None for `find`."""
 
     given: Quantity = quantity("mm", least=1, below=1e5)
 
@@ -63,14 +63,14 @@ PairTeeth = Annotated[int, Whole(5, 300)]
 
 
 class Shifts(Part):
-    """Both shifts; the second follows where the centre distance is given."""
+    """Both profile shifts (modules); the second follows if the centre distance is given."""
 
     x1: Shift
     x2: Shift | None = None
 
 
 class LimitsOfPair(Part):
-    """Limits that a pair must keep."""
+    """Limits that a pair must keep: least contact ratio, least tip thickness (modules), largest |λ| or None."""
 
     epsilon: Annotated[float, Decimal(Interval(least=1, most=2))] = 1.2
     tip: Annotated[float, Decimal(Interval(least=0, most=1))] = 0.25
@@ -78,7 +78,7 @@ class LimitsOfPair(Part):
 
 
 class Parameters(Part):
-    """Pair of external spur gears; `find` requests that shifts or the centre distance are chosen."""
+    """Pair of external spur gears; `find` requests shifts or a centre distance."""
 
     m: Annotated[Given, quantity("mm", least=0.1, most=100)]
     z1: PairTeeth
@@ -102,12 +102,15 @@ class Parameters(Part):
 
     @property
     def base(self) -> float:
-        """The sum of the base radii (m), which the centre distance passes."""
+        """Return the sum of the base radii (m), which the centre distance must exceed."""
         return float(self.unshifted["d_b"].sum()) / 2
 
     @property
     def chosen(self) -> Chosen:
-        """The pair, its shifts found; raises `NoPairError` where there are none."""
+        """Return the pair with its shifts found.
+
+        Raises `NoPairError` if there are no such shifts.
+        """
         return _chosen(self)
 
 
@@ -120,11 +123,13 @@ def _chosen(given: Parameters) -> Chosen:
     return choose(given.unshifted, limits, rule, a_w, None if shifts is None else (shifts.x1, shifts.x2))
 
 
-# --- what cannot be -------------------------------------------------------------------------------
+# --- faults -------------------------------------------------------------------------------------
 
 
 def _keys(given: Parameters) -> Iterator[Finding]:
-    """Two of both shifts and the centre distance are given at most, and a rule only for shifts that are sought."""
+    """Yield findings if both shifts and the centre distance are given, or a rule for shifts that are not to be
+    found.
+    """
     if isinstance(given.shifts, Shifts):
         if given.a_w is None and given.shifts.x2 is None:
             yield Finding("missing-key", (*TOP, "shifts", "x2"), {"key": "x2"})
@@ -134,7 +139,7 @@ def _keys(given: Parameters) -> Iterator[Finding]:
             yield Finding("gear-idle-by", (*TOP, "by"), at="key")
     rack = given.rack
     if rack.land < 0:
-        # The rounding may be as large as what is left of the tip.
+        # The rounding error may be as large as the remaining thickness of the tip.
         room = math.pi / 4 - given.ha * math.tan(rack.alpha)
         most = room * (1 - math.sin(rack.alpha)) / math.cos(rack.alpha)
         clearances = {"c": f"{given.c:g}", "most": f"{math.floor(most * 1000) / 1000:g}"}
@@ -142,7 +147,7 @@ def _keys(given: Parameters) -> Iterator[Finding]:
 
 
 def _mesh(given: Parameters) -> Iterator[Finding]:
-    """A pair that can be drawn: its base circles apart, its teeth not beyond their point, contact between N₁ and N₂."""
+    """Yield findings for a pair that cannot be drawn: overlapping base circles, pointed teeth, contact outside N₁N₂."""
     key = "shifts" if isinstance(given.shifts, Shifts) else "by" if given.a_w is None else "a_w"
     where = (*TOP, key) if key in given.model_fields_set else TOP
     try:
@@ -169,7 +174,7 @@ def _mesh(given: Parameters) -> Iterator[Finding]:
 
 
 def check(given: Parameters) -> Iterator[Finding]:
-    """Yield the faults of the keys, or else those of the resulting pair."""
+    """Yield the faults of the keys; if there are none, those of the resulting pair."""
     faults = list(_keys(given))
     yield from faults or _mesh(given)
 
@@ -177,11 +182,13 @@ def check(given: Parameters) -> Iterator[Finding]:
 CHECKS = (of_parameters(check),)
 
 
-# --- what is hardly meant -------------------------------------------------------------------------
+# --- warnings -----------------------------------------------------------------------------------
 
 
 def physics(assignment: Assignment) -> Iterator[Finding]:
-    """Undercut, thin tips, interference, too small a contact ratio, too much sliding: by how much, and what helps."""
+    """Yield warnings about undercut, thin tips, interference, contact ratio and sliding, with the amount and a
+    remedy.
+    """
     given: Parameters = assignment.parameters
     shifts = (*TOP, "shifts") if "shifts" in given.model_fields_set else TOP
     for name, wheel, actual, limit in given.chosen.broken():

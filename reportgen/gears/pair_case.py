@@ -1,4 +1,4 @@
-"""A gear pair as a case: its documents, key, results, the page on which it turns, and its drawing sheets."""
+"""`PairCase`: a gear pair with its documents, key, results, animation and drawing sheets."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ from reportgen.sheets.plates import drawn, on_sheet
 
 @dataclass(frozen=True)
 class PairCase(SolvedPair):
-    """A gear pair, as a `Case`."""
+    """A solved gear pair, as a `Case`."""
 
     PAGE = pair_views.PairPage
 
@@ -63,12 +63,14 @@ class PairCase(SolvedPair):
 
     @property
     def shafts(self) -> Sequence[Shaft]:
-        """It has no speed: wheels of an outer mesh turn against each other."""
+        """Return the two shafts, without a speed: wheels of an external mesh turn in opposite senses."""
         return tuple(Shaft(name, None, turn) for name, turn in zip(self.words["pair"]["shafts"], (1, -1), strict=True))
 
     @cached_property
     def entries(self) -> ResultEntries:
-        """The pair and its wheels, then contact and sliding along the active path, from its beginning on."""
+        """Return the pair and its wheels, then contact and sliding at the points of the active path from its
+        beginning.
+        """
         ledger = self.ledger
         own = sorted({parts["quantity"] for id in ledger.families if (parts := gears_ids.of_wheel.read(id))})
         single = [one for one in own if len(ledger[gears_ids.of_wheel(one, 1)].values) == 1]
@@ -90,26 +92,26 @@ class PairCase(SolvedPair):
         return (_animation(self),)
 
     def plates(self, sets: Collection[str] = (), every: bool = False) -> Mapping[str, Sequence[DrawingPlate]]:
-        """There are no sets of them to choose from."""
+        """Return the drawings; there are no sets to choose from."""
         return {"pair": list(_plates(self))}
 
     def true_sizes(self) -> Sequence[DrawingSheet]:
         return [_true_size(self, number) for number in (0, 1)]
 
 
-# --- the page on which it turns ---------------------------------------------------------------------
+# --- the animation ---------------------------------------------------------------------
 
 SAMPLES = 720
 FILM_ROOM = 120 + 110j
 """Largest width and height of both wheels (mm)."""
 NEAR_ROOM, PITCHES = 90.0, 4.0
-"""The mesh from near: so wide (mm), with so many pitches across."""
+"""Width (mm) of the enlarged mesh, and the number of pitches that it shows."""
 SHARP = 0.02
-"""Largest error of their polylines there (mm)."""
+"""Largest error of polylines in the enlarged mesh (mm)."""
 
 
 def _animation(case: PairCase) -> Animation:
-    """Both wheels through a turn of wheel 1, from contact at the pitch point, and their mesh from near."""
+    """Return both wheels over a turn of wheel 1, starting with contact at the pitch point, and their mesh enlarged."""
     pair = case.gears
     φ = np.linspace(0, 2 * math.pi, SAMPLES + 1)
     size = complex(pair["d_a"].max(), float(pair["a_w"]) + pair["d_a"].sum() / 2) * MM
@@ -130,20 +132,23 @@ def _animation(case: PairCase) -> Animation:
         turns=1,
         span=0.0,
         positions=(("1", 0.0),),
-        shown=0,
+        opening=0,
         panes=tuple(panes),
         charts=(),
         values=(
             MomentValue(Symbol("φ", "2"), "°", Track(np.degrees(ratio * φ)), 2),
             MomentValue(str(case.words["pair"]["touching"]), "", Track(touching), 0),
         ),
-        # Angles and the way along the line of action are straight over a turn: nothing is lost between samples.
+        # Angles and travel along the line of action are linear over a turn, so interpolation between samples is exact.
         errors=Errors(SHARP, float(pair["d_w"][0]) / 2 * at, 0.0),
     )
 
 
 def _moving(pair: GearPair, φ: Floats, at: float) -> tuple[list[MovingItem], Floats]:
-    """Wheels, line of action and points of contact, so many mm of paper a metre; and how many pairs touch."""
+    """Return wheels, line of action and points of contact at angles φ [N] (rad), and how many pairs touch [N].
+
+    `at` is the scale, in mm of paper per m.
+    """
     at_pitch = float(pair.to_pitch_point[0])
     ratio = pair.teeth[0] / pair.teeth[1]
     items: list[MovingItem] = []
@@ -163,12 +168,12 @@ def _moving(pair: GearPair, φ: Floats, at: float) -> tuple[list[MovingItem], Fl
     slots = math.ceil(float(pair["epsilon"]))
     touching = np.zeros(φ.size)
     for slot in range(slots):
-        # Each of so many teeth is in contact on the active path, and out of it for the rest of its period.
+        # Each tooth is in contact on the active path, and out of contact for the rest of its period.
         along = np.mod(float(pair["d_b"][0]) / 2 * φ + at_pitch - start + slot * pair["p_b"], slots * pair["p_b"])
         touching += along <= end - start
         places = np.array([on_line(pair, start + one) * at for one in along])
-        shown = Track(np.where(along <= end - start, places, complex(np.nan, np.nan)))
-        items.append(MovingBody((Circle(0j, 0.8, None, style.RED),), shown))
+        visible = Track(np.where(along <= end - start, places, complex(np.nan, np.nan)))
+        items.append(MovingBody((Circle(0j, 0.8, None, style.RED),), visible))
     return items, touching
 
 
@@ -180,12 +185,12 @@ DrawPair = Callable[[PairCase, FigureSize], Scene]
 AREAS = ((90.0, 80.0), (120.0, 110.0), (180.0, 150.0))
 """Areas of the curves of sliding and the diagram of shifts (mm), the smallest first."""
 MARGIN = 15.0
-"""White around a wheel in true size (mm)."""
+"""Margin around a wheel in true size (mm)."""
 AXES = Pen(0.18, style.GRAY, (5.0, 1.0, 0.8, 1.0))
 
 
 def _plates(case: PairCase) -> Iterator[DrawingPlate]:
-    """The mesh, the curves, the tables."""
+    """Yield the plates: the mesh, the curves, the tables."""
     captions, page = case.words["pair"]["captions"], pair_views.PairPage(case)
 
     def of_area(draw: Callable[[PairCase, Area], Scene]) -> DrawPair:
@@ -194,12 +199,12 @@ def _plates(case: PairCase) -> Iterator[DrawingPlate]:
     def plate(name: str, layer: str, draw: DrawPair, steps: int) -> DrawingPlate:
         return DrawingPlate(str(captions[f"figure-{name}"]), (), layer, (lettered(draw(case, on_sheet(case, steps))),))
 
-    shown: list[tuple[str, str, DrawPair, int]] = [
+    drawings: list[tuple[str, str, DrawPair, int]] = [
         ("mesh", "profile", mesh, _mesh_steps(case)),
         ("sliding", "curves", of_area(lambda case, area: sliding(case, area).scene), len(AREAS) - 1),
         ("region", "scheme", of_area(region), len(AREAS) - 1),
     ]
-    for name, layer, draw, most in shown:
+    for name, layer, draw, most in drawings:
         yield enlargeable(partial(plate, name, layer, draw), most)
     for name, table, spare in (("pair", page.pair_table, False), ("checks", page.checks, True)):
         scene = drawn(table, case.assignment.language)
@@ -207,14 +212,14 @@ def _plates(case: PairCase) -> Iterator[DrawingPlate]:
 
 
 def _mesh_steps(case: PairCase) -> int:
-    """By how many standard scales the mesh may be larger than in the report: teeth are no higher than `HIGHEST`."""
+    """Return how many standard scales larger than in the report the mesh may be: a tooth is at most `HIGHEST` high."""
     usual, _ = mesh_scale(case)
     sizes = (on_sheet(case, steps).scale(usual) for steps in range(1, MOST_STEPS + 1))
     return sum(tooth(case) / scale <= HIGHEST for scale in sizes)
 
 
 def _true_size(case: PairCase, number: int) -> DrawingSheet:
-    """A wheel 1:1 with its axes, a tooth upright, on paper as large as it needs."""
+    """Return a drawing sheet with a wheel 1:1 with its axes, one tooth upright, on paper as large as it needs."""
     outline = case.gears.wheel(number).outline() * 1j * MM
     half = math.ceil(float(np.abs(outline).max()) + MARGIN)
     middle, size = half * (1 + 1j), 2.0 * half

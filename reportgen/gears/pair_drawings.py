@@ -1,4 +1,4 @@
-"""Drawings of a gear pair: teeth in mesh true to scale, the region of shifts, specific sliding."""
+"""Drawings of a gear pair: teeth in mesh true to scale, the region of possible shifts, specific sliding."""
 
 from __future__ import annotations
 
@@ -40,19 +40,19 @@ from reportgen.gears.pair_shifts import GearPair, PairLimits
 MESH_ROOM = 150 + 168j
 """Largest width and height of the drawing of the mesh on a page (mm)."""
 HIGHEST, LEAST_WITH_ENDS = 50.0, 20.0
-"""A tooth is no higher on paper (mm), and both ends of the line of action are shown where it is at least so high."""
+"""Largest height of a tooth on paper (mm); if it is reached, both ends of the line of action are drawn."""
 SHOWN = (-1, 0, 1)
-"""The teeth of each wheel that are drawn, from the one whose flank touches at the pitch point."""
+"""The teeth of each wheel that are drawn, counted from the tooth whose flank touches at the pitch point."""
 STEPS = 4
-"""The involutes are constructed by so many points."""
+"""Number of points by which an involute is constructed."""
 FLANK = Pen(0.45)
 LINE_OF_ACTION, ACTIVE = Pen(0.18, style.RED, style.DASHED), Pen(0.7, style.RED, style.DASHED)
 WORKING = Pen(0.9, style.BLUE)
 INVOLUTE = Pen(0.12, style.GRAY)
 TOWARDS = 14.0
-"""The line of action is drawn so far beyond its active part (mm) towards an end that is not shown."""
+"""Length (mm) of the line of action beyond its active part, towards an end that is not drawn."""
 BEYOND = 6.0
-"""Its construction is shown so far around the teeth (mm)."""
+"""Margin (mm) around the teeth in which the construction is drawn."""
 CIRCLES = (
     ("d_a", style.THIN),
     ("d_w", Pen(0.2, style.BLUE, style.CHAIN)),
@@ -61,7 +61,7 @@ CIRCLES = (
     ("d_f", style.THIN),
 )
 CIRCLE_PITCHES = 1.375
-"""The circles are drawn so many pitches to either side of the line of centres: past the outer of the three teeth."""
+"""Length of the circles on either side of the line of centres (pitches), past the outer tooth."""
 LETTERS = {"d_a": "a", "d_w": "w", "d": "", "d_b": "b", "d_f": "f"}
 
 
@@ -69,7 +69,8 @@ LETTERS = {"d_a": "a", "d_w": "w", "d": "", "d_b": "b", "d_f": "f"}
 
 
 def turned(pair: GearPair, number: int, rolled: float) -> float:
-    """Return the angle of a wheel (0 or 1) whose middle tooth touches where wheel 1's flank has rolled so far (m).
+    """Return the angle (rad) of a wheel (0 or 1) whose middle tooth touches where wheel 1's flank has rolled `rolled`
+    m.
 
     Wheel 1 is below, wheel 2 above it; wheel 1 turns anticlockwise and drives with its left flanks.
     """
@@ -82,18 +83,18 @@ def turned(pair: GearPair, number: int, rolled: float) -> float:
 
 
 def centre(pair: GearPair, number: int) -> complex:
-    """The centre of a wheel (m), the pitch point at 0."""
+    """Return the centre of wheel 0 or 1 (m), with the pitch point at 0."""
     return (-1j, 1j)[number] * float(pair["d_w"][number]) / 2
 
 
 def on_line(pair: GearPair, rolled: float) -> complex:
-    """The point of the line of action so far (m) from N₁, the pitch point at 0."""
+    """Return the point of the line of action at the distance `rolled` (m) from N₁, with the pitch point at 0."""
     at_pitch = float(pair.to_pitch_point[0])
     return complex((rolled - at_pitch) * np.exp(1j * (math.pi - float(pair["alpha_w"]))))
 
 
 def mesh_scale(case: SolvedPair) -> tuple[float, bool]:
-    """The scale of the mesh in a report (mm/mm), and whether both ends of the line of action are shown."""
+    """Return the scale of the mesh in a report (mm/mm), and True if both ends of the line of action are drawn."""
     pair = case.gears
     paper = [point * MM for point in (*_shown(pair)[1], on_line(pair, 0.0), on_line(pair, float(pair["g"])))]
     usual, _ = IN_REPORT.fitting(paper, MESH_ROOM)
@@ -104,19 +105,19 @@ def mesh_scale(case: SolvedPair) -> tuple[float, bool]:
 
 
 def tooth(case: SolvedPair) -> float:
-    """The height of a tooth (mm)."""
+    """Return the height of a tooth (mm)."""
     return float(case.ledger["gears.h"].values[0]) * MM
 
 
 def _shown(pair: GearPair) -> tuple[list[list[Complexes]], Complexes]:
-    """The teeth of each wheel that are drawn, and all their points (m)."""
+    """Return the drawn teeth of each wheel, and all their points (m)."""
     at_pitch = float(pair.to_pitch_point[0])
     outlines = [list(_teeth(pair, number, at_pitch)) for number in (0, 1)]
     return outlines, np.concatenate([points for teeth in outlines for points in teeth])
 
 
 def mesh(case: SolvedPair, size: FigureSize = IN_REPORT) -> Scene:
-    """Three teeth of each wheel touching at the pitch point, built as by hand."""
+    """Return three teeth of each wheel in contact at the pitch point, constructed as by hand."""
     pair = case.gears
     ends = [on_line(pair, 0.0), on_line(pair, float(pair["g"]))]
     at_pitch = float(pair.to_pitch_point[0])
@@ -134,7 +135,7 @@ def mesh(case: SolvedPair, size: FigureSize = IN_REPORT) -> Scene:
         items += _working_flank(pair, number, at_pitch, at)
     _line_of_action(pair, at, with_ends, items, requests)
     for number, end in enumerate((complex(0, low.imag - 8), complex(0, high.imag + 8))):
-        # The centres are farther away than the drawing reaches, or end the line of centres.
+        # The centres are outside the drawing, or end the line of centres.
         o = centre(pair, number) * at
         items.append(Line(0j, min(o, end, key=abs), style.AXIS))
         items.append(
@@ -167,7 +168,7 @@ def _corners(points: Complexes) -> tuple[complex, complex]:
 
 
 def _teeth(pair: GearPair, number: int, rolled: float) -> Iterator[Complexes]:
-    """Three teeth of a wheel from space to space, as one line."""
+    """Yield three teeth of a wheel from space to space, each as one line."""
     wheel = pair.wheel(number)
     tooth = wheel.tooth()
     turns = [np.exp(1j * (turned(pair, number, rolled) - k * wheel.pitch)) for k in SHOWN]
@@ -177,7 +178,7 @@ def _teeth(pair: GearPair, number: int, rolled: float) -> Iterator[Complexes]:
 def _circles(
     case: SolvedPair, number: int, at: float, box: tuple[complex, complex], items: list[Item], requests: list[Request]
 ) -> None:
-    """The five circles as far as the drawing reaches, each named at its ends."""
+    """Add the five circles as far as the drawing reaches, each with its name at its ends."""
     pair, middle = case.gears, (math.pi / 2, -math.pi / 2)[number]
     o = centre(pair, number) * at
     half = max(abs(box[0].real), abs(box[1].real)) + 3.0
@@ -202,8 +203,7 @@ def _circles(
 def _construction(
     pair: GearPair, number: int, at: float, box: tuple[complex, complex], items: list[Item], requests: list[Request]
 ) -> None:
-    """Draw the involute through the pitch point: equal arcs of the base circle, laid off on the tangents at their
-    ends.
+    """Draw the involute through the pitch point: equal arcs of the base circle, laid off on the tangents at their ends.
 
     For a large wheel, only the part in the box of the teeth is drawn.
     """
@@ -216,10 +216,10 @@ def _construction(
     for step in range(math.floor(reach / whole * STEPS) + 1):
         rolled = whole * step / STEPS
         foot = to_n * np.exp(1j * (whole - rolled) / r_b) * r_b
-        # The string that is unwound lies on the tangent, back to where the involute began on the base circle.
+        # The unwound string lies on the tangent, back to the beginning of the involute on the base circle.
         start, end = complex((o + foot) * at), complex((o + foot + foot / r_b * 1j * rolled) * at)
-        if step and (shown := clipped(start, end, low, high)):
-            items.append(Line(*shown, INVOLUTE))
+        if step and (visible := clipped(start, end, low, high)):
+            items.append(Line(*visible, INVOLUTE))
         if all(low.real <= p.real <= high.real and low.imag <= p.imag <= high.imag for p in (start, end)):
             items.append(Circle(start, 0.4, None, style.GRAY))
             items.append(Circle(end, 0.4, Pen(0.12), style.PAPER))
@@ -229,7 +229,7 @@ def _construction(
 
 
 def _working_flank(pair: GearPair, number: int, rolled: float, at: float) -> Iterator[Item]:
-    """The part of the touching flank that is in use, and the arc of contact on the working circle."""
+    """Yield the working part of the touching flank, and the arc of contact on the working circle."""
     wheel, o = pair.wheel(number), centre(pair, number)
     r = np.hypot(wheel.r_b, np.linspace(float(pair["rho_p"][number]), float(pair["rho_a"][number]), 60))
     flank = wheel.flank(r) * np.exp(1j * turned(pair, number, rolled))
@@ -244,11 +244,11 @@ def _working_flank(pair: GearPair, number: int, rolled: float, at: float) -> Ite
 def _line_of_action(pair: GearPair, at: float, with_ends: bool, items: list[Item], requests: list[Request]) -> None:
     starts = {"N1": 0.0, "B2": float(pair["rho_p"][0]), "B1": float(pair["rho_a"][0]), "N2": float(pair["g"])}
     points = {name: on_line(pair, rolled) * at for name, rolled in starts.items()}
-    way = points["B1"] - points["B2"]
-    way /= abs(way)
+    direction = points["B1"] - points["B2"]
+    direction /= abs(direction)
     ends = []
-    for number, (name, start, sense) in enumerate((("N1", "B2", -way), ("N2", "B1", way))):
-        # An end that is farther away than the drawing reaches is pointed at, as the centres are.
+    for number, (name, start, sense) in enumerate((("N1", "B2", -direction), ("N2", "B1", direction))):
+        # An arrow points to an end that is outside the drawing, as for the centres.
         if with_ends or abs(points[name] - points[start]) <= TOWARDS:
             foot = points[name] - centre(pair, number) * at
             items.append(Line(points[name], points[name] - foot / abs(foot) * 8, style.CONSTRUCTION))
@@ -276,23 +276,25 @@ def _line_of_action(pair: GearPair, at: float, with_ends: bool, items: list[Item
 
 GRID = 241
 FRAME = 112 + 100j
-"""The diagram without its text (mm)."""
+"""Size of the diagram without its text (mm)."""
 LONG = 15.0
-"""A line of a limit is named from this length on (mm)."""
+"""Shortest line of a limit that gets its name (mm)."""
 APART = 8.0
-"""Least distance between figures on an axis (mm)."""
+"""Least distance between numbers on an axis (mm)."""
 AROUND = 0.15
-"""White around the region (modules)."""
+"""Margin around the region (modules)."""
 OUTER = (-1.5, 3.0)
-"""Shifts beyond are not looked at."""
+"""Shifts beyond this are not examined."""
 HARD_LIMITS = PairLimits(epsilon=1.0, tip=0.0)
-"""Limits for any pair: without undercut, not pointed, no interference, ε ≥ 1."""
+"""Limits of any pair: without undercut, not pointed, no interference, ε ≥ 1."""
 HARD, SOFT = Pen(0.45), Pen(0.25, style.BLUE, style.DASHED)
 ALIKE = Pen(0.25, style.RED, style.CHAIN)
 
 
 def region(case: SolvedPair, area: Area | None = None) -> Scene:
-    """The shifts of both wheels that the limits leave, with the chosen ones; in an `area` its scales are printed."""
+    """Return the diagram of the shifts that the limits allow, with the chosen ones; in an `area` its scales are
+    printed.
+    """
     pair, limits = case.gears, case.chosen.limits
     axes = np.linspace(*OUTER, 451)
     allowed = _bounds(_at(pair, axes, axes)).min(axis=0) >= 0
@@ -306,7 +308,7 @@ def region(case: SolvedPair, area: Area | None = None) -> Scene:
     notes: list[Content] = []
     per = (FRAME.real / wide, FRAME.imag / tall)
     if area:
-        # Both axes have one scale.
+        # Both axes have the same scale.
         scale = max(area.per_mm(wide, area.width), area.per_mm(tall, area.height))
         per = (1 / scale / area.enlarged, 1 / scale / area.enlarged)
         notes = [Chain((Symbol("μ", "x"), Number(scale, unit="mm⁻¹")))]
@@ -360,7 +362,7 @@ def region(case: SolvedPair, area: Area | None = None) -> Scene:
 
 
 def level_lines(x: Floats, y: Floats, values: Floats, level: float) -> list[Complexes]:
-    """The lines x + iy on which values [Y, X] over two axes have a level; where there is no value there is no line."""
+    """Return the lines x + iy on which values [Y, X] over two axes equal a level; NaN values have no line."""
     from contourpy import contour_generator
 
     made = contour_generator(x, y, np.ma.masked_invalid(values), line_type="Separate")
@@ -368,14 +370,14 @@ def level_lines(x: Floats, y: Floats, values: Floats, level: float) -> list[Comp
 
 
 def _at(pair: GearPair, x1: Floats, x2: Floats) -> GearPair:
-    """The pairs of all shifts of two axes, the first axis that of x₁."""
+    """Return the pairs for all shifts on two axes [X1], [X2]; the first axis of arrays is x₁."""
     return GearPair(pair.rack, pair.m, pair.teeth, np.stack(np.meshgrid(x1, x2, indexing="ij")))
 
 
 def _bounds(grid: GearPair) -> Floats:
-    """By how much the hard limits are kept over a grid; −1 where there is no pair."""
-    found = [condition.margin for condition in grid.conditions(HARD_LIMITS)]
-    return np.asarray(np.nan_to_num(np.array(found), nan=-1.0))
+    """Return the margins of the hard limits over a grid of pairs; −1 where no pair exists."""
+    margins = [condition.margin for condition in grid.conditions(HARD_LIMITS)]
+    return np.asarray(np.nan_to_num(np.array(margins), nan=-1.0))
 
 
 def _ticks(low: Sequence[float], high: Sequence[float], per: tuple[float, float]) -> Iterator[Item]:
@@ -383,21 +385,21 @@ def _ticks(low: Sequence[float], high: Sequence[float], per: tuple[float, float]
         step = nice_up(max((high[side] - low[side]) / 9, APART / per[side]), (1.0, 2.0, 5.0))
         for k in range(math.ceil(low[side] / step), math.floor(high[side] / step) + 1):
             along = (k * step - low[side]) * per[side]
-            start, way = (complex(along, 0), 1j) if side == 0 else (complex(0, along), 1 + 0j)
+            start, direction = (complex(along, 0), 1j) if side == 0 else (complex(0, along), 1 + 0j)
             far = (high[1 - side] - low[1 - side]) * per[1 - side]
-            yield Line(start, start + way * far, Pen(0.08, style.PALE if k else style.BLACK))
+            yield Line(start, start + direction * far, Pen(0.08, style.PALE if k else style.BLACK))
             text = Number(k * step, max(-math.floor(math.log10(step)), 0))
-            yield Label(start - way, text, "top" if side == 0 else "right", style.SMALL)
+            yield Label(start - direction, text, "top" if side == 0 else "right", style.SMALL)
 
 
 # --- sliding --------------------------------------------------------------------------------------
 
 DEEPEST = 4.0
-"""λ is drawn down to so much below 0."""
+"""λ is drawn down to this far below 0."""
 
 
 def sliding(case: SolvedPair, area: Area | None = None) -> Plotted:
-    """λ₁ and λ₂ over the distance from N₁; the marks are the ends of the active path."""
+    """Return λ₁ and λ₂ over the distance from N₁; marks show the ends of the active path."""
     pair = case.gears
     g, start, end = float(pair["g"]), float(pair["rho_p"][0]), float(pair["rho_a"][0])
     ρ1 = np.unique(np.concatenate((np.linspace(0, g, 801)[1:-1], [start, end])))
@@ -407,8 +409,8 @@ def sliding(case: SolvedPair, area: Area | None = None) -> Plotted:
     curves = []
     for wheel, λ in zip(WHEELS, along.values(), strict=True):
         least = max(DEEPEST, 1.2 * float(-pair.sliding.min()))
-        shown = np.where(λ >= -least, λ, np.nan)
+        visible = np.where(λ >= -least, λ, np.nan)
         marks = tuple(int(np.abs(ρ1 - at).argmin()) for at in (start, end))
-        curves.append(PlottedCurve(case.ledger.symbol(gears_ids.of_wheel("lambda", wheel)), ρ1 * MM, shown, marks))
+        curves.append(PlottedCurve(case.ledger.symbol(gears_ids.of_wheel("lambda", wheel)), ρ1 * MM, visible, marks))
     across = Chain((case.ledger.symbol(gears_ids.of_wheel("rho", 1)),), case.ledger.printed_unit("mm"))
     return plotted(Diagram(tuple(curves), across, Chain((Symbol("λ"),), ""), turn=False), area=area)

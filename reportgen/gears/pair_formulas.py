@@ -1,7 +1,7 @@
 """Formulas of a pair of external spur gears (ISO 21771), each written once.
 
-A sheet with them is printed as the report of a pair, and evaluated over arrays of shifts to choose shifts, to draw
-their region, and to place teeth: every number of a pair comes from them.
+A `Calculation` with them is printed as the report of a pair, and evaluated over arrays of shifts to choose shifts, draw
+their region and place teeth (`pair_calculation`).
 """
 
 from __future__ import annotations
@@ -30,19 +30,21 @@ class Rack:
 
     @property
     def rounding(self) -> float:
-        """The radius of its tip's rounding ρ_f* = c*/(1 − sin α) (modules), which ends where the addendum does."""
+        """Return the radius of the tip's rounding ρ_f* = c*/(1 − sin α) (modules), which ends where the
+        addendum does.
+        """
         return self.c / (1 - math.sin(self.alpha))
 
     @property
     def land(self) -> float:
-        """Half the flat of its tip (modules); negative where the rounding has no room."""
+        """Return half the flat of the rack's tip (modules); negative if there is no room for the rounding."""
         return math.pi / 4 - self.ha * math.tan(self.alpha) - self.rounding * math.cos(self.alpha)
 
 
 class PairFormulas:
-    """A sheet on which the formulas of a pair are written; lengths in metres.
+    """A calculation that the formulas of a pair are entered in; lengths in metres.
 
-    Where x₂ `follows`, it follows from a given centre distance; else both shifts are given.
+    If x₂ `follows`, it is computed from a given centre distance; otherwise both shifts are given.
     """
 
     def __init__(self, q: Calculation, m: float, follows: bool) -> None:
@@ -61,12 +63,12 @@ class PairFormulas:
         return self.q.give(named(quantity, wheel), value)
 
     def define(self, quantity: str, definition: Operand, wheel: int = 0) -> Ref:
-        """Enter a quantity; below 1e-9 of a module, or of 1, it is nothing."""
+        """Enter a quantity of the pair (wheel 0) or of a wheel; values below 1e-9 of a module, or of 1, become 0."""
         id = named(quantity, wheel)
         return self.q.define(id, definition, scale=self.m if row(id).kind == gears_ids.LENGTH else 1.0)
 
     def enter_data(self, rack: Rack, teeth: tuple[int, int]) -> None:
-        """Module, numbers of teeth and basic rack."""
+        """Enter module, numbers of teeth and basic rack."""
         self.give("m", self.m)
         for wheel, z in zip(WHEELS, teeth, strict=True):
             self.give("z", float(z), wheel)
@@ -75,20 +77,20 @@ class PairFormulas:
         self.give("c", rack.c)
 
     def enter_shifts(self, shifts: tuple[float, float], a_w: float | None = None) -> None:
-        """Both shifts, or the first of them and the centre distance (m)."""
+        """Enter both shifts (modules), or the first of them and the centre distance (m)."""
         for wheel, x in zip(WHEELS[: 1 if self.follows else 2], shifts, strict=False):
             self.give("x", x, wheel)
         if a_w is not None:
             self.give("a_w", a_w)
 
     def enter_pair(self) -> None:
-        """The pair in mesh and both wheels."""
+        """Enter the pair in mesh and both wheels."""
         self.enter_mesh()
         for wheel in WHEELS:
             self.enter_wheel(wheel)
 
     def enter_mesh(self) -> None:
-        """The working pressure angle from the shifts, or the shifts from the centre distance."""
+        """Enter the working pressure angle from the shifts, or the shifts from the centre distance."""
         m, α = self["m"], self["alpha"]
         z1, z2 = self.both("z")
         self.define("u", z2 / z1)
@@ -106,7 +108,7 @@ class PairFormulas:
             inv_w = self.define("inv_w", inv_α + 2 * total * tan(α) / (z1 + z2))
             α_w = self.define("alpha_w", arcinv(inv_w))
             self.define("a_w", a * cos(α) / cos(α_w))
-            # Of a centre distance in four figures too little would be left after subtracting a.
+            # With four digits of the centre distance, too few would remain after subtracting a.
             y = self.define("y", (z1 + z2) / 2 * (cos(α) / cos(α_w) - 1))
         self.define("dy", total - y)
         self.define("h", m * (2 * self["ha"] + self["c"] - self["dy"]))
@@ -131,7 +133,7 @@ class PairFormulas:
         self.define("tip", s_a / m, wheel)
 
     def enter_contact(self) -> None:
-        """Contact ratio, line of action, and how much of each flank is in use."""
+        """Enter contact ratio, line of action, and the working part of each flank."""
         α, m, α_w = self["alpha"], self["m"], self["alpha_w"]
         z1, z2 = self.both("z")
         over = [tan(one) - tan(α_w) for one in self.both("alpha_a")]
@@ -146,7 +148,7 @@ class PairFormulas:
             self.define("rho_f", begun, wheel)
 
     def enter_sliding(self, points: np.ndarray | float) -> None:
-        """Specific sliding at points t of the active path [N], from 0 at its beginning to 1 at its end."""
+        """Enter the specific sliding at points t [N] of the active path, from 0 at its beginning to 1 at its end."""
         t, u = self.give("t", points), self["u"]
         start, end = self.of("rho_p", 1), self.of("rho_a", 1)
         ρ1 = self.define("rho", start + t * (end - start), 1)
@@ -157,7 +159,7 @@ class PairFormulas:
 
 @lru_cache(maxsize=32)
 def pair_sheet(rack: Rack, m: float, teeth: tuple[int, int]) -> Calculation:
-    """The formulas of a pair of module m (m) with given shifts, to be evaluated with any: `model(sheet, …)`."""
+    """Return the formulas of a pair of module m (m), to be evaluated with any shifts by `model(calculation, …)`."""
     made = PairFormulas(Calculation(), m, follows=False)
     made.enter_data(rack, teeth)
     made.enter_shifts((0.0, 0.0))
@@ -168,7 +170,7 @@ def pair_sheet(rack: Rack, m: float, teeth: tuple[int, int]) -> Calculation:
 
 
 def sum_of_shifts(rack: Rack, m: float, teeth: tuple[int, int], a_w: float) -> float:
-    """The sum of the shifts at a centre distance (m); nan where the base circles overlap or touch."""
+    """Return the sum of the shifts (modules) at a centre distance (m); NaN if the base circles overlap or touch."""
     made = PairFormulas(Calculation(), m, follows=True)
     made.enter_data(rack, teeth)
     made.enter_shifts((0.0, 0.0), a_w)
@@ -177,5 +179,5 @@ def sum_of_shifts(rack: Rack, m: float, teeth: tuple[int, int], a_w: float) -> f
 
 
 def named(quantity: str, wheel: int) -> str:
-    """The id of a quantity of the pair (0) or of a wheel."""
+    """Return the id of a quantity of the pair (wheel 0) or of a wheel."""
     return gears_ids.of_wheel(quantity, wheel) if wheel else f"gears.{quantity}"

@@ -1,6 +1,6 @@
-"""Gear pair as a ledger: every number by its id, computed from those above it, as the report prints it.
+"""`SolvedPair`: a gear pair as a ledger, with every number under its id as the report prints it.
 
-The points of the active path of contact at which sliding is computed are rows.
+The points of the active path of contact at which sliding is computed are its positions.
 """
 
 from __future__ import annotations
@@ -21,27 +21,27 @@ from reportgen.gears.pair_formulas import WHEELS, PairFormulas, named
 from reportgen.gears.pair_shifts import Chosen, GearPair, PairLimits
 
 POINTS = 9
-"""Sliding is worked out at so many points, evenly from one end of the active path to the other."""
+"""Number of points at which sliding is computed, equally spaced from end to end of the active path."""
 MESH = ("u", "a", "inv", "inv_w", "alpha_w", "x_sum", "x.2", "a_w", "y", "dy", "h", "p", "p_b")
-"""Quantities that the report sets out for the pair in mesh,"""
+"""Quantities that the report prints for the pair in mesh,"""
 DIMENSIONS = ("d", "d_b", "d_w", "h_a", "d_a", "d_f", "s", "s_w", "alpha_a", "inv_a", "s_a", "tip")
-"""of each wheel,"""
+"""for each wheel,"""
 OF_BOTH = {"undercut": ("x_min",), "contact": ("rho_a", "rho_p"), "fillets": ("rho_f",), "sliding": ("rho", "lambda")}
-"""and of both wheels together."""
+"""and for both wheels together."""
 ALIKE = ("x_min", *DIMENSIONS, "rho_a", "rho_p", "rho_f", "lambda")
-"""Quantities of both wheels with equal decimals; ρ₂ = g − ρ₁ continues from that of the other wheel."""
+"""Quantities of both wheels that share their decimals; ρ₂ = g − ρ₁ continues from the other wheel's."""
 
 
 @dataclass(frozen=True)
 class SolvedPair(DesignCase):
-    """An assignment of a gear pair with its ledger; each part is computed when it is first asked for."""
+    """An assignment of a gear pair with its ledger; each value is computed on first use."""
 
     SAME = tuple(tuple(gears_ids.of_wheel(one, wheel) for wheel in WHEELS) for one in ALIKE)
 
     @cached_property
     def chosen(self) -> Chosen:
-        found: Chosen = self.assignment.parameters.chosen
-        return found
+        chosen: Chosen = self.assignment.parameters.chosen
+        return chosen
 
     @property
     def gears(self) -> GearPair:
@@ -53,7 +53,7 @@ class SolvedPair(DesignCase):
 
     @property
     def worked(self) -> tuple[int, ...]:
-        """The points written out in full: the ends of the path, where wheels slide most."""
+        """Return the points worked out in full: the ends of the path, where the wheels slide most."""
         return (1, POINTS)
 
     @cached_property
@@ -62,7 +62,7 @@ class SolvedPair(DesignCase):
 
 
 class PairCalculation(PairFormulas):
-    """The sheet of a pair while it is written."""
+    """The calculation of a pair while it is filled."""
 
     def __init__(self, chosen: Chosen) -> None:
         pair, limits = chosen.pair, chosen.limits
@@ -94,17 +94,17 @@ class PairCalculation(PairFormulas):
             self.q.set_out(name, *(gears_ids.of_wheel(one, wheel) for one in among for wheel in WHEELS))
 
 
-# --- what is often done in place of it --------------------------------------------------------------
+# --- common mistakes ------------------------------------------------------------------------
 
 
 def _changed(sheet: Calculation) -> Mapping[str, list[tuple[str, Expression]]]:
-    """Definitions that are often used in place of the right ones."""
-    found: dict[str, list[tuple[str, Expression]]] = {}
+    """Return the mistaken definitions that students often use, by id."""
+    definitions: dict[str, list[tuple[str, Expression]]] = {}
     angles = {named("inv", 0): named("alpha", 0), **{named("inv_a", one): named("alpha_a", one) for one in WHEELS}}
     if "gears.alpha_w" in refs(sheet.families["gears.inv_w"].definition or Ref("")):
         angles["gears.inv_w"] = "gears.alpha_w"
     for id, angle in angles.items():
-        found[id] = [("gear-degrees", tan(Ref(angle)) - 180 * Ref(angle) / PI)]
+        definitions[id] = [("gear-degrees", tan(Ref(angle)) - 180 * Ref(angle) / PI)]
     taken: list[tuple[str, str, Operand]] = [
         ("gear-standard-angle", "gears.alpha_w", Ref("gears.alpha")),
         ("gear-ratio", "gears.u", 1 / Ref("gears.u")),
@@ -113,20 +113,22 @@ def _changed(sheet: Calculation) -> Mapping[str, list[tuple[str, Expression]]]:
         x, d, d_b = (gears_ids.of_wheel(one, wheel) for one in ("x", "d", "d_b"))
         taken += [("gear-shift-sign", x, -Ref(x)), ("gear-base-circle", d_b, Ref(d))]
     taken.append(("gear-truncation", "gears.dy", 0.0))
-    for name, id, other in taken:
-        for where, definition in with_another(sheet.families, {id: other}):
-            found.setdefault(where, []).append((name, definition))
-    return found
+    for name, id, replacement in taken:
+        for where, definition in with_another(sheet.families, {id: replacement}):
+            definitions.setdefault(where, []).append((name, definition))
+    return definitions
 
 
 def _ways(follows: bool) -> Mapping[str, list[Expression]]:
-    """Other ways to what a student may as well have from the centre distance and the radii of curvature."""
+    """Return alternative definitions that are equally right, from the centre distance and the radii of curvature, by
+    id.
+    """
     a, a_w, m, g, p_b = (Ref(f"gears.{one}") for one in ("a", "a_w", "m", "g", "p_b"))
     z1, z2 = (Ref(gears_ids.of_wheel("z", wheel)) for wheel in WHEELS)
     path = Ref(gears_ids.of_wheel("rho_a", 1)) + Ref(gears_ids.of_wheel("rho_a", 2)) - g
-    found: dict[str, list[Expression]] = {"gears.epsilon": [path / p_b], "gears.g_a": [path]}
+    ways: dict[str, list[Expression]] = {"gears.epsilon": [path / p_b], "gears.g_a": [path]}
     if not follows:
-        found["gears.y"] = [(a_w - a) / m]
+        ways["gears.y"] = [(a_w - a) / m]
     for wheel, z in zip(WHEELS, (z1, z2), strict=True):
-        found[gears_ids.of_wheel("d_w", wheel)] = [2 * a_w * z / (z1 + z2)]
-    return found
+        ways[gears_ids.of_wheel("d_w", wheel)] = [2 * a_w * z / (z1 + z2)]
+    return ways

@@ -1,4 +1,5 @@
-"""Pair of external spur gears over its profile shifts, by the formulas of its report, and the choice of shifts.
+"""Choose profile shifts of a pair of external spur gears (`choose`), by the formulas of its report over arrays of
+shifts.
 
 Values of both wheels are an array whose first axis is the wheel; `[::-1]` is the mate.
 """
@@ -23,7 +24,7 @@ from reportgen.gears.pair_formulas import WHEELS, Rack, pair_sheet, sum_of_shift
 HUNDREDTH = 0.01
 """Shifts are chosen in hundredths of the module."""
 ROUNDING = 1e-9
-"""A condition that is missed by so little (modules, or 1) is kept."""
+"""A condition that is missed by less than this (modules, or 1) counts as kept."""
 COMMON = (
     "gears.alpha_w",
     "gears.dy",
@@ -32,11 +33,11 @@ COMMON = (
 )
 """Quantities on which nearly all others of a pair depend."""
 USUAL, LARGEST, STEP = 1.5, 3.0, 0.5
-"""Shifts are sought up to the usual greatest, and further, step by step, as long as the limits still hold there."""
+"""The search ends at the usual greatest shifts, and goes on step by step as long as the limits still hold there."""
 
 
 class NoPairError(Exception):
-    """No shifts make such a pair: the code of the fault."""
+    """Raised if no shifts make the requested pair; carries the code of the fault."""
 
     def __init__(self, code: str) -> None:
         super().__init__(code)
@@ -45,7 +46,7 @@ class NoPairError(Exception):
 
 @dataclass(frozen=True)
 class PairLimits:
-    """The least contact ratio, the least thickness at the tip (modules), and the greatest |λ| if there is one."""
+    """The least contact ratio, the least tip thickness (modules), and the greatest |λ| or None."""
 
     epsilon: float = 1.2
     tip: float = 0.25
@@ -54,9 +55,9 @@ class PairLimits:
 
 @dataclass(frozen=True)
 class PairCondition:
-    """Condition of a wheel (1, 2), or of the pair (0): `actual` [...] is no less than `least` [...].
+    """A condition of a wheel (1, 2), or of the pair (0): `actual` [...] is at least `least` [...].
 
-    Lengths are compared by a `unit`, the module.
+    Lengths are compared in units of `unit`, the module (m).
     """
 
     name: str
@@ -67,13 +68,13 @@ class PairCondition:
 
     @property
     def margin(self) -> Floats:
-        """Not negative where it is kept."""
+        """Return the margin [...] in units of `unit`; negative where the condition is broken."""
         return np.asarray((self.actual - self.least) / self.unit)
 
 
 @dataclass(frozen=True)
 class GearPair:
-    """A pair by its rack, its module (m), its numbers of teeth and its shifts [2, ...]."""
+    """A pair by its rack, its module (m), its numbers of teeth and its shifts [2, ...] (modules)."""
 
     rack: Rack
     m: float
@@ -82,43 +83,43 @@ class GearPair:
 
     @cached_property
     def x(self) -> Floats:
-        """The shifts x (modules) [2, ...]."""
+        """Return the shifts x (modules) [2, ...]."""
         return np.asarray(self.shifts, float)
 
     @cached_property
     def _known(self) -> dict[str, Value]:
-        """Values computed so far, by id; initially those on which nearly all others depend."""
+        """Return the values computed so far, by id; initially those on which nearly all others depend."""
         shifts = {gears_ids.of_wheel("x", wheel): x for wheel, x in zip(WHEELS, self.x, strict=True)}
         return shifts | model(self.sheet, COMMON, **shifts)
 
     @property
     def sheet(self) -> Calculation:
-        """The formulas of its report, with shifts that are given."""
+        """Return the formulas of its report with given shifts."""
         return pair_sheet(self.rack, self.m, self.teeth)
 
     def __getitem__(self, quantity: str) -> Floats:
-        """A quantity of the report by its name there, SI: [...] of the pair, [2, ...] of its wheels.
+        """Return a quantity of the report by its name there (SI): [...] of the pair, [2, ...] of its wheels.
 
-        Raises `KeyError` for one that the sheet does not have.
+        Raises `KeyError` for a name that the calculation does not contain.
         """
         return self.at(quantity)
 
     def at(self, quantity: str, **at: float) -> Floats:
-        """A quantity (SI) [...] or [2, ...] with others in place of the sheet's own."""
+        """Return a quantity (SI) [...] or [2, ...], with some values replaced by `at`."""
         sheet, of_pair = self.sheet, f"gears.{quantity}"
         wanted = (
             (of_pair,) if of_pair in sheet.families else tuple(gears_ids.of_wheel(quantity, wheel) for wheel in WHEELS)
         )
         taken = {f"gears.{name}": value for name, value in at.items()}
-        found = model(sheet, wanted, **self._known, **taken)
+        values_by_id = model(sheet, wanted, **self._known, **taken)
         if not at:
-            self._known.update(found)
-        values = [np.broadcast_to(np.asarray(found[id], float), self.x.shape[1:]) for id in wanted]
+            self._known.update(values_by_id)
+        values = [np.broadcast_to(np.asarray(values_by_id[id], float), self.x.shape[1:]) for id in wanted]
         return np.stack(values) if len(values) > 1 else values[0]
 
     @cached_property
     def sliding(self) -> Floats:
-        """The specific sliding λ [2, ...] at the feet of both wheels, where it is worst: below 0.
+        """Return the specific sliding λ [2, ...] at the feet of both wheels, where it is worst: below 0.
 
         Wheel 1 touches with its foot where the active path begins, wheel 2 where it ends.
         """
@@ -126,11 +127,11 @@ class GearPair:
 
     @property
     def to_pitch_point(self) -> Floats:
-        """Distances (m) of the pitch point from N₁ and from N₂ on the line of action [2], r_b tan α_w."""
+        """Return the distances (m) [2, ...] of the pitch point from N₁ and N₂ on the line of action, r_b tan α_w."""
         rolled: Floats = self["d_b"] / 2 * np.tan(self["alpha_w"])
         return rolled
 
-    # --- what is asked of it
+    # --- queries
 
     def conditions(self, limits: PairLimits) -> Iterator[PairCondition]:
         """Yield undercut, thickness of the tip and interference of each wheel, then the contact ratio."""
@@ -146,7 +147,7 @@ class GearPair:
         return np.asarray(np.all([condition.margin >= -ROUNDING for condition in self.conditions(limits)], axis=0))
 
     def wheel(self, number: int) -> Wheel:
-        """The wheel 0 or 1."""
+        """Return wheel 0 or 1."""
         tip = float(self["d_a"][number]) / 2
         return Wheel(self.rack, self.m, self.teeth[number], float(self.x[number]), tip)
 
@@ -155,9 +156,9 @@ class GearPair:
 
 
 def sum_for(rack: Rack, m: float, teeth: tuple[int, int], a_w: float) -> float:
-    """The sum of the shifts at a centre distance (m).
+    """Return the sum of the shifts (modules) at a centre distance (m).
 
-    Raises `NoPairError` for one at which the base circles overlap.
+    Raises `NoPairError` if the base circles overlap.
     """
     total = sum_of_shifts(rack, m, teeth, a_w)
     if math.isnan(total):
@@ -166,17 +167,20 @@ def sum_for(rack: Rack, m: float, teeth: tuple[int, int], a_w: float) -> float:
 
 
 def least_shifts(pair: GearPair) -> Floats:
-    """x_min [2] in hundredths upwards, and no shift where none is needed (modules)."""
+    """Return x_min [2] (modules), rounded up to hundredths; 0 where no shift is needed."""
     return np.maximum(np.ceil(np.round(pair["x_min"] / HUNDREDTH, 9)) * HUNDREDTH, 0.0).round(2)
 
 
 def balanced(pair: GearPair, total: float) -> Floats:
-    """The shifts (modules) of a sum at which both feet slide alike: λ₁ = λ₂.  Raises `NoPairError` where none are."""
+    """Return the shifts [2] (modules) with a given sum at which both feet slide equally: λ₁ = λ₂.
+
+    Raises `NoPairError` if there are none.
+    """
     first = np.linspace(total / 2 - LARGEST, total / 2 + LARGEST, 601)
 
     def unlike(x1: Floats) -> Floats:
         shifted = GearPair(pair.rack, pair.m, pair.teeth, np.stack((x1, total - x1)))
-        # Only where both involutes begin outside the base circles is there a foot that slides.
+        # A foot slides only if both involutes begin outside the base circles.
         λ1, λ2 = np.where(shifted["rho_p"] > 0, shifted.sliding, np.nan)
         return np.asarray(λ1 - λ2)
 
@@ -215,14 +219,14 @@ def least_sliding(pair: GearPair, limits: PairLimits) -> Floats:
 
 @dataclass(frozen=True)
 class Chosen:
-    """A pair with what it was chosen by: its limits, the rule of its shifts, whether the centre distance was given."""
+    """A pair with the choices behind it: limits, rule of its shifts, and the given centre distance."""
 
     pair: GearPair
     limits: PairLimits
     rule: str
     """`given`, `x_min` or `equal-sliding`."""
     a_w: float | None
-    """The given centre distance (m)."""
+    """The given centre distance (m); None if it was not given."""
 
     @property
     def follows(self) -> bool:
@@ -233,9 +237,9 @@ class Chosen:
         """Yield the broken conditions: name, wheel (1, 2, or 0 for both), actual value, limit (ratios, or modules)."""
         pair, most = self.pair, self.limits.sliding
         for wheel in (*WHEELS, 0):
-            for one in pair.conditions(self.limits):
-                if one.wheel == wheel and one.margin < -ROUNDING:
-                    yield one.name, wheel, float(one.actual), float(one.least)
+            for condition in pair.conditions(self.limits):
+                if condition.wheel == wheel and condition.margin < -ROUNDING:
+                    yield condition.name, wheel, float(condition.actual), float(condition.least)
             if wheel and most is not None and -pair.sliding[wheel - 1] > most:
                 yield "sliding", wheel, float(-pair.sliding[wheel - 1]), most
 
@@ -243,9 +247,9 @@ class Chosen:
 def choose(
     blank: GearPair, limits: PairLimits, rule: str, a_w: float | None, given_shifts: tuple[float, float | None] | None
 ) -> Chosen:
-    """The shifts of a pair by a rule, in hundredths unless a centre distance (m) decides.
+    """Return the shifts of a pair by a rule, in hundredths of the module unless a centre distance (m) decides.
 
-    Raises `NoPairError` where there are none.
+    Raises `NoPairError` if there are none.
     """
     total = None if a_w is None else sum_for(blank.rack, blank.m, blank.teeth, a_w)
     if given_shifts is not None:

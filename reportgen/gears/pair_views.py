@@ -1,4 +1,4 @@
-"""Views of a gear pair for its report and its task: names for templates, tables, worked lines, figures."""
+"""`PairPage`: names for the templates of a gear pair's report and task: tables, worked lines, figures."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ SLIDING = (16.0, 28.0, 28.0, 28.0, 28.0, 28.0)
 SHARED = ("alpha_w", "a_w", "y", "dy", "h", "p", "p_b", "epsilon", "g", "g_a")
 """Rows of both wheels together in the table of the pair,"""
 OWN = ("x", "d", "d_b", "d_w", "d_a", "d_f", "h_a", "s", "s_w", "s_a", "alpha_a", "rho_p", "rho_a")
-"""and for each of them."""
+"""and for each wheel."""
 
 
 @dataclass(frozen=True)
 class PairPage(DesignPage[SolvedPair]):
-    """A gear pair as templates name it."""
+    """A gear pair as templates read it."""
 
     NAME, TASK, SUMMARY = "pair", "pair-task", "pair-summary"
     SECTIONS = (
@@ -64,7 +64,7 @@ class PairPage(DesignPage[SolvedPair]):
 
     @staticmethod
     def of_wheel(quantity: str, wheel: str | int) -> str:
-        """The id of a quantity of wheel 1 or 2."""
+        """Return the id of a quantity of wheel 1 or 2."""
         return gears_ids.of_wheel(quantity, wheel)
 
     @property
@@ -75,7 +75,7 @@ class PairPage(DesignPage[SolvedPair]):
     # --- symbols and lines
 
     def lines(self, quantities: Iterable[str], k: int | None = None) -> tuple[Block, ...]:
-        """Worked lines of those of the quantities that follow from others, as they follow from one another."""
+        """Return the worked lines of quantities that are computed from others, in the order of computation."""
         ledger = self.case.printed
         wanted = set(quantities)
         defined = [id for id, family in ledger.families.items() if id in wanted and family.definition is not None]
@@ -90,13 +90,13 @@ class PairPage(DesignPage[SolvedPair]):
         return self.table(name, columns, (heads,), rows)
 
     def _said(self, id: str) -> Inlines:
-        """Return the name of a quantity in words; that of a wheel serves for both."""
+        """Return the name of a quantity in words; both wheels share the name."""
         text = phrase(id, self.case.ledger, self.case.words)
         return (Text(text[:1].upper() + text[1:]),)
 
     @property
     def data(self) -> Table:
-        """The data with their names, symbols and values; shifts that were found are left out."""
+        """Return the table of data with names, symbols and values, without shifts that were found."""
         sought = {gears_ids.of_wheel("x", wheel) for wheel in WHEELS} if self.sought else set()
         return self.data_table(self.given_rows(sought))
 
@@ -104,14 +104,14 @@ class PairPage(DesignPage[SolvedPair]):
     def pair_table(self) -> Table:
         ledger, words = self.case.printed, self.words
         rows: list[tuple[Inlines, ...]] = []
-        for one in OWN:
+        for name in OWN:
             symbol = vocabulary.in_language(
-                _without_number(ledger.symbol(gears_ids.of_wheel(one, 1))), self.case.words["symbols"]
+                _without_number(ledger.symbol(gears_ids.of_wheel(name, 1))), self.case.words["symbols"]
             )
-            both = tuple((Value(ledger.result(gears_ids.of_wheel(one, wheel))),) for wheel in WHEELS)
-            rows.append(((Text(words["own"][one]),), (InlineMath(symbol),), *both))
-        for one in SHARED:
-            id = f"gears.{one}"
+            both = tuple((Value(ledger.result(gears_ids.of_wheel(name, wheel))),) for wheel in WHEELS)
+            rows.append(((Text(words["own"][name]),), (InlineMath(symbol),), *both))
+        for name in SHARED:
+            id = f"gears.{name}"
             rows.append((self._said(id), (InlineMath(ledger.symbol(id)),), (Value(ledger.result(id)),), (Text("–"),)))
         heads = ((Text(text),) for text in words["pair_head"])
         return self._table("pair", PAIR, heads, rows)
@@ -139,10 +139,10 @@ class PairPage(DesignPage[SolvedPair]):
 
         def row(name: str, wheel: int, sign: str, limit: Number, actual: str | Number) -> None:
             text = str(words[name]).format(wheel=wheel)
-            shown = ledger.result(actual) if isinstance(actual, str) else actual
+            printed = ledger.result(actual) if isinstance(actual, str) else actual
             holds = words["no"] if (name, wheel) in broken else words["yes"]
             symbol: Inlines = (InlineMath(ledger.symbol(actual)),) if isinstance(actual, str) else (Text("|λ|"),)
-            rows.append(((Text(text),), symbol, (Text(sign), Value(limit)), (Value(shown),), (Text(str(holds)),)))
+            rows.append(((Text(text),), symbol, (Text(sign), Value(limit)), (Value(printed),), (Text(str(holds)),)))
 
         for wheel in WHEELS:
             row(
@@ -162,8 +162,8 @@ class PairPage(DesignPage[SolvedPair]):
         if chosen.limits.sliding is not None:
             for wheel, end in zip(WHEELS, case_ends(self.case), strict=True):
                 number_ = ledger.number(gears_ids.of_wheel("lambda", wheel), end)
-                shown = Number(-number_.shown, number_.decimals)
-                row("sliding", wheel, "≤ ", ledger.number("gears.limit.sliding"), shown)
+                printed = Number(-number_.printed, number_.decimals)
+                row("sliding", wheel, "≤ ", ledger.number("gears.limit.sliding"), printed)
         return self._table("checks", CHECKS, ((Text(str(one)),) for one in words["head"]), rows)
 
     # --- figures
@@ -178,10 +178,10 @@ class PairPage(DesignPage[SolvedPair]):
 
 
 def case_ends(case: SolvedPair) -> tuple[int, int]:
-    """The points of the path at which the feet of wheel 1 and of wheel 2 are in contact."""
+    """Return the points of the path at which the feet of wheel 1 and of wheel 2 are in contact."""
     return case.worked[0], case.worked[-1]
 
 
 def _without_number(symbol: Symbol) -> Symbol:
-    """The symbol of a quantity of either wheel."""
+    """Return the symbol of a quantity without the number of its wheel."""
     return Symbol(symbol.base, symbol.sub.rstrip("12"), symbol.sup)

@@ -1,4 +1,4 @@
-"""The kind `planetary-train`: faults of impossible trains, and warnings of improbable ones."""
+"""The kind `planetary-train`: its case, faults of impossible trains, and warnings about unusual ones."""
 
 from __future__ import annotations
 
@@ -18,34 +18,34 @@ if TYPE_CHECKING:
 Parameters = train_file.Parameters
 TURNS = 1
 PART = "train"
-"""Beginning of its ids, in a coursework too."""
+"""Prefix of its ids, also in a coursework."""
 HAS_POSITIONS = False
 TOP = ("parameters",)
 
 
 def case(assignment: Assignment) -> TrainCase:
-    """The case of an assignment."""
+    """Return the case of an assignment."""
     from reportgen.gears.train_case import TrainCase
 
     return TrainCase(assignment)
 
 
 def table_rows(position: Mapping[str, Any]) -> dict[str, dict[str, float]]:
-    """The row that `solve` prints of a position of the results: the angular velocities (rad/s)."""
+    """Return the row that `solve` prints for a position of the results: the angular velocities (rad/s)."""
     return {"wheels": {f"ω{name}": wheel["omega"] for name, wheel in position["wheels"].items()}}
 
 
-# --- what cannot be -------------------------------------------------------------------------------
+# --- faults -------------------------------------------------------------------------------------
 
 
 def teeth_of(train: Train) -> str:
-    """Tooth numbers as a message names them."""
+    """Return tooth numbers as messages write them: z₁/z₂/z₃."""
     z = train.teeth
-    return f"{z.one}/{z.two}/{z.three}" if SCHEMES[train.scheme].single else "/".join(map(str, z))
+    return f"{z.z1}/{z.z2}/{z.z3}" if SCHEMES[train.scheme].single else "/".join(map(str, z))
 
 
 def check(given: Parameters) -> Iterator[Finding]:
-    """Keys and limits first; then whether any tooth numbers fulfil what is asked for, else which condition fails."""
+    """Yield faults of keys and limits; then, if no tooth numbers fulfil the demand, the condition that fails."""
     if (given.u is None) == (given.n_out is None):
         return  # another check says so
     if SCHEMES[given.scheme].single and given.m2 is not None:
@@ -83,11 +83,11 @@ def check(given: Parameters) -> Iterator[Finding]:
 CHECKS = (one_of("parameters", "u", "n_out"), of_parameters(check))
 
 
-# --- what is hardly meant -------------------------------------------------------------------------
+# --- warnings -----------------------------------------------------------------------------------
 
 
 def physics(assignment: Assignment) -> Iterator[Finding]:
-    """A ratio that is not met exactly, inner wheels that mesh only with profile shift."""
+    """Yield warnings about a ratio that is not met exactly, and inner wheels that mesh only with profile shift."""
     given: Parameters = assignment.parameters
     choice = given.choice
     reached = float(choice.chosen.ratio)

@@ -1,8 +1,8 @@
-"""Planetary trains with one carrier: the ratio by Willis, and all tooth numbers that can be built.
+"""Tooth numbers of planetary trains with one carrier: the ratio by Willis, and all numbers that can be built
+(`choice`).
 
-Wheel 1 meshes with satellite 2, satellite 2′ on the same shaft with wheel 3, which is fixed; the carrier H bears
+Wheel 1 meshes with satellite 2; satellite 2′ on the same shaft meshes with wheel 3, which is fixed; the carrier H bears
 the satellites.  With a single satellite, 2′ is 2.  Relative to the carrier all axes are fixed, so that
-
  u₁₃(H) = (ω₁ − ω_H)/(ω₃ − ω_H) = ± z₂z₃/(z₁z₂′),  and with ω₃ = 0  u₁H = ω₁/ω_H = 1 − u₁₃(H).
 """
 
@@ -27,18 +27,18 @@ from reportgen.gears.train_formulas import TrainScheme, over_teeth
 Wholes = NDArray[np.int64]
 
 ALPHA = math.radians(20)
-"""The angle of the basic rack; its addendum is the module."""
+"""The profile angle of the basic rack (rad); its addendum is the module."""
 LEAST_OUTER = 17
 """A wheel with fewer outer teeth is undercut: 2/sin²α = 17.1."""
 LEAST_DIFFERENCE = 8
-"""An inner wheel has so many teeth more than its satellite, by the usual rule."""
+"""Least excess of an inner wheel's teeth over its satellite's, by the usual rule."""
 MOST_SATELLITES = 8
 DUST = 1e-12
 """Ratios of whole numbers that differ by less are equal."""
 FITS = 1e-6
-"""Largest distance (teeth) of teeth from their gap at which they fit."""
+"""Largest distance (in pitches) of teeth from their gaps at which they still fit."""
 CONDITIONS = ("ratio", "interference", "neighbours", "assembly")
-"""Conditions of coaxial tooth numbers, in the order in which they are checked."""
+"""Conditions on tooth numbers, in the order in which they are checked."""
 
 
 SCHEMES: Mapping[str, TrainScheme] = {
@@ -50,19 +50,19 @@ SCHEMES: Mapping[str, TrainScheme] = {
 
 
 class Teeth(NamedTuple):
-    """The numbers of teeth z₁, z₂, z₂′, z₃: whole numbers."""
+    """The numbers of teeth z₁, z₂, z₂′, z₃."""
 
-    one: int
-    two: int
-    other: int
-    three: int
+    z1: int
+    z2: int
+    z2_prime: int
+    z3: int
 
 
 @dataclass(frozen=True, slots=True)
 class Demand:
-    """Requirements of tooth numbers: a ratio u₁H within a share, a number of satellites, limits, modules m/m₂.
+    """A demand: a ratio u₁H within a relative tolerance, a number of satellites, limits of tooth numbers, and m/m₂.
 
-    The share is one of the ratio from the driving to the driven shaft: of u_H1 = 1/u₁H if the carrier drives.
+    The tolerance applies to the ratio from the driving to the driven shaft: to u_H1 = 1/u₁H if the carrier drives.
     """
 
     scheme: str
@@ -79,7 +79,7 @@ class Demand:
         return SCHEMES[self.scheme]
 
     def off(self, ratio: NDArray[np.float64] | float) -> NDArray[np.float64]:
-        """By what share of the ratio that is asked for trains with u₁H [...] miss it."""
+        """Return the relative error of trains with u₁H [...] against the requested ratio."""
         asked = np.asarray(ratio, float)
         with np.errstate(divide="ignore"):
             missed: NDArray[np.float64] = np.abs((self.ratio / asked if self.by_carrier else asked / self.ratio) - 1)
@@ -88,7 +88,7 @@ class Demand:
 
 @dataclass(frozen=True, slots=True)
 class Train:
-    """Tooth numbers in a scheme: their ratio, and what the conditions ask of them."""
+    """Tooth numbers in a scheme, with their ratio and the quantities in the conditions."""
 
     scheme: str
     teeth: Teeth
@@ -96,26 +96,28 @@ class Train:
 
     @property
     def ratio(self) -> Fraction:
-        """u₁H with wheel 3 at rest, exactly: no other fraction over z₁z₂′ lies within the rounding of its value."""
+        """Return u₁H with wheel 3 at rest, exactly: only one fraction over z₁z₂′ lies within rounding error of its
+        value.
+        """
         z = self.teeth
-        (found,) = ratios(SCHEMES[self.scheme], np.array([z]).T)
-        return Fraction(float(found)).limit_denominator(z.one * z.other)
+        (exact,) = ratios(SCHEMES[self.scheme], np.array([z]).T)
+        return Fraction(float(exact)).limit_denominator(z.z1 * z.z2_prime)
 
     @property
     def size(self) -> float:
-        """The circle that the satellites' reference circles touch from inside, in modules m₂."""
+        """Return the diameter of the circle that the satellites' reference circles touch from inside, in modules m₂."""
         return float(sizes(SCHEMES[self.scheme], np.array([self.teeth]).T, self.modules)[0])
 
     def turns(self, satellites: int) -> int | None:
-        """P of u₁H z₁ (1 + kP)/k, the least that makes it whole; None where no P does."""
-        lowest = self.ratio * self.teeth.one / satellites
+        """Return the least P ≥ 0 that makes u₁H z₁ (1 + kP)/k whole, for k satellites; None if there is none."""
+        lowest = self.ratio * self.teeth.z1 / satellites
         if math.gcd(lowest.denominator, satellites) > 1:
             return None
         return pow(-satellites, -1, lowest.denominator)
 
     @property
     def satellites(self) -> tuple[int, ...]:
-        """The numbers of satellites that have room and can be assembled."""
+        """Return the numbers of satellites that have room and can be assembled."""
         rows = np.array([self.teeth]).T
         return tuple(
             k
@@ -128,17 +130,19 @@ class Train:
 
 
 def ratios(scheme: TrainScheme, z: Wholes) -> NDArray[np.float64]:
-    """u₁H = 1 ± z₂z₃/(z₁z₂′) of tooth numbers [4, N], Willis's equation with ω₃ = 0."""
+    """Return u₁H = 1 ± z₂z₃/(z₁z₂′) [N] of tooth numbers [4, N], by Willis with ω₃ = 0."""
     return over_teeth(formulas.ratio, scheme, z)
 
 
 def axis(scheme: TrainScheme, z: Wholes) -> NDArray[np.float64]:
-    """Twice the distance between the axes of wheel 1 and satellite 2, in modules."""
+    """Return twice the distance between the axes of wheel 1 and satellite 2 [N], in modules."""
     return over_teeth(formulas.first_axes, scheme, z)
 
 
 def _interference(scheme: TrainScheme, z: Wholes) -> Flags:
-    """Outer wheels are not undercut; inner wheels have more teeth than their satellites by the usual number."""
+    """Return flags [N]: outer wheels are not undercut, inner wheels exceed their satellites by the usual number of
+    teeth.
+    """
     holds: Flags = (z[1] >= LEAST_OUTER) & (z[2] >= LEAST_OUTER)
     for inner, wheel, satellite in zip(scheme.inner, (z[0], z[3]), (z[1], z[2]), strict=True):
         holds &= wheel - satellite >= LEAST_DIFFERENCE if inner else wheel >= LEAST_OUTER
@@ -146,7 +150,9 @@ def _interference(scheme: TrainScheme, z: Wholes) -> Flags:
 
 
 def _neighbours(scheme: TrainScheme, z: Wholes, k: int, modules: Fraction) -> Flags:
-    """The tips of satellites beside each other leave a gap: (z + 2)/(z₁ ± z₂) < sin(π/k) of both wheels of them."""
+    """Return flags [N]: the tips of neighbouring satellites leave a gap, (z + 2)/(z₁ ± z₂) < sin(π/k) for both
+    wheels.
+    """
     room = math.sin(math.pi / k) * axis(scheme, z)
     tip = over_teeth(formulas.tip_of_satellite, scheme, z)
     other_tip = over_teeth(formulas.tip_of_other_satellite, scheme, z)
@@ -155,9 +161,11 @@ def _neighbours(scheme: TrainScheme, z: Wholes, k: int, modules: Fraction) -> Fl
 
 
 def _assembly(u: NDArray[np.float64], z: Wholes, k: int) -> Flags:
-    """u₁H z₁ (1 + kP)/k is whole for some whole P: just when in lowest terms u₁H z₁/k has no factor of k below."""
+    """Return flags [N]: u₁H z₁ (1 + kP)/k is whole for some whole P; then the denominator of u₁H z₁/k has no factor of
+    k.
+    """
     z1, _, z2p, _ = z
-    # Willis's ratio is a fraction over z₁z₂′, which rounding gives back exactly.
+    # Willis's ratio is a fraction over z₁z₂′, which rounding recovers exactly.
     above = np.rint(u * z1 * z2p).astype(np.int64)
     below = k * z2p // np.gcd(above, k * z2p)
     holds: Flags = np.gcd(below, k) == 1
@@ -165,13 +173,11 @@ def _assembly(u: NDArray[np.float64], z: Wholes, k: int) -> Flags:
 
 
 def unshifted(scheme: TrainScheme, z: Wholes) -> Flags:
-    """Return flags of the wheels without profile shift that mesh inside without interference.
+    """Return flags [N] of the trains whose inner meshes work without profile shift.
 
-    No tip passes beyond an involute: the inner wheel's tip circle passes the point where the line of action touches
-    the
-    satellite's base circle.  No tips meet elsewhere: where both tip circles meet, the satellite's tooth is past that
-    of
-    the inner wheel.  The report gives only the result: these lines are on no sheet.
+    No tip passes beyond an involute: the inner wheel's tip circle passes outside the point where the line of action
+    touches the satellite's base circle.  No tips collide elsewhere: where both tip circles meet, the satellite's tooth
+    has passed that of the inner wheel.  The report prints only the result, so the formulas are not in the calculation.
     """
     holds = np.ones(len(z[0]), bool)
     for inner, wheel, satellite in zip(scheme.inner, (z[0], z[3]), (z[1], z[2]), strict=True):
@@ -186,13 +192,13 @@ def unshifted(scheme: TrainScheme, z: Wholes) -> Flags:
             δ3 = np.arccos((tip3**2 + a**2 - tip2**2) / (2 * a * tip3))
             past = satellite * (inv(at2) + δ2) - wheel * (inv(at3) + δ3) + (wheel - satellite) * inv(ALPHA)
         involute = tip3**2 >= base3**2 + (a * math.sin(ALPHA)) ** 2
-        # Where the tip circles do not meet, δ is not a number and tips cannot meet either.
+        # Where the tip circles do not meet, δ is NaN and tips cannot meet either.
         holds &= involute & ~(past < 0)
     return holds
 
 
 def judged(demand: Demand, z: Wholes) -> Mapping[str, Flags]:
-    """Return flags of the trains that fulfil each of the conditions."""
+    """Return flags [N] of the trains that fulfil each of the conditions, by the name of the condition."""
     scheme, k = demand.of, demand.satellites
     u = ratios(scheme, z)
     return {
@@ -203,7 +209,7 @@ def judged(demand: Demand, z: Wholes) -> Mapping[str, Flags]:
     }
 
 
-# --- all of them ------------------------------------------------------------------------------------------
+# --- all tooth numbers ------------------------------------------------------------------------------------
 
 
 def coaxial(demand: Demand) -> Iterator[Wholes]:
@@ -228,16 +234,16 @@ class TrainChoice:
     demand: Demand
     sets: Wholes
     free: Flags
-    """Flags of those that need no profile shift."""
+    """Flags [N] of the trains that need no profile shift."""
     left: Mapping[str, int]
     nearest: Train | None
     """The coaxial train, free of interference, whose ratio is nearest."""
     refused: Mapping[str, Train]
-    """The smallest train that fulfils every condition but the one of its name."""
+    """The smallest train that fulfils every condition except the named one, by name."""
 
     @property
     def first(self) -> int:
-        """The number (from 0) of the smallest train, of those that need no profile shift if there are any."""
+        """Return the number (from 0) of the smallest train, preferably one that needs no profile shift."""
         return int(np.argmax(self.free)) if self.free.any() else 0
 
     def train(self, number: int) -> Train:
@@ -253,14 +259,16 @@ def _train(demand: Demand, row: Wholes) -> Train:
 
 
 def sizes(scheme: TrainScheme, z: Wholes, modules: Fraction) -> NDArray[np.float64]:
-    """The circle that the satellites' reference circles touch from inside, in modules m₂; an inner wheel lies on it."""
+    """Return the diameter [N] of the circle around the satellites' reference circles, in modules m₂; an inner wheel
+    lies on it.
+    """
     m = float(modules)
     circle: NDArray[np.float64] = axis(scheme, z) * m + np.maximum(z[1] * m, z[2])
     return circle
 
 
 def in_order(demand: Demand, sets: Wholes) -> Wholes:
-    """By size, then by how far the ratio is off, then by their numbers."""
+    """Return sets [N, 4] ordered by size, then by error of the ratio, then by their numbers."""
     z, scheme = sets.T, demand.of
     off = demand.off(ratios(scheme, z))
     keys = (z[2], z[1], z[0], np.round(off, 12), np.round(sizes(scheme, z, demand.modules), 9))
@@ -302,42 +310,44 @@ def choice(demand: Demand) -> TrainChoice:
 
 
 def mended(demand: Demand) -> tuple[int, ...]:
-    """The numbers of satellites with which the demand can be met."""
+    """Return the numbers of satellites with which the demand can be met."""
     others = (replace(demand, satellites=k) for k in range(2, MOST_SATELLITES + 1))
     return tuple(one.satellites for one in others if len(choice(one).sets))
 
 
-# --- how it goes together -----------------------------------------------------------------------------------
+# --- assembly ---------------------------------------------------------------------------------------------
 
 
 def turned(train: Train, satellites: int) -> tuple[float, tuple[float | None, ...]]:
-    """Return the angles (rad) of wheel 3 and of each satellite, the carrier at 0, a tooth of wheel 1 at 0.
+    """Return the angles (rad) of wheel 3 and of each satellite, with the carrier and a tooth of wheel 1 at 0.
 
-    A tooth of every wheel lies at its angle 0.  Where two wheels meet, a tooth of one is in a gap of the other.
-    An angle is None if no position of the satellite fits both wheels.
+    A tooth of every wheel lies at its angle 0.  Where two wheels meet, a tooth of one is in a gap of the other. An
+    angle is None if no position of the satellite fits both wheels.
     """
     z, scheme = train.teeth, SCHEMES[train.scheme]
 
     def at_mesh(inner: bool, γ: float, wheel: float, number: int) -> tuple[float, float]:
-        """The direction from the satellite's axis to the mesh, and by how many of its teeth a tooth is before it."""
+        """Return the direction (rad) from the satellite's axis to the mesh, and how far (pitches) a tooth is
+        before it.
+        """
         passed = (γ - wheel) * number / math.tau
         return (γ, passed - 0.5) if inner else (γ + math.pi, 0.5 - passed)
 
     def fits(γ: float, ψ: float, wheel: float) -> float:
-        towards, share = at_mesh(scheme.inner[1], γ, wheel, z.three)
-        return math.remainder((towards - ψ) * z.other / math.tau - share, 1)
+        towards, share = at_mesh(scheme.inner[1], γ, wheel, z.z3)
+        return math.remainder((towards - ψ) * z.z2_prime / math.tau - share, 1)
 
     def first(γ: float) -> float:
-        towards, share = at_mesh(scheme.inner[0], γ, 0.0, z.one)
-        return towards - share * math.tau / z.two
+        towards, share = at_mesh(scheme.inner[0], γ, 0.0, z.z1)
+        return towards - share * math.tau / z.z2
 
-    # Wheel 3 is turned until it meets the first satellite: by a part of a tooth.
+    # Wheel 3 is turned by a fraction of a tooth until it meets the first satellite.
     missing = fits(0.0, first(0.0), 0.0)
-    three = -missing * math.tau / z.three * scheme.signs[1]
+    three = -missing * math.tau / z.z3 * scheme.signs[1]
     angles: list[float | None] = []
     for number in range(satellites):
         γ = number * math.tau / satellites
-        tried = (first(γ) + tooth * math.tau / z.two for tooth in range(z.two))
+        tried = (first(γ) + tooth * math.tau / z.z2 for tooth in range(z.z2))
         angles.append(next((ψ for ψ in tried if abs(fits(γ, ψ, three)) < FITS), None))
     return three, tuple(angles)
 
@@ -346,9 +356,9 @@ def turned(train: Train, satellites: int) -> tuple[float, tuple[float | None, ..
 
 
 def power_way(ratio: float, carrier_drives: bool) -> int:
-    """+1 where, by the ratio u₁H, power goes from wheel 1 to wheel 3 seen from the carrier, else −1.
+    """Return +1 if, for the ratio u₁H, power flows from wheel 1 to wheel 3 as seen from the carrier, otherwise −1.
 
-    Its sense is that of M₁(ω₁ − ω_H) = M₁ω₁ (1 − 1/u), where M₁ω₁ is positive for a driving wheel 1.
+    Its sign is that of M₁(ω₁ − ω_H) = M₁ω₁ (1 − 1/u), where M₁ω₁ is positive if wheel 1 drives.
     """
     along = 1 - 1 / ratio
     return 1 if (along > 0) != carrier_drives else -1

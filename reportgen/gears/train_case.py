@@ -1,4 +1,4 @@
-"""Planetary train as a case: its report and its task with their tables and lines, its key, its results."""
+"""`TrainCase`: a planetary train with its report, task, key and results; `TrainPage` has the names of its templates."""
 
 from __future__ import annotations
 
@@ -27,16 +27,16 @@ from reportgen.gears.train_ledger import FIRST_ROW_WHEEL, SolvedTrain
 from reportgen.sheets.plates import drawn
 
 ROWS, SHORT_ROWS = 15, 6
-"""Numbers of rows of tooth numbers in the table."""
+"""Numbers of rows in the table of tooth numbers."""
 WORDS = 60
-"""A wider column has words."""
+"""Columns wider than this (mm) contain words."""
 SHOWN_SETS = 500
 """Largest number of sets of tooth numbers in the results."""
 
 
 @dataclass(frozen=True)
 class TrainPage(DesignPage[SolvedTrain]):
-    """A planetary train as templates name it."""
+    """A planetary train as templates read it."""
 
     NAME, TASK, SUMMARY = "train", "train-task", "train-summary"
     SECTIONS = (
@@ -52,7 +52,7 @@ class TrainPage(DesignPage[SolvedTrain]):
 
     def names(self) -> dict[str, Any]:
         case, given, choice = self.case, self.case.given, self.case.choice
-        written, shown = case.printed, min(self.rows, len(choice.sets))
+        written, rows = case.printed, min(self.rows, len(choice.sets))
         return {
             "words": case.words,
             "given": given,
@@ -66,8 +66,8 @@ class TrainPage(DesignPage[SolvedTrain]):
             "self_locking": given.efficiency is not None and written[train_ids.efficiency("train")].at(1) <= 0,
             "tolerance": Value(self.tolerance),
             "possible": listed(Text(str(k)) for k in case.train.satellites),
-            "shown": shown,
-            "all_shown": shown == len(choice.sets),
+            "shown": rows,
+            "all_shown": rows == len(choice.sets),
             "data": self.data,
             "relation": self.relation,
             "assembly": self.assembly,
@@ -98,7 +98,7 @@ class TrainPage(DesignPage[SolvedTrain]):
 
     @property
     def relation(self) -> Equation:
-        """The formula of Willis, and the ratio with wheel 3 at rest."""
+        """Return Willis's formula, and the ratio with wheel 3 at rest."""
         ω, z = ({wheel: Symbol(letter, wheel) for wheel in ("1", "2", OTHER, "3", "H")} for letter in "ωz")
         u0, u, scheme = Symbol("u", "13", "(H)"), Symbol("u", "1H"), self.case.scheme
         term = term_of(scheme, z)
@@ -107,7 +107,7 @@ class TrainPage(DesignPage[SolvedTrain]):
 
     @property
     def assembly(self) -> Equation:
-        """Return the assembly condition; for a single satellite u₁H z₁ is z₁ + z₃, and one turn is as good as any."""
+        """Return the assembly condition; for a single satellite u₁H z₁ is z₁ + z₃, and P = 0 suffices."""
         k, z1, z3 = Symbol("k"), Symbol("z", "1"), Symbol("z", "3")
         top = Symbol("u", "1H") * z1
         if self.case.scheme.single:
@@ -117,13 +117,13 @@ class TrainPage(DesignPage[SolvedTrain]):
     # --- tables
 
     def _table(self, name: str, head: Iterable[Any], rows: Iterable[Iterable[Any]], widths: Iterable[float]) -> Table:
-        """Return a table of contents printed by `said`; its first column is left-aligned if it is wide."""
+        """Return a table with contents printed by `said`; its first column is left-aligned if it is wide."""
         columns = (Column(width, "left" if width > WORDS else "center") for width in widths)
         return self.table(name, columns, (map(said, head),), (map(said, row) for row in rows))
 
     @property
     def data(self) -> Table:
-        """The data with their names, symbols and values."""
+        """Return the table of data with names, symbols and values."""
         given, printed, words = self.case.given, self.case.printed, self.words
         rows: list[tuple[Any, ...]] = []
         for key, value in (("scheme", given.scheme), ("drives", given.drives)):
@@ -147,7 +147,7 @@ class TrainPage(DesignPage[SolvedTrain]):
 
     @property
     def candidates(self) -> Table:
-        """The smallest of the tooth numbers found, and the chosen ones, with what decides."""
+        """Return the table of the smallest sets of tooth numbers and the chosen one, with the values that decide."""
         given, choice, words = self.case.given, self.case.choice, self.words["candidates"]
         rows: list[tuple[Any, ...]] = []
         for n in sorted({*range(min(self.rows, len(choice.sets))), choice.first}):
@@ -170,8 +170,8 @@ class TrainPage(DesignPage[SolvedTrain]):
         case, words, z = self.case, self.words["checks"], self.case.train.teeth
         symbol, value = case.printed.symbol, case.printed.number
         free = bool(case.choice.free[case.choice.first])
-        meshes = tuple(zip(case.scheme.inner, (z.one, z.three), (z.two, z.other), strict=True))
-        outer = min(z.two, z.other, *(wheel for inner, wheel, _ in meshes if not inner))
+        meshes = tuple(zip(case.scheme.inner, (z.z1, z.z3), (z.z2, z.z2_prime), strict=True))
+        outer = min(z.z2, z.z2_prime, *(wheel for inner, wheel, _ in meshes if not inner))
         rows: list[tuple[Any, Any, Any, bool]] = [
             self._check_of_ratio,
             ("coaxial", (symbol("train.a.1"), " = ", symbol("train.a.2")), value("train.a.1"), True),
@@ -184,12 +184,14 @@ class TrainPage(DesignPage[SolvedTrain]):
                 rows.append((name, f"≥ {LEAST_DIFFERENCE}", f"{wheel} − {satellite} = {wheel - satellite}", True))
         if any(case.scheme.inner):
             rows.append(("unshifted", "–", words["free" if free else "shift"], free))
-        told = ((words[name], *parts, words["yes" if holds else "no"]) for name, *parts, holds in rows)
-        return self._table("checks", words["head"], told, (62, 34, 40, 24))
+        printed = ((words[name], *parts, words["yes" if holds else "no"]) for name, *parts, holds in rows)
+        return self._table("checks", words["head"], printed, (62, 34, 40, 24))
 
     @property
     def _check_of_ratio(self) -> tuple[str, Any, Any, bool]:
-        """Return whether the requested ratio, from the driving to the driven shaft, is met within the tolerance."""
+        """Return the row of the requested ratio, from the driving to the driven shaft, and True if it is within the
+        tolerance.
+        """
         ledger, given, Δu = self.case.printed, self.case.given, Symbol("Δu")
         off, u = abs(float(self.case.ledger["train.off"].at(1))), "train.uH1" if given.by_carrier else "train.u1H"
         holds = off <= given.tolerance.si + DUST
@@ -200,11 +202,11 @@ class TrainPage(DesignPage[SolvedTrain]):
 
     @property
     def rates_table(self) -> Table:
-        """Angular velocities by Willis and as they are read off, with the difference."""
+        """Return the table of angular velocities by Willis and as read off the plan, with the difference."""
         rows = []
         for wheel in ("1", "2", "H"):
             by, read = (self.case.printed.number(id(wheel)) for id in (train_ids.omega, train_ids.read))
-            off = Number((read.shown / by.shown - 1) * 100, 2)
+            off = Number((read.printed / by.printed - 1) * 100, 2)
             rows.append((Symbol("ω", wheel), Number(by.value, by.decimals), Number(read.value, read.decimals), off))
         return self._table("rates", self.words["rates"], rows, (40, 40, 40, 40))
 
@@ -228,7 +230,7 @@ def said(what: Any) -> Inlines:
 
 
 def _short(value: float, decimals: int) -> Number:
-    """A number as it is where it has few decimals, else rounded."""
+    """Return a number unrounded if it has few decimals, otherwise rounded."""
     short = round(value, decimals)
     return Number(short + 0.0, None) if np.isclose(value, short, rtol=1e-12, atol=1e-12) else Number(value, decimals)
 
@@ -238,11 +240,11 @@ def _short(value: float, decimals: int) -> Number:
 
 @dataclass(frozen=True)
 class TrainCase(SolvedTrain):
-    """A planetary train, as a `Case`."""
+    """A solved planetary train, as a `Case`."""
 
     PAGE = TrainPage
 
-    # That a train is found is among the checks of its file: no fault shows only in the results.
+    # The checks of the file already prove that a train exists, so no fault shows in the results.
 
     @property
     def shafts(self) -> Sequence[Shaft]:
@@ -257,15 +259,15 @@ class TrainCase(SolvedTrain):
         """Return all tooth numbers that fulfil the conditions, by size; the chosen ones, their ratio and their
         rates.
         """
-        found, rates = self.choice, [id for id in self.ledger.families if id in train_ids.omega]
+        choice, rates = self.choice, [id for id in self.ledger.families if id in train_ids.omega]
         wheels = {id.rpartition(".")[2]: {"omega": self.ledger[id].at(1)} for id in rates}
-        shown = range(min(len(found.sets), SHOWN_SETS))
+        listed = range(min(len(choice.sets), SHOWN_SETS))
         return ResultEntries(
             [{"number": 1, "wheels": wheels}],
             {
                 "train": {**_told(self.train), "satellites": self.given.k, "possible": list(self.train.satellites)},
-                "found": len(found.sets),
-                "sets": [{**_told(found.train(n)), "unshifted": found.free[n]} for n in shown],
+                "found": len(choice.sets),
+                "sets": [{**_told(choice.train(n)), "unshifted": choice.free[n]} for n in listed],
             },
         )
 
@@ -273,15 +275,16 @@ class TrainCase(SolvedTrain):
         return (train_drawings.animation(self),)
 
     def plates(self, sets: Collection[str] = (), every: bool = False) -> Mapping[str, Sequence[DrawingPlate]]:
-        """Its scheme, its triangles and its tables; there are no sets of them to choose from."""
+        """Return the scheme, the triangles and the tables; there are no sets to choose from."""
         page, captions = TrainPage(self), self.words["train"]["captions"]
         tables = [(name, getattr(page, f"{name}_table" if name == "rates" else name)) for name in ("checks", "rates")]
-        told = [
-            DrawingPlate(captions[name], (), "tables", (drawn(one, self.assignment.language),)) for name, one in tables
+        in_tables = [
+            DrawingPlate(captions[name], (), "tables", (drawn(table, self.assignment.language),))
+            for name, table in tables
         ]
-        return {"train": [*train_drawings.plates(self), *(replace(one, spare=True) for one in told)]}
+        return {"train": [*train_drawings.plates(self), *(replace(table, spare=True) for table in in_tables)]}
 
 
 def _told(train: Train) -> dict[str, Any]:
     z = train.teeth
-    return {"z": [z.one, z.two, z.other, z.three], "ratio": float(train.ratio)}
+    return {"z": [z.z1, z.z2, z.z2_prime, z.z3], "ratio": float(train.ratio)}

@@ -1,4 +1,4 @@
-"""Drawings of a planetary train true to scale: its scheme, its triangles of velocities, its page, its sheet."""
+"""Drawings of a planetary train true to scale: scheme, velocity triangles, animation and drawing sheet."""
 
 from __future__ import annotations
 
@@ -47,13 +47,13 @@ CARRIER = Pen(0.5, style.RED, style.DASHED)
 RIM, BESIDE = 2.6, 0.45
 """Half the width of a rim in the side view, and distance from a reference line to its rim (mm)."""
 STEP = 13.0
-"""From one plane of wheels to the next, and to the carrier (mm)."""
+"""Distance from one plane of wheels to the next, and to the carrier (mm)."""
 SHAFT = 14.0
 LEG = 4.0
 BEYOND = 6.0
-"""Length of lines of the triangles beyond their ends (mm)."""
+"""Length of the lines of the triangles beyond their ends (mm)."""
 APART = 16.0
-"""White between the triangles and the plan of angular velocities (mm)."""
+"""Gap between the triangles and the plan of angular velocities (mm)."""
 SAMPLES = 360
 RADIUS = reference_radius(Ref("m"), Ref("z"))
 FILMED = 110.0
@@ -61,12 +61,12 @@ FILMED = 110.0
 
 
 def radii(case: SolvedTrain) -> dict[str, float]:
-    """Reference radii of the wheels, and of the circle of the satellites' axes as H (m)."""
+    """Return the reference radii of the wheels (m) by name, and the radius of the satellites' axes as H."""
     given, z = case.given, case.train.teeth
     m, m2 = given.m.si, given.second_module.si
-    wheels = {"1": (m, z.one), "2": (m, z.two), OTHER: (m2, z.other), "3": (m2, z.three)}
-    found = {wheel: float(evaluate(RADIUS, {"m": module, "z": teeth})) for wheel, (module, teeth) in wheels.items()}
-    return found | {"H": float(case.ledger["train.a.1"].values[0])}
+    wheels = {"1": (m, z.z1), "2": (m, z.z2), OTHER: (m2, z.z2_prime), "3": (m2, z.z3)}
+    radius = {wheel: float(evaluate(RADIUS, {"m": module, "z": teeth})) for wheel, (module, teeth) in wheels.items()}
+    return radius | {"H": float(case.ledger["train.a.1"].values[0])}
 
 
 def outermost(r: dict[str, float]) -> float:
@@ -78,7 +78,7 @@ def outermost(r: dict[str, float]) -> float:
 
 
 def scheme_views(case: SolvedTrain, size: FigureSize = IN_REPORT) -> Scene:
-    """Along the axis and from the side, on one height."""
+    """Return the scheme seen along the axis and from the side, at one height."""
     usual = nice_up(2 * outermost(radii(case)) * MM / FRONT)
     r = {wheel: radius * MM * size.per_unit(usual) for wheel, radius in radii(case).items()}
     front, named = _along(case, r)
@@ -94,7 +94,7 @@ def scheme_views(case: SolvedTrain, size: FigureSize = IN_REPORT) -> Scene:
 
 
 def _along(case: SolvedTrain, r: dict[str, float]) -> tuple[list[Item], list[Request]]:
-    """Reference circles, the satellites evenly around, the first above the axis."""
+    """Return the reference circles, with equally spaced satellites, the first above the axis."""
     k, single = case.given.k, case.scheme.single
     places = [r["H"] * cmath.rect(1, math.pi / 2 + number * math.tau / k) for number in range(k)]
     items: list[Item] = [Circle(0j, r["H"], style.AXIS)]
@@ -120,7 +120,7 @@ def _along(case: SolvedTrain, r: dict[str, float]) -> tuple[list[Item], list[Req
 
 
 def _from_side(case: SolvedTrain, r: dict[str, float], at: complex) -> tuple[list[Item], list[Request]]:
-    """The axis level, each wheel a line with its rims; one of the satellites, above the axis."""
+    """Return the side view: the axis horizontal, each wheel a line with its rims, one satellite above the axis."""
     first, last = at, at + (0 if case.scheme.single else STEP)
     carrier = last + STEP
     B = complex(0, r["H"])
@@ -156,7 +156,9 @@ def _from_side(case: SolvedTrain, r: dict[str, float], at: complex) -> tuple[lis
 
 
 def _wheel(at: complex, r: float, pen: Pen, inner: bool = False, disc: complex = 0j) -> Iterator[Item]:
-    """Draw a wheel from the side; the disc of an inner one is aside and its rims are outside the reference line."""
+    """Draw a wheel from the side; the disc of an inner wheel is beside it and its rims are outside the
+    reference line.
+    """
     if not inner:
         yield Line(at - 1j * r, at + 1j * r, pen)
     for up in (1j, -1j):
@@ -167,7 +169,7 @@ def _wheel(at: complex, r: float, pen: Pen, inner: bool = False, disc: complex =
 
 
 def _fixed(at: complex, r: float, inner: bool) -> Iterator[Item]:
-    """Wheel 3, held by the ground below it, and an inner one above it, too."""
+    """Draw wheel 3 with the ground that holds it below, and for an inner wheel also above."""
     if not inner:
         yield from _wheel(at, r, WHEEL)
     for up in (1j, -1j) if inner else (-1j,):
@@ -187,10 +189,10 @@ def _held(rim: complex, up: complex = -1j) -> Iterator[Item]:
 
 
 def velocity_triangles(case: SolvedTrain, size: FigureSize = IN_REPORT) -> Scene:
-    """Velocities at the distances of their points from the axis; below, the plan of angular velocities.
+    """Return velocities over the distance of their points from the axis; below, the plan of angular velocities.
 
     A velocity in the sense of the driving shaft points to the right.  In the plan each ray from the pole K is parallel
-    to the line of its body and cuts off its angular velocity from the foot of K, which is that of wheel 3.
+    to the line of its body; it cuts off the angular velocity, measured from the foot of K, which is that of wheel 3.
     """
     ledger = case.ledger
     symbols = {of: ledger.symbol(train_ids.scale(of)) for of in ("l", "v", "omega")}
@@ -224,7 +226,7 @@ def velocity_triangles(case: SolvedTrain, size: FigureSize = IN_REPORT) -> Scene
     requests += [label([end * share for share in (0.55, 0.4, 0.7)], name) for end, name in ((a, "1"), (b, "H"))]
     parts = sorted(pairwise(ends), key=lambda pair: -abs(pair[1] - pair[0]))
     requests.append(label([(one + other) / 2 for one, other in parts], "2"))
-    # The plan of angular velocities below: K stands under the level line of all ends.
+    # The plan of angular velocities is below: K is under the common level of all ends.
     K = complex(0, -APART - h)
     level = K + 1j * h
     tips = {wheel: level + h * slope for wheel, slope in slopes.items()}
@@ -245,7 +247,7 @@ def velocity_triangles(case: SolvedTrain, size: FigureSize = IN_REPORT) -> Scene
     ]
     notes = [size.note(symbols[of], usual[of].value, usual[of].unit) for of in ("l", "v")]
     rates = replace(usual["omega"], value=float(f"{μ_ω:.6g}"), decimals=None)
-    notes.append(size.told(symbols["omega"], rates, usual["omega"]))
+    notes.append(size.compared(symbols["omega"], rates, usual["omega"]))
     facts = [arrow(Symbol("Aa"), a - A), arrow(Symbol("Bb"), b - B)]
     facts += (
         fact("ray", Symbol("K"), wheel, PaperLength(abs(tip - K)), direction(tip - K)) for wheel, tip in tips.items()
@@ -253,7 +255,7 @@ def velocity_triangles(case: SolvedTrain, size: FigureSize = IN_REPORT) -> Scene
     return finish(Canvas(tuple(items), tuple(requests), tuple(facts)), notes=notes, margin=2.0)
 
 
-# --- wheels that turn ---------------------------------------------------------------------------------------
+# --- the animation ------------------------------------------------------------------------------------------
 
 
 def toothed(teeth: int, radius: float, inner: bool = False) -> Polyline:
@@ -272,7 +274,7 @@ def toothed(teeth: int, radius: float, inner: bool = False) -> Polyline:
 
 
 def animation(case: SolvedTrain) -> Animation:
-    """One turn of the carrier, however many the wheels make of it."""
+    """Return one turn of the carrier, however many turns the wheels make in it."""
     knots = np.linspace(0, math.tau, SAMPLES + 1)
     a = radii(case)["H"] * _at(case)
     return Animation(
@@ -281,7 +283,7 @@ def animation(case: SolvedTrain) -> Animation:
         turns=1,
         span=0.0,
         positions=(("1", 0.0),),
-        shown=0,
+        opening=0,
         panes=(_pane(case, knots),),
         charts=(),
         values=tuple(_values(case)),
@@ -290,7 +292,7 @@ def animation(case: SolvedTrain) -> Animation:
 
 
 def _at(case: SolvedTrain) -> float:
-    """Millimetres of the drawing for a metre."""
+    """Return the scale of the drawing (mm per m)."""
     return FILMED / 2 / outermost(radii(case))
 
 
@@ -312,15 +314,15 @@ def _pane(case: SolvedTrain, knots: np.ndarray) -> Pane:
         return toothed(teeth, radius), Line(0.25 * radius + 0j, 0.8 * radius + 0j, red)
 
     items: list[MovingItem] = [
-        MovingBody(marked("3", z.three, inner3), centre, Track(np.array([still]))),
-        MovingBody(marked("1", z.one, inner1), centre, Track(wheel1 * θ)),
+        MovingBody(marked("3", z.z3, inner3), centre, Track(np.array([still]))),
+        MovingBody(marked("1", z.z1, inner1), centre, Track(wheel1 * θ)),
     ]
     arm: list[Item] = [style.joint(0j)]
     for number, ψ in enumerate(placed):
         assert ψ is not None, "it can be assembled"
         axis = r["H"] * at * cmath.rect(1, number * math.tau / case.given.k)
         place = Track(axis * np.exp(1j * θ))
-        for wheel, teeth in [("2", z.two), (OTHER, z.other)][: 1 if case.scheme.single else 2]:
+        for wheel, teeth in [("2", z.z2), (OTHER, z.z2_prime)][: 1 if case.scheme.single else 2]:
             items.append(MovingBody(marked(wheel, teeth, False), place, Track(ψ + satellite * θ)))
         arm += [Line(0j, axis, Pen(0.6, style.RED)), style.joint(axis)]
     items.append(MovingBody(tuple(arm), centre, Track(θ)))
@@ -332,15 +334,15 @@ def _values(case: SolvedTrain) -> Iterator[MomentValue]:
     for id in case.ledger.families:
         if id in train_ids.omega:
             number = case.printed.number(id)
-            shown = case.ledger[id].at(1) / KINDS["angular velocity"].scale
-            yield MomentValue(case.ledger.symbol(id), number.unit, Track(np.array([shown])), number.decimals or 2)
+            displayed = case.ledger[id].at(1) / KINDS["angular velocity"].scale
+            yield MomentValue(case.ledger.symbol(id), number.unit, Track(np.array([displayed])), number.decimals or 2)
 
 
 # --- the drawing sheet ------------------------------------------------------------------------------------
 
 
 def plates(case: SolvedTrain) -> list[DrawingPlate]:
-    """The scheme and the triangles, at standard scales."""
+    """Return the scheme and the triangles at standard scales."""
     captions = case.words["train"]["captions"]
     drawn = (("scheme", "scheme", scheme_views), ("triangles", "plans", velocity_triangles))
 

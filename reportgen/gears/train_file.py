@@ -1,4 +1,4 @@
-"""File of a planetary train: its keys, and the tooth numbers that it requests."""
+"""The `parameters` of a planetary train, and the tooth numbers that they request."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class TeethLimits(Part):
 
 
 class MeshEfficiency(Part):
-    """The efficiency of a mesh of two outer wheels, and of one with an inner wheel."""
+    """The efficiency of a mesh of two outer wheels, and of a mesh with an inner wheel."""
 
     outer: OfMesh = 0.97
     inner: OfMesh = 0.98
@@ -41,7 +41,7 @@ class MeshEfficiency(Part):
 
 @template_members("u", "tolerance", "z", "before", "behind", "efficiency", "by_carrier")
 class Parameters(Part):
-    """A planetary train that is sought, with rows of ordinary wheels before and behind it."""
+    """A planetary train to be found, with rows of ordinary wheels before and behind it."""
 
     scheme: Literal["single", "double", "double-outer", "double-inner"]
     u: Annotated[Given, Ratio(Interval(least=-2000, most=2000))] | None = None
@@ -67,19 +67,19 @@ class Parameters(Part):
 
     @property
     def row_ratio(self) -> float:
-        """By which factor the rows of ordinary wheels slow down, by its size."""
+        """Return the factor by which the rows of ordinary wheels slow down, as a magnitude."""
         return math.prod(driven / driver for driver, driven in (*self.before, *self.behind))
 
     @property
     def wanted(self) -> float:
-        """The ratio of the planetary train from its driving to its driven shaft."""
+        """Return the ratio of the planetary train from its driving to its driven shaft."""
         if self.u is not None:
             return self.u.si
         assert self.n_out is not None, "a check asks for one of them"
         return self.n_in.si / self.n_out.si / self.row_ratio
 
     def of_input(self, ratio: float) -> float:
-        """u₁H as the ratio from the driving to the driven shaft, and the other way round."""
+        """Convert u₁H to the ratio from the driving to the driven shaft, or back."""
         return 1 / ratio if self.by_carrier else ratio
 
     @property

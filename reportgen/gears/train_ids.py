@@ -1,4 +1,4 @@
-"""Ids of a planetary train, which begin with `train`, and their meaning; others are named on its sheet."""
+"""Ids of a planetary train, which begin with `train`, and their meaning; `train_ledger` names some more."""
 
 from __future__ import annotations
 

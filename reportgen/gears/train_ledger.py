@@ -1,4 +1,6 @@
-"""Planetary train as a ledger: tooth numbers by factors, ratio, conditions, rates, triangles of velocities."""
+"""`SolvedTrain`: a planetary train as a ledger: tooth numbers by factors, ratio, conditions, rates, velocity
+triangles.
+"""
 
 from __future__ import annotations
 
@@ -23,11 +25,11 @@ from reportgen.gears.train_file import Parameters
 from reportgen.gears.train_formulas import OTHER, TrainScheme, term_of
 
 FIRST_ROW_WHEEL = 4
-"""Wheels of ordinary rows are numbered from here."""
+"""First number of the wheels of ordinary rows."""
 PLAN_HEIGHT, PLAN_WIDTH, RATES_WIDTH = 85.0, 60.0, 110.0
-"""Room of radii, velocities and the plan of angular velocities on paper (mm)."""
+"""Room for radii, velocities and the plan of angular velocities on paper (mm)."""
 NEAREST_POLE, FARTHEST_POLE = 2.0, 40.0
-"""The pole of the plan of angular velocities is no nearer and no farther if it can be (mm)."""
+"""Least and largest distance of the pole of the plan of angular velocities, if possible (mm)."""
 LINES: Mapping[str, tuple[str, ...]] = {
     "wanted": ("train.u",),
     "factors": ("train.factor.e", "train.factor.f"),
@@ -41,12 +43,12 @@ LINES: Mapping[str, tuple[str, ...]] = {
     "efficiency": ("train.eta.0", "train.u0", "train.eta.train"),
     "with_rows": ("train.eta.total",),
 }
-"""Quantities that the report sets out together, except those that differ from scheme to scheme."""
+"""Quantities that the report prints together, except those that differ between schemes."""
 
 
 @dataclass(frozen=True)
 class SolvedTrain(DesignCase):
-    """An assignment of a planetary train with its ledger; each part is computed when it is first asked for."""
+    """An assignment of a planetary train with its ledger; each value is computed on first use."""
 
     @property
     def given(self) -> Parameters:
@@ -71,12 +73,12 @@ class SolvedTrain(DesignCase):
 
     @property
     def speed(self) -> float:
-        """Speed of the input shaft (rad/s)."""
+        """Return the speed of the input shaft (rad/s)."""
         return self.given.n_in.si
 
     @cached_property
     def misconceptions(self) -> Misconceptions:
-        """Tooth numbers that miss one condition, and definitions that are often used in place of the right ones."""
+        """Return tooth numbers that miss one condition, and mistaken definitions that students often use."""
         z = {wheel: Ref(train_ids.teeth(wheel)) for wheel in ("1", "2", OTHER, "3")}
         term, sign, unity = term_of(self.scheme, z), self.scheme.sign, as_expression(1.0)
         ω1, ωH = (Ref(train_ids.omega(wheel)) for wheel in ("1", "H"))
@@ -102,13 +104,13 @@ class SolvedTrain(DesignCase):
 
 
 def larger_satellite(train: Train) -> tuple[str, str]:
-    """The module and the wheel of the satellite with the larger tip circle."""
+    """Return the ids of the module and the wheel of the satellite with the larger tip circle."""
     z, m = train.teeth, float(train.modules)
-    return ("train.m2" if m != 1 else "train.m", OTHER) if z.other + 2 > m * (z.two + 2) else ("train.m", "2")
+    return ("train.m2" if m != 1 else "train.m", OTHER) if z.z2_prime + 2 > m * (z.z2 + 2) else ("train.m", "2")
 
 
 class TrainCalculation:
-    """The sheet of a planetary train while it is written."""
+    """The calculation of a planetary train while it is filled."""
 
     def __init__(self, given: Parameters) -> None:
         self.given, self.scheme, self.train = given, SCHEMES[given.scheme], given.choice.chosen
@@ -156,20 +158,20 @@ class TrainCalculation:
     # --- tooth numbers by factors
 
     def _enter_teeth(self) -> None:
-        """z₁ = A e t, z₂ = B e t, z₂′ = C f t, z₃ = D f t; of a single satellite z₁ = A t, z₃ = D t."""
+        """Enter z₁ = A e t, z₂ = B e t, z₂′ = C f t, z₃ = D f t; for a single satellite z₁ = A t, z₃ = D t."""
         q, z, scheme = self.q, self.train.teeth, self.scheme
 
         def factor(letter: str, value: int) -> Ref:
-            # They follow from the tooth numbers that a student finds: no data, which could be misread.
+            # These follow from the student's tooth numbers: they are not data that could be misread.
             return q.give(train_ids.factor(letter), float(value), letter, "count", hidden=True)
 
         if scheme.single:
-            ratio = Fraction(z.three, z.one)
+            ratio = Fraction(z.z3, z.z1)
             A, D = factor("A", ratio.denominator), factor("D", ratio.numerator)
-            t = factor("t", z.one // ratio.denominator)
+            t = factor("t", z.z1 // ratio.denominator)
             formulas: dict[str, Expression] = {"1": A * t, "3": D * t, "2": (D - A) * t / 2}
         else:
-            first, second = Fraction(z.two, z.one), Fraction(z.three, z.other)
+            first, second = Fraction(z.z2, z.z1), Fraction(z.z3, z.z2_prime)
             numbers = first.denominator, first.numerator, second.denominator, second.numerator
             A, B, C, D = (factor(letter, value) for letter, value in zip("ABCD", numbers, strict=True))
             side1, side2 = scheme.signs
@@ -179,7 +181,7 @@ class TrainCalculation:
             common = math.gcd(wide, long)
             e = self._factor("e", r, D + signed(-side2, C), common)
             f = self._factor("f", p, A + signed(-side1, B), common)
-            t = factor("t", z.one // (numbers[0] * long // common))
+            t = factor("t", z.z1 // (numbers[0] * long // common))
             formulas = {"1": A * e * t, "2": B * e * t, OTHER: C * f * t, "3": D * f * t}
         for wheel, formula in formulas.items():
             self.z[wheel] = q.define(train_ids.teeth(wheel), formula, Symbol("z", wheel))
@@ -238,7 +240,7 @@ class TrainCalculation:
     # --- rates
 
     def _enter_rates(self) -> None:
-        """Shaft by shaft from the motor to the machine; wheels on one shaft turn together."""
+        """Enter the rates shaft by shaft from the motor to the machine; wheels on one shaft turn together."""
         q, given, z = self.q, self.given, self.z
         driver, driven = ("H", "1") if given.by_carrier else ("1", "H")
         pairs = [(one, str(int(one) + 1), q[train_ids.row_ratio(one)]) for one, _ in self.rows]
@@ -256,7 +258,7 @@ class TrainCalculation:
     # --- triangles of velocities
 
     def _enter_triangles(self) -> None:
-        """Velocities over the distance from the axis are straight lines; parallels to them through a pole cut off ω."""
+        """Enter the velocity lines over the distance from the axis; parallels to them through a pole cut off ω."""
         q, z, a = self.q, self.z, self.q["train.a.1"]
         r1 = self._length("train.r.1", formulas.reference_radius(self.m, z["1"]), Symbol("r", "1"))
         r3 = self._length("train.r.3", formulas.reference_radius(self.m2, z["3"]), Symbol("r", "3"))
@@ -327,10 +329,10 @@ class TrainCalculation:
 
 
 def pole_distance(rate: float, wide: float, larger: float = 1.0) -> float:
-    """The distance h of the pole (mm) at which μ_ω = μ_v/(μ_l h) is a standard scale; `rate` is μ_v/μ_l.
+    """Return the distance h of the pole (mm) at which μ_ω = μ_v/(μ_l h) is a standard scale; `rate` is μ_v/μ_l.
 
-    The plan, `wide` times as wide as h, has a room so many times `larger` than in a report.  Of the distances that
-    differ by less than ten times, one of whole half millimetres is taken if there is one.
+    The plan is `wide` times as wide as h, in a room `larger` times as large as in a report.  Among distances that
+    differ by less than a factor of ten, a multiple of half a millimetre is preferred.
     """
     most = larger * min(max(RATES_WIDTH / wide, NEAREST_POLE), FARTHEST_POLE)
     distances = [rate / nice_up(rate / most * share) for share in SERIES]
@@ -338,5 +340,5 @@ def pole_distance(rate: float, wide: float, larger: float = 1.0) -> float:
 
 
 def over(points: str) -> Symbol:
-    """A line on paper between two points."""
+    """Return the symbol of a line on paper between two points."""
     return Symbol(points, over="segment")

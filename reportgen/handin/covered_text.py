@@ -81,8 +81,8 @@ def _reach(anchor: XmlNode) -> _Reach | None:
 
 def _offset(position: XmlNode, aligned: float) -> float:
     """Return an offset (mm); `aligned` if the position is given as a word."""
-    found = next((one for one in position.children if one.tag.endswith(":posOffset")), None)
-    return aligned if found is None else _millimetres(found.text)
+    offset = next((one for one in position.children if one.tag.endswith(":posOffset")), None)
+    return aligned if offset is None else _millimetres(offset.text)
 
 
 def _end(block: XmlNode) -> float:

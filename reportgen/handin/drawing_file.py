@@ -36,7 +36,7 @@ def wanted_plans(case: Case, key: Key, worlds: Sequence[Values] = ()) -> WantedP
         return None
     plans = sketches(machines[0])
     ids = {plan.scale for plan in plans} | {
-        end for plan in plans for one in plan.vectors for end in (one.start, one.end)
+        end for plan in plans for vector in plan.vectors for end in (vector.start, vector.end)
     }
 
     def chosen(values: Values) -> Values:

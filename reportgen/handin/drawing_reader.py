@@ -208,8 +208,8 @@ class _Reading:
                     if place is not None:
                         value, error, expected = read(fit, number, *line)
                         # A length is quoted as it is drawn.
-                        shown = value * fit.scale if place is own else value
-                        text = f"{shown:.4g} {self.key.row(place[0]).unit}"
+                        quoted = value * fit.scale if place is own else value
+                        text = f"{quoted:.4g} {self.key.row(place[0]).unit}"
                         location = self.location(fit, number, line[0], (id(fit), number) in wrong)
                         values[place] = Answer(value, text, location)
                         measured[place] = ReadOff(fit.scale, error, expected)

@@ -337,8 +337,8 @@ def _straight(entity: Entity) -> list[Line]:
         points = [corner.at for corner in _corners(entity, 11)]
     if len(points) < 2 or entity.whole(70) & 1 or points[0] == points[-1]:
         return []
-    way = points[-1] - points[0]
-    along = [(point - points[0]) / way for point in points]
+    span = points[-1] - points[0]
+    along = [(point - points[0]) / span for point in points]
     # A control point may occur twice.
     in_order = all(second.real - first.real >= -STRAIGHT for first, second in pairwise(along))
     return [(points[0], points[-1])] if in_order and all(abs(one.imag) <= STRAIGHT for one in along) else []

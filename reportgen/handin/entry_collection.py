@@ -63,10 +63,10 @@ class Gathering:
         self, row: KeyRow, position: int | None, code: str, location: WordLocation, text: str, **more: str
     ) -> None:
         """Record an unread entry for a row, at a position or at any (None)."""
-        for one in row.positions:
-            if position is None or one == position:
-                shown = _tidy(text)
-                self.doubts.setdefault((row.id, one), Fault(code, location, {"text": shown, **more}))
+        for k in row.positions:
+            if position is None or k == position:
+                quoted = _tidy(text)
+                self.doubts.setdefault((row.id, k), Fault(code, location, {"text": quoted, **more}))
 
     def give(self, row: KeyRow, position: int, value: float, location: WordLocation, text: str) -> None:
         """Record a value of a place; if the place already has a different one, it becomes unread."""

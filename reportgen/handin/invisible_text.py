@@ -36,12 +36,12 @@ class Styles:
 
     @classmethod
     def of(cls, tree: XmlNode) -> Styles:
-        styles = {one.get("w:styleId"): one for one in tree.children if one.tag == "w:style"}
+        styles = {style.get("w:styleId"): style for style in tree.children if style.tag == "w:style"}
         run = tree.at("w:docDefaults", "w:rPrDefault", "w:rPr")
         plain = (
             id
-            for id, one in styles.items()
-            if one.get("w:type") == "paragraph" and one.get("w:default") in ("1", "true")
+            for id, style in styles.items()
+            if style.get("w:type") == "paragraph" and style.get("w:default") in ("1", "true")
         )
         return cls(styles, (run,) if run is not None else (), next(plain, ""))
 
@@ -142,9 +142,9 @@ def _behind(run: XmlNode, paragraph: XmlNode | None, looks: list[XmlNode], style
 def _is_filled(node: XmlNode) -> bool:
     """Return True if a style or a box may have its own colour."""
     return any(
-        (one.tag == "w:shd" and _colour(one, "w:fill") not in (None, _WHITE))
-        or one.tag.endswith((":solidFill", ":gradFill", ":pattFill", ":blipFill", ":fillRef"))
-        or one.get("fillcolor")
-        for one in node.walk()
-        if one.tag != "w:txbxContent"
+        (child.tag == "w:shd" and _colour(child, "w:fill") not in (None, _WHITE))
+        or child.tag.endswith((":solidFill", ":gradFill", ":pattFill", ":blipFill", ":fillRef"))
+        or child.get("fillcolor")
+        for child in node.walk()
+        if child.tag != "w:txbxContent"
     )

@@ -87,9 +87,9 @@ def _runs(lines: Lines) -> Iterator[_Run]:
     count = len(lines.ends)
     following: dict[tuple[int, int], list[tuple[int, int]]] = {}
     first, second = close_pairs(lines.points, GAP)
-    for one, other in (*zip(first, second, strict=True), *zip(second, first, strict=True)):
-        piece, end = int(one % count), int(one // count)
-        beside, its_end = int(other % count), int(other // count)
+    for this_end, next_end in (*zip(first, second, strict=True), *zip(second, first, strict=True)):
+        piece, end = int(this_end % count), int(this_end // count)
+        beside, its_end = int(next_end % count), int(next_end // count)
         if piece != beside and _in_line(lines.ends[piece], end, lines.ends[beside], its_end):
             following.setdefault((piece, end), []).append((beside, its_end))
     pending = [_Run(complex(lines.ends[piece, 1 - end]), 0j, (piece,), ((piece, end),)) for piece, end in following]
@@ -124,10 +124,10 @@ def _in_line(piece: np.ndarray, end: int, beside: np.ndarray, its_end: int) -> b
 
 
 def _are_straight(lines: Lines, first: complex, last: complex, inner: tuple[tuple[int, int], ...]) -> bool:
-    way = last - first
-    if not way:
+    span = last - first
+    if not span:
         return False
-    return all(abs(((complex(lines.ends[at]) - first) / way).imag) * abs(way) <= EXACT for at in inner)
+    return all(abs(((complex(lines.ends[at]) - first) / span).imag) * abs(span) <= EXACT for at in inner)
 
 
 def goes_on(lines: Lines, start: complex, end: complex) -> bool:
@@ -135,7 +135,7 @@ def goes_on(lines: Lines, start: complex, end: complex) -> bool:
 
     The two may then be pieces of one line.
     """
-    way = (end - start) / abs(end - start)
-    along = (lines.ends - end) / way
+    direction = (end - start) / abs(end - start)
+    along = (lines.ends - end) / direction
     on_it = (np.abs(along.imag) <= EXACT).all(axis=1) & (along.real >= -EXACT).all(axis=1)
     return bool((on_it & (along.real.min(axis=1) <= abs(end - start))).any())

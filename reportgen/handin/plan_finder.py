@@ -57,15 +57,17 @@ def find(shapes: Sequence[PlanShape], lines: Lines, labels: Labels = UNLABELLED)
     clear, _ = judge.decided(every)
     deviation = _deviation(clear, lines)
     judge = replace(judge, deviation=deviation)
-    again = [fit for one in every if (fit := _closer(one, lines, deviation)) is not None]
+    again = [fit for rough in every if (fit := _closer(rough, lines, deviation)) is not None]
     scales = _common_scales(again, judge) | _common_scales(judge.decided(again)[0], judge)
     judge = replace(judge, scales=scales)
     small = [
         fit
         for shape in shapes
         if shape.scale in scales
-        for one in fits(shape, lines, [scales[shape.scale] if shape.is_of_motion else shape.unit / scales[shape.scale]])
-        if (fit := _closer(one, lines, deviation)) is not None
+        for rough in fits(
+            shape, lines, [scales[shape.scale] if shape.is_of_motion else shape.unit / scales[shape.scale]]
+        )
+        if (fit := _closer(rough, lines, deviation)) is not None
     ]
     plans, doubtful = judge.decided(_distinct([*again, *small]))
     sure = [named(fit, lines, deviation, BEYOND_DOUBT, _names(fit, lines, labels)) for fit in plans]
@@ -203,14 +205,14 @@ class _Judge:
                     break
                 if id(fit.shape) in placed or len(fit.used & taken) > SHARED * len(fit.used):
                     continue
-                others = {id(other): other for line in fit.used for other in by_line[line]}.values()
+                others = {id(rival): rival for line in fit.used for rival in by_line[line]}.values()
                 rivals = [
-                    other
-                    for other in others
-                    if other.shape is not fit.shape
-                    and id(other.shape) not in placed
-                    and len(other.used & fit.used) > SHARED * min(len(other.used), len(fit.used))
-                    and odds[id(other)] > odds[id(fit)] - BEYOND_DOUBT
+                    rival
+                    for rival in others
+                    if rival.shape is not fit.shape
+                    and id(rival.shape) not in placed
+                    and len(rival.used & fit.used) > SHARED * min(len(rival.used), len(fit.used))
+                    and odds[id(rival)] > odds[id(fit)] - BEYOND_DOUBT
                 ]
                 taken |= fit.used
                 if rivals:

@@ -100,9 +100,11 @@ class PlanSketch:
         letters = tuple(self.letters.get(id, ()) for id in ends)
         for k, at in enumerate(places.T):
             vectors = tuple(
-                ShapeVector(one.length, one.direction, index[one.start], index[one.end], one.names, one.drawn)
-                for one in self.vectors
-                if abs(at[index[one.end]] - at[index[one.start]]) > NOTHING
+                ShapeVector(
+                    vector.length, vector.direction, index[vector.start], index[vector.end], vector.names, vector.drawn
+                )
+                for vector in self.vectors
+                if abs(at[index[vector.end]] - at[index[vector.start]]) > NOTHING
             )
             if np.isfinite(at).all() and units[k] > 0 and vectors:
                 yield PlanShape(self.scale, k + 1, float(units[k]), at, vectors, letters)

@@ -21,7 +21,7 @@ from reportgen.marking.answer_sheet import (
     named_pages,
     open_cells,
     page,
-    rows_shown,
+    sheet_rows,
 )
 from reportgen.marking.marking_data import Submission
 from reportgen.marking.toleranced_key import symbol_text, words_of
@@ -70,7 +70,7 @@ def _page(key: Key, name: str, submission: Submission) -> WorksheetData:
             return Entry(UNSETTLED, "doubt", comment=f"{problem.location}\n{problem.message}", unlocked=True)
         return Entry(None, "input", unlocked=True)
 
-    rows = grid(key, words["title"], words["reading_note"], filling, rows_shown(key), asked_positions(key))
+    rows = grid(key, words["title"], words["reading_note"], filling, sheet_rows(key), asked_positions(key))
     return page(name, rows)
 
 

@@ -19,7 +19,7 @@ from reportgen.handin.file_kinds import DRAWING, NOT_READ, OWN, content, not_rea
 from reportgen.handin.reading_book import NAME, is_unchanged, reading_book
 from reportgen.marking.answer_sheet import read_submission
 from reportgen.marking.judging import compare as compare_sheet
-from reportgen.marking.judging import compared, own_worlds
+from reportgen.marking.judging import compared, following_values
 from reportgen.marking.marking_data import Submission
 from reportgen.marking.marking_policy import Policy
 from reportgen.marking.marking_scheme import key_asked, marking_scheme
@@ -44,7 +44,7 @@ def read(case: Case, papers: Case, files: Sequence[Path], ask: Ask) -> tuple[Key
         scheme = marking_scheme(case, policy)
         # A report gives the values by which its drawings may be found.
         own = submission(readings, spoken) if readings else None
-        worlds = own_worlds(replace(scheme, key=key_asked(policy, scheme.key, own)[0]), own) if own else ()
+        worlds = following_values(replace(scheme, key=key_asked(policy, scheme.key, own)[0]), own) if own else ()
         readings += read_all(drawings, wanted_plans(papers, scheme.key, worlds))
     whole = submission(readings, spoken)
     return key_asked(policy, key_of(case), whole)[0], whole

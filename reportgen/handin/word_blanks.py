@@ -29,12 +29,12 @@ def read_blanks(tree: XmlNode, lines: Sequence[TextLine], gathering: Gathering) 
         content.number = paragraphs.get(content.nodes[0].number, 0)
         row, (_, position) = gathering.key.row(place[0]), place
         match = _FILLED.fullmatch(text)
-        mark = gathering.location(content, match.start(1) if match else 0)
+        location = gathering.location(content, match.start(1) if match else 0)
         if match is None:
-            gathering.doubt(row, position, "unread-number", mark, text)
+            gathering.doubt(row, position, "unread-number", location, text)
         else:
             unit = match[2] or match[3] or ""
-            gathering.number(row, position, match[1], unit, mark, words=match[4] or "")
+            gathering.number(row, position, match[1], unit, location, words=match[4] or "")
     gathering.fixed = frozenset(read)
 
 

@@ -25,13 +25,13 @@ def any_of(*names: str, whole: bool = True) -> str:
     With `whole`, words must match at word boundaries, in languages that have blanks between them.
     """
     read = attrgetter(*names)
-    found: dict[str, None] = {}
+    patterns: dict[str, None] = {}
     for language in languages():
         setting = setting_of(language)
         lists = read(setting.reading) if len(names) > 1 else (read(setting.reading),)
         for word in (word for words in lists for word in words if "#" not in word):
-            found[_pattern(word, whole and setting.spaced)] = None
-    return f"(?:{'|'.join(sorted(found, key=len, reverse=True))})"
+            patterns[_pattern(word, whole and setting.spaced)] = None
+    return f"(?:{'|'.join(sorted(patterns, key=len, reverse=True))})"
 
 
 @cache

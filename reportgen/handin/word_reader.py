@@ -151,21 +151,21 @@ class _Reader:
             carried = own if said.labels_in(statement.lead) else carried
             for_rows = [row for row in gathering.rows_of(statement.symbol) if row.positions]
             location = gathering.location(line, statement.at)
-            shown = f"{statement.symbol} {statement.clauses[0].strip()}"
+            quoted = f"{statement.symbol} {statement.clauses[0].strip()}"
             if len(for_rows) > 1:
                 for row in for_rows:
                     if said.has_number(statement):
-                        gathering.doubt(row, gathering.position(row, own), "unread-several", location, shown)
+                        gathering.doubt(row, gathering.position(row, own), "unread-several", location, quoted)
                 continue
             for row in for_rows:
                 if said.is_supposed(statement):
                     if said.has_number(statement):
-                        gathering.doubt(row, gathering.position(row, own), "unread-supposed", location, shown)
+                        gathering.doubt(row, gathering.position(row, own), "unread-supposed", location, quoted)
                 elif statement.doubt:
-                    gathering.doubt(row, gathering.position(row, own), "unread-number", location, shown)
+                    gathering.doubt(row, gathering.position(row, own), "unread-number", location, quoted)
                 elif unsure and not row.single:
                     if said.has_number(statement):
-                        gathering.doubt(row, None, "unread-positions", location, shown)
+                        gathering.doubt(row, None, "unread-positions", location, quoted)
                 else:
                     self.statement(line, statement, row, own, last)
 
@@ -201,17 +201,17 @@ class _Reader:
         gathering = self.gathering
         position = gathering.position(row, label)
         value = said.value_of(statement)
-        shown = f"{statement.symbol} {statement.clauses[0].strip()}"
+        quoted = f"{statement.symbol} {statement.clauses[0].strip()}"
         location = gathering.location(line, value.at if value else statement.at)
         at_end = last and len(statement.clauses) == 1
         if value is None or value.withdrawn:
             if value is not None or said.is_worked(statement):
-                gathering.doubt(row, position, "unread-number", location, shown)
+                gathering.doubt(row, position, "unread-number", location, quoted)
             if value is None and at_end:
                 self.open = row, label
             return
         if position is None:
-            gathering.doubt(row, None, "unread-no-position", location, shown)
+            gathering.doubt(row, None, "unread-no-position", location, quoted)
             return
         gathering.number(
             row, position, value.number, value.unit, location, words=statement.text, barred=statement.barred

@@ -74,9 +74,9 @@ def _leave(ways: Sequence[TextCells], gathering: Gathering) -> None:
     for row in (row for way in ways for row in way):
         numbers = [cell for cell in row if _NUMBER_CELL.fullmatch(cell.line.text)]
         named = _named(row, gathering)
-        for one in named[0].rows if named and numbers else ():
-            mark = gathering.location(numbers[0].line, 0)
-            gathering.doubt(one, None, "unread-table", mark, numbers[0].line.text)
+        for key_row in named[0].rows if named and numbers else ():
+            location = gathering.location(numbers[0].line, 0)
+            gathering.doubt(key_row, None, "unread-table", location, numbers[0].line.text)
 
 
 # --- statements in cells ----------------------------------------------------------------------------
@@ -173,13 +173,13 @@ def _read_single(rows: TextCells, gathering: Gathering, label: str | None) -> bo
             continue
         quantity, at = named
         unit = _unit_of(quantity, [cell for cell in apart if cell is not at and cell is not numbers[0]]) or own_unit
-        for one in quantity.rows:
-            position = gathering.position(one, label)
+        for asked in quantity.rows:
+            position = gathering.position(asked, label)
             line = numbers[0].line
             if position is None:
-                gathering.doubt(one, None, "unread-no-position", gathering.location(line, 0), line.text)
+                gathering.doubt(asked, None, "unread-no-position", gathering.location(line, 0), line.text)
             else:
-                _read_cell(numbers[0], one, position, unit, len(quantity.rows) > 1, gathering)
+                _read_cell(numbers[0], asked, position, unit, len(quantity.rows) > 1, gathering)
             read = True
     return read
 
@@ -219,12 +219,12 @@ def _read_composed(rows: TextCells, gathering: Gathering, label: str | None) -> 
                 unit = unit or _unit_in_head(row[column])
                 continue
             named = _with_index(symbol, running, index)
-            found = _asked(gathering.symbols.every.get(bare(named), ()))
-            for one in found:
-                position = gathering.position(one, label)
-                if position is None or (unit and not _is_unit(unit, one, gathering)):
+            asked = _asked(gathering.symbols.every.get(bare(named), ()))
+            for key_row in asked:
+                position = gathering.position(key_row, label)
+                if position is None or (unit and not _is_unit(unit, key_row, gathering)):
                     continue
-                _read_cell(row[column], one, position, unit, len(found) > 1, gathering)
+                _read_cell(row[column], key_row, position, unit, len(asked) > 1, gathering)
                 read = True
     return read
 
@@ -255,18 +255,18 @@ def _read_cell(
     if is_blank(text) or not line.nodes:
         return
     match = _NUMBER_CELL.fullmatch(text)
-    mark = gathering.location(line, match.start(1) if match else 0)
+    location = gathering.location(line, match.start(1) if match else 0)
     if OBJECT in text:
-        gathering.doubt(row, position, "unread-object", mark, "")
+        gathering.doubt(row, position, "unread-object", location, "")
     elif several:
-        gathering.doubt(row, position, "unread-several", mark, text)
+        gathering.doubt(row, position, "unread-several", location, text)
     elif match is None:
-        gathering.doubt(row, position, "unread-number", mark, text)
+        gathering.doubt(row, position, "unread-number", location, text)
     elif unit is None:
-        gathering.doubt(row, position, "unread-unit", mark, text, unit=row.unit)
+        gathering.doubt(row, position, "unread-unit", location, text, unit=row.unit)
     else:
         own = match[2] or match[3] or unit
-        gathering.number(row, position, match[1], own, mark, words=match[4] or "")
+        gathering.number(row, position, match[1], own, location, words=match[4] or "")
 
 
 def _named(cells: Sequence[TextCell], gathering: Gathering) -> tuple[_Quantity, TextCell] | None:

@@ -58,9 +58,9 @@ class TextLine:
                 self.letters.append(plain)
                 self.nodes.append(node)
 
-    def extend(self, other: TextLine) -> None:
-        self.letters += other.letters
-        self.nodes += other.nodes
+    def extend(self, line: TextLine) -> None:
+        self.letters += line.letters
+        self.nodes += line.nodes
 
 
 @dataclass(slots=True)

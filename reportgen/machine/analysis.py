@@ -171,7 +171,9 @@ def _work(machine: Machine) -> float:
         corners = load.law.breaks(partial(motion_at, machine))
         motion = motion_at(machine, angle := np.linspace(0.0, whole, STEPS))
         least = ROUNDING * possible(motion, [load.load(angle, motion)]) * machine.speed
-        total += mean_over(power, np.mod(list(corners), whole), 0.0, whole, least) * machine.way / machine.speed
+        total += (
+            mean_over(power, np.mod(list(corners), whole), 0.0, whole, least) * machine.cycle_travel / machine.speed
+        )
     return total
 
 
@@ -208,7 +210,8 @@ def summarise(machine: Machine) -> Summary:
         float(mean),
         abs(float(mean)) * machine.speed,
         float(work),
-        abs(machine.turn * mean + (work - gained) / machine.way) / max(float(np.nanmax(np.abs(torque))), 1e-300),
+        abs(machine.turn * mean + (work - gained) / machine.cycle_travel)
+        / max(float(np.nanmax(np.abs(torque))), 1e-300),
         (_extreme(machine, fine, torque, -1), _extreme(machine, fine, torque, 1)),
     )
 
@@ -343,7 +346,7 @@ class Machine:
         return tuple(sorted({coil for load in self.loads if (coil := load.law.coil)}, key=lambda coil: coil.number))
 
     @property
-    def way(self) -> float:
+    def cycle_travel(self) -> float:
         """The driver's way over the cycle: an angle (rad), or the span of a sliding driver (m)."""
         return self.span or self.turns * 2 * np.pi
 

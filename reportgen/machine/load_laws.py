@@ -278,8 +278,8 @@ class TravelLaw(ListedLaw):
         return np.asarray(np.interp(angle * self.span / FULL_TURN, self.nodes, self.values))
 
     def bracket(self, angle: Floats, motion: Motion) -> Bracket:
-        way = angle * self.span / FULL_TURN
-        return Bracket.among("length", way, self.nodes, np.tile(self.values, (angle.size, 1)))
+        travel = angle * self.span / FULL_TURN
+        return Bracket.among("length", travel, self.nodes, np.tile(self.values, (angle.size, 1)))
 
     def breaks(self, motion_at: MotionAt) -> Iterable[float]:
         return (way / self.span * FULL_TURN for way in self.nodes)

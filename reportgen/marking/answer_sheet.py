@@ -1,7 +1,7 @@
-"""The answer sheet as a workbook: its layout, shared with the key and the marked sheet, and reading it back.
+"""Write the answer sheet as a workbook (`answer_book`) and read a filled one (`read_submission`).
 
-The layout is recognised by its words: a head row, then a row for each quantity with its id in the first column. There
-is a column for single values, then one for each requested position.
+The key and the marked sheet share its layout. A sheet is recognised by its words: a head row, then a row for each
+quantity with its id in the first column. There is a column for single values, then one for each requested position.
 """
 
 from __future__ import annotations
@@ -44,16 +44,19 @@ Filling = Callable[[KeyRow, int], Entry | None]
 
 
 def asked_positions(key: Key) -> tuple[int, ...]:
-    """Return the positions at which any row of the sheet is asked, in order."""
+    """Return the positions at which the sheet requests any value, in order."""
     return tuple(sorted({k for row in key.asked for k in row.positions if k}))
 
 
-def rows_shown(key: Key) -> tuple[KeyRow, ...]:
-    """Return the rows of the sheet: given, asked and scales; given data of formulas only if formulas are asked for."""
+def sheet_rows(key: Key) -> tuple[KeyRow, ...]:
+    """Return the rows of the sheet: given data, requested values and scales.
+
+    Data that only formulas use are left out if no formula is requested.
+    """
     formulas = any(row.part is KeyChapter.formulas for row in key.asked)
     given = (row.id for row in key.rows if row.role is Role.given and (formulas or row.part is not KeyChapter.formulas))
-    shown = frozenset(given)
-    return tuple(row for row in key.rows if row.positions or row.id in shown)
+    given_ids = frozenset(given)
+    return tuple(row for row in key.rows if row.positions or row.id in given_ids)
 
 
 def number_format(row: KeyRow) -> str:
@@ -79,11 +82,11 @@ def open_cells(key: Key) -> Mapping[str, frozenset[int]]:
 
 
 def given_entry(row: KeyRow, position: int) -> Entry | None:
-    """Return a given value as the sheet shows it, or None if there is none."""
+    """Return a given value as the sheet shows it; None if the row has no given value at the position."""
     if row.role is not Role.given or not row.has(position):
         return None
     value = float(row.printed[row.at(position)])
-    return Entry(shown_number(row, value).shown, format=number_format(row)) if value == value else None
+    return Entry(shown_number(row, value).printed, format=number_format(row)) if value == value else None
 
 
 def grid(
@@ -96,7 +99,10 @@ def grid(
     tail_head: Sequence[str] = (),
     tail: Callable[[KeyRow], Sequence[Entry]] | None = None,
 ) -> tuple[tuple[Entry, ...], ...]:
-    """Return the rows of a page in the sheet's layout; `tail` gives further cells after each row, under `tail_head`."""
+    """Return the rows of a page in the sheet's layout.
+
+    `filling` gives the entries of the cells, `tail` further cells after each row, below `tail_head`.
+    """
     words = words_of(key)
     sheet, parts = words["answer_sheet"], words["parts"]
     heads = (
@@ -174,7 +180,7 @@ def _answer_page(key: Key, name: str, note: str, by_section: bool) -> WorksheetD
             return Entry(None, "input", unlocked=True)
         return given_entry(row, position)
 
-    rows = grid(key, sheet["title"], note, filling, rows_shown(key), asked_positions(key))
+    rows = grid(key, sheet["title"], note, filling, sheet_rows(key), asked_positions(key))
     return page(name, rows, by_section)
 
 
@@ -230,13 +236,13 @@ def read_submission(
     reading = _Reading(key, language, settled=fingerprint is None)
     answered = sheets if key.parts else sheets[:1]
     if by_data:
-        shown = [fault for answers in answered for fault in _data_shown(key, *answers)]
-        unsaid = not shown and named is not None and name != key.id
+        data_faults = [fault for answers in answered for fault in _data_shown(key, *answers)]
+        unsaid = not data_faults and named is not None and name != key.id
         about = {"text": name, "wanted": key.id}
         if (
             faults := [Fault("sheet-of-another", location, about)]
             if unsaid
-            else [one for one in shown if one is not None]
+            else [one for one in data_faults if one is not None]
         ):
             raise as_error(faults, language)
     for answers in answered:
@@ -282,7 +288,10 @@ def _sheets(pages: Sequence[Page]) -> list[tuple[Page, int]]:
 
 
 def _beside(pages: Sequence[Page], label: str) -> tuple[str, Location] | None:
-    """Return the text beside a label such as that of the assignment, or None."""
+    """Return the text in the cell after a label, with its location, or None.
+
+    `label` is a key of the sheet's words, such as `assignment`.
+    """
     for page in pages:
         for row in page.rows:
             for label_cell, cell in pairwise(row):

@@ -1,13 +1,13 @@
-"""Detect sheets that are probably not the student's own work, report the evidence, and deduct marks only if certain.
+"""Detect sheets that are probably not the student's own work: `check_authenticity`.
 
 Five patterns are searched for: one number throughout, rows or columns that do not vary, data of another assignment, and
-values of a classmate. Each result is a `Notice` with its places and its reason. Marks are deducted only for what is
-certain, and only if the policy allows it.
+values of a classmate. Each result is a `Notice` with its places and its reason. Marks are deducted only for a certain
+result, and only if the policy allows it.
 
-Copying shows in personal values: they differ from the key and from what the student's own values give by more than
-rounding. Honest values sometimes equal a classmate's. The number of such matches by chance follows a binomial tail,
-multiplied by the numbers of classmates, chapters and positions compared. A run is reported only if it is rarer than
-`CHANCE`.
+Copying shows in personal values: they differ from the key and from the consequence of the student's own values by more
+than rounding. Honest values sometimes equal a classmate's. The number of such matches by chance follows a binomial
+tail, multiplied by the numbers of classmates, chapters and positions compared. A run is reported only if it is rarer
+than `CHANCE`.
 """
 
 from __future__ import annotations
@@ -83,10 +83,10 @@ class Classmate:
     submission: Submission | None = None
 
 
-def guard(
+def check_authenticity(
     scheme: MarkingScheme, cells: Cells, classmates: Sequence[Classmate]
 ) -> tuple[dict[Place, Marked], tuple[Notice, ...]]:
-    """Return the cells after the policy's deductions, and all notices."""
+    """Return the cells after the policy's deductions, and a notice of each pattern found."""
     result, flags = dict(cells), []
     for search in (_one_number, _same_columns, _constant_rows):
         flags += list(search(scheme, cells))
@@ -100,8 +100,8 @@ def guard(
             flags[number] = replace(flag, taken=tuple(taken))
             result |= {place: replace(result[place], verdict=Verdict.implausible, points=0.0) for place in taken}
         for place in flag.places:
-            if flag.other:
-                names = (*result[place].classmates, flag.other)
+            if flag.classmate:
+                names = (*result[place].classmates, flag.classmate)
                 result[place] = replace(result[place], classmates=tuple(dict.fromkeys(names)))
     return result, tuple(flags)
 
@@ -146,16 +146,22 @@ def _same_columns(scheme: MarkingScheme, cells: Cells) -> Iterator[Notice]:
     positions = sorted({position for _, position in _filled(cells) if position})
     copies: set[int] = set()
     for first, second in combinations(positions, 2):
-        telling = [id for id, position in cells if position == first and _differ(cells, (id, first), (id, second))]
-        same = [id for id in telling if cells[id, first].written == cells[id, second].written]
-        if len(telling) < FEWEST_ROWS or len(same) < FOREIGN_SHARE * len(telling) or {first, second} <= copies:
+        distinguishing = [
+            id for id, position in cells if position == first and _differ(cells, (id, first), (id, second))
+        ]
+        same = [id for id in distinguishing if cells[id, first].written == cells[id, second].written]
+        if (
+            len(distinguishing) < FEWEST_ROWS
+            or len(same) < FOREIGN_SHARE * len(distinguishing)
+            or {first, second} <= copies
+        ):
             continue
         right = {k: sum(cells[id, k].verdict is Verdict.right for id in same) for k in (first, second)}
         copy = first if first in copies or (second not in copies and right[first] < right[second]) else second
         copies.add(copy)
         # Values that are right all the same keep their points.
         spoiled = tuple(place for place in cells if place[1] == copy and cells[place].verdict is Verdict.follows)
-        yield Notice("columns", tuple((id, copy) for id in same), spoiled, other="", count=len(telling))
+        yield Notice("columns", tuple((id, copy) for id in same), spoiled, classmate="", count=len(distinguishing))
 
 
 def _differ(cells: Cells, first: Place, second: Place) -> bool:
@@ -167,7 +173,7 @@ def _differ(cells: Cells, first: Place, second: Place) -> bool:
 
 
 def _other_data(scheme: MarkingScheme, cells: Cells, classmates: Sequence[Classmate]) -> Iterator[Notice]:
-    """Yield a notice if the values belong to other data than the assignment's, so that what follows is other work.
+    """Yield a notice if the values belong to other data than the assignment's.
 
     Two data are enough if the whole sheet is right for a classmate's assignment that has these data.
     """
@@ -183,25 +189,25 @@ def _other_data(scheme: MarkingScheme, cells: Cells, classmates: Sequence[Classm
     if classmate_id or len(misread) + len(unnamed) >= (OTHER_DATA if len(misread) >= NAMED else INVENTED):
         causes = {*named, *unnamed}
         follows = (place for place, cell in cells.items() if cell.verdict is Verdict.follows)
-        spoiled = (one for one in follows if scheme.stands_on(one, causes) or misread & {*scheme.before[one[0]]})
+        spoiled = (one for one in follows if scheme.depends_on(one, causes) or misread & {*scheme.before[one[0]]})
         # In the order of the sheet, so that every run gives the same result.
         yield Notice(
-            "other-data", tuple(place for place in first if place in causes), tuple(spoiled), other=classmate_id
+            "other-data", tuple(place for place in first if place in causes), tuple(spoiled), classmate=classmate_id
         )
 
 
 def _is_right_for(scheme: MarkingScheme, cells: Cells, classmate: Classmate) -> bool:
     """Return True if nearly all values that distinguish a classmate's assignment from this one are the classmate's."""
-    telling = met = 0
+    distinguishing = met = 0
     for cell in cells.values():
         row = _row(classmate, cell)
         if cell.written is None or row is None or _is_drawn(row):
             continue
         theirs = float(row.values[row.at(cell.position)])
         if _apart(scheme, cell, theirs, cell.on_sheet.expected) >= APART * cell.on_sheet.band:
-            telling += 1
+            distinguishing += 1
             met += _apart(scheme, cell, cell.written, theirs) <= cell.on_sheet.band
-    return telling >= FEWEST_ROWS and met >= ALL * telling
+    return distinguishing >= FEWEST_ROWS and met >= ALL * distinguishing
 
 
 # --- classmates -----------------------------------------------------------------------------------
@@ -229,23 +235,23 @@ def _copied(scheme: MarkingScheme, cells: Cells, classmates: Sequence[Classmate]
         chance = 1.0
         wrong = [[place for place in part if not _is_near(own[place])] for part in parts]
         for part in (*parts, *wrong):
-            telling = [place for place in part if meets[place] is not None]
-            met = [place for place in telling if meets[place]]
-            if len(met) < max(FEWEST, FOREIGN_SHARE * len(telling)):
+            distinguishing = [place for place in part if meets[place] is not None]
+            met = [place for place in distinguishing if meets[place]]
+            if len(met) < max(FEWEST, FOREIGN_SHARE * len(distinguishing)):
                 continue
-            by_chance = compared * _tail([NEAR if _is_near(own[place]) else FAR for place in telling], len(met))
+            by_chance = compared * _tail([NEAR if _is_near(own[place]) else FAR for place in distinguishing], len(met))
             if by_chance < CHANCE:
                 copied |= dict.fromkeys(met)
                 chance = min(chance, by_chance)
         if copied:
-            flags.append(Notice("classmate", tuple(copied), other=classmate.key.id, chance=chance))
+            flags.append(Notice("classmate", tuple(copied), classmate=classmate.key.id, chance=chance))
     # If several classmates have the same values, the closest is named first. A sheet is copied whole if nearly all its
     # values match.
     flags.sort(key=lambda flag: -len(flag.places))
     by_id = {one.key.id: one for one in others}
     filled = tuple(_filled(cells))
     for number, flag in enumerate(flags):
-        classmate = by_id[flag.other]
+        classmate = by_id[flag.classmate]
         if _is_whole(scheme, cells, classmate):
             flags[number] = replace(flag, kind="classmate-sheet", spoiled=filled)
         elif copied_on := _of_key(scheme, cells, own, classmate):
@@ -266,21 +272,21 @@ def _of_key(scheme: MarkingScheme, cells: Cells, own: Cells, classmate: Classmat
     causes = {place for place, met in meets.items() if met}
     follows = [place for place, cell in cells.items() if cell.verdict is Verdict.follows and cell.written is not None]
     return tuple(
-        place for place in follows if scheme.stands_on(place, causes) and _meets(scheme, cells[place], classmate)
+        place for place in follows if scheme.depends_on(place, causes) and _meets(scheme, cells[place], classmate)
     )
 
 
 def _is_whole(scheme: MarkingScheme, cells: Cells, classmate: Classmate) -> bool:
     """Return True if a sheet has nearly all those values of a classmate's that are wrong on it."""
-    telling = [
+    distinguishing = [
         cell
         for place, cell in cells.items()
         if cell.written is not None
         and (theirs := _theirs(classmate, place)) is not None
         and _apart(scheme, cell, theirs, cell.on_sheet.expected) > cell.on_sheet.band
     ]
-    met = sum(_equal(cell, _theirs(classmate, (cell.id, cell.position))) for cell in telling)
-    return len(telling) > FEWEST_ROWS and met >= FOREIGN_SHARE * len(telling)
+    met = sum(_equal(cell, _theirs(classmate, (cell.id, cell.position))) for cell in distinguishing)
+    return len(distinguishing) > FEWEST_ROWS and met >= FOREIGN_SHARE * len(distinguishing)
 
 
 def _is_source(scheme: MarkingScheme, right: Sequence[Marked], classmate: Classmate) -> bool:
@@ -337,7 +343,7 @@ def _read_to(scheme: MarkingScheme, cells: Cells) -> float:
 
 
 def _is_personal(scheme: MarkingScheme, cell: Marked, step: float) -> bool:
-    """Return True if a value is neither the key's nor what the student's own values give, to its written precision.
+    """Return True if a value, to its written precision, is neither the key's nor follows from the student's own values.
 
     Two students who read the same length to `step` (mm) write the same number; a short length has not even a second
     figure. A value computed correctly from a wrong one proves nothing, because anybody with the same mistake gets it.
@@ -399,14 +405,14 @@ CLOSES = 1.5
 
 
 def not_from_own(working: Working, cells: Cells) -> frozenset[Place]:
-    """Return the places of right values that differ from what the student's own other values give."""
+    """Return the places of right values that do not follow from the student's own other values."""
     return frozenset(
         place for place, cell in cells.items() if cell.verdict is Verdict.right and _differs(working, cell)
     )
 
 
 def _differs(working: Working, cell: Marked) -> bool:
-    ledger, world = working.scheme.ledger, working.world
+    ledger, all_values = working.scheme.ledger, working.all_values
     id = ledger.size_of(cell.id)
     definition = ledger[id].definition
     assert cell.written is not None, "only a given value is right"
@@ -418,7 +424,7 @@ def _differs(working: Working, cell: Marked) -> bool:
     index = working.scheme.rows[cell.id].at(cell.position)
 
     def at(name: str) -> float:
-        values = world[name]
+        values = all_values[name]
         return float(values[index if len(values) > 1 else 0].real)
 
     inputs = {name: at(name) for name in ledger.inputs[id]}
@@ -441,12 +447,12 @@ def _differs(working: Working, cell: Marked) -> bool:
 def _differs_on_plan(working: Working, cell: Marked) -> bool:
     """Return True if a length on a force plan disagrees with the student's own forces, all of them on the sheet."""
     scheme, plan = working.scheme, vocabulary.plan(cell.id)
-    if scheme.ledger[plan].kind != "force scale" or not _stands(working, plan, cell.position):
+    if scheme.ledger[plan].kind != "force scale" or not _is_filled_in(working, plan, cell.position):
         return False
     known = (scheme.ledger[one.of].of for id, one in scheme.ledger.families.items() if vocabulary.plan(id) == plan)
     laid = [id for id in known if id in scheme.rows and plan not in scheme.before[id]]
     assert cell.written is not None, "only a given value is right"
-    if not all(_stands(working, id, cell.position) for id in laid):
+    if not all(_is_filled_in(working, id, cell.position) for id in laid):
         return False
     apart = abs(abs(cell.written) - abs(cell.on_sheet.own))
     # On a large plan, the rounding of the forces is visible too.
@@ -457,7 +463,7 @@ def _differs_on_plan(working: Working, cell: Marked) -> bool:
     return bool(apart > CLOSES * error + rounding)
 
 
-def _stands(working: Working, id: str, position: int) -> bool:
+def _is_filled_in(working: Working, id: str, position: int) -> bool:
     """Return True if a requested value was filled in."""
     row = working.scheme.rows.get(id)
     return row is not None and (id, working.scheme.place(row, position)) in working.submission.values

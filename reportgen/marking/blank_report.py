@@ -1,4 +1,4 @@
-"""The frame of a report: its headings, its formulas in symbols, and a named blank for each result.
+"""Make the frame of a report (`frame_of`): its headings, its formulas in symbols, and a named blank for each result.
 
 In a report written into this frame, every number can be assigned to its quantity and position.
 """
@@ -81,12 +81,12 @@ def _line(case: Case, whole: Key, row: KeyRow, position: int, own: Mapping[str, 
     ledger = case.ledger
     known = set(own.values())
     definition = ledger[own[row.id]].definition if own[row.id] in ledger else None
-    shown: Inline = InlineMath(row.symbol)
+    formula: Inline = InlineMath(row.symbol)
     if definition is not None and refs(definition) and all(ref in known for ref in refs(definition)):
-        shown = InlineMath(Chain((row.symbol, formula_in_symbols(ledger, own[row.id]))))
+        formula = InlineMath(Chain((row.symbol, formula_in_symbols(ledger, own[row.id]))))
     name = blank_name(whole, (row.id, position))
     label = whole.label(position, row.id)
     title = f"{symbol_text(row, whole)} ({label})" if position else symbol_text(row, whole)
     what = (Text(f"{row.named}: "),) if row.named else ()
     unit = (Text(f" {row.unit}"),) if row.unit else ()
-    return Paragraph((*what, shown, Text(" = "), Blank(name, bookmark_name(name), title), *unit))
+    return Paragraph((*what, formula, Text(" = "), Blank(name, bookmark_name(name), title), *unit))

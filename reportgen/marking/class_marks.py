@@ -1,4 +1,4 @@
-"""The marks of a class for the instructor: the rows of `grades.csv`."""
+"""The marks of a class as rows of `grades.csv` (`grade_rows`), and texts about students and cells for all outputs."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ def grade_rows(
     rows: list[tuple[CellValue, ...]] = [head]
     rows += [
         (
-            *who(marking.key),
+            *identity_of(marking.key),
             round(marking.points, 2),
             round(marking.out_of, 2),
             round(100 * marking.share, 1),
@@ -83,7 +83,7 @@ def grade_rows(
     ]
     rows += [
         (
-            *who(student.key),
+            *identity_of(student.key),
             *(None,) * 4,
             *(None for _ in (*parts, *owners)),
             "",
@@ -102,8 +102,8 @@ def grade_rows(
     unread = [*(open_cells(marking) for marking in markings), *(_open_places(one) for one in unmarked)]
     rows[1:] = [(*row, text) for row, text in zip(rows[1:], unread, strict=True)]
     if unwritten:
-        told = ["; ".join(marking.unwritten) for marking in markings] + [""] * len(unmarked)
-        rows[1:] = [(*row, text) for row, text in zip(rows[1:], told, strict=True)]
+        remarks = ["; ".join(marking.unwritten) for marking in markings] + [""] * len(unmarked)
+        rows[1:] = [(*row, text) for row, text in zip(rows[1:], remarks, strict=True)]
     return tuple(rows)
 
 
@@ -134,7 +134,7 @@ def _read(submission: Submission | None) -> tuple[CellValue, CellValue]:
 
 
 def state(student: Unmarked, words: Mapping[str, Any]) -> str:
-    """Return the reason why a student has no mark: no submission, or one that could not be marked."""
+    """Return the reason why a student has no mark: nothing was submitted, or it could not be marked."""
     states = words["states"]
     if student.unsettled is not None and student.unsettled.is_unrecognised:
         return str(states["unrecognised"])
@@ -171,7 +171,7 @@ def _words(places: tuple[Path, ...]) -> Mapping[str, Any]:
     return load_words(places)
 
 
-def who(key: Key) -> tuple[str, str, str]:
+def identity_of(key: Key) -> tuple[str, str, str]:
     """Return id (or else the assignment's id), name and class of a student, as far as they are known."""
     student = key.student
     return (student.get("id", key.id), student.get("name", ""), student.get("class", ""))
@@ -205,7 +205,7 @@ def _flags(marking: Marking, words: Mapping[str, Any], people: Mapping[str, str]
     for flag in marking.flags:
         cells = [cell for cell in marking.cells if (cell.id, cell.position) in {*flag.places[:SHOWN]}]
         where = ", ".join(_cell_text(marking.key, cell) for cell in cells) + (", …" if len(flag.places) > SHOWN else "")
-        of = f" = {people.get(flag.other, flag.other)}" if flag.other else ""
+        of = f" = {people.get(flag.classmate, flag.classmate)}" if flag.classmate else ""
         chance = f", p < {max(flag.chance, 1e-9):.0e}" if flag.kind.startswith("classmate") else ""
         taken = f", {words['warning_names']['taken']}: {len(flag.taken)}" if flag.taken else ""
         texts.append(f"{words['warning_names'][flag.kind]}{of} ({len(flag.places)}: {where}{chance}{taken})")

@@ -1,4 +1,4 @@
-"""The page about a class for the instructor: marks, students without marks, question statistics and first errors."""
+"""Make the page about a class for the instructor (`class_document`): marks, question statistics, first errors."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from reportgen.drawing import Content
 from reportgen.drawing.count_charts import bars, histogram
 from reportgen.drawing.statistics_charts import intervals, scatter
 from reportgen.formula.plain_text import formula
-from reportgen.marking.class_marks import mistake_name, open_cells, section_name, state, who
+from reportgen.marking.class_marks import identity_of, mistake_name, open_cells, section_name, state
 from reportgen.marking.feedback import amended, points_text
 from reportgen.marking.item_statistics import Item, by_question, by_section
 from reportgen.marking.marking_data import Marking, Unmarked
@@ -80,7 +80,7 @@ def _summary(
         )
         yield paragraph(text)
     counts = Counter(
-        "unsettled" if one.unsettled is not None else "refused" if one.reasons else "missing" for one in unmarked
+        "unsettled" if row.unsettled is not None else "refused" if row.reasons else "missing" for row in unmarked
     )
     names = ("missing", "refused", "unsettled")
     yield from (paragraph(page[name].format(count=counts[name])) for name in names if counts[name])
@@ -94,7 +94,7 @@ def _marks(
     heads = (*(names[name] for name in ("id", "name", "class", "points", "out_of")), page["share"], names["mark"])
     rows = [
         (
-            *who(marking.key),
+            *identity_of(marking.key),
             points_text(marking.points, language),
             points_text(marking.out_of, language),
             write(100 * marking.share, 0, language),
@@ -102,7 +102,7 @@ def _marks(
         )
         for marking in markings
     ]
-    rows += [(*who(one.key), *(DASH,) * 4) for one in unmarked]
+    rows += [(*identity_of(one.key), *(DASH,) * 4) for one in unmarked]
     columns = tuple(Column(width, "left" if n < 2 else "center") for n, width in enumerate(WIDTHS))
     return Table(columns, (cells(heads),), tuple(map(cells, rows)), (Text(page["list"]),))
 
@@ -119,7 +119,7 @@ def _people(
 
 def _unmarked(unmarked: Sequence[Unmarked], words: PageWords) -> Iterator[Block]:
     """Yield the table of students without marks, with the reason: no submission, or one that could not be marked."""
-    rows = [(*who(one.key)[:2], state(one, words)) for one in sorted(unmarked, key=lambda one: not one.reasons)]
+    rows = [(*identity_of(one.key)[:2], state(one, words)) for one in sorted(unmarked, key=lambda one: not one.reasons)]
     yield from _people(words["class_page"]["unmarked"], (words["grades"]["state"],), rows, words)
 
 
@@ -128,7 +128,7 @@ def _late(markings: Sequence[Marking], words: PageWords, language: Language, pol
     page = words["class_page"]
     rows = [
         (
-            *who(marking.key)[:2],
+            *identity_of(marking.key)[:2],
             page["late_row"].format(
                 days=marking.days_late,
                 off=points_text(policy.deducted(marking.share, marking.days_late), language),
@@ -143,13 +143,17 @@ def _late(markings: Sequence[Marking], words: PageWords, language: Language, pol
 
 def _amended(markings: Sequence[Marking], words: PageWords) -> Iterator[Block]:
     """Yield the table of the instructor's corrections."""
-    rows = [(*who(marking.key)[:2], amended(marking, one, words)) for marking in markings for one in marking.amendments]
+    rows = [
+        (*identity_of(marking.key)[:2], amended(marking, amendment, words))
+        for marking in markings
+        for amendment in marking.amendments
+    ]
     yield from _people(words["class_page"]["amended"], (words["grades"]["corrections"],), rows, words)
 
 
 def _open(markings: Sequence[Marking], words: PageWords) -> Iterator[Block]:
     """Yield the table of students with unread values. These earn no points until somebody settles them."""
-    rows = [(*who(marking.key)[:2], text) for marking in markings if (text := open_cells(marking))]
+    rows = [(*identity_of(marking.key)[:2], text) for marking in markings if (text := open_cells(marking))]
     yield from _people(words["class_page"]["open"], (words["grades"]["unread"],), rows, words)
 
 
@@ -252,11 +256,11 @@ def _variants(
     ticks = [step * n for n in range(math.ceil(policy.scale.highest / step) + 1)]
     # A figure has room for a limited number of lines.
     for start in range(0, len(compared), MOST_BARS):
-        shown = compared[start : start + MOST_BARS]
+        drawn = compared[start : start + MOST_BARS]
         scene = intervals(
-            [f"{_plain_name(group, words, language)} {group.value}" for group in shown],
-            [group.mean for group in shown],
-            [group.spread for group in shown],
+            [f"{_plain_name(group, words, language)} {group.value}" for group in drawn],
+            [group.mean for group in drawn],
+            [group.spread for group in drawn],
             ticks,
             page["mean_axis"],
         )
@@ -285,8 +289,8 @@ def _errors(markings: Sequence[Marking], words: PageWords, language: Language) -
     ]
     by_quantity = [(symbols[id], count) for id, count in quantities]
     for title, counted in ((page["quantities"], by_quantity), (page["mistakes"], mistakes)):
-        shown, others = counted[:MOST_BARS], counted[MOST_BARS:]
+        most_frequent, others = counted[:MOST_BARS], counted[MOST_BARS:]
         if others:
-            shown.append((page["others"].format(count=len(others)), sum(count for _, count in others)))
-        names, counts = zip(*shown, strict=True)
+            most_frequent.append((page["others"].format(count=len(others)), sum(count for _, count in others)))
+        names, counts = zip(*most_frequent, strict=True)
         yield Figure((bars(names, counts, page["errors"]),), (Text(title),), here=True)

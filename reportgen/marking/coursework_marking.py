@@ -1,4 +1,4 @@
-"""Mark a coursework part by part: judge each part by its own ledger, then join the results.
+"""Mark a coursework part by part: `sheets_of` divides a sheet, each part is judged by its own ledger, `joined` joins.
 
 In the coursework, ids are prefixed with the part's name; the part itself uses the ids of its kind.
 """

@@ -38,9 +38,9 @@ class Exchange:
 
     positions: tuple[int, int]
     rows: frozenset[str]
-    telling: tuple[Place, ...]
+    distinguishing: tuple[Place, ...]
 
-    def other(self, place: Place) -> Place:
+    def home(self, place: Place) -> Place:
         """Return the place where the value of a place belongs."""
         id, position = place
         if id not in self.rows or position not in self.positions:
@@ -51,27 +51,27 @@ class Exchange:
         """Return the submission with each value in its own place."""
         return replace(
             submission,
-            values={self.other(place): one for place, one in submission.values.items()},
-            problems={self.other(place): one for place, one in submission.problems.items()},
-            unread={self.other(place): one for place, one in submission.unread.items()},
+            values={self.home(place): one for place, one in submission.values.items()},
+            problems={self.home(place): one for place, one in submission.problems.items()},
+            unread={self.home(place): one for place, one in submission.unread.items()},
         )
 
     def explains(self, cells: Cells) -> bool:
         """Return True if nearly all distinguishing values are right or follow, judged on the corrected submission."""
-        met = sum(cells[place].verdict in (Verdict.right, Verdict.follows) for place in self.telling)
-        return met >= NEARLY_ALL * len(self.telling)
+        met = sum(cells[place].verdict in (Verdict.right, Verdict.follows) for place in self.distinguishing)
+        return met >= NEARLY_ALL * len(self.distinguishing)
 
     def charged(self, cells: Cells) -> Place | None:
         """Return the place (of the corrected submission) of the value that loses its points: the first with any."""
-        return next((place for place in self.telling if cells[place].points), None)
+        return next((place for place in self.distinguishing if cells[place].points), None)
 
     def as_handed_in(self, cells: Cells) -> dict[Place, Marked]:
         """Return the verdicts on a corrected submission at the places as written, one of them wrong."""
-        placed = {at: replace(cell, position=at[1]) for place, cell in cells.items() for at in [self.other(place)]}
+        placed = {at: replace(cell, position=at[1]) for place, cell in cells.items() for at in [self.home(place)]}
         lost = self.charged(cells)
         if lost is None:
             return placed
-        at = self.other(lost)
+        at = self.home(lost)
         # The feedback shows the expected value of the place where the value was written.
         beside, wrong = cells[at], replace(placed[at], verdict=Verdict.wrong, points=0.0, first=True, elsewhere=False)
         wrong = replace(wrong, expected=beside.expected, own=beside.own, band=beside.band)
@@ -81,7 +81,7 @@ class Exchange:
         """Return the notices with the places where the values were written."""
 
         def placed(places: Sequence[Place]) -> tuple[Place, ...]:
-            return tuple(map(self.other, places))
+            return tuple(map(self.home, places))
 
         return tuple(
             replace(flag, places=placed(flag.places), spoiled=placed(flag.spoiled), taken=placed(flag.taken))
@@ -103,25 +103,25 @@ def possible_exchanges(scheme: MarkingScheme, submission: Submission, cells: Cel
             for row in scheme.key.asked
             if {*pair} <= {*row.positions} and not any((row.id, k) in submission.measured for k in pair)
         )
-        telling: list[Place] = []
+        distinguishing: list[Place] = []
         shares = []
         for here, there in (pair, pair[::-1]):
-            tell = [one for one in given[here] if one.id in rows and _tells(scheme, one, cells[one.id, there])]
-            met = [one for one in tell if _is_of(scheme, one, cells[one.id, there])]
+            tell = [one for one in given[here] if one.id in rows and _distinguishes(scheme, one, cells[one.id, there])]
+            met = [one for one in tell if _has_value_of(scheme, one, cells[one.id, there])]
             shares.append(len(met) / len(tell) if len(tell) >= FEWEST else 0.0)
-            telling += [(one.id, there) for one in tell]
+            distinguishing += [(one.id, there) for one in tell]
         if min(shares) > MOST:
             order = {row.id: index for index, row in enumerate(scheme.judged)}
-            telling.sort(key=lambda place: (order[place[0]], -place[1]))
-            yield Exchange(pair, rows, tuple(telling))
+            distinguishing.sort(key=lambda place: (order[place[0]], -place[1]))
+            yield Exchange(pair, rows, tuple(distinguishing))
 
 
-def _tells(scheme: MarkingScheme, cell: Marked, other: Marked) -> bool:
+def _distinguishes(scheme: MarkingScheme, cell: Marked, partner: Marked) -> bool:
     """Return True if the key's values of two positions differ clearly."""
-    return bool(scheme.distance(cell.id, cell.expected, other.expected) >= APART * max(cell.band, other.band))
+    return bool(scheme.distance(cell.id, cell.expected, partner.expected) >= APART * max(cell.band, partner.band))
 
 
-def _is_of(scheme: MarkingScheme, cell: Marked, other: Marked) -> bool:
+def _has_value_of(scheme: MarkingScheme, cell: Marked, partner: Marked) -> bool:
     """Return True if a value is that of another position."""
     assert cell.given is not None
-    return bool(scheme.distance(cell.id, cell.given, other.expected) <= other.band)
+    return bool(scheme.distance(cell.id, cell.given, partner.expected) <= partner.band)

@@ -1,4 +1,7 @@
-"""The feedback on a marked sheet: the student's own workbook with colours and comments, and a page of text."""
+"""The feedback on a marked sheet: the student's workbook with colours and comments, and a page of text.
+
+`feedback_book` and `feedback_document` make them.
+"""
 
 from __future__ import annotations
 
@@ -26,7 +29,7 @@ from reportgen.marking.answer_sheet import (
     info_page,
     named_pages,
     page,
-    rows_shown,
+    sheet_rows,
 )
 from reportgen.marking.key_files import band, band_decimals
 from reportgen.marking.marking_data import Amendment, Marked, Marking, Verdict, points_of
@@ -87,7 +90,7 @@ def feedback_book(marking: Marking, show_answers: bool = True) -> Book:
             feedback["marked"],
             "",
             filling=filling,
-            rows=rows_shown(part),
+            rows=sheet_rows(part),
             positions=positions,
             tail_head=heads,
             tail=tail,

@@ -45,7 +45,7 @@ class Item:
         return self.key.row(self.place[0])
 
 
-def judged(markings: Sequence[Marking], name: Callable[[Key, Marked], object]) -> list[Item]:
+def items_by(markings: Sequence[Marking], name: Callable[[Key, Marked], object]) -> list[Item]:
     """Return an item for each name of the cells, in the order of the sheets; cells worth no points are left out."""
     of_name: dict[object, list[tuple[Marking, list[Marked]]]] = {}
     for marking in markings:
@@ -75,7 +75,7 @@ def _item(students: Sequence[tuple[Marking, Sequence[Marked]]]) -> Item:
 
 
 def _correlation(x: np.ndarray, y: np.ndarray) -> float:
-    """Return the correlation of two rows [N]; NaN if one of them does not vary."""
+    """Return the correlation of two rows [N]; NaN for fewer than `LEAST` students or if one row does not vary."""
     # 1e-9: floating-point noise is not variation.
     if len(x) < LEAST or np.ptp(x) < 1e-9 or np.ptp(y) < 1e-9:
         return float("nan")
@@ -84,17 +84,17 @@ def _correlation(x: np.ndarray, y: np.ndarray) -> float:
 
 def by_section(markings: Sequence[Marking], language: Language) -> list[Item]:
     """Return an item for each section, separately for the parts of a coursework."""
-    return judged(markings, lambda key, cell: section_name(key, key.row(cell.id), language))
+    return items_by(markings, lambda key, cell: section_name(key, key.row(cell.id), language))
 
 
 def by_question(markings: Sequence[Marking]) -> list[Item]:
     """Return an item for each quantity over its positions."""
-    return judged(markings, lambda key, cell: cell.id)
+    return items_by(markings, lambda key, cell: cell.id)
 
 
 def by_cell(markings: Sequence[Marking]) -> list[Item]:
     """Return an item for each cell."""
-    return judged(markings, lambda key, cell: (cell.id, cell.position))
+    return items_by(markings, lambda key, cell: (cell.id, cell.position))
 
 
 def question_rows(markings: Sequence[Marking], language: Language) -> tuple[tuple[CellValue, ...], ...]:

@@ -1,8 +1,8 @@
-"""Judge every value of a sheet: right, following from the student's own earlier values, or wrong.
+"""Judge every value of a sheet (`mark`): right, following from the student's own earlier values, or wrong.
 
 A wrong value costs its own mark once. Values that depend on it are computed again from the student's own values, and
 earn their mark if they agree. A wrong value that depends on no wrong value is the first of its chain, and its mistake
-is searched for by name. A student who compares a sheet before submitting it learns where it first departs from the
+is searched for by name. With `compare`, a student learns before submitting where a sheet first departs from the
 assignment, without marks or answers.
 """
 
@@ -19,7 +19,7 @@ from reportgen.case import Case
 from reportgen.case.answer_key import KeyRow, Role
 from reportgen.formula.ledger import Ledger
 from reportgen.marking.answer_sheet import read_submission
-from reportgen.marking.authenticity import Classmate, guard, not_from_own, unseen_text
+from reportgen.marking.authenticity import Classmate, check_authenticity, not_from_own, unseen_text
 from reportgen.marking.coursework_marking import joined, sheets_of
 from reportgen.marking.exchanged_positions import Exchange, possible_exchanges
 from reportgen.marking.marking_data import Cells, Marked, Marking, Notice, Place, Submission, Verdict, points_of
@@ -57,7 +57,7 @@ def mark(scheme: MarkingScheme, submission: Submission, classmates: Sequence[Cla
     cells |= {place: replace(cells[place], elsewhere=True) for place in not_from_own(working, cells)}
     flags: tuple[Notice, ...] = ()
     if scheme.policy.guard:
-        cells, flags = guard(scheme, cells, classmates)
+        cells, flags = check_authenticity(scheme, cells, classmates)
     if exchange:
         cells, flags = exchange.as_handed_in(cells), exchange.noticed(flags)
     order = {row.id: index for index, row in enumerate(scheme.key.rows)}
@@ -67,19 +67,19 @@ def mark(scheme: MarkingScheme, submission: Submission, classmates: Sequence[Cla
 
 
 @np.errstate(all="ignore")
-def own_worlds(scheme: MarkingScheme, submission: Submission) -> tuple[Values, ...]:
+def following_values(scheme: MarkingScheme, submission: Submission) -> tuple[Values, ...]:
     """Return all values (SI) [N] that follow from the student's wrong entries, and again with the misread data.
 
     Return () if nothing is wrong. For a coursework, these are the values of its machine.
     """
     if scheme.parts:
         machine = next(iter(sheets_of(scheme, submission, ())))
-        return own_worlds(machine.scheme, machine.submission)
+        return following_values(machine.scheme, machine.submission)
     working, _, mistakes, _ = _best_order(scheme, submission)
     changes = {id: change for one in mistakes for id, change in one.changes.items() if not working.shows(id)}
     if not mistakes:
         return ()
-    return (working.world, *([working.world_with(changes)] if changes else []))
+    return (working.all_values, *([working.all_values_with(changes)] if changes else []))
 
 
 def _best_order(
@@ -91,11 +91,11 @@ def _best_order(
     """
     best = _best_verdicts(scheme, submission)
     for exchange in possible_exchanges(scheme, submission, best[1]):
-        other = _best_verdicts(scheme, exchange.undone(submission))
-        lost = exchange.charged(other[1])
-        cost = other[1][lost].points if lost else 0.0
-        if cost and exchange.explains(other[1]) and _points(other[1]) - cost > _points(best[1]):
-            return *other, exchange
+        corrected = _best_verdicts(scheme, exchange.undone(submission))
+        lost = exchange.charged(corrected[1])
+        cost = corrected[1][lost].points if lost else 0.0
+        if cost and exchange.explains(corrected[1]) and _points(corrected[1]) - cost > _points(best[1]):
+            return *corrected, exchange
     return *best, None
 
 
@@ -128,7 +128,7 @@ def _verdicts(working: Working) -> tuple[dict[Place, Marked], list[Mistake]]:
     cells = _judged_cells(working, possible)
     cells |= _by_approximation(working, cells)
     wrong = {place for place, cell in cells.items() if cell.verdict is Verdict.wrong}
-    cells |= {place: replace(cells[place], first=True) for place in wrong if not scheme.stands_on(place, wrong)}
+    cells |= {place: replace(cells[place], first=True) for place in wrong if not scheme.depends_on(place, wrong)}
     named: list[Mistake] = []
     for search in SEARCHES:
         mistakes = search(working, cells)
@@ -176,7 +176,7 @@ def _judged_cells(working: Working, possible: Sequence[Values]) -> dict[Place, M
     wrong = {place for place, cell in cells.items() if cell.verdict is Verdict.wrong}
     for row, at in rows:
         narrow, usual = working.bands[row.id], scheme.bands[row.id]
-        if (row.id, at) in wrong and (narrow < usual).any() and scheme.stands_on((row.id, at), wrong):
+        if (row.id, at) in wrong and (narrow < usual).any() and scheme.depends_on((row.id, at), wrong):
             cells[row.id, at] = _judged(working, row, at, possible, np.maximum(narrow, usual))
     return cells
 
@@ -199,7 +199,7 @@ def _judged(working: Working, row: KeyRow, position: int, possible: Sequence[Val
     band = float(bands[index if len(bands) > 1 else 0])
     key = float(family.at(position).real)
     following = [_own(scheme.ledger, values, row.id, index) for values in possible]
-    following += working.also(row, position)
+    following += working.accepted_alternatives(row, position)
     drawn = submission.measured.get(place)
     if drawn is not None:
         # The drawing's own fitting error counts if it is larger.
@@ -263,9 +263,9 @@ def _charged_once(working: Working, cells: Cells, mistakes: Mapping[Place, Mista
     order = {row.id: index for index, row in enumerate(scheme.judged)}
     changed: dict[Place, Marked] = {}
     unseen = {
-        (one.name, one.where): one
-        for one in mistakes.values()
-        if not any(map(working.shows, one.changes or [one.where]))
+        (mistake.name, mistake.where): mistake
+        for mistake in mistakes.values()
+        if not any(map(working.shows, mistake.changes or [mistake.where]))
     }
     for (name, where), mistake in unseen.items():
         ways = (mistake.changes, *redesigned(working, mistake))
@@ -282,7 +282,7 @@ def _charged_once(working: Working, cells: Cells, mistakes: Mapping[Place, Mista
             index = scheme.rows[cell.id].at(cell.position)
             given = float(working.values[cell.id][index])
             following = (_own(scheme.ledger, values, cell.id, index) for values in possible)
-            own = next((one for one in following if _follows(scheme, cell.id, given, one, cell.band)), None)
+            own = next((value for value in following if _follows(scheme, cell.id, given, value, cell.band)), None)
             if own is not None:
                 points = policy.worth(cell.id) * policy.follows
                 changed[place] = replace(
@@ -296,9 +296,9 @@ NEAREST = 4
 
 
 def compare(case: Case, sheet: Path, hint: bool = False) -> tuple[tuple[str, ...], bool]:
-    """Return lines that say where a sheet departs from its assignment, and True if it agrees as far as it is filled in.
+    """Return lines that say where a sheet departs from its assignment, and True if all its filled cells agree.
 
-    Raises `AssignmentError` if the sheet cannot be read.
+    With `hint`, the lines add where to look. Raise `AssignmentError` if the sheet cannot be read.
     """
     scheme = marking_scheme(case, Policy(guard=False))
     # The file's name does not matter: the given data show whose sheet it is.
@@ -307,7 +307,7 @@ def compare(case: Case, sheet: Path, hint: bool = False) -> tuple[tuple[str, ...
 
 
 def compared(scheme: MarkingScheme, submission: Submission, hint: bool = False) -> tuple[tuple[str, ...], bool]:
-    """Return the same for a submission that has been read; every row of the sheet counts as requested."""
+    """Return the same as `compare` for a submission that has been read; every row of the sheet counts as requested."""
     # A quantity without a row on the sheet is not missing, nor is a scale.
     filled = {id for id, _ in (*submission.values, *submission.problems)}
     rows = {id for id in submission.rows if id in filled or scheme.key.row(id).role is not Role.scale}
@@ -361,8 +361,8 @@ def _hint(scheme: MarkingScheme, marking: Marking, cell: Marked) -> str:
         return named.format(symbol=symbol, **cell.exchanged_labels(marking.key))
     assert cell.given is not None, "only a given value diverges"
     size = words["compare"]["larger" if abs(cell.given) > abs(cell.own) else "smaller"]
-    shown = (marking.key.find(id) for id in scheme.before[cell.id])
-    nearest = [symbol_text(row, marking.key) for row in shown if row is not None][:NEAREST]
+    earlier = (marking.key.find(id) for id in scheme.before[cell.id])
+    nearest = [symbol_text(row, marking.key) for row in earlier if row is not None][:NEAREST]
     return f"{size} {words['compare']['from'].format(symbols=', '.join(dict.fromkeys(nearest)))}" if nearest else size
 
 

@@ -1,4 +1,4 @@
-"""Write the key as files: a workbook laid out as the answer sheet, CSV, JSON, and a document to print."""
+"""Write the key as files: `key_book`, `key_rows` (CSV), `key_json`, and `key_document` to print."""
 
 from __future__ import annotations
 
@@ -51,7 +51,10 @@ FINER, FINEST = 3, 7
 
 
 def band(row: KeyRow, width: float, figures: int = BAND_DIGITS) -> float | None:
-    """Return a band's half width (in the row's unit) to two significant figures; 0 if negligible, None if NaN."""
+    """Return a band's half width `width`, in the row's printed unit, to `figures` significant figures.
+
+    It is 0 if it is negligible, None for NaN.
+    """
     if width != width:
         return None
     return (
@@ -101,11 +104,14 @@ def _book_pages(key: Key, number: int, title: str) -> Iterator[WorksheetData]:
 def _value_entry(row: KeyRow, index: int) -> Entry:
     """Return a number as the report prints it, or an empty cell if it does not exist."""
     value = float(row.printed[index])
-    return Entry(shown_number(row, value).shown, format=number_format(row)) if value == value else Entry()
+    return Entry(shown_number(row, value).printed, format=number_format(row)) if value == value else Entry()
 
 
 def key_rows(key: Key) -> tuple[tuple[str | float | None, ...], ...]:
-    """Return the key as rows of CSV: id, part, symbol, unit, position, printed value, direction, both bands."""
+    """Return the key as rows of CSV: id, part, symbol, unit, position, printed value, direction, both bands.
+
+    Values, and half widths of the bands, are in the row's printed unit.
+    """
     words = words_of(key)
     sheet, names = words["answer_sheet"], words["key"]
     sections = {part.name: words_of(part.key)["parts"] for part in key.parts} or {"": words["parts"]}
@@ -119,7 +125,7 @@ def key_rows(key: Key) -> tuple[tuple[str | float | None, ...], ...]:
             plain(row.described, key.language),
             row.unit,
             "" if row.single else key.label(index + 1, row.id),
-            shown_number(row, float(value)).shown if value == value else None,
+            shown_number(row, float(value)).printed if value == value else None,
             row.sense[index],
             band(row, float(row.drawn[index])),
             band(row, float(row.computed[index])),
@@ -182,14 +188,14 @@ def key_json(key: Key) -> str:
 def _numbers(values: np.ndarray) -> list[float | None]:
     """Return values rounded for JSON: 0 if negligible beside the largest one, None for NaN."""
     least = ZERO * float(np.max(np.abs(values), initial=0.0, where=np.isfinite(values)))
-    shown = (0.0 if abs(value) < least else significant(float(value), VALUE_DIGITS) for value in values)
-    return [value if value == value else None for value in shown]
+    written = (0.0 if abs(value) < least else significant(float(value), VALUE_DIGITS) for value in values)
+    return [value if value == value else None for value in written]
 
 
 def _bands(row: KeyRow, widths: np.ndarray) -> list[float | None]:
     """Return the half widths of bands with one more figure than the key prints; negligible ones are 0."""
-    shown = (band(row, float(width), BAND_DIGITS + 1) for width in np.where(np.isnan(row.values), np.nan, widths))
-    return list(shown)
+    printed = (band(row, float(width), BAND_DIGITS + 1) for width in np.where(np.isnan(row.values), np.nan, widths))
+    return list(printed)
 
 
 # --- the document ---------------------------------------------------------------------------------
@@ -287,9 +293,9 @@ def _values(row: KeyRow, index: int, senses: bool) -> tuple[Number | str, ...]:
 
 def _band_number(row: KeyRow, width: float) -> Number | str:
     """Return a band as a number; one far below the last figure of its row is 0."""
-    shown = band(row, width)
-    if shown is None:
+    printed = band(row, width)
+    if printed is None:
         return DASH
-    decimals = min(band_decimals(shown), FINEST if row.decimals is None else row.decimals + FINER)
-    number = Number(shown, decimals)
-    return number if number.shown else Number(0.0)
+    decimals = min(band_decimals(printed), FINEST if row.decimals is None else row.decimals + FINER)
+    number = Number(printed, decimals)
+    return number if number.printed else Number(0.0)

@@ -1,4 +1,4 @@
-"""The input and the results of marking: a submission, and a verdict on each of its cells."""
+"""The input and the results of marking: a submission (`Submission`), and the verdicts on its cells (`Marking`)."""
 
 from __future__ import annotations
 
@@ -85,6 +85,8 @@ class Submission:
 
 
 class Verdict(StrEnum):
+    """The judgement of one cell."""
+
     right = "right"
     follows = "follows"
     """The value is wrong, but follows from the student's own earlier values."""
@@ -98,7 +100,7 @@ class Verdict(StrEnum):
 
 
 OPEN = frozenset({Verdict.unreadable, Verdict.unread})
-"""Verdicts on entries of which nobody knows yet whether they are right."""
+"""Verdicts on entries that may be right or wrong, because they could not be read."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -172,17 +174,17 @@ def points_of(cells: Iterable[Marked]) -> tuple[float, float]:
 
 @dataclass(frozen=True, slots=True)
 class Notice:
-    """A finding for the lecturer: a `kind` (a key of `warnings` in words) and the places that show it.
+    """A finding for the instructor: a `kind` (a key of `warnings` in words) and the places that show it.
 
-    `spoiled` are places whose marks the policy may deduct for it, `taken` those where it did. `other` is the assignment
-    that the values come from, `chance` the probability that an honest sheet shows as much, `count` the number of values
-    compared.
+    `spoiled` are places whose marks the policy may deduct for it, `taken` those whose marks it did deduct. `classmate`
+    is the assignment that the values come from, `chance` the probability that an honest sheet shows as much, `count`
+    the number of values compared.
     """
 
     kind: str
     places: tuple[Place, ...]
     spoiled: tuple[Place, ...] = ()
-    other: str = ""
+    classmate: str = ""
     chance: float = 0.0
     count: int = 0
     taken: tuple[Place, ...] = ()
@@ -203,9 +205,10 @@ TAKEN = "taken"
 
 @dataclass(frozen=True)
 class Marking:
-    """All verdicts on a submission, in the order of the key's rows, and the findings for the lecturer.
+    """All verdicts on a submission, in the order of the key's rows, and the findings for the instructor.
 
-    `days_late` are the days begun since it was due. `unwritten` lists the files for which no feedback could be written.
+    `days_late` counts the days begun since it was due. `unwritten` lists the files for which no feedback could be
+    written.
     """
 
     key: Key
@@ -238,10 +241,12 @@ class Marking:
 
     @property
     def points(self) -> float:
+        """Points earned on the whole sheet."""
         return points_of(self.cells)[0]
 
     @property
     def out_of(self) -> float:
+        """Points that the whole sheet is worth."""
         return points_of(self.cells)[1]
 
     @property

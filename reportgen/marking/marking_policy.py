@@ -1,4 +1,7 @@
-"""The marking policy of a class: tolerances, points, selection of questions, flags that cost marks, and the mark."""
+"""The marking policy of a class: tolerances, points, selection of questions, flags that cost marks, and the mark.
+
+`read_policy` reads it from a YAML file.
+"""
 
 from __future__ import annotations
 
@@ -149,34 +152,34 @@ class _PolicyFile(Part):
 def read_policy(path: Path, language: Language | None = None) -> Policy:
     """Return the policy of a YAML file; raise `AssignmentError` with all its faults, located.
 
-    ask: ["*", "-seg.*"]     # sections and ids of the answer sheet; "-" leaves out, the last that fits decides
-    by_section: false        # each section of the printed sheet on pages of its own
-    self_check: true         # beside the task lie the student's data, to compare a filled sheet with
+    ask: ["*", "-seg.*"]     # sections and ids of the answer sheet; "-" excludes, the last match decides
+    by_section: false        # print each section of the sheet on separate pages
+    self_check: true         # add the student's data to the task, for checking a filled sheet
     tolerance:
-      paper: 0.5 mm          # how far off each end of a measured length may lie
-      digits: 3              # figures that values are computed with
+      paper: 0.5 mm          # largest error of each end of a measured length
+      digits: 3              # significant figures of computed values
       share: 0.005           # of the quantity's maximum within a quarter turn
     points: {right: 1, follows: 1}
-    weights:                 # by id of the quantity, the first pattern that fits; 0: not marked
+    weights:                 # by id of the quantity, the first match counts; 0: not marked
       "seg.*": 0.5
       "M.eq": 5
     mark: {highest: 10, step: 0.1}
     guard: true              # report sheets that are not the student's own work
     take:                    # whether each kind of finding costs marks
       other-data: false
-    overrule:                # sheets that keep their marks, and why
+    overrule:                # sheets that keep their marks, with the reason
       K225520103023: has shown the drawings
     show_answers: true       # the feedback shows the right values
-    parts:                   # what each part of a coursework counts; else as many points as values are asked for
+    parts:                   # share of each part of a coursework; default: its number of requested values
       machine: 6
       cam: 4
-    late:                    # what comes after `due`: so much off the mark for each day begun, and no more than `most`
+    late:                    # deduction from the mark for each day begun after `due`, at most `most`
       due: 2026-11-20 23:59
       per_day: 1
       most: 5
     twice: last              # which of two sheets of one student is marked, or: first
-    least_read: 80 %         # of what stands in a report or a drawing without a sheet; below it there is no mark
-    approximations: true     # a value by a textbook's approximation earns its points
+    least_read: 80 %         # least share of a report or drawing that must be read; below it there is no mark
+    approximations: true     # a value computed by a textbook's approximation earns its points
     """
     content = read_model(path, _PolicyFile, language)
     tolerance, points = content.tolerance, content.points

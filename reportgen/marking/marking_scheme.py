@@ -1,4 +1,4 @@
-"""One assignment prepared for marking: what is asked, the tolerances, and the dependencies between values."""
+"""One assignment prepared for marking (`marking_scheme`): requested cells, tolerances, and dependencies of values."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from reportgen.marking.tolerance_bands import computed_bands, drawn_bands, is_ch
 from reportgen.marking.toleranced_key import key_of
 
 Values = Mapping[str, np.ndarray]
-"""Values (SI) by id, [N] or [1]."""
+"""Values (SI) by id, each [N] over all positions of the cycle, or [1] if it is the same at all of them."""
 
 ALMOST = 1e-12
 """Relative allowance for rounding in a comparison with a band."""
@@ -79,7 +79,10 @@ class MarkingScheme:
         return near
 
     def distance(self, id: str, values: np.ndarray | float, references: np.ndarray | float) -> np.ndarray:
-        """Return the distance between values (SI): around the circle for directions, of absolute values if unsigned."""
+        """Return the distances (SI) between values and references, in their common shape [N].
+
+        Directions are compared around the circle, unsigned quantities by absolute value.
+        """
         if self.is_unsigned(id):
             values, references = np.abs(values), np.abs(references)
         return np.asarray(vocabulary.distance(id, np.asarray(values), np.asarray(references)))
@@ -103,7 +106,7 @@ class MarkingScheme:
 
     @cached_property
     def before(self) -> dict[str, tuple[str, ...]]:
-        """The quantities that each judged one depends on, nearest first."""
+        """The ids of the quantities that each judged one depends on, the nearest first."""
         return {row.id: standing_on(self.ledger, row.id) for row in self.judged}
 
     @cached_property
@@ -125,23 +128,26 @@ class MarkingScheme:
         return alike
 
     @cached_property
-    def makers(self) -> dict[str, tuple[str, str]]:
-        """For each scale of a plan, the size and the length that define it: v_A and pa for μ_v."""
-        ledger, makers = self.ledger, dict[str, tuple[str, str]]()
+    def scale_definitions(self) -> dict[str, tuple[str, str]]:
+        """For each scale of a plan, the ids of the size and the length that define it: v_A and pa for μ_v."""
+        ledger, scale_definitions = self.ledger, dict[str, tuple[str, str]]()
         single = [one for one in ledger.families.values() if len(one.values) == 1 and not (one.hidden or one.is_plane)]
         sizes = [one for one in single if one.kind in ("velocity", "acceleration")]
         for length in single:
             scale = vocabulary.plan(length.id)
-            if scale in ledger and scale not in makers and makes_scale(ledger, length.id, scale):
+            if scale in ledger and scale not in scale_definitions and makes_scale(ledger, length.id, scale):
                 value = ledger[scale].values[0] * length.values[0]
                 size = next((one.id for one in sizes if np.isclose(one.values[0], value, rtol=1e-9)), "")
                 if size:
-                    makers[scale] = size, length.id
-        return makers
+                    scale_definitions[scale] = size, length.id
+        return scale_definitions
 
     @cached_property
     def sizes(self) -> dict[str, set[str]]:
-        """For each length of a plan, the quantities that it represents: μ times it, and the size of its vector."""
+        """For each length of a plan, the ids of the quantities that it represents.
+
+        They are the product of μ and the length, and the size of its vector.
+        """
         sizes: dict[str, set[str]] = {id: set() for id in self.ledger.families if vocabulary.plan(id)}
         for id, family in self.ledger.families.items():
             if isinstance(family.definition, Product) and len(family.definition.factors) == 2:
@@ -153,7 +159,7 @@ class MarkingScheme:
                 sizes[id].add(self.ledger[family.of].of)
         return sizes
 
-    def stands_on(self, place: Place, places: Container[Place]) -> bool:
+    def depends_on(self, place: Place, places: Container[Place]) -> bool:
         """Return True if a value on the sheet depends on one at any of `places`."""
         id, position = place
         rows = (self.rows[before] for before in self.before[id] if before in self.rows)
@@ -201,8 +207,8 @@ def key_asked(policy: Policy, key: Key, submission: Submission) -> tuple[Key, fr
     drawn = frozenset(filled) if submission.fingerprint else submission.drawn
     rows = []
     for row in policy.ask.of(key, {id for id, _ in (*filled, *drawn)}).rows:
-        shown = {k for id, k in (*filled, *drawn) if id == row.id}
+        filled_at = {k for id, k in (*filled, *drawn) if id == row.id}
         further = any(id == row.id for id, _ in drawn) and not policy.ask.wants(row)
-        rows.append(replace(row, positions=tuple(k for k in row.positions if k in shown)) if further else row)
+        rows.append(replace(row, positions=tuple(k for k in row.positions if k in filled_at)) if further else row)
     asked = {row.id for row in rows if policy.ask.wants(row)} | {id for id, _ in drawn}
     return replace(key, rows=tuple(rows)), frozenset(asked)

@@ -1,8 +1,10 @@
 """Infer which given datum the student misread, from the values that depend on it.
 
-Many values show the crank, a fixed point, a rod of a plan or the size of a load: everything that depends on such a
-datum is wrong at every position. These values do not depend on each other, and nearly all of them agree on the misread
-value. Few values show a mass or a diameter; the misread value must then be a number that somebody would have given.
+`misread_by_many` and `misread_data` are searches of `judging`. Many values show the crank, a fixed point, a rod of a
+plan or the size of a load: everything that depends on such a datum is wrong at every position. These values do not
+depend on each other, and nearly all of them agree on the misread value. Few values show a mass or a diameter; the
+misread value must then be a number that somebody would have given. `mistakes_of_plans` finds vectors that were reversed
+or omitted.
 """
 
 from __future__ import annotations

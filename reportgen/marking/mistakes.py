@@ -1,7 +1,8 @@
-"""Named mistakes in calculations, each defined as a change of the ledger, which is evaluated with it.
+"""Named mistakes in calculations (`mistakes_in`), each defined as a change of the ledger, which is evaluated with it.
 
 A `Mistake` says in which quantity it is made, which quantities of the ledger change, and to which value. The new value
-is computed from the right value and all values before it (SI).
+(SI) is computed from the right value and all values before it. `slips_of_writing` and `mistakes_of_working` name the
+first wrong values of a sheet.
 """
 
 from __future__ import annotations
@@ -53,9 +54,10 @@ class Mistake:
 
 
 def mistakes_in(scheme: MarkingScheme, id: str, scales: Values) -> Iterator[Mistake]:
-    """Yield all mistakes that can be made in computing one quantity; `scales` are the student's own, in SI.
+    """Yield all mistakes that can be made in computing one quantity.
 
-    A value printed for every position (the crank's angle) can only be taken from another position.
+    `scales` (SI) [1] or [N] are the student's own. A value printed for every position (the crank's angle) can only be
+    taken from another position.
     """
     family = scheme.ledger[id]
     if family.exact and len(family.values) > 1:
@@ -131,8 +133,8 @@ def _in_a_definition(
         angles = [given.id for given in used if given.kind in ("angle", "direction")]
         yield "degrees-for-radians", _with(definition, {id: _degrees(id) for id in angles})
     if not family.constructed:
-        for other in _other_signs(definition):
-            yield "sign-reversed", _with(other, {})
+        for changed in _other_signs(definition):
+            yield "sign-reversed", _with(changed, {})
 
 
 def _with_a_wrong_input(
@@ -145,8 +147,8 @@ def _with_a_wrong_input(
         """Return the printed number of the input, used as the result's printed number."""
         return values[id] / given.how.scale * family.how.scale
 
-    def instead(other: Callable[[Values], np.ndarray]) -> ChangeValue:
-        return _with(definition, {id: other})
+    def instead(wrong_input: Callable[[Values], np.ndarray]) -> ChangeValue:
+        return _with(definition, {id: wrong_input})
 
     if id == "H" and family.kind == "length":
         yield "stroke-for-radius", lambda _, values: values[id]
@@ -197,8 +199,8 @@ def _times(factor: float | np.ndarray) -> ChangeValue:
     return lambda value, _: value * factor
 
 
-def _replaced_by(other: np.ndarray) -> ChangeValue:
-    return lambda _, __: other
+def _replaced_by(values: np.ndarray) -> ChangeValue:
+    return lambda _, __: values
 
 
 def _degrees(id: str) -> Callable[[Values], np.ndarray]:
@@ -271,7 +273,7 @@ def slips_of_writing(working: Working, cells: Cells) -> dict[Place, Mistake]:
     """Return the known slips behind first wrong values."""
     scheme = working.scheme
     first = {place: cell for place, cell in cells.items() if cell.first}
-    found = (
+    slips = (
         *_misplaced(scheme, first, cells),
         *(
             ("too-few-figures", place)
@@ -287,7 +289,7 @@ def slips_of_writing(working: Working, cells: Cells) -> dict[Place, Mistake]:
         *_by_another_convention(first, cells),
     )
     # A slip of writing affects nothing unseen, so it changes no other quantity.
-    return {place: Mistake(name, place[0], {}) for name, place in found}
+    return {place: Mistake(name, place[0], {}) for name, place in slips}
 
 
 def _is_other_scale(scheme: MarkingScheme, cell: Marked) -> bool:
@@ -321,22 +323,22 @@ def _comes_of_a_misconception(working: Working, place: Place) -> bool:
 
 def _misplaced(scheme: MarkingScheme, first: Cells, cells: Cells) -> Iterator[tuple[str, Place]]:
     """Yield two values of one unit in each other's rows, and a value beside its own cell, which is empty."""
-    for (one, mine), (other, theirs) in combinations(first.items(), 2):
-        same = one[1] == other[1] and scheme.rows[one[0]].unit == scheme.rows[other[0]].unit
+    for (here, mine), (there, theirs) in combinations(first.items(), 2):
+        same = here[1] == there[1] and scheme.rows[here[0]].unit == scheme.rows[there[0]].unit
         # If two values differ only in sign, both signs were reversed.
         opposite = abs(mine.on_sheet.expected + theirs.on_sheet.expected) <= mine.on_sheet.band
         if same and not opposite and _belongs_to(mine, theirs) and _belongs_to(theirs, mine):
-            yield "rows-swapped", one
-            yield "rows-swapped", other
+            yield "rows-swapped", here
+            yield "rows-swapped", there
     for place, cell in first.items():
         beside = [cells[place[0], position] for position in scheme.rows[place[0]].positions]
         if any(one.verdict is Verdict.blank and _belongs_to(cell, one) for one in beside):
             yield "wrong-column", place
 
 
-def _belongs_to(cell: Marked, other: Marked) -> bool:
-    """Return True if a value is that of another cell, not of its own."""
-    own, theirs = cell.on_sheet, other.on_sheet
+def _belongs_to(cell: Marked, neighbour: Marked) -> bool:
+    """Return True if a value is the right one of another cell, and not of its own."""
+    own, theirs = cell.on_sheet, neighbour.on_sheet
     return own.equals(theirs.expected, theirs.band) and abs(own.expected - theirs.expected) > theirs.band
 
 
@@ -374,13 +376,13 @@ def mistakes_of_working(working: Working, cells: Cells) -> dict[Place, Mistake]:
     # A student continues with the rounded value written down, or with the one left in the calculator.
     right = {place for place, cell in cells.items() if cell.verdict is Verdict.right}
     gone_on_from = (working, working.unrounded(right)) if by_row else ()
-    found = {
+    explained = {
         (id, position): mistake
         for id, positions in by_row.items()
         for position, mistake in _explained(gone_on_from, cells, id, positions)
     }
-    told = Counter(mistake.name for mistake in found.values())
-    return {place: one for place, one in found.items() if one.name not in OF_POSITION or told[one.name] > 1}
+    counts = Counter(mistake.name for mistake in explained.values())
+    return {place: one for place, one in explained.items() if one.name not in OF_POSITION or counts[one.name] > 1}
 
 
 def _explained(
@@ -428,15 +430,18 @@ def _candidates(working: Working, id: str) -> Iterator[Mistake]:
     if size != id:
         yield from mistakes_in(scheme, size, working.scales)
     before = scheme.before[id]
-    for other in before:
-        if other != size:
-            yield from unseen_mistakes(working, other)
+    for earlier in before:
+        if earlier != size:
+            yield from unseen_mistakes(working, earlier)
     concerned = {*before, id}
     yield from (mistake for mistake in general_mistakes(scheme) if concerned & mistake.changes.keys())
 
 
 def unseen_mistakes(working: Working, id: str) -> Iterator[Mistake]:
-    """Yield mistakes in a quantity that the sheet does not show; nobody draws a plan many times too large."""
+    """Yield mistakes in a quantity that the sheet does not show.
+
+    Lengths on paper and scales have none, because nobody draws a plan many times too large.
+    """
     family = working.scheme.ledger[id]
     drawn = family.kind == "segment" or family.kind.endswith("scale")
     if not (working.shows(id) or family.hidden or family.is_plane or drawn):

@@ -1,4 +1,4 @@
-"""Decide whether the scale of a plan without lengths on the sheet was chosen or computed.
+"""Decide whether the scale of a plan without lengths on the sheet was chosen or computed: `best_working`.
 
 The crank's own plans have a computed scale, μ_v = ω₁μ_l. A number written for it may be a free choice, at which the
 same velocities are drawn longer or shorter. It may also be the result of the student's own wrong ω₁, with which every
@@ -17,7 +17,7 @@ from reportgen.formula import refs, vocabulary
 from reportgen.formula.evaluation import evaluate
 from reportgen.marking.marking_data import Cells, Marked, Place, Submission, Verdict
 from reportgen.marking.marking_scheme import MarkingScheme, Values
-from reportgen.marking.student_values import CONFIRMED, ScaleReading, Working, lay_out
+from reportgen.marking.student_values import CONFIRMED, ScaleReading, Working, working_of
 
 Fitting = Callable[[Working], tuple[int, int]]
 """Returns the number of values of a sheet that a working explains, and the number of values."""
@@ -30,17 +30,17 @@ def best_working(scheme: MarkingScheme, submission: Submission, fitting: Fitting
     """
     scales = _open_scales(scheme, submission)
     if not scales:
-        return lay_out(scheme, submission)
+        return working_of(scheme, submission)
     stated = _stated(scheme, submission, scales)
-    blank = lay_out(scheme, without_cells(submission, {(id, 0) for id in scales}))
-    possible = _Possible(scheme, blank.world, stated)
+    blank = working_of(scheme, without_cells(submission, {(id, 0) for id in scales}))
+    possible = _Possible(scheme, blank.all_values, stated)
     taken: dict[str, ScaleReading] = {}
     best: Working | None = None
     for index, scale in enumerate(scales):
         candidates = possible.readings(scale, taken)
         tried: list[tuple[int, ScaleReading, Working]] = []
         for reading in candidates if len(candidates) > 1 else ():
-            working = lay_out(scheme, submission, possible.completed({**taken, scale: reading}, scales[index + 1 :]))
+            working = working_of(scheme, submission, possible.completed({**taken, scale: reading}, scales[index + 1 :]))
             explained, count = fitting(working)
             if explained == count:
                 return working
@@ -49,11 +49,11 @@ def best_working(scheme: MarkingScheme, submission: Submission, fitting: Fitting
             _, taken[scale], best = max(tried, key=lambda one: one[0])
         else:
             taken[scale] = candidates[0]
-    return best or lay_out(scheme, submission, taken)
+    return best or working_of(scheme, submission, taken)
 
 
 def optional_scales(working: Working) -> frozenset[Place]:
-    """Return the filled-in scales that earn no marks, if any of them is not what the student's own values give."""
+    """Return the filled-in scales that earn no marks, if any of them does not follow from the student's own values."""
     scheme = working.scheme
     places = frozenset(
         (row.id, position)
@@ -80,7 +80,7 @@ def without_cells(submission: Submission, places: Container[Place]) -> Submissio
 
 
 def charged_for_scales(working: Working, cells: Cells) -> dict[Place, Marked]:
-    """Return the first value of each plan that goes on with a wrong scale, if the scale itself earns no marks.
+    """Return the first value of each plan that is drawn at a wrong scale, if the scale itself earns no marks.
 
     A slip in the scale is one mistake: it costs one mark, in the first value that it spoils.
     """
@@ -91,8 +91,8 @@ def charged_for_scales(working: Working, cells: Cells) -> dict[Place, Marked]:
             continue
         spoilt = [
             place
-            for place, one in cells.items()
-            if one.verdict is Verdict.follows and one.worth and id in scheme.before[place[0]]
+            for place, affected in cells.items()
+            if affected.verdict is Verdict.follows and affected.worth and id in scheme.before[place[0]]
         ]
         for place in sorted(spoilt, key=lambda place: (order[place[0]], place[1]))[:1]:
             charged[place] = replace(cells[place], verdict=Verdict.wrong, points=0.0)
@@ -103,23 +103,23 @@ def charged_for_scales(working: Working, cells: Cells) -> dict[Place, Marked]:
 class _Possible:
     """The values (SI) that open scales may have for a student.
 
-    `world` has all values (SI) [N] without the scales, `stated` the written scales (SI).
+    `all_values` has all values (SI) [N] without the scales, `stated` the written scales (SI).
     """
 
     scheme: MarkingScheme
-    world: Values
+    all_values: Values
     stated: Mapping[str, float]
 
     def readings(self, scale: str, taken: Mapping[str, ScaleReading]) -> list[ScaleReading]:
         """Return the readings of a scale: from own values by its formula or as v_A/pa, then the written number."""
         definition = self.scheme.ledger[scale].definition
         assert definition is not None, "an open scale is worked out"
-        inputs = {id: np.array([taken[id].value]) if id in taken else self.world[id] for id in refs(definition)}
+        inputs = {id: np.array([taken[id].value]) if id in taken else self.all_values[id] for id in refs(definition)}
         readings = [ScaleReading(float(np.atleast_1d(evaluate(definition, inputs))[0].real), own=True)]
         further = []
-        if scale in self.scheme.makers:
-            size, length = self.scheme.makers[scale]
-            further.append(float((self.world[size] / self.world[length])[0].real))
+        if scale in self.scheme.scale_definitions:
+            size, length = self.scheme.scale_definitions[scale]
+            further.append(float((self.all_values[size] / self.all_values[length])[0].real))
         if scale in self.stated:
             further.append(self.stated[scale])
         for value in further:
@@ -138,13 +138,13 @@ class _Possible:
 
 def _open_scales(scheme: MarkingScheme, submission: Submission) -> list[str]:
     """Return the computed scales of plans without a length on the sheet, in the ledger's order."""
-    shown = {vocabulary.plan(id) for id, _ in submission.values.keys() - submission.measured.keys()}
+    filled_plans = {vocabulary.plan(id) for id, _ in submission.values.keys() - submission.measured.keys()}
     scales = {
         row.id
         for row in scheme.key.rows
         if row.role is Role.scale and row.kind != "segment" and scheme.ledger[row.id].definition is not None
     }
-    return [id for id in scheme.ledger.families if id in scales - shown and len(scheme.ledger[id].values) == 1]
+    return [id for id in scheme.ledger.families if id in scales - filled_plans and len(scheme.ledger[id].values) == 1]
 
 
 def _stated(scheme: MarkingScheme, submission: Submission, scales: Sequence[str]) -> dict[str, float]:

@@ -1,4 +1,4 @@
-"""Parse numbers as students write them: decimal mark, thousands, powers of ten, unit, blank cells."""
+"""Parse numbers as students write them (`read_number`): decimal mark, thousands, powers of ten, unit, blank cells."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ def read_number(text: str, unit: str, mark: DecimalMark, agreed: bool = False) -
     """Return a cell's number in `unit` ("" for a pure number), and True if it is doubtful.
 
     `mark` decides the meaning of 1.234 if the text itself does not; that is doubtful unless the whole sheet `agreed` on
-    the mark. Raises `QuantityFault` (not-a-number, not-finite, unexpected-, unknown-, wrong-unit).
+    the mark. Raise `QuantityFault` (not-a-number, not-finite, unexpected-, unknown-, wrong-unit).
     """
     if angle := _MINUTES.fullmatch(_tidy(text)):
         sign, degrees, minutes, seconds = angle.groups(default="0")

@@ -1,4 +1,7 @@
-"""A student's values combined with the ledger of an assignment: what follows from the student's own entries."""
+"""Combine a student's values with the ledger of an assignment (`Working`), to compute what follows from them.
+
+`working_of` makes the working of a submission, with every plan read at the scale at which it was drawn.
+"""
 
 from __future__ import annotations
 
@@ -83,15 +86,18 @@ class Working:
         return followed[0]
 
     @cached_property
-    def world(self) -> dict[str, np.ndarray]:
-        """All values (SI) [N] of a student: entered ones and those that follow from them; the key's for blank ones."""
+    def all_values(self) -> dict[str, np.ndarray]:
+        """All values (SI) [N] of a student by id: entered ones and those that follow from them.
+
+        The key's for blank ones.
+        """
         return self._from_key[1]
 
     @cached_property
     def _from_key(self) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
         return self._followed(True, {})
 
-    def world_with(self, changes: Mapping[str, ChangeValue]) -> dict[str, np.ndarray]:
+    def all_values_with(self, changes: Mapping[str, ChangeValue]) -> dict[str, np.ndarray]:
         """Return all values (SI) [N] with changes of quantities that the sheet does not show."""
         return self._followed(True, changes)[1]
 
@@ -113,30 +119,36 @@ class Working:
         values = follow(ledger, {**unseen, **{id: entered(id) for id in self.entered_ids}})
         return result, values
 
-    def also(self, row: KeyRow, position: int) -> list[float]:
-        """Return other accepted values of a quantity (SI): another equal quantity's, or that of another way of drawing.
+    def accepted_alternatives(self, row: KeyRow, position: int) -> list[float]:
+        """Return other accepted values (SI) of a quantity at a position.
 
-        A student who uses a_C for a_A, or μ_a for a_A/πa′, is not wrong again where a_A was. On the lever, M = F h′ μ_l
-        if pa is the drawn crank, though the report has μ_v/ω₁ for a plan at another scale. A student who computes y
-        from the own centre distance is as right as with the angle.
+        They are those of equal quantities, and results of other methods, from the student's own values. A student who
+        uses a_C for a_A, or μ_a for a_A/πa′, is not wrong again where a_A was. On the lever, M = F h′ μ_l if pa is the
+        drawn crank, though the report has μ_v/ω₁ for a plan at another scale. A student who computes y from the own
+        centre distance is as right as with the angle.
         """
         ledger, index = self.scheme.ledger, row.at(position)
         accepted = [
-            float(self.values[other][index].real) for other in self.scheme.alike[row.id] if other in self.values
+            float(self.values[equal][index].real) for equal in self.scheme.alike[row.id] if equal in self.values
         ]
-        if row.role is Role.scale and row.id in self.scheme.makers:
-            size, length = self.scheme.makers[row.id]
-            if size in self.values and self.world[length][0]:
-                accepted.append(float(self.values[size][0] / self.world[length][0].real))
+        if row.role is Role.scale and row.id in self.scheme.scale_definitions:
+            size, length = self.scheme.scale_definitions[row.id]
+            if size in self.values and self.all_values[length][0]:
+                accepted.append(float(self.values[size][0] / self.all_values[length][0].real))
         accepted += self._by_length_scale(row, index)
         accepted += [self.by_another_way(row, way, index) for way in self.scheme.misconceptions.ways.get(row.id, ())]
         return [
-            one for one in accepted if np.isfinite(one) and not self._is_right(row, ledger[row.id].values[index], one)
+            value
+            for value in accepted
+            if np.isfinite(value) and not self._is_right(row, ledger[row.id].values[index], value)
         ]
 
     def by_another_way(self, row: KeyRow, definition: Expression, index: int) -> float:
-        """Return the value that another definition of a quantity gives from the student's own values."""
-        values = np.atleast_1d(evaluate(definition, {id: self.world[id] for id in refs(definition)}))
+        """Return the value (SI) of another definition of a quantity, from the student's values.
+
+        `index` counts the positions [N] from 0.
+        """
+        values = np.atleast_1d(evaluate(definition, {id: self.all_values[id] for id in refs(definition)}))
         return float(np.broadcast_to(values, self.scheme.ledger[row.id].values.shape)[index].real)
 
     def _by_length_scale(self, row: KeyRow, index: int) -> list[float]:
@@ -147,8 +159,12 @@ class Working:
         load, arm = names["force"], ids.lever_arm(names["force"])
         if not {arm, "mu.l"} <= self.values.keys():
             return []
-        drawn = self.world[arm] / self.factors.get("mu.v", np.ones(1))
-        return [float((self.world[load] * drawn)[index].real) * self._stated("mu.l")] if load in self.world else []
+        drawn = self.all_values[arm] / self.factors.get("mu.v", np.ones(1))
+        return (
+            [float((self.all_values[load] * drawn)[index].real) * self._stated("mu.l")]
+            if load in self.all_values
+            else []
+        )
 
     def _stated(self, scale: str) -> float:
         """Return a scale (SI) as it is written, right or not."""
@@ -197,12 +213,15 @@ class Working:
 
 @lru_cache(maxsize=65536)
 def last_half_unit(value: float) -> float:
-    """Return half a unit of the last figure of a number as it was written, with three figures at least."""
+    """Return half a unit of the last written figure of a number, in its own unit.
+
+    A number counts as written with `LEAST_FIGURES` figures at least.
+    """
     written = f"{abs(value):.11e}".partition("e")[0].replace(".", "").rstrip("0")
     return float(half_unit(np.array([value]), max(LEAST_FIGURES, len(written)))[0])
 
 
-def lay_out(
+def working_of(
     scheme: MarkingScheme, submission: Submission, readings: Mapping[str, ScaleReading] | None = None
 ) -> Working:
     """Return the working of a submission, with every plan read as it was drawn, or at the scales in `readings`.
@@ -239,10 +258,10 @@ def lay_out(
             if first is not None:
                 tried.insert(0, float(scheme.ledger[first].values[0] / values[first][0]))
             plan_of_place = [id for id in plan if id != first]
-            factor[place], shown = drawn_at(scheme, values, plan_of_place, tried, own)
+            factor[place], drawn_there = drawn_at(scheme, values, plan_of_place, tried, own)
             if any(np.isfinite(values[id][own]).any() for id in plan):
                 # A scale at which nothing was drawn must not widen the tolerances.
-                drawn[scale][place] = factor[place] if shown else min(factor[place], 1.0)
+                drawn[scale][place] = factor[place] if drawn_there else min(factor[place], 1.0)
             elif 1 / FURTHEST <= factor[place] <= FURTHEST:
                 drawn[scale][place] = factor[place]
         scales[scale] = factor * usual
@@ -305,10 +324,11 @@ CONFIRMED = 0.02
 
 
 def in_use(scheme: MarkingScheme, values: Values, scale: str, place: slice, stated: float) -> float | None:
-    """Return the scale (SI) that a plan was drawn at, from the ratios of sizes to their lengths, if most agree.
+    """Return the scale (SI) that a plan was drawn at, from the ratios of sizes to their lengths; None if unclear.
 
-    Only a freely chosen scale can be inferred in this way; `place` is the slice of the columns that is drawn at it. If
-    the ratios agree with the `stated` scale, few are enough: the plan of a crank has two lengths.
+    `values` are those of the sheet (SI) [N]; `place` is the slice of positions drawn at the scale. Most ratios must
+    agree. Only a freely chosen scale can be inferred in this way. If the ratios agree with the `stated` scale (SI), few
+    are enough: the plan of a crank has two lengths.
     """
     if scheme.ledger[scale].definition is not None or scale == "mu.l":
         return None
@@ -333,10 +353,10 @@ def in_use(scheme: MarkingScheme, values: Values, scale: str, place: slice, stat
 def drawn_at(
     scheme: MarkingScheme, values: Values, plan: Sequence[str], tried: Sequence[float], place: slice
 ) -> tuple[float, bool]:
-    """Return the scale of a plan over the report's: the first of `tried` if another confirms it, else the best one.
+    """Return the scale of a plan as a multiple of the report's, and True if the plan shows it.
 
-    Only the lengths of the plan at `place` of their columns count. The second value is True if the scale is shown: by
-    another one, or by half of the lengths.
+    It is the first of `tried` if another one confirms it, else the best one. Only the lengths of the plan (SI) [N] at
+    the slice `place` count. The scale is shown by another one, or by half of the lengths.
     """
 
     def right(factor: float) -> int:

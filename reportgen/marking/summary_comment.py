@@ -1,4 +1,4 @@
-"""The summary that a student reads first, in a few lines of plain text.
+"""The summary that a student reads first, in a few lines of plain text: `comment`, `unmarked_comment`.
 
 It fits the comment field of a learning platform, or can be pasted.
 """
@@ -70,7 +70,10 @@ def _open(marking: Marking, said: Mapping[str, Any]) -> Iterator[str]:
 
 
 def unmarked_comment(student: Unmarked) -> Iterator[str]:
-    """Yield the lines for a student whose own files were read too incompletely for a mark: what was read and found."""
+    """Yield the lines for a student whose own files were read too incompletely for a mark.
+
+    They say how much was read, and which values are open.
+    """
     key, submission = student.key, student.unsettled
     assert submission is not None, "only read work is unsettled"
     said = words_of(key)["comment"]

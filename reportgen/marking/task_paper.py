@@ -1,4 +1,4 @@
-"""Papers beside the report: their common building blocks, and the task with its empty answer sheet."""
+"""The task of an assignment as a document (`task_of`), and building blocks of all papers beside the report."""
 
 from __future__ import annotations
 
@@ -141,7 +141,7 @@ def task_of(case: Case, key: Key, by_section: bool = False, self_check: bool = T
     if isinstance(case, CaseOfParts):
         pages = zip(case.parts.values(), key.pages, strict=True)
         return case.joined_task([task_of(part, page, by_section, self_check) for part, (_, page) in pages])
-    assert isinstance(case, LoadedAssignment), "what has no parts is a work by itself"
+    assert isinstance(case, LoadedAssignment), "a case without parts is a single work"
     return case.bounded(partial(_task, key=key, by_section=by_section, self_check=self_check))
 
 
@@ -157,9 +157,9 @@ def _task(case: LoadedAssignment, key: Key, by_section: bool, self_check: bool) 
 
 
 def given_of(case: Case, key: Key) -> Document:
-    """Return the part of a task before its answer sheet: given data, what is asked, the positions.
+    """Return the part of a task before its answer sheet: given data, requested values, positions.
 
-    It has the blocks of `task_of` without the title, the student and the sheet with its instructions. Raises
+    It has the blocks of `task_of` without the title, the student and the sheet with its instructions. Raise
     `TemplateError`.
     """
     if isinstance(case, CaseOfParts):
@@ -172,7 +172,7 @@ def given_of(case: Case, key: Key) -> Document:
 
 
 def _bare(case: Case, key: Key) -> Document:
-    assert isinstance(case, LoadedAssignment), "what has no parts is a work by itself"
+    assert isinstance(case, LoadedAssignment), "a case without parts is a single work"
     return case.bounded(partial(_given, key=key))
 
 
@@ -186,7 +186,7 @@ def _given(case: LoadedAssignment, key: Key) -> Document:
 
 
 def _asked_for(case: Case, key: Key, by_section: bool, self_check: bool) -> AskedFor:
-    """Return what the answer sheet of a key asks for, with the values given at the positions."""
+    """Return the requests of a key's answer sheet, with the values given at the positions."""
     asked = asked_positions(key)
     known = range(1, len(case.span.labels) + 1) if case.span.count <= PLATES_UP_TO else asked
     return AskedFor(

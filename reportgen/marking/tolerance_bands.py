@@ -1,9 +1,10 @@
 """Tolerance bands: how far a value may be off if it was measured on a drawing or computed with three figures.
 
-Bands are errors of drawing and of rounding, propagated through the ledger. Each error is a small change of one
-quantity. The ledger evaluates all errors at once, [errors, positions], and returns how far each later quantity moves.
-An error spread evenly over ±e has the standard deviation e/√3. Independent errors add by their squares, and the band
-covers three standard deviations of their sum. A quantity's own error is added in full, because nothing averages it out:
+`drawn_bands` and `computed_bands` return them. Bands are errors of drawing and of rounding, propagated through the
+ledger. Each error is a small change of one quantity. The ledger evaluates all errors at once, [errors, positions], and
+returns how far each later quantity moves. An error spread evenly over ±e has the standard deviation e/√3. Independent
+errors add by their squares, and the band covers three standard deviations of their sum. A quantity's own error is added
+in full, because nothing averages it out:
 
 band = e_own + 3 √(Σᵢ (∂f/∂xᵢ eᵢ/√3)²)
 """
@@ -79,10 +80,11 @@ def computed_bands(ledger: Ledger, digits: int = DIGITS) -> dict[str, np.ndarray
 def measuring_errors(
     ledger: Ledger, error: float = PAPER_ERROR, scales: Mapping[str, np.ndarray] | None = None
 ) -> dict[str, np.ndarray]:
-    """Return the own errors (SI) of measured quantities.
+    """Return the own errors (SI) [N] of measured quantities by id.
 
-    A length has the error of its two ends; a direction has that error divided by its length. Other angles are measured
-    between lines as long as the drawn crank.
+    `error` (m) is that of each end of a length on paper, `scales` are as in `drawn_bands`. A length has the error of
+    its two ends, 2 e; a direction has 2 e divided by its length, at most π. Other angles are measured between lines as
+    long as the drawn crank.
     """
     errors: dict[str, np.ndarray] = {}
     drawn_at = scales or {}
@@ -179,7 +181,7 @@ def is_round_scale(family: Family) -> bool:
 
 
 def half_unit(values: np.ndarray, digits: int) -> np.ndarray:
-    """Return half a unit of the last of `digits` significant figures; 0 for 0."""
+    """Return half a unit of the last of `digits` significant figures of values [N], in their own unit; 0 for 0."""
     sizes = np.abs(values)
     with np.errstate(all="ignore"):
         unit = 10.0 ** (np.floor(np.log10(sizes) + DUST) - digits + 1)
@@ -194,9 +196,9 @@ def _or_nothing(values: np.ndarray) -> np.ndarray:
 def _carried_through(ledger: Ledger, errors: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
     """Return the half widths (SI) [N] of every printed quantity, from the own errors of some quantities."""
     rows = {id: row for row, id in enumerate(errors)}
-    shown = [id for id, family in ledger.families.items() if not (family.hidden or family.is_plane)]
+    visible = [id for id, family in ledger.families.items() if not (family.hidden or family.is_plane)]
     if not rows:
-        return {id: np.zeros(len(ledger[id].values)) for id in shown}
+        return {id: np.zeros(len(ledger[id].values)) for id in visible}
 
     def moved(id: str) -> object:
         def move(value: np.ndarray, _: Mapping[str, np.ndarray]) -> np.ndarray:
@@ -208,7 +210,7 @@ def _carried_through(ledger: Ledger, errors: Mapping[str, np.ndarray]) -> dict[s
 
     values = ledger.evaluate({id: moved(id) for id in errors})
     bands: dict[str, np.ndarray] = {}
-    for id in shown:
+    for id in visible:
         family = ledger[id]
         change = np.atleast_2d(values[id] - family.values)
         if family.how.unit == "°":
@@ -252,7 +254,7 @@ LARGE = 0.1
 
 
 def trapezoid_errors(ledger: Ledger) -> Mapping[str, np.ndarray]:
-    """Return the distances (SI) of values found from the positions alone from those of the ledger, by id.
+    """Return, by id, how far values (SI) [N] found from the positions alone are from those of the ledger.
 
     Each topic computes these errors for its own quantities.
     """
@@ -260,7 +262,10 @@ def trapezoid_errors(ledger: Ledger) -> Mapping[str, np.ndarray]:
 
 
 def is_workable(ledger: Ledger, id: str, errors: Mapping[str, np.ndarray]) -> bool:
-    """Return True if a quantity can be computed from the positions alone, given the `errors` (SI) that this causes."""
+    """Return True if a quantity can be computed from the positions alone.
+
+    `errors` (SI) [N] are the resulting errors.
+    """
     for hooks in MARKS.among(topics()):
-        id = hooks.stands_on(ledger, id)
+        id = hooks.integral_of(ledger, id)
     return id not in errors or bool(np.nanmax(errors[id]) <= LARGE * np.nanmax(np.abs(ledger[id].values)))

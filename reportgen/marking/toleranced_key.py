@@ -1,6 +1,7 @@
-"""The answer key: every quantity of a report at every position, with its tolerance bands.
+"""Make the answer key (`key_of`): every quantity of a report at every position, with its tolerance bands.
 
-Its rows are the families of the ledger, so that key, report and marker always agree.
+Its rows are the families of the ledger, so that key, report and marking always agree. `Ask` selects the cells that an
+answer sheet requests.
 """
 
 from __future__ import annotations
@@ -106,8 +107,9 @@ def key_of(case: Case) -> Key:
 
     parts, families = list(KeyChapter), ledger.families.values()
     # No rows for points, optional quantities and the sizes of signed rotations.
-    shown = (one.id for one in families if not (one.hidden or one.is_plane or one.optional or one.id in ledger.signed))
-    rows = sorted([row(id) for id in shown], key=lambda row: parts.index(row.part))
+    seen = (family for family in families if not (family.hidden or family.is_plane or family.optional))
+    visible = (family.id for family in seen if family.id not in ledger.signed)
+    rows = sorted([row(id) for id in visible], key=lambda row: parts.index(row.part))
     student = assignment.report.student
     fields = {"name": student.name, "id": student.id, "class": student.class_}
     return Key(
@@ -179,9 +181,9 @@ NOT = "-"
 
 DEFAULT = (
     "*",
-    # How it was drawn: lengths and angles on paper, scales, arms.
+    # Results of drawing: lengths and angles on paper, scales, arms.
     *("-drawn.*", "-seg.*", "-mu.*", "-h.*", "-ic.*"),
-    # Second ways to the same result.
+    # Second methods for the same result.
     *("-formulas", "-l.*K[0-9]*", "-e.Pqt*", "-M.*.p", "-T.*", "-J.I", "-J.0", "-J.rest", "-psi.*"),
     *("-run.Mc*", "-run.slip*", "-run.step", "-run.mean*"),
     # Values read from a force plan in addition to the size of a reaction.
@@ -249,17 +251,23 @@ class Ask:
         """
         if self.file is None:
             return
-        left = {index: one for index, one in enumerate(self.patterns) if one.removeprefix(NOT) not in headed_chapters()}
+        left = {
+            index: pattern
+            for index, pattern in enumerate(self.patterns)
+            if pattern.removeprefix(NOT) not in headed_chapters()
+        }
         known: dict[str, None] = dict.fromkeys(headed_chapters())
         tried = False
         for key in keys if left else ():
             tried = True
             known |= dict.fromkeys(row.id for row in key.asked)
-            left = {index: one for index, one in left.items() if not any(_fits(one, row) for row in key.asked)}
+            left = {
+                index: pattern for index, pattern in left.items() if not any(_fits(pattern, row) for row in key.asked)
+            }
             if not left:
                 return
         findings = [
-            Finding("ask-fits-nothing", ("ask", index), _about(one, list(known))) for index, one in left.items()
+            Finding("ask-fits-nothing", ("ask", index), _about(pattern, list(known))) for index, pattern in left.items()
         ]
         if tried and findings:
             raise as_error(placed(read_source(self.file), findings), language)

@@ -1,4 +1,4 @@
-"""Marking hooks of topics: errors of values that a student finds by a coarser rule than the key."""
+"""Hooks by which a topic adds to marking: errors of values that students find by a coarser rule than the key."""
 
 from __future__ import annotations
 
@@ -24,8 +24,8 @@ class MarkHooks:
     """Hooks for values that a student finds from the positions alone, whereas the key integrates or reads a curve."""
 
     errors_of_positions: Callable[[Ledger], Mapping[str, np.ndarray]] = _no_errors
-    """Returns the distances (SI) of such values from those of the ledger, by id."""
-    stands_on: Callable[[Ledger, str], str] = _itself
+    """Returns, by id, how far such values (SI) [N] are from those of the ledger."""
+    integral_of: Callable[[Ledger, str], str] = _itself
     """Returns the id of the integral that a quantity is computed from, else its own id."""
 
 

@@ -1,4 +1,4 @@
-"""Compare the marks of a class by the values of the drawn data, to find variants that were harder than others.
+"""Compare the marks of a class by the values of the drawn data (`groups`), to find variants that were harder.
 
 Students of one variant, or with one value of a datum, are a group. A group is reported as different by a permutation
 test, because marks are not normally distributed. With Bonferroni's bound, the comparison of all groups errs once in 20.
@@ -82,16 +82,16 @@ def _divisions(
             own = marking.key.find(row.id)
             if own is not None and own.role is Role.given and own.single:
                 value = float(own.values[0])
-                shown = write(float(f"{value:.6g}"), None, language)
-                of_student[marking.key.id] = (value, f"{shown} {own.unit}".strip())
+                printed = write(float(f"{value:.6g}"), None, language)
+                of_student[marking.key.id] = (value, f"{printed} {own.unit}".strip())
         yield row.symbol, _sorted(of_student)
 
 
 def _sorted(of_student: Mapping[str, tuple[float, str]]) -> Mapping[str, list[str]]:
     """Return the students of each value, the smallest value first."""
     members: dict[str, list[str]] = {}
-    for id, (_, shown) in sorted(of_student.items(), key=lambda item: item[1]):
-        members.setdefault(shown, []).append(id)
+    for id, (_, value) in sorted(of_student.items(), key=lambda item: item[1]):
+        members.setdefault(value, []).append(id)
     return members
 
 

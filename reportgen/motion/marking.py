@@ -45,11 +45,11 @@ def errors_of_positions(ledger: Ledger) -> Mapping[str, np.ndarray]:
     return {id: error for id, error in errors.items() if error.max() > 0}
 
 
-def stands_on(ledger: Ledger, id: str) -> str:
+def integral_of(ledger: Ledger, id: str) -> str:
     """Return the id of the work of all torques for a value that is computed from it; any other id unchanged."""
     if not id.startswith(TRUE_MOTION) or ledger[id].definition is None or id not in errors_of_positions(ledger):
         return id
     return f"{TRUE_MOTION}A{id[id.rindex('.') :]}" if id.count(".") > 1 else f"{TRUE_MOTION}A"
 
 
-HOOKS = MarkHooks(errors_of_positions=errors_of_positions, stands_on=stands_on)
+HOOKS = MarkHooks(errors_of_positions=errors_of_positions, integral_of=integral_of)

@@ -124,7 +124,7 @@ class DriveSection(Part):
 
     @property
     def i(self) -> float:
-        """Ratio of the speeds of crank and motor."""
+        """Transmission ratio i: the crank's speed over the motor's."""
         return 1.0 if self.ratio is None else self.ratio.si
 
     @property

@@ -96,7 +96,7 @@ def _excess(report: ReportContext) -> float:
     assert permitted is not None, "a verdict names what is permitted"
     printed = report.ledger.number(run_ids.in_state("delta", list(motion.states)[-1]))
     allowed = permitted if printed.decimals is None else rounded(permitted, printed.decimals)
-    return float((printed.shown - allowed) / permitted)
+    return float((printed.printed - allowed) / permitted)
 
 
 def exceeded_by(report: ReportContext) -> Inlines:

@@ -1,4 +1,4 @@
-"""Make the browser page of a case: its report, below its animations."""
+"""Make the browser page of a case, its animations above its report: `page` returns the HTML."""
 
 from __future__ import annotations
 
@@ -19,6 +19,6 @@ def panels(case: Case) -> tuple[Panel, ...]:
 
 
 def page(case: Case, document: Document | None = None, live: Live | None = None) -> str:
-    """The whole page of a case, of its `document` if that is composed already."""
+    """Return the whole page of a case as HTML; `document` is its report if that is already composed."""
     tree = document or case.document()
     return bounded(case.assignment, html.write, tree, case.words["page"], panels(case), live)

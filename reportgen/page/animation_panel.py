@@ -1,7 +1,7 @@
-"""The machine in motion as elements of a page, and its samples as compact data.
+"""Write the animated machine as elements of a page, and its samples as compact data: `panel` returns both.
 
-Everything that moves is drawn here once, about its own origin, and named by its number (`data-i`); the data give
-each number the tracks that it follows.  The script of the frame only reads tracks between two samples.
+Everything that moves is drawn once here, about its own origin, and has a number (`data-i`). The data give for each
+number the tracks that it follows. The script of the page only reads tracks between two samples.
 """
 
 from __future__ import annotations
@@ -43,17 +43,17 @@ from reportgen.page.html import Panel, data, save_buttons, template
 from reportgen.page.svg_elements import MathmlFormulas, Painter, Pens
 
 SPEEDS = (0.1, 0.25, 0.5, 1.0, 2.0)
-"""Speeds of the motion shown: shares of the usual one."""
+"""Speeds of playback, as shares of the usual one."""
 LINE = 0.42
 """Half the height of a line of letters, in font sizes."""
 HIT = 4.0
 """Largest distance (mm) from the pointer to a point that it selects."""
 HEADS = ("x (m)", "y (m)", "v_x (m/s)", "v_y (m/s)", "v (m/s)", "a_x (m/s²)", "a_y (m/s²)", "a (m/s²)")
-"""Heads of the table of a point's motion, behind that of the driver's way."""
+"""Headings of the table of a point's motion, after that of the driver's travel."""
 
 
 def panel(animation: Animation, language: Language, words: Mapping[str, Any]) -> Panel:
-    """The panel of a machine or a part; `words` are all that `words.yaml` has."""
+    """Return the panel of a machine or a part; `words` is the whole content of `words.yaml`."""
     return PanelWriter(animation, language, words).panel()
 
 
@@ -62,13 +62,14 @@ SAMPLE = 2.0**-22
 AXIS_DIGITS = 9
 """Significant figures of the ends of an axis."""
 NOTHING = 2.0**-20
-"""The greatest sample of a track in which everything below its steps is rounding (mm, or SI units)."""
+"""Largest sample (mm, or SI units) of a track in which everything below its step is rounding."""
 
 
 def samples(track: Track) -> tuple[np.ndarray, ...]:
-    """Return the parts of a track as a page has them: real and imaginary parts as numbers of four bytes.
+    """Return the real part of a track, and the imaginary part if it has one, as four-byte numbers [N].
 
-    They are `settled`, since the greatest part of a page that differs from one processor to another would be samples.
+    They are in the track's unit (mm, or SI). They are `settled`: otherwise samples would be most of what differs
+    between the pages of two processors.
     """
     values = np.asarray(track.values)
     parts = (values.real, values.imag) if np.iscomplexobj(values) else (np.asarray(values, dtype=np.float64),)
@@ -77,13 +78,13 @@ def samples(track: Track) -> tuple[np.ndarray, ...]:
 
 
 def _step(greatest: float) -> float:
-    """The step of samples that are no greater than this."""
+    """Return the step of samples that are not larger than `greatest`, in the same unit."""
     # A power of two that rounding errors have changed is that power.
     return SAMPLE * 2.0 ** math.frexp(max(greatest, NOTHING) * (1 + ALIKE))[1]
 
 
 class Tracks:
-    """Tracks of a page, each once: numbers of its parts, and their values one after the other."""
+    """The tracks of a page, each stored once: numbers of its parts, and their values one after the other."""
 
     def __init__(self) -> None:
         self._numbers: dict[tuple[bytes, ...], int] = {}
@@ -91,7 +92,7 @@ class Tracks:
         self._values: list[bytes] = []
 
     def number(self, track: Track) -> int:
-        """The number of a real track; of a complex one that of its first part, the second follows."""
+        """Return the number of a track; for a complex one that of its real part, which the imaginary part follows."""
         parts = samples(track)
         packed = tuple(part.tobytes() for part in parts)
         if packed not in self._numbers:
@@ -102,7 +103,7 @@ class Tracks:
 
     @property
     def values(self) -> np.ndarray:
-        """Return all values, one track after the other."""
+        """All values [N], one track after the other, as four-byte numbers."""
         return np.frombuffer(b"".join(self._values), "<f4")
 
     def packed(self) -> str:
@@ -112,7 +113,7 @@ class Tracks:
 
 @dataclass(frozen=True, slots=True)
 class _Drawn:
-    """Printed pane of the frame; lengths are mm, texts are escaped for attributes."""
+    """A pane as the template prints it; lengths are mm, texts are escaped for attributes."""
 
     key: str
     title: str
@@ -120,7 +121,7 @@ class _Drawn:
     height: str
     box: str
     room: str
-    """Left, upper, right and lower edge of what labels may fill."""
+    """Left, upper, right and lower edge of the area for labels."""
     body: str
     spots: tuple[str, ...]
     reach: str
@@ -128,10 +129,10 @@ class _Drawn:
 
 @dataclass(frozen=True, slots=True)
 class _Charted:
-    """A chart as the frame prints it."""
+    """A chart as the template prints it."""
 
     text: str
-    """Text for readers who do not see it."""
+    """Text alternative for readers who do not see the chart."""
     width: str
     height: str
     body: str
@@ -139,6 +140,8 @@ class _Charted:
 
 
 class PanelWriter:
+    """Writer of one animated panel: its elements, and the data that its script reads."""
+
     def __init__(self, animation: Animation, language: Language, words: Mapping[str, Any]) -> None:
         self.animation, self.language, self.words = animation, language, words["page"]
         self.phrases: Mapping[str, str] = words["told"]
@@ -161,7 +164,7 @@ class PanelWriter:
             words=self.words,
             animation=animation,
             own=self.own,
-            save=partial(save_buttons, told=self.words["save_figure"]),
+            save=partial(save_buttons, label=self.words["save_figure"]),
             speeds=[(speed, write(speed, None, self.language)) for speed in SPEEDS],
             shown_layer=LAYERS[0],
             machine=self.pane(machine),
@@ -188,7 +191,7 @@ class PanelWriter:
             **({"instants": self.instants()} if animation.instants else {}),
             "decimal": decimal_mark(self.language),
             "positions": [[label, float(f"{angle:.9g}")] for label, angle in animation.positions],
-            "shown": animation.shown,
+            "shown": animation.opening,
             "items": self.items,
             "spots": [
                 {
@@ -215,7 +218,7 @@ class PanelWriter:
         }
 
     def instants(self) -> list[tuple[str, float]]:
-        """Return the label of each single instant, and the place of the driver."""
+        """Return the label of each single instant, and the place of the driver: degrees, or mm for a slide."""
         unit = " mm" if self.animation.span else "°"
         places = [float(f"{place:.9g}") for place in self.animation.instants]
         labels = (label for label, _ in self.animation.positions)
@@ -229,18 +232,21 @@ class PanelWriter:
         errors = self.animation.errors
         if self.animation.instants:
             return str(self.words["instants"])
-        shown = {
+        printed = {
             "count": len(self.animation.knots) - 1,
             "place": rounded_up(errors.place, self.language),
             "crank": rounded_up(100 * errors.place / errors.crank, self.language),
             "share": rounded_up(100 * errors.share, self.language),
         }
-        return str(self.words["accuracy"].format(**shown))
+        return str(self.words["accuracy"].format(**printed))
 
     # --- drawings
 
     def pane(self, pane: Pane) -> _Drawn:
-        """A drawing in the box of all that it ever shows, about the origin of its places, y downwards; bars below."""
+        """Draw a pane in the box of everything that it ever shows, about its origin, y downwards.
+
+        Its bars are below it.
+        """
         self.enlargement = pane.enlargement
         size = pane.high - scale_bars(pane, self.animation.units)[0]
         width, height = decimal(size.real), decimal(size.imag)
@@ -257,7 +263,7 @@ class PanelWriter:
         )
 
     def bars(self, pane: Pane) -> Iterator[str]:
-        """A bar for each scale, its value above it; of scales in use in turns all in one place."""
+        """Yield a bar for each scale with its value above it; scales that are used in turns share one place."""
         for number, (scale, bar) in enumerate(scale_bars(pane, self.animation.units)[1]):
             attributes = f' data-bar="{number}"'
             if pane.finer:
@@ -267,7 +273,10 @@ class PanelWriter:
             yield f"<g{attributes}>{self.painter.items(bar)}</g>"
 
     def item(self, item: MovingItem) -> str:
-        """The element of an item; if it moves it gets a number, and what it follows goes into the data."""
+        """Return the element of an item; a moving one gets a number.
+
+        The tracks that it follows go into the data.
+        """
         match item:
             case Still(items):
                 return self.element(self.painter.items(items), item.layer)
@@ -291,7 +300,7 @@ class PanelWriter:
                 )
 
     def element(self, body: str, layer: str, follows: Mapping[str, Any] | None = None) -> str:
-        """A group that may move, and that may be switched."""
+        """Return a group that may move and that may be switched on and off with its layer."""
         attributes = ""
         if follows is not None:
             attributes += f' data-i="{len(self.items)}"'
@@ -319,11 +328,11 @@ class PanelWriter:
         return self.element(parts, item.layer, follows)
 
     def label(self, content: Content, size: float) -> str:
-        """A label of a size (points) about its own place."""
+        """Return a label of a size (points) centred on its own place."""
         return self.painter.label(Label(0j, content, size=size * self.enlargement))
 
     def half_size(self, content: Content, size: float) -> list[float]:
-        """Half the width and height of a label (mm), which is that of a line at least."""
+        """Return half the width and half the height (mm) of a label, which is at least one line high."""
         _, half = frame(Label(0j, content, size=size * self.enlargement))
         return [round(half.real, 2), round(max(half.imag, LINE * size * self.enlargement * POINT), 2)]
 
@@ -352,15 +361,15 @@ class PanelWriter:
 
 
 def _timed(run: TimedRun) -> Mapping[str, Any]:
-    """A run as the script plays it: what it is called, and its samples."""
+    """Return a run as the script plays it: its key and its samples."""
     samples = {"time": run.time, "angle": run.angle, "speed": run.speed, "drive": run.drive}
     steps = {name: _step(float(np.max(np.abs(values), initial=0.0))) for name, values in samples.items()}
-    shown = {name: [float(f"{settled(float(one), steps[name]):.6g}") for one in samples[name]] for name in samples}
-    return {"key": run.key, **shown}
+    rounded = {name: [float(f"{settled(float(one), steps[name]):.6g}") for one in samples[name]] for name in samples}
+    return {"key": run.key, **rounded}
 
 
 def rounded_up(value: float, language: Language, figures: int = 2) -> str:
-    """A bound as printed, in its unit: so many figures, never less than the value."""
+    """Return a bound as printed, in its unit, with `figures` significant figures; never below the value."""
     if value <= 0:
         return write(0.0, None, language)
     step = 10.0 ** (math.floor(math.log10(value)) - figures + 1)

@@ -1,4 +1,4 @@
-"""Make the products of a file on its page: one after another, each by a separate process that can be ended."""
+"""Make the products of a file on its page, one after another, each in a separate process that can be ended."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from reportgen.base.progress import ASKED, MARK
 LAST_LINES = 12
 """Number of lines of a process's error output that are reported."""
 PATIENCE = 5.0
-"""A process that was asked to end has so long (s) to tidy up."""
+"""Seconds that a process has to clean up after it was asked to end."""
 
 
 @dataclass
@@ -34,7 +34,7 @@ class Maker:
     _ended: bool = False
 
     def make(self, product: str) -> bool:
-        """Begin to make a product, unless one is being made; raises `KeyError` for what is none."""
+        """Begin to make a product unless another is being made; raise `KeyError` for an unknown product."""
         command = self.commands[product]
         with self._lock:
             if self._process is not None or self._ended:
@@ -78,14 +78,14 @@ class Maker:
         )
 
     def end(self) -> None:
-        """End what is being made; it leaves nothing half-written."""
+        """End the process that is running; no file is left half written."""
         with self._lock:
             process = self._process
         if process is not None:
             process.terminate()
 
     def close(self) -> None:
-        """End what is being made, and wait for it."""
+        """End the process that is running, and wait for it."""
         self._ended = True
         with self._lock:
             process = self._process

@@ -1,7 +1,7 @@
-"""Find the drawn parts that a value of the file controls, by changing it a little: without a table.
+"""Find the drawn parts that a value of the file controls, by changing the value a little: `owners`.
 
-The parts of a machine show the changes: lengths of crank and rods, fixed points, guides, masses.
-A load belongs to the value if the linkage is unchanged.
+The changed machine shows them: lengths of crank and rods, fixed points, guides, masses. A load is controlled by the
+value if the linkage does not change.
 """
 
 from __future__ import annotations
@@ -24,21 +24,21 @@ from reportgen.machine import Crank, Dyad, Guide, Linkage
 from reportgen.machine.analysis import Machine, analyse
 
 SHARE = 1.01
-"""A value is moved by this factor, one that is 0 by `STEP` in its own unit."""
+"""Factor by which a value is changed; a value of 0 is changed by `STEP` in its own unit."""
 STEP = 0.5
 SAME = 1e-9
 """Relative difference below which nothing has changed."""
 SAMPLES = 13
 MOST_VALUES = 120
-"""So many values of a file are looked at."""
+"""Largest number of values of a file that are examined."""
 _NUMBER = re.compile(rf"\s*({NUMBER})(| .*|/.*)")
 
 Bar = tuple[str, str]
 
 
 @dataclass(frozen=True)
-class Owned:
-    """The bars, each by the points at its ends, and the points that are a value's own."""
+class ControlledParts:
+    """The bars (each by the points at its ends) and the points that one value controls."""
 
     bars: tuple[Bar, ...] = ()
     points: tuple[str, ...] = ()
@@ -47,8 +47,11 @@ class Owned:
         return bool(self.bars or self.points)
 
 
-def owners(machine: Machine, top: MappingNode, source: Source) -> Iterator[tuple[Where, Owned]]:
-    """Yield the bars and points of each value of the machine's data, by its place; empty if it moves nothing drawn."""
+def owners(machine: Machine, top: MappingNode, source: Source) -> Iterator[tuple[Where, ControlledParts]]:
+    """Yield the bars and points that each value of the machine's data controls, by its place in the file.
+
+    They are empty if the value moves nothing that is drawn.
+    """
     data = top.find("parameters")
     leaves = _leaves(data[1], ("parameters",)) if data else iter(())
     for (where, scalar), _ in zip(leaves, range(MOST_VALUES), strict=False):
@@ -79,7 +82,7 @@ def _leaves(node: Node, where: Where) -> Iterator[tuple[Where, Scalar]]:
 
 
 def moved(text: str) -> str | None:
-    """A value moved by a hundredth, in its own unit; None for what is no number."""
+    """Return a value larger by a hundredth, in its own unit; None for a text that is not a number."""
     typed = _NUMBER.fullmatch(text)
     if typed is None:
         return None
@@ -87,16 +90,16 @@ def moved(text: str) -> str | None:
     return f"{number * SHARE if number else STEP:.9g}{typed[2]}"
 
 
-def difference(machine: Machine, changed: Machine) -> Owned:
+def difference(machine: Machine, changed: Machine) -> ControlledParts:
     """Return the difference between two machines of one kind, as bars and points."""
     before, after = machine.linkage, changed.linkage
     bars = [*_bars(before, after)]
     points = [*_points(before, after)]
     if not bars and not points:
         if _differ(machine.speed, changed.speed) and isinstance(before.driver, Crank):
-            return Owned(bars=((before.driver.centre, before.driver.pin),))
+            return ControlledParts(bars=((before.driver.centre, before.driver.pin),))
         points = [*_loaded(machine, changed)]
-    return Owned(tuple(dict.fromkeys(bars)), tuple(dict.fromkeys(points)))
+    return ControlledParts(tuple(dict.fromkeys(bars)), tuple(dict.fromkeys(points)))
 
 
 def _differ(value: complex, other_value: complex) -> bool:
@@ -104,7 +107,7 @@ def _differ(value: complex, other_value: complex) -> bool:
 
 
 def _bars(before: Linkage, after: Linkage) -> Iterator[Bar]:
-    """Crank and rods of other lengths."""
+    """Yield the crank and the rods whose length has changed."""
     crank = before.driver
     if isinstance(crank, Crank) and isinstance(after.driver, Crank) and _differ(crank.length, after.driver.length):
         yield crank.centre, crank.pin
@@ -115,7 +118,7 @@ def _bars(before: Linkage, after: Linkage) -> Iterator[Bar]:
 
 
 def _points(before: Linkage, after: Linkage) -> Iterator[str]:
-    """Fixed points, points of links, pins of guides and mass centres that have changed."""
+    """Yield the fixed points, points of links, pins of guides and mass centres that have changed."""
     yield from (name for name, at in before.ground.items() if _differ(at, after.ground.get(name, at)))
     for dyad, changed in zip(before.dyads, after.dyads, strict=False):
         if _guides(dyad) != _guides(changed) or _differ(dyad.slide_angle, changed.slide_angle):
@@ -131,7 +134,7 @@ def _points(before: Linkage, after: Linkage) -> Iterator[str]:
 
 
 def _guides(dyad: Dyad) -> tuple[Mapping[str, Any], ...]:
-    """Place and direction of the guides of a group, rounded so that what floats do to them does not count."""
+    """Return place and direction of the guides of a group, rounded so that floating-point noise does not count."""
     return tuple(
         {"at": complex(np.round(end.at, 12)), "angle": round(end.angle, 12)}
         for end in (dyad.start, dyad.end)
@@ -140,7 +143,7 @@ def _guides(dyad: Dyad) -> tuple[Mapping[str, Any], ...]:
 
 
 def _loaded(machine: Machine, changed: Machine) -> Iterator[str]:
-    """A point of each link on which another load acts."""
+    """Yield a point of each link on which another load acts."""
     angles = np.linspace(0.0, 2 * np.pi * machine.turns, SAMPLES)
     before, after = (analyse(each, angles).applied for each in (machine, changed))
     pins = _pins(machine.linkage)
@@ -152,6 +155,6 @@ def _loaded(machine: Machine, changed: Machine) -> Iterator[str]:
 
 
 def _pins(linkage: Linkage) -> dict[int, str]:
-    """A point of each link that moves, by its number: the inner joint of its group."""
+    """Return a point of each moving link by the link's number: the inner joint of its group."""
     pins = {link: dyad.middle for dyad in linkage.dyads for link in dyad.links}
     return {1: linkage.driver.pin, **pins}

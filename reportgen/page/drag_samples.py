@@ -1,7 +1,7 @@
-"""Samples of a machine while one of its values is dragged: those of the same animation, without a new page.
+"""Sample a machine while one of its values is dragged, for the same animation without a new page.
 
-The animation keeps its structure, its knots, scales and boxes; data without samples remain those of the original
-machine.  Only samples that have changed are sent to the page, as numbers of four bytes.
+The animation keeps its structure, knots, scales and boxes; data without samples remain those of the original machine.
+Only samples that have changed are sent to the page, as four-byte numbers.
 """
 
 from __future__ import annotations
@@ -23,11 +23,11 @@ KEPT = "words", "written", "printed"
 
 
 SAME = 1e-6
-"""Samples that differ by less than this share of the greatest are the same: four bytes have seven figures."""
+"""Share of the largest sample below which two samples are equal: four bytes have seven figures."""
 
 
 class Resident:
-    """The machine of a case, ready to be sampled with other values; of a revision, by its number."""
+    """The machine of a case, ready to be sampled with other values, with the number of its revision."""
 
     def __init__(self, case: MachineAnalysis, number: int = 0) -> None:
         self.case, self.number = case, number
@@ -44,7 +44,7 @@ class Resident:
 
     @classmethod
     def of(cls, case: Case, number: int = 0) -> Resident | None:
-        """The machine of a case, that of a coursework among its parts; None for a case of another kind."""
+        """Return the machine of a case, or that of a coursework among its parts; None for a case of another kind."""
         machine = getattr(case, "machine", case)
         return cls(machine, number) if isinstance(machine, MachineAnalysis) and machine.animations() else None
 
@@ -54,13 +54,12 @@ class Resident:
         return list(map(self.painter.items, solid))
 
     def sampled(self, assignment: Assignment) -> bytes:
-        """Return the changes of another assignment: JSON with `bodies` of other shape by place and `runs`, then
-        samples.
+        """Return the changes caused by another assignment: JSON, then samples.
 
-        It is a change `of` the machine with this number.  A run is the place of a sample among all and the number of
-        those from it on.  The length of the JSON precedes it, in four bytes; blanks follow it up to a multiple of
-        four.  Returns nothing if the animation would have other parts.  Raises the errors of solving for an impossible
-        machine.
+        The JSON has `bodies` of other shape by place, `runs`, and the number `of` the machine that changes. A run is
+        the place of a sample among all and the number of samples from it on. The length of the JSON precedes it in four
+        bytes; blanks follow it up to a multiple of four. Return no bytes if the animation would have other parts. Raise
+        the errors of solving for an impossible machine.
         """
         case = type(self.case)(replace(assignment, parts=()))
         case.__dict__.update({name: getattr(self.case, name) for name in KEPT})
@@ -90,12 +89,12 @@ class Resident:
         """Return the runs of samples that differ from those of the current machine: whole tracks, adjacent ones
         joined.
         """
-        other = np.logical_or.reduceat(values.view("<u4") != self.values.view("<u4"), self.starts[:-1])
-        edges = np.flatnonzero(np.diff(np.concatenate(([False], other, [False]))))
+        changed = np.logical_or.reduceat(values.view("<u4") != self.values.view("<u4"), self.starts[:-1])
+        edges = np.flatnonzero(np.diff(np.concatenate(([False], changed, [False]))))
         return [slice(int(first), int(end)) for first, end in self.starts[edges].reshape(-1, 2)]
 
     def _by_place(self, pane: Pane, bodies: list[str]) -> Iterator[tuple[int, str]]:
-        """The bodies by the places of their elements: an item without anything to draw has none."""
+        """Yield the bodies by the places of their elements; an item without anything to draw has no element."""
         place = 0
         for item, body in zip(pane.items, bodies, strict=True):
             if isinstance(item, MovingBody | Still):
@@ -106,7 +105,10 @@ class Resident:
                 place += 1
 
     def _put(self, values: np.ndarray, written: set[int], number: int, track: Track) -> bool:
-        """Put the samples of a track in place; not where they have another length, or share their place and differ."""
+        """Put the samples of a track in place.
+
+        Return False if they have another length, or share their place with different samples.
+        """
         for index, part in enumerate(samples(track)):
             place = slice(*self.starts[number + index : number + index + 2])
             if values[place].size != part.size:
@@ -126,7 +128,7 @@ def _alike(samples: np.ndarray, others: np.ndarray) -> bool:
 
 
 def tracks(panes: tuple[Pane, ...], values: tuple[MomentValue, ...]) -> Iterator[Track]:
-    """The tracks of an animation that follow its machine, in one order; its charts keep their curves."""
+    """Yield the tracks of an animation that follow its machine, in a fixed order; its charts keep their curves."""
     for pane in panes:
         for item in pane.items:
             match item:

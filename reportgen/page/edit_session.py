@@ -1,6 +1,6 @@
-"""Edit a file on its page: the form of the current file, changes put into its text, undo and redo.
+"""Edit a file on its page: the form of the current file, changes to its text, undo and redo.
 
-The file is the only source.  A change is applied by its place to the newest text, whoever wrote it; if that value has
+The file is the only source. A change is applied by its place to the newest text, whoever wrote it. If that value has
 changed meanwhile, nothing is written and both values are reported.
 """
 
@@ -53,7 +53,7 @@ from reportgen.page.live_view import PART, LiveSession, empty_document
 PART_KEYS = "kind", "parameters"
 """Keys with which a new part begins."""
 MOST_STEPS = 500
-"""So many changes can be undone."""
+"""Largest number of changes that can be undone."""
 REST = 0.3
 """Time (s) without change after which a dragged value is at rest."""
 PATIENCE = 10.0
@@ -71,13 +71,14 @@ class Change:
     before: bytes
     after: bytes
     typing: str = ""
-    """The typing that it belongs to: what is sent in its pauses is undone as a whole."""
+    """The typing that it belongs to: changes sent during one typing are undone together."""
 
 
 class RefusedChangeError(Exception):
-    """Request that cannot be carried out; the key of the words for the reason, and their arguments.
+    """A request that cannot be carried out: the key of the words for the reason, and their arguments.
 
-    For an error of the system, the reason is the name of its number if that has words, else the system's message.
+    For an error of the system, the reason is the name of its number if there are words for it, else the system's
+    message.
     """
 
     def __init__(self, key: str, system: OSError | None = None, /, **arguments: str) -> None:
@@ -85,7 +86,7 @@ class RefusedChangeError(Exception):
         self.key, self.arguments, self.system = key, arguments, system
 
     def in_words(self, words: Mapping[str, Any]) -> str:
-        """The refusal in words, those of the form."""
+        """Return the refusal as text, in the words of the form."""
         arguments = dict(self.arguments)
         if self.system is not None:
             said = self.system.strerror or str(self.system)
@@ -101,7 +102,7 @@ class EditSession(LiveSession):
     products: Mapping[str, Sequence[str]] = field(default_factory=dict)
     """The commands that make something of the file, by the names of their products."""
     of_part: Callable[[Path], EditSession] | None = None
-    """Begins the form of a part's file; None where none is opened."""
+    """Begins the form of a part's file; None if parts have no forms."""
     whole: Path | None = None
     """Coursework's file of a part, whose machine gives values to the part."""
     lock: threading.RLock = field(default_factory=threading.RLock)
@@ -127,14 +128,14 @@ class EditSession(LiveSession):
         self.maker.close()
         super().close()
 
-    # --- what is served
+    # --- requests of the page
 
     def made(self, name: str) -> bytes | None:
         file = self.maker.files.get(name)
         return file.read_bytes() if file is not None and file.is_file() else None
 
     def make(self, asked: Asked) -> Mapping[str, Any]:
-        """Begin to make a product by its name, or end what is being made."""
+        """Begin to make a product by its name, or end the process that is making one."""
         if asked.get("end"):
             self.maker.end()
             return {}
@@ -168,7 +169,7 @@ class EditSession(LiveSession):
         return None
 
     def _part_files(self, source: Source | None = None) -> list[Path]:
-        """The files of parts that the text names and that may be opened."""
+        """Return the files of parts that the text names and that may be opened."""
         if source is None:
             with self.lock:
                 text = text_in(self.path)
@@ -176,7 +177,7 @@ class EditSession(LiveSession):
         return [file for file in parts.files(source, self.path) if file.is_file()]
 
     def _pages(self, source: Source) -> Mapping[str, tuple[str, str]]:
-        """The address of each part's own page, or of the coursework's, and the name of its file, by its path."""
+        """Return the address of each part's own page, or of the coursework's, and the name of its file, by path."""
         if self.whole is not None:
             return {str(self.whole): ("../../", self.whole.name)}
         if self.of_part is None:
@@ -194,7 +195,7 @@ class EditSession(LiveSession):
     def numbered_form(self) -> Mapping[str, Any]:
         """Return the form with the number of its revision.
 
-        Forms are made one at a time, so that a page can ignore an answer that is older than what it shows.
+        Forms are made one at a time, so that a page can ignore an answer that is older than its own form.
         """
         with self._forming:
             written = self._written_form()
@@ -207,9 +208,9 @@ class EditSession(LiveSession):
         source = Source(str(self.path), faults=(text,)) if isinstance(text, Fault) else read_text(text, str(self.path))
         given = catalogue.with_taken(source, self.path, self.whole)
         problems, pages = catalogue.problems_of(given, self.path, language), self._pages(source)
-        shown = given, tuple(problems), language, undo, redo, tuple(pages.items())
-        # The page that has made a change asks again when it hears of that.
-        if self._form[0] == shown:
+        inputs = given, tuple(problems), language, undo, redo, tuple(pages.items())
+        # The page that made a change requests the form again when it receives the news.
+        if self._form[0] == inputs:
             return self._form[1]
         kind = at(source.top, ("kind",))
         known = isinstance(kind, Scalar) and kind.text in kinds()
@@ -236,13 +237,13 @@ class EditSession(LiveSession):
             whole=self.whole and self.whole.name,
             kind_titles=titles(language),
         )
-        self._form = shown, written, self._form[2] + 1
+        self._form = inputs, written, self._form[2] + 1
         return written
 
     def owners(self) -> Mapping[str, Any]:
-        """Return each value's own bars and points, by the place of its field; and where fixed points are drawn (mm).
+        """Return the bars and points of each value by the place of its field, and the places of fixed points (mm).
 
-        This can wait: the report is written first, and dragging goes before.  The search ends when the machine is no
+        This can wait: the report is written first, and dragging has priority. The search ends when the machine is no
         longer the newest.
         """
         with self.dragging:
@@ -273,7 +274,7 @@ class EditSession(LiveSession):
         return self.closed or self.revision.moving != number
 
     def _resident_machine(self) -> Resident | None:
-        """The machine of the file as it was right last, ready to be sampled; None for a case of another kind."""
+        """Return the machine of the last valid file, ready to be sampled; None for a case of another kind."""
         now = self.revision
         if now.case is not None and self._resident[0] != now.moving:
             self._resident = now.moving, Resident.of(now.case, now.moving)
@@ -282,13 +283,13 @@ class EditSession(LiveSession):
     def _spoken(self) -> tuple[Language, Mapping[str, Any]]:
         return self.revision.language, self.revision.words
 
-    # --- what is asked
+    # --- changes and drags
 
     def edit(self, asked: Asked) -> Mapping[str, Any]:
-        """Make a change and return the form as it then is, with `written`, the value that is now at its place.
+        """Make a change and return the new form, with `written`, the value that is now at its place.
 
-        If the change cannot be made, `refused` says why; the file stays as it was.
-        Raises `KeyError`, `TypeError` and `ValueError` for what no page of this program asks.
+        If the change cannot be made, `refused` says why, and the file stays as it was. Raise `KeyError`, `TypeError` or
+        `ValueError` for a request that no page of this program makes.
         """
         operation, where = str(asked["op"]), _place(asked.get("where", []))
         said: dict[str, Any] = {}
@@ -306,7 +307,7 @@ class EditSession(LiveSession):
         return {**self.numbered_form(), **said}
 
     def _change(self, operation: str, where: Where, asked: Asked) -> str:
-        """Make a change and return what the file then has at its place."""
+        """Make a change and return the text that the file then has at its place."""
         if not where:
             raise ValueError("the whole file is no value")
         before = self._bytes()
@@ -319,13 +320,13 @@ class EditSession(LiveSession):
             changed = _changed(text, operation, where, asked)
         except EditError as error:
             raise RefusedChangeError(error.key, **error.arguments) from error
-        # Only a text of that many characters can hold more than a file may: of another no form could be made.
+        # Only a long text can exceed the limits of a file, for which no form could be made.
         if len(changed) > MOST_TOKENS and read_text(changed).faults:
             raise RefusedChangeError("too_large")
         if changed != text:
-            mark, codec = encoding_of(before)
+            bom, codec = encoding_of(before)
             try:
-                after = mark + changed.encode(codec)
+                after = bom + changed.encode(codec)
             except UnicodeEncodeError as error:
                 raise RefusedChangeError("no_letter", codec=codec) from error
             self._write(Change(before, after, str(asked.get("typing", ""))))
@@ -333,13 +334,13 @@ class EditSession(LiveSession):
         return written_at(at(read_text(changed).top, where))
 
     def _same(self, text: str, place: Where, was: str, wanted: str) -> None:
-        """Raise if the value at a place is neither the page's value nor the requested one."""
+        """Raise `RefusedChangeError` if the value at a place is neither the page's value nor the requested one."""
         there = written_at(at(read_text(text).top, place))
         if there not in (was, wanted):
             raise RefusedChangeError("meanwhile", there=there, here=wanted)
 
     def _step(self, operation: str) -> None:
-        """Undo the last change, or redo it: the bytes of the file are those before it, or after it."""
+        """Undo or redo the last change: the file gets the bytes from before it, or from after it."""
         steps = self.done if operation == "undo" else self.undone
         if not steps:
             return
@@ -351,10 +352,10 @@ class EditSession(LiveSession):
         (self.undone if operation == "undo" else self.done).append(steps.pop())
 
     def drag(self, asked: Asked) -> Mapping[str, Any] | bytes:
-        """The samples of what moves with another value at a place, as numbers of four bytes; nothing is written.
+        """Return the samples of everything that moves with another value at a place; write nothing.
 
-        No bytes at all for a value with which there is no such machine; no answer of a kind that is none, which moves
-        when the value is let go.
+        The samples are four-byte numbers. Return no bytes if no machine has that value. For a kind that is not a
+        machine the answer is empty, and the page is renewed when the value is released.
         """
         where, self._drawn = _place(asked["where"]), time.monotonic()
         with self.dragging:
@@ -411,7 +412,7 @@ class EditSession(LiveSession):
             raise RefusedChangeError("unwritten", error) from error
 
 
-# --- what is meant ------------------------------------------------------------------------------------
+# --- operations on the text -----------------------------------------------------------------------------
 
 
 def _place(steps: Any) -> Where:
@@ -421,7 +422,7 @@ def _place(steps: Any) -> Where:
 
 
 def _changed(text: str, operation: str, where: Where, asked: Asked) -> str:
-    """The text with a change; raises `EditError`, `KeyError` and `ValueError`."""
+    """Return the text with a change; raise `EditError`, `KeyError` or `ValueError`."""
     match operation:
         case "set":
             return with_value(text, where, _value(text, where, str(asked["value"]), bool(asked.get("list"))))
@@ -441,7 +442,7 @@ def _changed(text: str, operation: str, where: Where, asked: Asked) -> str:
 
 
 def _item(asked: Asked) -> Node:
-    """A new item of a list: a part with the data of its kind to begin with, else a table that is still empty."""
+    """Return a new item of a list: a part with the first data of its kind, else an empty table."""
     if "kind" not in asked:
         return MappingNode((), HERE)
     kind = str(asked["kind"])
@@ -454,7 +455,7 @@ def _item(asked: Asked) -> Node:
 
 @cache
 def part_kinds() -> tuple[str, ...]:
-    """The kinds that can be a part of a coursework."""
+    """Return the kinds that can be a part of a coursework."""
     return tuple(kind for kind in kinds() if catalogue.kind(kind).part)
 
 
@@ -479,7 +480,7 @@ def _value(text: str, where: Where, typed: str, as_items: bool) -> Node:
 
 
 def converted(text: str, unit: str) -> str:
-    """A quantity in another unit of the same dimension, with three figures; "" for one of any other."""
+    """Return a quantity in another unit of the same dimension, to three figures; "" if the dimension differs."""
     try:
         return f"{read_quantity(text, unit).si / read_unit(unit, unit):.3g} {unit}"
     except QuantityFault:

@@ -1,4 +1,4 @@
-"""A watched file from the first page to Ctrl-C: files are watched, revisions made, a browser opened.
+"""Serve the page of a file until Ctrl-C and renew it whenever the file changes: `watch`, `edit`, `choose`.
 
 This is the only module that imports watchfiles, for the templates.
 """
@@ -29,17 +29,17 @@ from reportgen.page.live_view import LiveSession
 from reportgen.page.local_server import Server
 
 QUIET, LONGEST = 20, 200
-"""Changes are taken together until nothing changes for the first time (ms), and no longer than the second."""
+"""Changes are collected until none arrives for the first time (ms), but no longer than the second."""
 
 LOOKING = 0.05
-"""From one look at the file to the next (s)."""
+"""Seconds between two looks at the file."""
 HEARING = 0.5
 """Longest delay (s) of an interruption."""
 _ONE_AT_A_TIME = threading.Lock()
 
 
 Products = Callable[[Path], Mapping[str, Sequence[str]]]
-"""The commands that make something of a file, by the names of their products."""
+"""Returns the commands that make something of a file, by the names of their products."""
 
 
 class Opener(Protocol):
@@ -48,12 +48,12 @@ class Opener(Protocol):
     def __call__(self, path: Path, language: Language | None = None, whole: Path | None = None) -> Case: ...
 
 
-def nobody(case: Case, document: Document) -> None:
-    """Takes no notice of a finished report."""
+def ignore_report(case: Case, document: Document) -> None:
+    """Ignore a finished report."""
 
 
-def nothing(path: Path) -> Mapping[str, Sequence[str]]:
-    """Makes nothing of a file."""
+def no_products(path: Path) -> Mapping[str, Sequence[str]]:
+    """Return no products."""
     return {}
 
 
@@ -61,14 +61,14 @@ def watch(
     path: Path,
     opens: Opener,
     language: Language | None = None,
-    tell: Callable[[Case, Document], None] = nobody,
+    tell: Callable[[Case, Document], None] = ignore_report,
     browser: bool = True,
     port: int = 0,
     stream: TextIO = sys.stdout,
 ) -> None:
     """Serve the page of a file and renew it until the program is interrupted; call `tell` with each finished report.
 
-    A faulty file has a page that shows its faults.  Raises `AssignmentError` if there is no file, `OutputError`.
+    A faulty file has a page that shows its faults. Raises `AssignmentError` if there is no file, `OutputError`.
     """
     if not path.is_file():
         # A name mistyped is no file to wait for, nor is a pipe.
@@ -81,12 +81,12 @@ def edit(
     path: Path,
     opens: Opener,
     language: Language | None = None,
-    products: Products = nothing,
+    products: Products = no_products,
     browser: bool = True,
     port: int = 0,
     stream: TextIO = sys.stdout,
 ) -> None:
-    """As `watch`, with a form beside what moves, by which the file is changed and its `products` are made."""
+    """Serve a page as `watch` does, with a form beside the animation that changes the file and makes `products`."""
     if not path.is_file():
         opens(path, language)
     with suppress(KeyboardInterrupt), edited(path.absolute(), opens, language, products, port) as server:
@@ -96,9 +96,9 @@ def edit(
 
 @contextmanager
 def edited(
-    path: Path, opens: Opener, language: Language | None = None, products: Products = nothing, port: int = 0
+    path: Path, opens: Opener, language: Language | None = None, products: Products = no_products, port: int = 0
 ) -> Iterator[Server]:
-    """The server of a file's form, which answers and is renewed meanwhile."""
+    """Yield the server of a file's form, which answers requests and is renewed while the context is open."""
     with (
         _with_parts(path, opens, language, products) as session,
         _served(session, port) as server,
@@ -111,7 +111,7 @@ def choose(
     begins: Callable[[str], Path],
     opens: Opener,
     language: Language | None = None,
-    products: Products = nothing,
+    products: Products = no_products,
     browser: bool = True,
     stream: TextIO = sys.stdout,
 ) -> None:
@@ -131,11 +131,11 @@ def choose(
 
 @contextmanager
 def _with_parts(path: Path, opens: Opener, language: Language | None, products: Products) -> Iterator[EditSession]:
-    """The session of an edited file; those of its parts' files are open and renewed from when they are asked for."""
+    """Yield the session of an edited file; sessions of its parts' files open on request and are renewed from then."""
     with ExitStack() as followed:
 
         def of_part(file: Path) -> EditSession:
-            # It is told in the language of the coursework, which its file need not say.
+            # The part's file need not say its language, so faults are reported in that of the coursework.
             spoken = language or language_of(read_source(path))
             part = EditSession(
                 partial(opens, file, spoken, path), spoken, path=file, products=products(file), whole=path
@@ -157,7 +157,7 @@ def serve(
 
 @contextmanager
 def _served(session: LiveSession, port: int) -> Iterator[Server]:
-    """A server that answers meanwhile."""
+    """Yield a server that answers requests while the context is open."""
     with reported():
         server = Server(session, port)
     thread = threading.Thread(target=server.serve_forever, args=(0.1,), daemon=True)
@@ -172,7 +172,7 @@ def _served(session: LiveSession, port: int) -> Iterator[Server]:
 
 @contextmanager
 def _followed(session: LiveSession, path: Path, opens: Opener, *beside: Path) -> Iterator[None]:
-    """A session that is open and renewed meanwhile, with its file and with those `beside` it."""
+    """Yield a session that is renewed with its file and with those `beside` it while the context is open."""
     stop, states = threading.Event(), partial(_states, path, *beside)
     threads = (
         threading.Thread(target=_follow, args=(states, session, stop, states()), daemon=True),
@@ -196,32 +196,32 @@ def _announce(server: Server, browser: bool, stream: TextIO) -> None:
 
 
 def _wait() -> None:
-    """Wait for Ctrl-C, which would not be heard in a longer sleep."""
+    """Wait for Ctrl-C in short sleeps, because a longer one would not be interrupted on every system."""
     never = threading.Event()
     while not never.wait(HEARING):
         pass
 
 
 def _school(path: Path, opens: Opener) -> Path | None:
-    """The school's folder that a file names when it is opened first."""
+    """Return the folder of a school's templates that a file names when it is first opened, or None."""
     with suppress(ReportgenError):
         return opens(path, None).assignment.school
     return None
 
 
-def _follow(states: Callable[[], object], session: LiveSession, stop: threading.Event, shown: object) -> None:
-    """Renew the live session whenever the states of its files are not as they were `shown`.
+def _follow(states: Callable[[], object], session: LiveSession, stop: threading.Event, known: object) -> None:
+    """Renew the live session whenever the states of its files differ from the `known` ones.
 
-    Their paths are asked again and again: what watches files holds on to a folder that was renamed, does not follow
-    links and hears nothing of changes that another computer makes.
+    The paths are polled, because a file watcher holds on to a renamed folder, does not follow links and misses changes
+    made by another computer.
     """
     while not stop.is_set():
         # What the form itself has written need not be waited for.
         own = session.touched.wait(LOOKING)
         session.touched.clear()
-        if states() != shown:
+        if states() != known:
             stop.wait(0 if own else QUIET / 1000)
-            shown = states()
+            known = states()
             with _ONE_AT_A_TIME:
                 session.renew()
 
@@ -234,7 +234,7 @@ def _states(path: Path, *beside: Path) -> tuple[tuple[float, ...], ...]:
 
 @lru_cache(maxsize=4)
 def _beside(path: Path, _: tuple[float, ...]) -> tuple[Path, ...]:
-    """The files of the parts of a file, read once for as long as it stays the same."""
+    """Return the files of a file's parts, cached for as long as the file stays the same."""
     return tuple(parts.files(read_source(path), path))
 
 

@@ -1,6 +1,6 @@
-"""Form fields of a file in order, from the schema's alternatives at each place and the file's value there.
+"""Derive the form fields of a file, in order, from the schema at each place and the file's value there.
 
-No field is made by hand: unit, bounds, choices and defaults come from the readers of the keys, rules of several keys
+No field is defined by hand. Unit, bounds, choices and defaults come from the readers of the keys, rules of several keys
 from the checks, names and remarks from the words.
 """
 
@@ -24,12 +24,12 @@ from reportgen.base.yaml_values import at, flow, path_text
 
 SCALARS = {"string", "number", "integer", "boolean", "null"}
 NEVER = ("kind",)
-"""Keys that are not asked for: with another kind the file would be another one."""
+"""Keys without a field: another kind would make it another file."""
 
 
 @dataclass(frozen=True)
 class FieldLine:
-    """Field at one place, on one line (`text`, `quantity`, `number`, `choice`, `list`, `date`)."""
+    """A field at one place, on one line; `look` is `text`, `quantity`, `number`, `choice`, `list` or `date`."""
 
     where: Where
     words: FieldWords
@@ -43,9 +43,9 @@ class FieldLine:
     high: float | None = None
     default: str = ""
     instead: tuple[tuple[str, str], ...] = ()
-    """Keys by which the same may be said, with what they are called."""
+    """Other keys that can give the same quantity, with their names."""
     most: int | None = None
-    """A list takes no more items."""
+    """Largest number of items of a list, or None."""
     taken: bool = False
     """True if the text is not in the file: a part takes it from the machine."""
 
@@ -163,7 +163,7 @@ class Form:
         return None
 
     def _table(self, where: Where, path: str, tables: Sequence[Schema], node: Node | None) -> FieldGroup:
-        """A table by the form that its own keys say it has; of one that is not there, what says its form."""
+        """Return a table in the form that its own keys select; for a missing one, the field that selects its form."""
         tag = _tag(tables)
         chosen = node.find(tag) if isinstance(node, MappingNode) and tag else None
         value = chosen[1].text if chosen and isinstance(chosen[1], Scalar) else ""
@@ -195,7 +195,10 @@ class Form:
         return known.index(path) if path in self.words else len(known)
 
     def _one_of(self, where: Where, entries: Sequence[FieldLine | FieldGroup]) -> list[FieldLine | FieldGroup]:
-        """Keys of which one is given: only the one that is, with a switch to the others."""
+        """Return the entries with only the given one of several equivalent keys.
+
+        It can be switched to the others.
+        """
         by_key = {entry.where[-1]: entry for entry in entries}
         kept: list[FieldLine | FieldGroup] = []
         for entry in entries:
@@ -221,7 +224,7 @@ class Form:
         return any(entry.key in check.names and check.required for check in checks)
 
     def _grouped(self, where: Where, entries: Sequence[FieldLine | FieldGroup]) -> Iterator[FieldLine | FieldGroup]:
-        """The entries of a table below the titles of their groups, where words give them any."""
+        """Yield the entries of a table below the titles of their groups, if the words define any."""
         present = {self._title(entry) for entry in entries}
         titles = [title for title in ("", *group_titles(self.language)) if title in present]
         if len(where) > 1 or len(titles) < 2:
@@ -240,7 +243,7 @@ class Form:
         return self._words(path).group
 
     def _named(self, where: Where, path: str, names: Sequence[Schema], node: Node | None) -> FieldGroup:
-        """A table whose keys are names that the user gives."""
+        """Return a table whose keys are names that the user chooses."""
         words = self._words(path)
         made: list[FieldLine | FieldGroup] = []
         for key, value in node.entries if isinstance(node, MappingNode) else ():
@@ -279,7 +282,7 @@ class Form:
                 made.append(FieldGroup(where, called, entries=entries, file=file.text, of_list=True))
             elif isinstance(kind, Scalar) and kind.text in kinds():
                 given = parts.taking(Source("", top=item), self.top, index, catalogue.kind).top
-                assert isinstance(given, MappingNode), "what is taken is put into the table"
+                assert isinstance(given, MappingNode), "entries that are taken from the machine are put into the table"
                 inner = Form(catalogue.kind(kind.text), self.language, given, item)
                 data = (group for group in inner.groups if group.where[:1] == ("parameters",))
                 entries = (
@@ -291,7 +294,7 @@ class Form:
         return FieldGroup((PARTS,), words.label, words.remark, tuple(made), there=bool(made), can_grow=True)
 
     def _about(self, where: Where, item: MappingNode) -> Iterator[FieldLine | FieldGroup]:
-        """The title of a part, and what it takes from the machine."""
+        """Yield the title of a part, and the entries that it takes from the machine."""
         (table,) = (schema for schema in places(self.root, self.root, where) if "properties" in schema)
         for key in ("title", "from"):
             path, node = f"{PARTS}.{key}", self._node(item, key)
@@ -340,7 +343,7 @@ def _called(entry: FieldLine, name: str) -> FieldLine:
 
 
 def _below(inner: Any, where: Where) -> Any:
-    """A group or an entry at a place below another one."""
+    """Return a group or an entry moved to a place below another one."""
     if isinstance(inner, FieldGroup):
         entries = tuple(_below(entry, where) for entry in inner.entries)
         return replace(inner, where=(*where, *inner.where), entries=entries)
@@ -368,7 +371,7 @@ def _tag(tables: Sequence[Schema]) -> str:
 
 
 def _facts(allowed: Sequence[Schema]) -> dict[str, Any]:
-    """Unit, bounds and look of a line, of the alternatives at its place."""
+    """Return unit, bounds and look of a line from the alternatives at its place."""
     for schema in allowed:
         if UNIT_KEY in schema:
             return {"unit": schema[UNIT_KEY], **_bounds(schema.get(RANGE_KEY, {}))}

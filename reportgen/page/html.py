@@ -1,7 +1,7 @@
-"""Write a document as one page for a browser, which needs no other file and loads none.
+"""Write a document as one HTML page that needs no other file and loads none: `write`.
 
-The frame `templates/frames/html/` holds the looks and the few scripts; this module puts the parts together and
-lists, by their hashes, the styles and scripts that the page may use: nothing else runs on it.
+The folder `templates/frames/html/` contains its styles and scripts. This module combines them, and lists the permitted
+styles and scripts by their hashes, so that nothing else runs on the page.
 """
 
 from __future__ import annotations
@@ -33,11 +33,9 @@ if TYPE_CHECKING:
 
 
 STYLES, SCRIPTS = ("page.css",), ("page.js", "save.js")
-"""Files of the frame that every page has."""
+"""Style sheets and scripts that every page has."""
 FEED, GIVES, EXTENDED = "feed.js", "  return { root, own,", "const extended = new Map();"
-"""Script that a form needs of each panel, where it is put into the panel's script, and where the panels then have
-it.
-"""
+"""Script that a form needs of each panel, its place in the panel's script, and the line by which panels get it."""
 MOVING_STYLES, MOVING_SCRIPTS = ("moving.css",), ("moving.js",)
 """Styles and scripts for panels."""
 
@@ -74,11 +72,11 @@ class Live:
     scripts: Sequence[str] = ("live.js",)
     styles: Sequence[str] = ("live.css",)
     form: str = ""
-    """The elements of a form beside what moves; the page has them as they are."""
+    """The elements of a form beside the animation; the page contains them unchanged."""
 
 
 def report(document: tree.Document) -> WrittenReport:
-    """The elements of a document; raises `TypesetterError` for a formula that cannot be set."""
+    """Return the elements of a document; raise `TypesetterError` for a formula that cannot be set."""
     pens = Pens()
     blocks = Blocks(document, pens)
     body = blocks.write(document.blocks)
@@ -103,7 +101,7 @@ def running(document: tree.Document) -> str:
 
 
 def quoted(text: str) -> str:
-    """A text as a string of a style sheet, which nothing in it can end."""
+    """Return a text as a string of a style sheet that no character of it can end."""
     return "'" + "".join(one if one.isalnum() else f"\\{ord(one):x} " for one in text) + "'"
 
 
@@ -114,9 +112,9 @@ def write(
     live: Live | None = None,
     written: WrittenReport | None = None,
 ) -> str:
-    """The whole page; `words` are those of its buttons (`page` in `words.yaml`).
+    """Return the whole page; `words` are those of its buttons (`page` in `words.yaml`).
 
-    Raises `TypesetterError` if a file of the frame is missing.
+    Raise `TypesetterError` if a file of the frame is missing.
     """
     written = written or report(document)
     moving_styles, moving_scripts = (MOVING_STYLES, MOVING_SCRIPTS) if panels else ((), ())
@@ -128,8 +126,8 @@ def write(
     styles += [] if live else rules.values()
     scripts = [read(name) for name in (*SCRIPTS, *moving_scripts)]
     if live and live.form:
-        scripts = [EXTENDED, *(script.replace(GIVES, f"{lean(FEED)}{GIVES}") for script in scripts)]
-    scripts += [lean(name) if live.form else read(name) for name in live.scripts] if live else []
+        scripts = [EXTENDED, *(script.replace(GIVES, f"{minified(FEED)}{GIVES}") for script in scripts)]
+    scripts += [minified(name) if live.form else read(name) for name in live.scripts] if live else []
     style, script = "\n".join(styles), "\n".join(scripts)
     policy = [
         "default-src 'none'",
@@ -158,12 +156,12 @@ def write(
 
 
 def rules_of(panels: Sequence[Panel]) -> str:
-    """The rules of all panels."""
+    """Return the style sheet's rules of all panels."""
     return "\n".join(panel.rules for panel in panels)
 
 
 def template(name: str) -> Template:
-    """A template of the frame; raises `TypesetterError` if it is missing."""
+    """Return a template of the frame; raise `TypesetterError` if it is missing."""
     read(name)
     return _environment().get_template(name)
 
@@ -182,7 +180,7 @@ def _environment() -> Environment:
 
 
 def read(name: str) -> str:
-    """A file of the frame: from the installed package, or beside it in a checkout."""
+    """Return the text of a file of the frame, from the installed package or the checkout."""
     path = templates() / "frames" / "html" / name
     try:
         return path.read_text(encoding="utf-8")
@@ -190,19 +188,19 @@ def read(name: str) -> str:
         raise TypesetterError(f"{path}: {error.strerror}") from error
 
 
-def lean(name: str) -> str:
-    """A script of a form without indents and lines of comments, which are for readers of its source."""
+def minified(name: str) -> str:
+    """Return a script without indents and comment lines, which only readers of its source need."""
     lines = map(str.lstrip, read(name).splitlines(keepends=True))
     return "".join(line for line in lines if not line.startswith("//"))
 
 
 def data(content: Mapping[str, Any]) -> str:
-    """Data as the content of a script element, which no text in it can end."""
+    """Return data as the content of a script element that no text in it can end."""
     return json.dumps(content, ensure_ascii=False, separators=(",", ":")).replace("<", "\\u003c")
 
 
 def _hash(text: str) -> str:
-    """A source expression of a security policy that allows this text alone."""
+    """Return the source expression of a security policy that allows exactly this text."""
     return f"'sha256-{base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()}'"
 
 
@@ -210,17 +208,17 @@ def _hash(text: str) -> str:
 # Sections, texts, formulas, tables, figures and what leads to them.
 
 CONTENTS_LEVEL = 3
-"""The deepest level of heading that the contents list."""
+"""Deepest level of heading in the contents."""
 BREAK = "<wbr>"
-"""Between two pieces of a formula: a line may end there."""
+"""Element between two pieces of a formula, where a line may end."""
 CLOSING = re.compile(r"[.,;:!?)\]”]+")
-"""Marks with which no line begins."""
+"""Punctuation that must not begin a line."""
 ALIGNS = {"left": "l", "center": "c", "right": "r"}
 """The classes of cells."""
 
 
 class Blocks:
-    """Writes the blocks of one document; its drawings use the page's pens."""
+    """Writer of the blocks of one document; its drawings use the page's pens."""
 
     def __init__(self, document: tree.Document, pens: Pens) -> None:
         self.language, self.words = document.language, document.words
@@ -236,7 +234,7 @@ class Blocks:
         self._places = {id(section): f"s-{index}" for index, section in enumerate(sections)}
 
     def write(self, blocks: Sequence[tree.Block], room: float = tree.TEXT_WIDTH) -> str:
-        """Return the blocks in order; a run-in heading begins the paragraph after it."""
+        """Return the elements of blocks, in order, in a room (mm); a run-in heading begins the paragraph after it."""
         lines: list[str] = []
         run_in = ""
         for block, following in pairwise((*blocks, None)):
@@ -256,7 +254,7 @@ class Blocks:
         return "\n".join(filter(None, lines))
 
     def block(self, block: tree.Block, room: float) -> str:
-        """A block in a room (mm)."""
+        """Return the elements of a block in a room (mm)."""
         match block:
             case tree.Section(level, title, _, _, number):
                 name = f"h{level + self.below}"
@@ -286,18 +284,18 @@ class Blocks:
                 return ""
 
     def place(self, section: tree.Section) -> str:
-        """The anchor of a section."""
+        """Return the anchor of a section."""
         return anchor(section.key) if section.key else self._places[id(section)]
 
     def titled(self, number: str, title: tree.Inlines) -> str:
-        shown = f'<span class="n">{escape(number)}</span> ' if number else ""
-        return shown + self.inlines(title)
+        number_text = f'<span class="n">{escape(number)}</span> ' if number else ""
+        return number_text + self.inlines(title)
 
     def run_in(self, section: tree.Section) -> str:
         return f'<strong id="{self.place(section)}">{self.titled(section.number, section.title)}</strong> '
 
     def contents(self, title: str) -> str:
-        """The table of contents, which folds; sections hang below their parts."""
+        """Return a table of contents that can be folded, with sections nested in their parts."""
         lines = []
         depth = 0
         for section in self.sections:
@@ -309,12 +307,12 @@ class Blocks:
             while depth < section.level:
                 lines.append("<ol>" if depth == section.level - 1 else "<ol><li>")
                 depth += 1
-            shown = self.titled(section.number, section.title)
-            lines.append(f'<li><a href="#{self.place(section)}">{shown}</a>')
+            heading = self.titled(section.number, section.title)
+            lines.append(f'<li><a href="#{self.place(section)}">{heading}</a>')
         lines.append("</li></ol>" * depth)
-        shown = escape(title)
+        heading = escape(title)
         return (
-            f'<nav class="contents" id="contents" aria-label="{shown}"><details open><summary>{shown}</summary>'
+            f'<nav class="contents" id="contents" aria-label="{heading}"><details open><summary>{heading}</summary>'
             f"{''.join(lines)}</details></nav>"
         )
 
@@ -334,22 +332,22 @@ class Blocks:
 
     def inlines(self, inlines: tree.Inlines) -> str:
         """Return inlines in a row; a mark stays with its formula, where a browser would separate them."""
-        shown: list[str] = []
+        texts: list[str] = []
         behind_formula = False
         for inline in inlines:
             text = inline.text if isinstance(inline, tree.Text) else ""
             if behind_formula and (marks := CLOSING.match(text)):
-                pieces, stroke, last = shown.pop().rpartition(BREAK)
-                shown.append(f'{pieces}{stroke}<span class="nb">{last}{escape(marks[0])}</span>')
+                pieces, stroke, last = texts.pop().rpartition(BREAK)
+                texts.append(f'{pieces}{stroke}<span class="nb">{last}{escape(marks[0])}</span>')
                 inline = tree.Text(text[marks.end() :])
             behind_formula = isinstance(inline, tree.InlineMath)
-            if behind_formula and shown and shown[-1].endswith("("):
+            if behind_formula and texts and texts[-1].endswith("("):
                 first, stroke, pieces = self.inline(inline).partition(BREAK)
-                shown[-1] = shown[-1].removesuffix("(")
-                shown.append(f'<span class="nb">({first}</span>{stroke}{pieces}')
+                texts[-1] = texts[-1].removesuffix("(")
+                texts.append(f'<span class="nb">({first}</span>{stroke}{pieces}')
             else:
-                shown.append(self.inline(inline))
-        return "".join(shown)
+                texts.append(self.inline(inline))
+        return "".join(texts)
 
     def inline(self, inline: tree.Inline) -> str:
         match inline:
@@ -379,14 +377,14 @@ class Blocks:
     # --- formulas, lists and tables -----------------------------------------------------------------
 
     def items(self, block: tree.List, room: float) -> str:
-        """The items of a list in a room (mm)."""
+        """Return the items of a list in a room (mm)."""
         name = "ol" if block.ordered else "ul"
         start = f' start="{block.start}"' if block.ordered and block.start != 1 else ""
         lines = "".join(f"<li>{self.write(item, room)}</li>" for item in block.items)
         return f"<{name}{start}>{lines}</{name}>"
 
     def equation(self, equation: tree.Equation, room: float) -> str:
-        """Rows that are set alike in one block each, in a room (mm); the number beside the last."""
+        """Return an equation in a room (mm): rows of the same layout in one block, the number beside the last row."""
         groups = "".join(map(self.group, layout.in_groups(equation.rows, room)))
         number = f'<span class="number">({escape(equation.number)})</span>' if equation.number else ""
         return f'<div class="equation"{_id(equation.key)}><div class="rows">{groups}</div>{number}</div>'
@@ -405,7 +403,7 @@ class Blocks:
         return f'<div class="aligned">{"".join(lines)}</div>'
 
     def vector_equation(self, equation: VectorEquation) -> str:
-        """The terms side by side, below each what is known of it."""
+        """Return the terms side by side, each with its known data below it."""
         columns = self.formulas.columns(equation)
         terms = "".join(f"<td>{self.formulas.displayed(term)}</td>" for term, _ in columns)
         lines = [f"<tr><td></td>{terms}</tr>"]
@@ -416,13 +414,13 @@ class Blocks:
 
     def table(self, table: tree.Table) -> str:
         caption = self.caption(self.words.table, table)
-        shown = f"<caption><span>{caption}</span></caption>" if caption else ""
+        caption_text = f"<caption><span>{caption}</span></caption>" if caption else ""
         aligns = [ALIGNS[column.align] for column in table.columns]
         head = "".join(f"<tr>{''.join(self.cells(row, aligns, 'th'))}</tr>" for row in table.head)
         rows = "\n".join(f"<tr>{''.join(self.cells(row, aligns, 'td'))}</tr>" for row in table.rows)
         look = "ruled framed" if table.framed else "ruled"
         body = f"{f'<thead>{head}</thead>' if head else ''}<tbody>{rows}</tbody>"
-        return f'<div class="scroll tabled"{_id(table.key)}><table class="{look}">{shown}{body}</table></div>'
+        return f'<div class="scroll tabled"{_id(table.key)}><table class="{look}">{caption_text}{body}</table></div>'
 
     def cells(self, row: Sequence[tree.Cell], aligns: Sequence[str], name: str) -> Iterator[str]:
         column = 0
@@ -438,19 +436,19 @@ class Blocks:
             column += cell.span
 
     def named(self, inlines: tree.Inlines) -> str:
-        """Inlines that say in letters, too, what they are if they are a formula alone: a cell needs a name."""
-        shown = self.inlines(inlines)
+        """Return inlines; those that are a single formula also get its text as a name, which a cell needs."""
+        text = self.inlines(inlines)
         if any(not isinstance(inline, tree.InlineMath) for inline in inlines):
-            return shown
-        return shown.replace("<math>", f'<math aria-label="{escape(tree.plain(inlines, self.language))}">', 1)
+            return text
+        return text.replace("<math>", f'<math aria-label="{escape(tree.plain(inlines, self.language))}">', 1)
 
     # --- figures ------------------------------------------------------------------------------------
 
     def figure(self, block: tree.Figure | tree.Plate, drawings: str, name: str = "") -> str:
         caption = self.again(block) if isinstance(block, tree.Plate) and block.continues else None
         caption = self.caption(self.words.figure, block) if caption is None else caption
-        shown = f"<figcaption>{caption}</figcaption>" if caption else ""
-        return f'<figure{_id(block.key)}{_class(name)}><div class="scroll">{drawings}</div>{shown}</figure>'
+        caption_text = f"<figcaption>{caption}</figcaption>" if caption else ""
+        return f'<figure{_id(block.key)}{_class(name)}><div class="scroll">{drawings}</div>{caption_text}</figure>'
 
     def scene(self, scene: Scene, block: tree.Figure | tree.Plate) -> str:
         name = figure_text(block, scene, self.words, self.language)
@@ -461,30 +459,30 @@ class Blocks:
         return f"<div>{self.painter.scene(scene, name)}{save_buttons(file, self.words.save)}{title}</div>"
 
     def caption(self, word: str, block: tree.Table | tree.Figure | tree.Plate) -> str:
-        """Word, number and words of a caption; nothing for a block that has none."""
+        """Return label, number and text of a caption; "" for a block without one."""
         if not (block.number or block.caption):
             return ""
         return f"<b>{escape(word)} {escape(block.number)}{self.setting.stop}</b> {self.inlines(block.caption)}"
 
     def again(self, block: tree.Plate) -> str:
-        """The number of a figure that goes on from the plate before."""
+        """Return the number of a figure that continues from the plate before."""
         where = self.setting.aside(escape(self.words.continued))
         return f"<b>{escape(self.words.figure)} {escape(block.number)}</b>{where}"
 
 
-def save_buttons(file: str, told: str) -> str:
+def save_buttons(file: str, label: str) -> str:
     """Return buttons that save the preceding drawing to a file of this name; the style sheet has their labels."""
     buttons = "".join(
         f'<button type="button" data-save="{kind}" aria-label="{kind.upper()}"></button>' for kind in ("svg", "png")
     )
-    return f'<p class="save" role="group" aria-label="{escape(told)}" data-name="{escape(safe(file))}">{buttons}</p>'
+    return f'<p class="save" role="group" aria-label="{escape(label)}" data-name="{escape(safe(file))}">{buttons}</p>'
 
 
 _DOTS = '<span class="dots"></span>'
 
 
 def anchor(key: str) -> str:
-    """The anchor of a block that is referred to by its key."""
+    """Return the anchor of a block for references by its key."""
     return escape(f"k-{key}")
 
 

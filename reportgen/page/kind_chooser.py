@@ -1,4 +1,4 @@
-"""Page for choosing a kind, with its scheme, before there is a file to edit."""
+"""The page on which a user chooses a kind, with a picture of each, before there is a file to edit."""
 
 from __future__ import annotations
 
@@ -20,12 +20,15 @@ from reportgen.page.live_view import LiveSession, empty_document
 from reportgen.page.svg_elements import Painter, Pens
 
 READY = 60.0
-"""The page waits so long (s) for the file that it has begun."""
+"""Seconds that the page waits for the form of the file that it has begun."""
 
 
 @dataclass
 class Chooser(LiveSession):
-    """Lets a page choose a kind; `begins` makes its file, `opened` opens the example whose scheme is shown."""
+    """The session of the page that offers the kinds.
+
+    `begins` makes the file of a kind, `example` opens the example whose figure is shown.
+    """
 
     begins: Callable[[str], Path] = Path
     example: Callable[[Path, Language], Case] | None = None
@@ -49,7 +52,7 @@ class Chooser(LiveSession):
         return {"begin.json": self.begin}
 
     def scheme(self, kind: str) -> Mapping[str, Any]:
-        """The first figure of an example of a kind, as elements and the rules of their pens."""
+        """Return the first figure of an example of a kind, as elements with the rules of their pens."""
         files = catalogue.examples(kind).values()
         if self.example is None or not files:
             return {}
@@ -64,7 +67,10 @@ class Chooser(LiveSession):
         return {"body": drawing, "rules": pens.rules()}
 
     def begin(self, asked: Mapping[str, Any]) -> Mapping[str, Any]:
-        """Begin the file of a kind; the answer comes when its form is there.  Raises `KeyError` for no kind."""
+        """Begin the file of a kind, wait until its form is ready, and return `begun`: False after `READY` seconds.
+
+        Raise `KeyError` for an unknown kind.
+        """
         kind = str(asked["kind"])
         if kind not in kinds():
             raise KeyError(kind)

@@ -1,7 +1,7 @@
-"""Live view of a watched file: the latest revisions of the animation, of the report, and of a fault.
+"""Keep the page of a watched file current: revisions of the animation, of the report, and of a fault.
 
-The animation is made first and shown at once; the report follows, made of the same case in another thread.  A
-change meanwhile is processed at once: results from an older file are dropped.
+The animation is made first and shown at once. The report of the same case follows in another thread. A change in
+between is processed at once, and results from an older file are dropped.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ NOBODY = "–"
 PART = "part/"
 """Path of the pages of parts that are in separate files."""
 AHEAD = 0.2
-"""The time (s) that the moving part has to itself before the report is begun."""
+"""Seconds that the animation has to itself before the report is begun."""
 
 
 @dataclass(frozen=True)
@@ -67,7 +67,10 @@ class Revision:
 
 @dataclass
 class LiveSession:
-    """Makes the revisions of a file, which `opens`.  `tell` is called with each finished report's case and document."""
+    """Makes the revisions of a file that `opens` reads.
+
+    `tell` is called with the case and the document of each finished report.
+    """
 
     opens: Callable[[], Case]
     language: Language | None = None
@@ -75,7 +78,7 @@ class LiveSession:
     changed: threading.Condition = field(default_factory=threading.Condition)
     closed: bool = False
     touched: threading.Event = field(default_factory=threading.Event)
-    """Set where the file was changed by the form itself."""
+    """Set when the form itself has changed the file."""
 
     def __post_init__(self) -> None:
         first = self.language or spoken()
@@ -90,19 +93,22 @@ class LiveSession:
         self.renew()
 
     def close(self) -> None:
-        """Let everybody go who waits for news."""
+        """Close the session and release everybody who waits for news."""
         with self.changed:
             self.closed = True
             self.changed.notify_all()
 
     def next_revision(self, known: Revision | None, patience: float) -> Revision:
-        """The revision after the `known` one as soon as it is there, or what there is after so many seconds."""
+        """Return the revision after the `known` one as soon as it exists.
+
+        Return the current one after `patience` seconds.
+        """
         with self.changed:
             self.changed.wait_for(lambda: self.closed or self.revision is not known, patience)
             return self.revision
 
     def renew(self) -> None:
-        """Make the moving part of the current file, and leave the report to its thread."""
+        """Make the animation of the current file, and leave the report to its thread."""
         self._asked += 1
         number = self._asked
         try:
@@ -122,14 +128,14 @@ class LiveSession:
             self.changed.notify_all()
 
     def _write_reports(self) -> None:
-        """Write the report of the latest case, again and again."""
+        """Write the report of the latest case, repeatedly, until the session is closed."""
         while True:
             with self.changed:
                 self.changed.wait_for(lambda: self.closed or self._to_write is not None)
                 if self.closed or self._to_write is None:
                     return
                 wanted = self._to_write
-                # The moving part goes to the page first.
+                # The animation is sent to the page first.
                 if self.changed.wait_for(partial(self._overtaken, wanted), AHEAD):
                     continue
                 self._to_write = None
@@ -147,7 +153,7 @@ class LiveSession:
                     self._publish(fault=self._in_words(error), busy=False)
 
     def _overtaken(self, wanted: tuple[int, Case]) -> bool:
-        """Return True if another report than this one is to be written, or none."""
+        """Return True if another report is wanted than this one, or none."""
         return self.closed or self._to_write is not wanted
 
     def _publish(self, **news: Any) -> None:
@@ -162,14 +168,14 @@ class LiveSession:
             return str(error)
         return unexpected(error, self.language or self.revision.language)
 
-    # --- what is served
+    # --- requests of the page
 
     def made(self, name: str) -> bytes | None:
-        """The content of a file that was made on the page, by its name; None for any other."""
+        """Return the content of a file that was made on the page, by its name; None for any other name."""
         return None
 
     def below(self, name: str) -> LiveSession | None:
-        """The session of a part's page, by its name; None for any other."""
+        """Return the session of a part's page, by its name; None for any other name."""
         return None
 
     @property
@@ -193,12 +199,12 @@ class LiveSession:
         return html.write(document, now.words["page"], now.panels, live, now.report)
 
     def moving(self) -> Mapping[str, Any]:
-        """The moving part for a page that has an older one."""
+        """Return the animation, for a page that has an older one."""
         now = self.revision.panels
         return {"rules": html.rules_of(now), "panels": [{"body": one.body, "data": one.data} for one in now]}
 
     def report(self) -> Mapping[str, Any]:
-        """The report for a page that has an older one."""
+        """Return the report, for a page that has an older one."""
         now = self.revision
         if now.report is None or now.document is None:
             return {}

@@ -1,7 +1,7 @@
-"""Local server for one page: a few fixed addresses under a secret one, and events as they come.
+"""A local server for one page: a few addresses below a secret token, and a stream of events.
 
-Other machines cannot reach it; other pages in the same browser do not know the token, and a request under another
-name of this machine is refused, so that no site can pose as this one.
+Other machines cannot reach it, and other pages in the same browser do not know the token. A request under another name
+of this machine is refused, so that no site can pose as this one.
 """
 
 from __future__ import annotations
@@ -23,11 +23,11 @@ from reportgen.page.live_view import PART, LiveSession
 
 HOST = "127.0.0.1"
 BEAT = 10.0
-"""A page that has had no news for so long (s) hears that the server is there."""
+"""Seconds without news after which a page receives a sign of life."""
 REQUEST = 10.0
-"""A connection has so long (s) to send a whole request, or to take a part of the answer."""
+"""Seconds that a connection has to send a whole request, or to accept a piece of the answer."""
 MADE = "made/"
-"""Below it are the files that were made on a page."""
+"""Path of the files that were made on a page."""
 RESPITE = 0.2
 """Delay (s) before the server retries if no connection can be accepted."""
 HEADERS = {
@@ -54,14 +54,14 @@ class Server(ThreadingHTTPServer):
         return f"http://{HOST}:{self.server_port}/{self.token}/"
 
     def asked_of(self, name: str) -> tuple[LiveSession | None, str]:
-        """Whose page a name below the secret address is asked of, and the name there."""
+        """Return the session that answers a name below the secret address, and the name that it knows."""
         if not name.startswith(PART):
             return self.session, name
         part, _, rest = name.removeprefix(PART).partition("/")
         return self.session.below(part), rest
 
     def get_request(self) -> tuple[socket.socket, Any]:
-        """The next connection; where no more files can be opened it waits, and would be asked at once again."""
+        """Return the next connection; wait if no more files can be opened, which would otherwise be retried at once."""
         try:
             connection, address = super().get_request()
             # An answer of a few bytes is sent at once.
@@ -72,18 +72,18 @@ class Server(ThreadingHTTPServer):
             raise
 
     def handle_error(self, request: Any, client_address: Any) -> None:
-        """A page that was closed while it was answered is nobody's fault."""
+        """Ignore a connection that was closed while it was answered."""
 
 
 class _InTime(io.RawIOBase):
-    """Data of a connection until its time is up; then reading raises `TimeoutError`, however much has arrived."""
+    """The data of a connection until its time is up; then reading raises `TimeoutError`, whatever has arrived."""
 
     def __init__(self, connection: socket.socket) -> None:
         self._connection = connection
         self.begin()
 
     def begin(self) -> None:
-        """Let the time for a request begin."""
+        """Start the time of a request."""
         self._end = time.monotonic() + REQUEST
 
     def readable(self) -> bool:
@@ -113,7 +113,7 @@ class _Request(BaseHTTPRequestHandler):
 
     def handle_one_request(self) -> None:
         self._incoming.begin()
-        # Nobody is told: what takes too long ends, as what is closed does.
+        # A request that takes too long ends silently, like a connection that was closed.
         with suppress(ConnectionError):
             super().handle_one_request()
 
@@ -141,7 +141,7 @@ class _Request(BaseHTTPRequestHandler):
             self._refuse(HTTPStatus.NOT_FOUND)
 
     def do_POST(self) -> None:
-        """Do what a page of this server asks for: in JSON, of a size that a file may have."""
+        """Answer a message of the page: JSON, not larger than a file may be."""
         folder, _, name = urlsplit(self.path).path[1:].partition("/")
         length, foreign = (
             self.headers.get("Content-Length", ""),
@@ -214,4 +214,4 @@ class _Request(BaseHTTPRequestHandler):
                 return
 
     def log_message(self, format: str, *args: Any) -> None:
-        """Requests are not printed: the page says what there is to say."""
+        """Print nothing, because the page reports everything itself."""

@@ -1,8 +1,8 @@
-"""Samples of the machine in motion for a page, from the solver, with their drawings and descriptions.
+"""Sample the moving machine of a page from the solver, with its drawings, curves and numbers: `animation`.
 
-A turn is sampled at 360 even angles, at the numbered positions, and on both sides of every jump of a load.  Plans
-have the corners of the report's plans, from the same definitions at the samples, so that at a numbered position both
-agree.  Motion repeats from turn to turn; forces continue through the cycle.
+A turn is sampled at 360 equally spaced angles, at the numbered positions, and on both sides of every jump of a load.
+Plans have the corners of the report's plans, from the same definitions, so that both agree at a numbered position.
+Motion repeats from turn to turn; forces continue through the cycle.
 """
 
 from __future__ import annotations
@@ -60,21 +60,21 @@ from reportgen.report.mechanism_figures import drawing_scale, looks
 from reportgen.report.plan_figures import POLE, force_construction, motion_construction
 
 SAMPLES = 360
-"""Even samples of a turn."""
+"""Number of equally spaced samples per turn."""
 SAME_SAMPLE = 1e-7
-"""Samples nearer than this (rad) are one."""
+"""Samples closer than this (rad) are one."""
 BESIDE = 2e-5
 """Distance (rad) from a jump of a load at which its two sides are sampled."""
 JUMP = 1e-3
-"""A load that changes there by a smaller share of its greatest value does not jump."""
+"""Share of its largest value by which a load must change at a place to count as a jump."""
 ARROW = 34.0
-"""The longest arrow of a force or a rate on the machine at most (mm)."""
+"""Largest length (mm) of the arrows of forces and rates on the machine."""
 FAR = 2.5
-"""A centre farther off than so many diagonals of the drawing is not drawn."""
+"""Multiple of the drawing's diagonal beyond which a centre is not drawn."""
 FORCES = ("loads", "inertia", "weights", "reactions")
-"""The layers of forces, which have one scale."""
+"""Layers of forces, which share one scale."""
 LEVER, LONGER = 0.45, 0.2
-"""The arrows of forces on the lever, and by how much one at the place of another is longer: shares of the lever."""
+"""Length of the arrows of forces on the lever, and addition for an arrow in the same place: shares of the lever."""
 
 
 def animation(case: MachineAnalysis) -> Animation:
@@ -86,8 +86,8 @@ def animation(case: MachineAnalysis) -> Animation:
 class Samples:
     """A case at the samples of its cycle.
 
-    What is `kept` is chosen once, by name: angles, scales, boxes.  Samples of a machine that has changed a little have
-    those of the machine as it was, so that what grows is seen to grow.
+    Values in `kept` (angles, scales, boxes) are chosen once, by name. A slightly changed machine is sampled with the
+    values of the original one, so that its changes are visible.
     """
 
     case: MachineAnalysis
@@ -110,7 +110,7 @@ class Samples:
 
     @cached_property
     def knots(self) -> np.ndarray:
-        """The samples of one turn (rad), from 0 to a whole turn."""
+        """The samples of one turn (rad) [knots], from 0 to a whole turn."""
         angles: np.ndarray = self.chosen("knots", self._own_knots)
         return angles
 
@@ -128,7 +128,7 @@ class Samples:
         return angles[np.concatenate(([True], np.diff(angles) > SAME_SAMPLE))]
 
     def _jumps(self) -> np.ndarray:
-        """Both sides of the angles of a turn at which a load jumps, as the friction of a slider that turns back."""
+        """Return both sides of the angles (rad) [2 M] at which a load jumps, as friction does where a slider turns."""
         corners = breaks(self.machine)
         if not corners.size:
             return corners
@@ -141,7 +141,7 @@ class Samples:
 
     @cached_property
     def angles(self) -> np.ndarray:
-        """The cycle angles (rad) of all samples: those of a turn, turn after turn, to the end of the last."""
+        """The cycle angles (rad) [N] of all samples: those of a turn, turn after turn, to the end of the last."""
         if self.machine.instants:
             # The last sample closes the round that the page makes from the last instant to the first.
             return np.append(self.machine.cycle_angles, self.machine.cycle_angles[0])
@@ -160,14 +160,15 @@ class Samples:
     @cached_property
     def corners(self) -> dict[str, np.ndarray]:
         """The corners of all plans (mm) at the samples [N], and their scales (SI per mm), by id."""
-        # Each plan is drawn as large as its panel holds it.
-        sheet, _ = enter_plans(self.analysis, scaled=False)
+        # Each plan is drawn as large as fits its panel.
+        calculation, _ = enter_plans(self.analysis, scaled=False)
         drawn = ids.plan_point, ids.force_corner, ids.force_scale, ids.centre
         scales = [ids.scale("v"), ids.scale("a")]
-        return {id: sheet.value(id) for id in sheet.families if id in scales or any(id in name for name in drawn)}
+        stored = (id for id in calculation.families if id in scales or any(id in name for name in drawn))
+        return {id: calculation.value(id) for id in stored}
 
     def _sample(self, k: int) -> int:
-        """The sample that is the numbered position `k`."""
+        """Return the index of the sample at the numbered position `k`."""
         return int(np.abs(self.angles - self.machine.cycle_angles[k - 1]).argmin())
 
     def animation(self) -> Animation:
@@ -176,14 +177,14 @@ class Samples:
         layers = {item.layer for item in panes[0].items}
         of_topics = (layer for hooks in self._topics for layer in hooks.layers)
         places = self.knots[:-1] if machine.instants else machine.cycle_angles
-        stands = machine.angles(machine.cycle_angles) if machine.instants else np.empty(0)
+        instants = machine.angles(machine.cycle_angles) if machine.instants else np.empty(0)
         return Animation(
             knots=np.degrees(self.knots),
             turns=1 if machine.instants else machine.turns,
             span=machine.span * MM,
             positions=tuple((str(machine.position(k + 1)), float(angle)) for k, angle in enumerate(np.degrees(places))),
-            instants=tuple(map(float, stands * MM if machine.span else np.degrees(stands))),
-            shown=self.case.assignment.worked_positions[0] - 1,
+            instants=tuple(map(float, instants * MM if machine.span else np.degrees(instants))),
+            opening=self.case.assignment.worked_positions[0] - 1,
             panes=panes,
             charts=() if machine.instants else tuple(self.charts()),
             values=tuple(self.values()),
@@ -212,12 +213,12 @@ class Samples:
             yield self._lever(words["lever"])
 
     def mechanism(self) -> Pane:
-        """The machine itself, true to shape."""
+        """Return the pane of the machine itself, true to shape."""
         report, motion = self.report, self._one_turn
         linkage, scale = self.machine.linkage, self.scale
         look = looks(report, scale)
-        shown = self._sample(self.case.assignment.worked_positions[0]) % (self.knots.size - 1)
-        items = linkage_items(linkage, motion, shown, scale, look)
+        sample = self._sample(self.case.assignment.worked_positions[0]) % (self.knots.size - 1)
+        items = linkage_items(linkage, motion, sample, scale, look)
         low, high = self.chosen("box", lambda: self._room(motion, scale, extent(items)))
         names = self.machine.paths or tuple(n for n in motion.points if n not in linkage.ground)
         items = ([] if self.machine.instants else path_items(linkage, motion, names, scale)) + items
@@ -233,7 +234,7 @@ class Samples:
             items += hooks.with_forces(report, self.analysis, scale, per, self.knots.size)
         layers = (*FORCES, *(layer for hooks in self._topics for layer in hooks.force_layers))
         scales += [BarScale(per, "force", layers)] if forces else []
-        shown_by_topics = [hooks.shown(report, motion, scale, ARROW, self.chosen) for hooks in self._topics]
+        items_of_topics = [hooks.with_bars(report, motion, scale, ARROW, self.chosen) for hooks in self._topics]
         spots = tuple(
             Spot(
                 name,
@@ -248,15 +249,15 @@ class Samples:
         return Pane(
             "machine",
             report.words["page"]["machine"],
-            items=(*items, *(item for of_topic, _ in shown_by_topics for item in of_topic)),
+            items=(*items, *(item for of_topic, _ in items_of_topics for item in of_topic)),
             low=low,
             high=high,
-            scales=(*scales, *(bar for _, bars in shown_by_topics for bar in bars)),
+            scales=(*scales, *(bar for _, bars in items_of_topics for bar in bars)),
             spots=spots,
         )
 
     def _room(self, motion: Motion, scale: float, box: Box) -> Box:
-        """The corners of the drawing of the machine (mm), with room for what topics show."""
+        """Return the corners (mm) of the drawing of the machine, with room for the items of topics."""
         for hooks in self._topics:
             box = hooks.room(self.report, motion, scale, box)
         return box
@@ -271,9 +272,9 @@ class Samples:
         return motion_at(self.machine, self.angles if self.machine.instants else self.knots)
 
     def _rates(self, rate: str, layer: str, scale: float) -> tuple[list[MovingItem], float]:
-        """The velocities or accelerations of the points as arrows at them, the longest as long as it may be, to scale.
+        """Return velocities or accelerations as arrows at their points, and the value of a millimetre of arrow.
 
-        The scale is that of a millimetre.
+        The longest arrow is `ARROW` long.
         """
         points = {n: p for n, p in self._one_turn.points.items() if n not in self.machine.linkage.ground}
         greatest = max(float(np.nanmax(np.abs(getattr(p, rate)))) for p in points.values())
@@ -293,7 +294,7 @@ class Samples:
         ], per
 
     def _centres(self, scale: float, low: complex, high: complex) -> list[MovingItem]:
-        """Instant centres with the normals that meet in them, where they are near enough to be drawn."""
+        """Return the instant centres near enough to be drawn, with the normals that meet in them."""
         items: list[MovingItem] = []
         middle, reach = (low + high) / 2, FAR * abs(high - low)
         for link in self.report.plane_links:
@@ -304,8 +305,8 @@ class Samples:
             for name in (link.base, link.point):
                 start = Track(self._one_turn.points[name].p * scale)
                 items.append(MovingVector(start, centre, style.NORMAL, 0.0, layer="centres"))
-            mark = Circle(0j, 0.55, Pen(0.2, style.RED), style.PAPER)
-            items.append(MovingBody((mark,), centre, layer="centres"))
+            dot = Circle(0j, 0.55, Pen(0.2, style.RED), style.PAPER)
+            items.append(MovingBody((dot,), centre, layer="centres"))
             items.append(MovingName(centre_symbol(link.link), centre, (), 1.0, "centres"))
         return items
 
@@ -353,19 +354,19 @@ class Samples:
         return list(dict.fromkeys(edge.name for edge in edges if edge.unknown and edge.name in reactions))
 
     def _plan_of_motion(self, what: What, title: str, kind: str) -> Pane:
-        """The plan of velocities or accelerations."""
+        """Return the pane of the plan of velocities or accelerations."""
         plan = motion_construction(self.report, what)
         plan_fitted = self._fitted(what, self._rates_on(plan, what), kind, self.knots.size)
         return panes.plan(what, title, plan_items(plan, plan_fitted.tracks), plan_fitted)
 
     def _fitted(self, plan: str, corners: dict[str, np.ndarray], kind: str, turn: int) -> Fitted:
-        """The corners of a plan in its panel, at its scale."""
+        """Return the corners of a plan in its panel, at its scale."""
         placed = fitted(corners, kind, turn, self.kept.get(f"plan {plan}"))
         self.kept.setdefault(f"plan {plan}", placed.scales[0].per)
         return placed
 
     def _rates_on(self, plan: Construction[str], what: What) -> dict[str, np.ndarray]:
-        """The corners of a plan of velocities or accelerations, in SI units."""
+        """Return the corners of a plan of velocities or accelerations, in SI units, at the samples [N]."""
         per = float(self.corners[ids.scale(what)].flat[0])
         return {id: np.zeros(1, complex) if id == POLE else self.corners[id] * per for id in plan.corners}
 
@@ -377,9 +378,9 @@ class Samples:
         return panes.plan(f"R{polygon.name}", title, plan_items(plan, plan_fitted.tracks), plan_fitted)
 
     def _lever(self, title: str) -> Pane:
-        """Zhukovsky's lever: the velocity plan turned by 90° against ω1, the line of every load through its image.
+        """Return Zhukovsky's lever: the velocity plan turned by 90° against ω₁, each load acting at its image.
 
-        All arrows are of one length but where two would cover each other: arms count, with the force's size.
+        All arrows have one length unless one would cover another, because only arms count, with the force's size.
         """
         plan, quarter = motion_construction(self.report, "v"), -1j * self.machine.turn
         corners = {id: place * quarter for id, place in self._rates_on(plan, "v").items()}
@@ -411,8 +412,8 @@ class Samples:
             ends = lever.tracks[start], lever.tracks[f"{name} end"]
             balance = name == "Rcb"
             items.append(MovingVector(*ends, style.REACTION if balance else style.ACTIVE, name=name))
-            shown = vocabulary.vector(self.report.balance_symbol()) if balance else self._force_symbol(name)
-            items.append(MovingName(shown, ends[1], ends[:1], 0.6))
+            symbol = vocabulary.vector(self.report.balance_symbol()) if balance else self._force_symbol(name)
+            items.append(MovingName(symbol, ends[1], ends[:1], 0.6))
         return panes.plan("lever", title, items, lever)
 
     # --- curves and numbers
@@ -425,8 +426,8 @@ class Samples:
         if not report.has_forces:
             return
         torque = torque_chart(report, half=True)
-        shown = report.balance_symbol()
-        yield Chart(torque, (Curve(shown, Track(self.analysis.torque)),))
+        balance_symbol = report.balance_symbol()
+        yield Chart(torque, (Curve(balance_symbol, Track(self.analysis.torque)),))
         if gases := self.analysis.gas:
             unit = KINDS["pressure"].scale
             pressures = [(Symbol("p", str(gas.piston.link)), gas.pressure / unit) for gas in gases.values()]
@@ -437,7 +438,7 @@ class Samples:
             yield from hooks.charts(report)
 
     def values(self) -> Iterator[MomentValue]:
-        """Positions, speeds and accelerations of points by their sizes, rotations, forces and what balances them."""
+        """Yield the numbers below the drawing: positions, rates and rotations, forces, and the balancing load."""
         motion, analysis, ledger = self._one_turn, self.analysis, self.report.ledger
         moving = [name for name in motion.points if name not in self.machine.linkage.ground]
         for base, kind in (("v", "velocity"), ("a", "acceleration")):
@@ -466,16 +467,17 @@ class Samples:
     # --- what interpolation costs
 
     def errors(self, scale: float) -> Errors:
-        """The error of straight lines between samples.
+        """Return the errors of straight lines between samples, for a drawing of `scale` mm per metre.
 
-        Of places it is bounded by h²/8 times the greatest second derivative by the driver's angle, which is the
-        acceleration over ω²; of rates and forces it is what the middles between samples show, jumps left out.
+        For places, the bound (mm) is h²/8 times the largest second derivative by the driver's angle, the acceleration
+        over ω². For rates and forces, it is the largest difference (share) in the middle between samples, without
+        jumps.
         """
         middles = (self.angles[1:] + self.angles[:-1]) / 2
         steps = np.diff(self.angles)
         wide = steps > 4 * BESIDE
         between, at = analyse(self.machine, middles), self.analysis
-        rate = FULL_TURN * self.machine.speed / (self.machine.way / self.machine.turns)
+        rate = FULL_TURN * self.machine.speed / (self.machine.cycle_travel / self.machine.turns)
         bound = 0.0
         for name, moved in at.motion.points.items():
             here = np.abs(np.concatenate((moved.a, between.motion.points[name].a)))

@@ -1,7 +1,7 @@
-"""Convert scenes to inline SVG in millimetres, so that a print at 100 % is true to scale.
+"""Convert scenes to inline SVG in millimetres, true to scale in a print at 100 %, and formulas to MathML.
 
-Pens are classes, defined once for the whole page in its style sheet: colours there follow light and dark.  Labels
-are text, set in the reader's fonts at the places that the report's fonts would take.
+Pens are classes that the page's style sheet defines once, so that colours follow light and dark. Labels are text in the
+reader's fonts, at the places that the report's fonts would take.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ COLOURS = {
     style.PAPER: "paper",
     style.TINT: "tint",
 }
-"""The colours of figures by the names that the style sheet has for them; any other stays as it is."""
+"""Names of the figures' colours in the style sheet; any other colour stays as it is."""
 SUB, SUPER = 0.2, -0.38
 """Offsets of the base lines of indices below and above that of their letter, in font sizes."""
 OVER = 0.09
@@ -79,15 +79,15 @@ class Pens:
         self._sizes: dict[float, str] = {}
 
     def name(self, stroke: Pen | None, fill: str | None = None) -> str:
-        """The class of a pen with a fill."""
+        """Return the class of a pen with a fill."""
         return self._names.setdefault((stroke, fill), f"{self._letter}{len(self._names)}")
 
     def size(self, points: float) -> str:
-        """The class of a font size (points)."""
+        """Return the class of a font size (points)."""
         return self._sizes.setdefault(points, f"{self._letter}s{len(self._sizes)}")
 
     def rules(self) -> str:
-        """The style sheet's rules for all of them."""
+        """Return the style sheet's rules for all of them."""
         lines = []
         for (stroke, fill), name in self._names.items():
             parts = [f"fill:{_colour(fill)}"]
@@ -123,7 +123,7 @@ class Painter:
         )
 
     def items(self, items: Iterable[Item], height: float = 0.0) -> str:
-        """The elements of items, y turned over about the `height` (mm) of their sheet."""
+        """Return the elements of items, with y reversed about the `height` (mm) of their sheet."""
         paths = []
         shapes = (shape for item in items for shape in self._shapes(item, height))
         for (name, joins), group in groupby(shapes, key=lambda shape: shape[:2]):
@@ -132,7 +132,7 @@ class Painter:
         return "".join(paths)
 
     def _shapes(self, item: Item, height: float) -> Iterator[tuple[str, bool, str]]:
-        """(class, whether it is a path's data, the data or the element) of what an item is drawn with."""
+        """Yield the parts of an item: class, True for path data (False for an element), and the data or the element."""
 
         def at(point: complex) -> str:
             return f"{decimal(point.real)} {decimal(height - point.imag)}"
@@ -164,7 +164,7 @@ class Painter:
                 yield from head(triangle, stroke)
             case Polyline(points, outline, closed, fill):
                 if points:
-                    # A filled shape covers what is drawn before it, so it is an element of its own.
+                    # A filled shape covers what is drawn before it, so it has its own element.
                     yield self.pens.name(outline, fill), fill is None, self._closed(path(points), closed, outline, fill)
             case Hatch(points, spacing, stroke, turn):
                 yield self.pens.name(stroke), True, "".join(path(pair) for pair in clip_hatch(points, spacing, turn))
@@ -178,7 +178,7 @@ class Painter:
     # --- labels
 
     def label(self, label: Label, height: float = 0.0) -> str:
-        """A label as text on a sheet so high (mm): its middle or an end where the scene has it, its own base line."""
+        """Return a label as text on a sheet of a `height` (mm), anchored at its middle or an end as in the scene."""
         extent, (centre, half) = box(label.content, label.size), frame(label)
         turned = label.turn == 90
         side = "s" if "left" in label.anchor else "e" if "right" in label.anchor else "m"
@@ -202,7 +202,7 @@ class Painter:
         return text
 
     def _accent(self, content: Content, size: float, base: complex, height: float) -> str:
-        """The arrow or bar over a label that is one symbol."""
+        """Return the arrow or bar over a label that is a single symbol."""
         if not isinstance(content, Symbol) or not content.over:
             return ""
         em = size * POINT
@@ -217,7 +217,7 @@ class Painter:
 
     def text(self, content: Content) -> str:
         """Return a label as the content of a text element."""
-        shown, drop = [], 0.0
+        spans, drop = [], 0.0
         for run in Runs(self.language).content(content):
             # A shift counts in the font size of the run that it moves.
             shift = (run.drop - drop) / run.size
@@ -226,9 +226,9 @@ class Painter:
             names = ("i " if run.italic else "") + ("x" if run.size < 1 else "")
             attributes += f' class="{names.strip()}"' if names else ""
             text = escape(run.text)
-            shown.append(f"<tspan{attributes}>{text}</tspan>" if attributes else text)
+            spans.append(f"<tspan{attributes}>{text}</tspan>" if attributes else text)
             drop = run.drop
-        return "".join(shown)
+        return "".join(spans)
 
 
 class Runs(formula_setter.Setter[tuple[Run, ...]]):
@@ -288,7 +288,7 @@ def _symbol(node: Symbol) -> Iterator[Run]:
 
 
 def _scripts(below: str, above: str) -> Iterator[Run]:
-    """An index and an exponent over one another: the narrower first, then the other from where it began."""
+    """Yield an index below an exponent: the narrower first, then the other from where the first began."""
     wide_below, wide_above = (box(text, 1.0).width / POINT for text in (below, above))
     first, second = _script(below, SUB), _script(above, SUPER)
     if wide_below > wide_above:
@@ -304,24 +304,24 @@ def _script(text: str, drop: float) -> Iterator[Run]:
 
 # --- formulas as MathML Core ----------------------------------------------------------------------
 # The part of MathML that every browser sets by itself.
-# Attributes hold no style, since the page's security policy lets none in; what it looks like is in the frame's CSS.
+# Attributes have no style, because the page's security policy forbids it; the looks are in the frame's CSS.
 
 WHITE: Mapping[Role, tuple[str, str]] = {"sum": (" ", " "), "product": (" ", " "), "bound": ("", " ")}
-"""Before and behind a sign; no page shows it, but text that is copied has it."""
+"""Spaces before and after a sign; no page shows them, but copied text has them."""
 
 
 def escape(text: str) -> str:
-    """A text that reads back as typed, in an element or in an attribute in double quotes."""
+    """Return a text that reads back as typed, in an element or in an attribute in double quotes."""
     return escaped(text, quote=True)
 
 
 def row(*parts: str) -> str:
-    """Several elements as one."""
+    """Return several elements as one."""
     return f"<mrow>{''.join(parts)}</mrow>"
 
 
 class MathmlFormulas(TextSetter):
-    """Expressions as MathML, in one language."""
+    """Writer of expressions as MathML, in one language."""
 
     BELOW = "<msub><mrow>%s</mrow>%s</msub>"
     RAISED = "<msup><mrow>%s</mrow><mrow>%s</mrow></msup>"
@@ -342,7 +342,7 @@ class MathmlFormulas(TextSetter):
         return f"<math>{mathematics}</math>"
 
     def displayed(self, mathematics: str) -> str:
-        """A piece of a displayed formula, its fractions in full size."""
+        """Return a piece of a displayed formula, with fractions in full size."""
         return f'<math displaystyle="true">{mathematics}</math>'
 
     def number(self, number: Written) -> str:
@@ -402,7 +402,7 @@ class MathmlFormulas(TextSetter):
     # --- lines
 
     def broken(self, node: Expression) -> list[str]:
-        """A formula in a line in the parts between which it may break: before "=", between the terms of a sum."""
+        """Return the parts of an inline formula, which may break before "=" and between the terms of a sum."""
         if isinstance(node, Sum):
             return [self.part(piece).lstrip() for piece in pieces(laid(node, self.language))]
         first, *others = sides(node, self.language)
@@ -421,7 +421,7 @@ class MathmlFormulas(TextSetter):
         return ("".join(first), rest) if rest else ("", first)
 
     def columns(self, equation: VectorEquation) -> list[tuple[str, list[str]]]:
-        """Each column of a vector equation: its term, and below it what is known of it in the equation's rows."""
+        """Return each column of a vector equation: its term, and below it the known data in each row."""
         return [
             (self.leading(column.signs) + self.part(column.term), list(map(self.known, column.known)))
             for column in columns(equation)

@@ -1,4 +1,4 @@
-"""Additions of a topic to the animated page of a machine."""
+"""Hooks by which a topic adds layers, runs, charts and numbers to the animated page of a machine."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ from reportgen.report.context import ReportContext
 Box = tuple[complex, complex]
 """The lower left and the upper right corner of a drawing (mm)."""
 Chosen = Callable[[str, Callable[[], float]], float]
-"""Gives a number that is chosen once for a page, by its name."""
+"""Returns a number that is chosen once for a page, by its name."""
 
 
 def _no_items(report: ReportContext, analysis: Analysis, scale: float, per: float, turn: int) -> Iterator[MovingItem]:
     yield from ()
 
 
-def _nothing_shown(
+def _no_items_with_bars(
     report: ReportContext, motion: Motion, scale: float, longest: float, chosen: Chosen
 ) -> tuple[Sequence[MovingItem], Sequence[BarScale]]:
     return (), ()
@@ -48,10 +48,11 @@ def _no_values(report: ReportContext, motion: Motion) -> Iterator[tuple[Symbol, 
 
 @dataclass(frozen=True)
 class LayerHooks:
-    """Items, curves, runs and numbers of a topic on the page.
+    """The layers, charts, runs and numbers of a topic on the page.
 
-    `with_forces` gives items at the samples of an analysis, `scale` mm a metre and `per` newtons a millimetre, of which
-    the first `turn` samples are one turn; `shown` gives items over one turn with bars of their own scale.
+    `with_forces(report, analysis, scale, per, turn)` yields items at the samples: `scale` is mm per metre, `per`
+    newtons per mm, and the first `turn` samples are one turn. `with_bars` gives items over one turn with bars of their
+    own scale.
     """
 
     layers: tuple[str, ...] = ()
@@ -59,11 +60,11 @@ class LayerHooks:
     force_layers: tuple[str, ...] = ()
     """Layers whose arrows have the scale of the forces."""
     with_forces: Callable[[ReportContext, Analysis, float, float, int], Iterator[MovingItem]] = _no_items
-    shown: Callable[[ReportContext, Motion, float, float, Chosen], tuple[Sequence[MovingItem], Sequence[BarScale]]] = (
-        _nothing_shown
-    )
+    with_bars: Callable[
+        [ReportContext, Motion, float, float, Chosen], tuple[Sequence[MovingItem], Sequence[BarScale]]
+    ] = _no_items_with_bars
     room: Callable[[ReportContext, Motion, float, Box], Box] = _no_more_room
-    """Gives the corners of a drawing that holds the items, too."""
+    """Returns the corners of a drawing that also has room for the items."""
     runs: Callable[[ReportContext], Sequence[TimedRun]] = _no_runs
     charts: Callable[[ReportContext], Iterator[Chart]] = _no_charts
     values: Callable[[ReportContext, Motion], Iterator[tuple[Symbol, str, np.ndarray]]] = _no_values

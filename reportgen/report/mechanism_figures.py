@@ -69,7 +69,7 @@ def scale_note(report: ReportContext, id: str, factor: float = 1.0, k: int | Non
     1/`factor`.
     """
     number = report.ledger.number(id, k)
-    return Chain((report.ledger.symbol(id), short(replace(number, value=number.shown / factor))))
+    return Chain((report.ledger.symbol(id), short(replace(number, value=number.printed / factor))))
 
 
 def looks(report: ReportContext, scale: float, factor: float = 1.0) -> Looks:

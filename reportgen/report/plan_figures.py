@@ -189,7 +189,7 @@ def _stages(
         widest, highest = max(scene.width for scene in scenes), max(scene.height for scene in scenes)
         if widest <= PANEL and across <= PANELS[0] and highest <= PANELS[1]:
             break
-    smaller = replace(number, value=significant(number.shown / share, SCALE_FIGURES), decimals=None)
+    smaller = replace(number, value=significant(number.printed / share, SCALE_FIGURES), decimals=None)
     return FigureScenes(scenes, note=Chain((report.ledger.symbol(scale), smaller)))
 
 
@@ -372,13 +372,13 @@ class ForcePlans:
             return plan(drawing, title=title, enlarged=False, margin=CLOSE_MARGIN)
         scale = ids.force_scale(self.polygon.name)
         own, room = report.ledger.number(scale, k), times * ROOM_OF_FORCES / report.enlarged
-        μ = nice_up(own.shown * extent / (times * LARGEST_OF_FORCES))
+        μ = nice_up(own.printed * extent / (times * LARGEST_OF_FORCES))
         while True:
             note = Chain((report.ledger.symbol(scale), replace(own, value=μ, decimals=None)))
-            scaled = replace(drawing.scaled(own.shown / μ), scale=note)
+            scaled = replace(drawing.scaled(own.printed / μ), scale=note)
             scene = plan(scaled, title=title, enlarged=False, margin=CLOSE_MARGIN)
             coarser = nice_up(μ * (1 + FINER))
-            if scene.width <= room or extent * own.shown / coarser < LEAST_OF_FORCES:
+            if scene.width <= room or extent * own.printed / coarser < LEAST_OF_FORCES:
                 return scene
             μ = coarser
 

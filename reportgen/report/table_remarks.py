@@ -72,7 +72,7 @@ def reactions_at(report: ReportContext) -> str | Inlines:
 
 def printed_values(report: ReportContext, id: str, positions: Iterable[int]) -> np.ndarray:
     """Return the values of a quantity as printed [N], nan where it does not exist."""
-    return np.array([report.ledger.number(id, k).shown for k in positions])
+    return np.array([report.ledger.number(id, k).printed for k in positions])
 
 
 def labels(report: ReportContext, positions: Sequence[int]) -> str:
@@ -128,7 +128,7 @@ def peaks(report: ReportContext, quantities: Iterable[str], cycle: bool = False)
     positions = report.all_positions if cycle else report.positions
     alike: dict[tuple[object, ...], list[Peak]] = {}
     for extreme in each_peak(report, quantities, positions):
-        alike.setdefault((extreme.value.number.shown, extreme.at, extreme.zero, extreme.turns), []).append(extreme)
+        alike.setdefault((extreme.value.number.printed, extreme.at, extreme.zero, extreme.turns), []).append(extreme)
     return [_joined(report, some) for some in alike.values()]
 
 
@@ -223,8 +223,8 @@ def reaction_ids(report: ReportContext) -> list[str]:
 def greatest(report: ReportContext, quantities: Iterable[str]) -> list[Peak]:
     """Return the peaks of the quantities that reach the greatest value over the cycle."""
     every = peaks(report, quantities, True)
-    top = max((one.value.number.shown for one in every), default=0.0)
-    return [one for one in every if one.value.number.shown == top]
+    top = max((one.value.number.printed for one in every), default=0.0)
+    return [one for one in every if one.value.number.printed == top]
 
 
 def cause(report: ReportContext, top: Peak) -> Inlines:

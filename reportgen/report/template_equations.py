@@ -196,7 +196,7 @@ def slider_ways(report: ReportContext) -> Inlines:
 
 def _pointing(report: ReportContext, angle: Number) -> Inlines:
     """Return the direction of a vector in words, and its angle from +x."""
-    heading = heading_words(report, angle.shown)
+    heading = heading_words(report, angle.printed)
     before, _, after = report.words["pointing"].format(heading=heading, angle=NO_LETTER).partition(NO_LETTER)
     return Text(f" {before}"), Value(angle), Text(after)
 

@@ -59,7 +59,7 @@ PROPERTIES = (
     "pistons",
     "plane_links",
     "sheet",
-    # what is set out together, by ids
+    # ids of quantities that are printed together
     "inertia_lines",
     "lengths",
     "mass_lines",
@@ -116,7 +116,7 @@ VALUES: Mapping[str, Callable[[ReportContext], Any]] = {
     "strokes_at_start": phrases.strokes_at_start,
     "study": phrases.study,
     "turning": phrases.turning,
-    # what is set out together, by ids
+    # ids of quantities that are printed together
     "coordinate_lengths": interpolations.coordinate_lengths,
     "crank_lines": chapter_functions.crank_lines,
     "driver_joints": chapter_functions.driver_joints,

@@ -63,5 +63,5 @@ def _shown(written: Ledger, family: Family, position: int) -> float | None:
     """Return the printed value of a quantity at a position; None if there is none (a zero vector's direction)."""
     if family.is_of_vector and written[family.of].at(position) == 0:
         return None
-    value = written.quantity(family.id, position).number.shown
+    value = written.quantity(family.id, position).number.printed
     return value + 0.0 if math.isfinite(value) else None

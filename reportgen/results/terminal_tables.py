@@ -44,10 +44,10 @@ def print_tables(results: Mapping[str, Any], language: Language) -> None:
     console = Console(width=500)
     titles = load_words((kind_file(language, results["kind"]),)).get("results", {})
     topics = of_topics(templates() / language).get("results", {})
-    found = tables(results["positions"], _rows_of(results["kind"], titles, topics))
+    rows_by_table = tables(results["positions"], _rows_of(results["kind"], titles, topics))
     titles = {**topics, **titles}
-    scales = _scales(found, results["positions"])
-    for name, rows in found.items():
+    scales = _scales(rows_by_table, results["positions"])
+    for name, rows in rows_by_table.items():
         for headings in _split(rows[0]):
             table = Table(title=titles.get(name) or word(name, language), title_justify="left", title_style="bold")
             for heading in headings:
@@ -91,7 +91,7 @@ def tables(
 
     `own` returns the rows that only this kind has at a position, by the names of their tables.
     """
-    found: dict[str, list[ResultRow]] = defaultdict(list)
+    rows_by_table: dict[str, list[ResultRow]] = defaultdict(list)
     for position in positions:
         if position is None:
             continue
@@ -113,8 +113,8 @@ def tables(
         }
         for name, row in rows.items():
             if row:
-                found[name].append(lead | row)
-    return {name: _without_zeros(rows) for name, rows in found.items()}
+                rows_by_table[name].append(lead | row)
+    return {name: _without_zeros(rows) for name, rows in rows_by_table.items()}
 
 
 def _driver(position: Mapping[str, Any]) -> ResultRow:
@@ -128,11 +128,11 @@ def _driver(position: Mapping[str, Any]) -> ResultRow:
 
 def _once(reactions: ResultRow) -> ResultRow:
     """Return each pair R_ij, R_ji once, because their sizes are equal."""
-    shown: ResultRow = {}
+    sizes: ResultRow = {}
     for name, size in reactions.items():
-        if ids.reaction_force(ids.joint(*reversed(ids.links_of(name)))) not in shown:
-            shown[name] = size
-    return shown
+        if ids.reaction_force(ids.joint(*reversed(ids.links_of(name)))) not in sizes:
+            sizes[name] = size
+    return sizes
 
 
 def _without_zeros(rows: list[ResultRow]) -> list[ResultRow]:
@@ -184,7 +184,7 @@ def _scale(name: str, heading: str) -> str:
 
 
 def _scales(
-    found: Mapping[str, Sequence[ResultRow]], positions: Sequence[Mapping[str, Any] | None]
+    rows_by_table: Mapping[str, Sequence[ResultRow]], positions: Sequence[Mapping[str, Any] | None]
 ) -> Mapping[tuple[str, str], float]:
     """Return the largest value among the columns that share a column's scale; 0 for the position of the driver.
 
@@ -193,11 +193,11 @@ def _scales(
     largest: dict[str, float] = defaultdict(float)
     columns = {
         (name, heading): "" if heading in LEADS else _scale(name, heading)
-        for name, rows in found.items()
+        for name, rows in rows_by_table.items()
         for heading in rows[0]
     }
     for (name, heading), scale in columns.items():
-        values = (row.get(heading) for row in found[name])
+        values = (row.get(heading) for row in rows_by_table[name])
         sizes = (abs(value) for value in values if not (value is None or isinstance(value, str)))
         largest[scale] = max(largest[scale], *sizes, 0.0)
     places = (point["p"] for position in positions if position for point in position.get("points", {}).values())

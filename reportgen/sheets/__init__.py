@@ -1,4 +1,4 @@
-"""Make the drawing sheets of a report: plates on paper, frame and title block."""
+"""Make the drawing sheets of a case: plates on paper, with frame and title block. `drawing_sheets` makes them all."""
 
 from __future__ import annotations
 
@@ -20,25 +20,24 @@ from reportgen.sheets.plates import plates_of, sets_of
 from reportgen.sheets.title_block import TitleBlock, blocks, fields_of, framed, numbered, read_block, room
 
 Plates = Mapping[str, Sequence[DrawingPlate]]
-"""The plates of each set."""
+"""The plates of each set, by the set's name."""
 Laid = tuple[str, tuple[PlacedScene, ...]]
-"""The set that a sheet shows, and its parts."""
+"""The set that a sheet shows, and its placed scenes."""
 BY_SIZE = ("A3", "A2", "A1", "A0")
 USUAL = ("A1", "A0")
-"""Sizes for sets that no sheet holds as a whole."""
+"""Paper sizes, in order of preference, of sets that no single sheet holds."""
 STEPS = 20
-"""In so many steps cranks are tried that are drawn shorter."""
+"""Number of shorter cranks that are tried if a plate does not fit."""
 
 
 def drawing_sheets(
     case: Case, size: str = "", sets: Collection[str] = (), block: Path | None = None, every: bool = False
 ) -> list[DrawingSheet]:
-    """Return the finished drawing sheets of a case, with `every` plate or those usually handed in, then its true
-    sizes.
+    """Return the drawing sheets of a case, followed by those of its parts.
 
-    `sets` are some of `Set` of a machine, all if none is named.  The parts that follow a machine are on sheets as
-    large as its own, not larger than A1 if that size is enough.  Raises `SheetError` if there is nothing to draw,
-    and as `on_sheets` does.
+    `sets` are some of the `Set` names of a machine, all if empty; `every` adds the plates that are not usually handed
+    in. The parts that follow a machine are on sheets of the machine's size, but not larger than A1 if that is enough.
+    Raise `SheetError` if there is nothing to draw, and the errors of `on_sheets`.
     """
     plates = case.plates(sets, every)
     if not plates:
@@ -61,7 +60,7 @@ def drawing_sheets(
 
 
 def plates_by_set(case: MachineAnalysis, sets: Collection[str] = (), every: bool = False) -> Plates:
-    """The plates of some sets, all if none is named; without those of which there are none."""
+    """Return the plates of some sets, all if none is named; sets without plates are left out."""
     sources = Sources.of(case, every)
     return {name: list(plates_of(sources, name)) for name in sets_of(sources) if not sets or name in sets}
 
@@ -74,11 +73,13 @@ def on_sheets(
     redrawn: tuple[float, Callable[[float], Plates]] | None = None,
     least: str = BY_SIZE[0],
 ) -> list[DrawingSheet]:
-    """The sheets of some sets, each of which begins one: of a `size`, else of the smallest that holds each set as one.
+    """Return the sheets of some sets; each set begins a new sheet.
 
-    That is not smaller than the `least`.  Plates that may be larger are drawn as large as their sheets hold.  The title
-    `block` is a file, else that of the language.  Raises `AssignmentError` for a faulty block and for a plate that is
-    too large; what may be `redrawn` has the length of its crank (mm), and plates for any other one.
+    `size` is the paper size; without it, each set gets the smallest size, not below `least`, that holds it on one
+    sheet. Plates that may be larger are enlarged as far as their sheets have room. `block` is a title block file, by
+    default the one of the language. `redrawn` is the length of the drawn crank (mm) with a function that returns the
+    plates for another length. Raise `AssignmentError` for an invalid block and for a plate that is too large; the error
+    names a length of the crank that fits.
     """
     language = case.assignment.language
     form = read_block(block or blocks(case.assignment.school or "", language)[setting_of(language).block], language)
@@ -93,9 +94,9 @@ def on_sheets(
 
 
 def enlarged(plates: Sequence[DrawingPlate], paper: str, form: TitleBlock) -> list[DrawingPlate]:
-    """The plates of a set, each at the largest standard scale at which no more sheets hold them than before.
+    """Return the plates of a set, each at the largest standard scale that needs no further sheet.
 
-    The next to grow is the one that has then grown least.  Spare plates fill what is left.
+    The plate that has been enlarged least grows next. Optional plates fill the remaining room.
     """
 
     def sheets(some: Sequence[DrawingPlate]) -> float:
@@ -128,7 +129,10 @@ def _fault(
     size: str,
     redrawn: tuple[float, Callable[[float], Plates]] | None,
 ) -> AssignmentError:
-    """Says which plate is too large, the smallest size that holds all, and the longest crank with which this does."""
+    """Return the error about a plate that is too large.
+
+    It names the smallest size that holds all plates, and the longest crank with which they fit.
+    """
     arguments = {"name": error.name, "width": f"{error.width:.0f}", "height": f"{error.height:.0f}", "size": size}
     larger = [paper for paper in BY_SIZE[BY_SIZE.index(size) + 1 :] if _holds(plates, paper, form)]
     if larger:
@@ -152,7 +156,7 @@ def _holds(plates: Plates, paper: str, form: TitleBlock) -> bool:
 
 
 def laid(plates: Plates, paper: str, form: TitleBlock) -> list[Laid]:
-    """The plates on sheets of a size; raises `TooLargeError`."""
+    """Return the plates laid out on sheets of a size; raise `TooLargeError` for a plate that does not fit."""
     packing = _packing(paper, form)
     return [(name, parts) for name, some in plates.items() for parts in packing.sheets(some)]
 
@@ -162,7 +166,11 @@ def _packing(paper: str, form: TitleBlock) -> Packing:
 
 
 def _chosen(plates: Plates, form: TitleBlock, wanted: str, least: str) -> tuple[str, list[Laid]]:
-    """A size and what is on its sheets; of sets that no sheet holds as a whole the first of the usual sizes."""
+    """Return a paper size and the layout of its sheets; raise `TooLargeError` if no size holds a plate.
+
+    Without a `wanted` size it is the smallest from `least` on that holds each set on one sheet, else the first of
+    `USUAL` that holds the plates.
+    """
     sizes = [(wanted, False)] if wanted else [(paper, True) for paper in BY_SIZE[BY_SIZE.index(least) :]]
     sizes += [] if wanted else [(paper, False) for paper in USUAL]
     too_large: TooLargeError | None = None
@@ -179,11 +187,11 @@ def _chosen(plates: Plates, form: TitleBlock, wanted: str, least: str) -> tuple[
 
 
 def _sheet(case: Case, form: TitleBlock, paper: str, number: int, laid_out: Sequence[Laid]) -> DrawingSheet:
-    """One of the sheets with its frame and its title block."""
-    shown, parts = laid_out[number - 1]
+    """Return one of the sheets with its frame and its title block; `number` counts from 1."""
+    kind, parts = laid_out[number - 1]
     fields = fields_of(case, form, number) | {
         # A set of several works is called by its title itself.
-        "title": case.words["plates"]["sets"].get(shown, shown),
+        "title": case.words["plates"]["sets"].get(kind, kind),
         "sheet": str(number),
         "sheets": str(len(laid_out)),
         "format": paper,

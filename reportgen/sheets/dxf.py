@@ -1,7 +1,7 @@
-"""Write drawing sheets as DXF: the items of the PDF, as a CAD program draws them; ezdxf writes the file.
+"""Write a drawing sheet as DXF for CAD programs with ezdxf: `write_sheet`.
 
-Everything is 1:1 in model space, in millimetres, one file for each sheet; a paper-space layout
-shows it.  Layers follow the meaning of lines, a plate is a named group, and the same sheet gives the same bytes.
+The items of the PDF are drawn 1:1 in millimetres in model space, one file per sheet; a paper-space layout shows them.
+Layers follow the meaning of lines, each plate is a named group, and the same sheet gives the same bytes.
 """
 
 from __future__ import annotations
@@ -44,12 +44,12 @@ LAYERS: dict[str, int] = {
     "text": 7,
     "frame": 7,
 }
-"""The colour index of each layer."""
+"""Colour index of each layer."""
 AXIS, HIDDEN = "CENTER", "HIDDEN"
 AXIS_PARTS = 4
 """A pen of four dashes and gaps is that of an axis, one of two that of a hidden or construction line."""
 WIDTHS = (13, 18, 25, 35, 50, 70, 100)
-"""Line weights that DXF knows, hundredths of a millimetre."""
+"""Line weights of DXF in hundredths of a millimetre."""
 ATTACHMENT: dict[Anchor, int] = {
     "top-left": 1,
     "top": 2,
@@ -64,13 +64,13 @@ ATTACHMENT: dict[Anchor, int] = {
 HALIGN = {"left": 0, "center": 1}
 """Horizontal alignment of a line of text at its place; vertically it is centred."""
 ORDERS = frozenset("%^\\")
-"""Signs that begin an order in a line of text."""
+"""Characters that begin a control code in a line of text."""
 SHADE = 254
-"""The colour index of a link's inside, a light gray."""
+"""Colour index of the inside of a link, a light grey."""
 CORNER = 0.1
-"""A curve that turns by more (rad) from one of its fine chords to the next has a corner."""
+"""Angle (rad) between successive chords of a curve above which they meet in a corner."""
 FITTED = 360
-"""A spline has about so many points of its curve."""
+"""Approximate largest number of points of a curve that a spline goes through."""
 REALS = range(10, 60)
 """Group codes of real numbers; those from `FURTHER` on are no coordinates: sizes, angles, knots."""
 FURTHER = 40
@@ -83,7 +83,7 @@ _PAIR = re.compile("%(?=%)")
 
 
 def write_sheet(sheet: DrawingSheet, language: Language) -> bytes:
-    """The DXF file (R2010) of a sheet."""
+    """Return the DXF file (R2010) of a sheet."""
     import ezdxf
 
     # Dates and serial numbers would make each file another one.
@@ -92,7 +92,7 @@ def write_sheet(sheet: DrawingSheet, language: Language) -> bytes:
     document.header["$INSUNITS"] = 4
     document.header["$MEASUREMENT"] = 1
     document.header["$LTSCALE"] = 1.0
-    # LibreCAD takes the style's name for that of a stroke font of its own.  Its usual one lacks most letters of
+    # LibreCAD takes the style's name for the name of one of its stroke fonts. Its usual one lacks most letters of
     # Vietnamese, which are in the file of that name in `templates/frames/letters`; all other programs take the font.
     letters = setting_of(language).drawing
     document.styles.add(letters.style, font=letters.font)
@@ -113,7 +113,7 @@ def write_sheet(sheet: DrawingSheet, language: Language) -> bytes:
 
 
 def _rounded(text: str) -> str:
-    """The text of a DXF file with its coordinates and other real numbers rounded, the same on every processor."""
+    """Return the text of a DXF file with its real numbers rounded, so that every processor gives the same bytes."""
     tags = text.split("\n")
     for place in range(0, len(tags) - 1, 2):
         code = int(tags[place])
@@ -137,7 +137,7 @@ def _draw(document: Drawing, part: PlacedScene, texts: MText) -> None:
 
 
 def _layout(document: Drawing, sheet: DrawingSheet) -> None:
-    """A page of the sheet's size with one window on all of it, 1:1."""
+    """Add a page of the sheet's size with one viewport that shows all of it 1:1."""
     paper: Any = document.layout("Layout1")
     paper.page_setup(size=(sheet.width, sheet.height), margins=(0, 0, 0, 0), units="mm")
     size, middle = (sheet.width, sheet.height), (sheet.width / 2, sheet.height / 2)
@@ -169,7 +169,7 @@ def _entities(document: Drawing, item: Item, part: PlacedScene, texts: MText) ->
         case Line(start, end, stroke):
             yield line(start, end, stroke)
         case Arrow(start, end, stroke, length):
-            # The shaft goes on to the tip, so that a distance query finds the vector's own length.
+            # The shaft continues to the tip, so that a distance query finds the vector's own length.
             yield line(start, end, stroke)
             yield from head(start, end, length)
         case Circle(centre, radius, outline, fill):
@@ -213,7 +213,7 @@ def _entities(document: Drawing, item: Item, part: PlacedScene, texts: MText) ->
 
 
 def _smooth(points: tuple[complex, ...], closed: bool) -> list[list[complex]]:
-    """The pieces of a curve between its corners, each by no more points than a spline needs."""
+    """Return the pieces of a curve between its corners, each with at most the points that a spline needs."""
     vertices = [*points, points[0]] if closed else list(points)
     sides = [cmath.phase(after - before) for before, after in pairwise(vertices)]
     turned = [abs(math.remainder(other - one, 2 * math.pi)) for one, other in pairwise(sides)]
@@ -232,7 +232,7 @@ def _spline(model: Any, points: list[tuple[float, float]]) -> Any:
 
 
 def _arrowhead(document: Drawing) -> str:
-    """The block of all arrowheads, its tip at the origin, one unit long along x."""
+    """Return the name of the block of all arrowheads: its tip at the origin, one unit long along x."""
     name = "ARROWHEAD"
     if name not in document.blocks:
         block: Any = document.blocks.new(name)
@@ -242,7 +242,7 @@ def _arrowhead(document: Drawing) -> str:
 
 
 def _disc(document: Drawing, radius: float) -> str:
-    """The block of a black point of a radius (mm)."""
+    """Return the name of the block of a black point with a radius (mm)."""
     name = f"POINT_{1000 * radius:.0f}"
     if name not in document.blocks:
         block: Any = document.blocks.new(name)
@@ -252,7 +252,7 @@ def _disc(document: Drawing, radius: float) -> str:
 
 
 def _pen(layer: str, stroke: Pen) -> dict[str, Any]:
-    """A pen's layer, weight and line type; narrow axes and lines of construction have layers of their own."""
+    """Return layer, weight and line type of a pen; thin axes and construction lines have their own layers."""
     weight = min(WIDTHS, key=lambda width: abs(width - 100 * stroke.width))
     if not stroke.dash or layer == "frame":
         return {"layer": layer, "lineweight": weight}
@@ -266,7 +266,7 @@ def _pen(layer: str, stroke: Pen) -> dict[str, Any]:
 
 
 class MText(Plain):
-    """Formulas as MTEXT: Unicode, with indices stacked and set smaller."""
+    """Writer of formulas as MTEXT: Unicode, with indices stacked and set smaller."""
 
     BELOW = f"%s{{\\H{STACK}x;\\S^ %s;}}"
     RAISED = f"%s{{\\H{STACK}x;\\S%s^ ;}}"
@@ -278,18 +278,18 @@ class MText(Plain):
         return setting_of(self.language).drawing.style
 
     def text(self, text: str) -> str:
-        """A text with what MTEXT takes for orders made plain."""
+        """Return a text with the characters escaped that MTEXT would take for control codes."""
         escaped = text.replace("\\", "\\\\").replace("{", "\\{").replace("}", "\\}")
         # Two percent signs begin an order, too: an empty group parts them.
         return _PAIR.sub("%{}", escaped).replace("\n", "\\P").replace("^", "^ ")
 
     def symbol(self, node: Symbol) -> str:
         # Without the arrow of a vector: overlining is an order that not every program knows and some print.
-        # Digits within an index stand in its line: stacks do not nest.
+        # Digits within an index stay on its line, because stacks cannot be nested.
         return self.lowered(runs(node.base), self.text) + _stacked(self.text(node.sub), self.text(node.sup))
 
 
 def _stacked(below: str, above: str) -> str:
-    """An index and an exponent over one another."""
+    """Return an index below an exponent."""
     # Without the blank a caret and the letter after it would be a control character.
     return f"{{\\H{STACK}x;\\S{above}^ {below};}}" if below or above else ""

@@ -1,7 +1,7 @@
-"""Packing of plates on drawing sheets: in columns, in the order of the work, with aligned heads and even gutters.
+"""Pack plates on drawing sheets in columns, in the order of the work: `Packing.sheets`.
 
-A column is rows of plates: the next plate is placed beside one that leaves room.  Columns begin at the top, with one
-distance between rows and one between columns all over the sheet; those above the title block are shorter by its
+A column is rows of plates; the next plate is placed beside one that leaves room. Columns begin at the top, with one
+distance between rows and one between columns on the whole sheet. Columns above the title block are shorter by its
 height.
 """
 
@@ -20,9 +20,9 @@ from reportgen.drawing.plates import DUST, Arranged, DrawingPlate
 MOST = 20.0
 """Largest distance between rows, mm."""
 SHARES = (1.0, 0.9, 0.8, 0.7, 0.6, 0.5)
-"""Columns are tried this share as high as a sheet."""
+"""Shares of the sheet's height that are tried for columns."""
 STEP = 4.0
-"""In such steps widths of columns are tried, mm."""
+"""Step (mm) in which widths of columns are tried."""
 
 
 PlateRow = list[tuple[DrawingPlate, Arranged]]
@@ -30,14 +30,17 @@ PlateRow = list[tuple[DrawingPlate, Arranged]]
 
 @dataclass(frozen=True)
 class PlateColumn:
-    """Rows of plates of a width together."""
+    """Rows of plates with a common width."""
 
     width: float
     rows: Sequence[PlateRow]
 
     @classmethod
     def of(cls, plates: Sequence[DrawingPlate], width: float) -> PlateColumn:
-        """The plates in rows, one beside the other where that makes the column lower; none may be wider (mm)."""
+        """Return the plates in rows, side by side where that makes the column lower.
+
+        None may be wider than `width` (mm).
+        """
         rows: list[PlateRow] = []
         used = 0.0
         for plate in plates:
@@ -61,7 +64,7 @@ class PlateColumn:
         return self.height + GAP * (len(self.rows) + 1) <= high + DUST
 
     def placed(self, corner: complex, apart: float) -> Iterator[PlacedScene]:
-        """The parts of its plates, its rows so far apart (mm); of each row the heads are in line."""
+        """Yield the scenes of its plates with `apart` (mm) between rows; the heads of a row are aligned."""
         top = corner
         for row in self.rows:
             free = self.width - sum(how.width for _, how in row)
@@ -107,7 +110,7 @@ class Packing:
         return self.high - self.room.block.imag
 
     def sheets(self, plates: Iterable[DrawingPlate]) -> Iterator[tuple[PlacedScene, ...]]:
-        """The parts of each sheet; raises `TooLargeError` for a plate that fits none."""
+        """Yield the placed scenes of each sheet; raise `TooLargeError` for a plate that fits no sheet."""
         spare: list[DrawingPlate] = []
         waiting: list[DrawingPlate] = []
         for plate in plates:
@@ -135,7 +138,7 @@ class Packing:
         return replace(plate, number=self.count)
 
     def _divided(self, plate: DrawingPlate) -> tuple[DrawingPlate, DrawingPlate]:
-        """As many scenes of a plate as a sheet holds, and the others."""
+        """Return a plate with as many scenes as a sheet holds, and one with the remaining scenes."""
         for count in range(len(plate.scenes) - 1, 0, -1):
             parts = plate.divided(count)
             if self._filled(parts[:1]):
@@ -151,7 +154,7 @@ class Packing:
         return (plates.index(family[0]) if whole else 0) or count
 
     def _filled(self, plates: Sequence[DrawingPlate], share: float = 1.0) -> list[PlateColumn]:
-        """As many plates as a share of a sheet's height holds, in columns that leave most room to the right."""
+        """Return as many plates as a share of the height holds, in columns that leave most room on the right."""
         high, above = share * self.high, min(share * self.high, self.above)
         ends = [0.0, *(math.inf for _ in plates)]
         columns_at: list[list[PlateColumn]] = [[] for _ in ends]
@@ -169,7 +172,7 @@ class Packing:
         return next((columns for columns in reversed(columns_at) if columns), [])
 
     def _narrowest(self, plates: Sequence[DrawingPlate], high: float) -> PlateColumn | None:
-        """The plates in the narrowest column of a height; None where the sheet is not wide enough."""
+        """Return the plates in the narrowest column of a height (mm); None if the sheet is not wide enough."""
         key = *plates, high
         if key not in self._columns:
             least = max(plate.arrangements[0].width for plate in plates)
@@ -179,7 +182,10 @@ class Packing:
         return self._columns[key]
 
     def _spread(self, plates: Sequence[DrawingPlate]) -> Iterator[PlacedScene]:
-        """The parts of the plates of a sheet, in columns as high as leave most white between them, either way."""
+        """Yield the scenes of a sheet.
+
+        Its columns have the height at which the smaller of both gaps (between columns and between rows) is largest.
+        """
         every = [self._filled(plates, share) for share in SHARES]
         columns = max(
             (columns for columns in every if _count(columns) == len(plates)),

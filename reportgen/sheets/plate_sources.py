@@ -1,4 +1,4 @@
-"""Sources of the plates of drawing sheets: a report, the same drawn small, scenes with their words, tables."""
+"""The sources of plates: a report and the same report drawn small, its scenes with their words, and tables."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from reportgen.report.context import ReportContext
 from reportgen.report.link_views import GroupView
 
 WIDEST, MOST_ROWS = 180.0, 24
-"""Largest width (mm) and number of positions of a table; then another is placed beside it."""
+"""Largest width (mm) and largest number of positions of a table; further ones get another table beside it."""
 
 
 SEGMENT = 2
@@ -26,9 +26,9 @@ SEGMENT = 2
 
 @dataclass(frozen=True)
 class Sources:
-    """Sources of plates: a report, and the same one whose figures are drawn small, to be enlarged.
+    """The sources of plates: a report, and the same report with small figures, which are then enlarged.
 
-    With `every`, each plan has a plate, those of velocities and accelerations to the scales of the worked ones.
+    With `every`, each plan has its own plate; those of velocities and accelerations use the scales of the worked plans.
     """
 
     report: ReportContext
@@ -45,11 +45,11 @@ class Sources:
         return words
 
     def called(self, group: GroupView) -> str:
-        """Group (2,3)."""
+        """Return the name of a group in words: Group (2,3)."""
         return str(self.report.words["figure"]["group"]).format(i=group.i, j=group.j)
 
     def place(self, k: int, of: str = "") -> str:
-        """Position 2, or of a part: Group (2,3), position 2."""
+        """Return the name of a position, of a group `of` if given: Group (2,3), position 2."""
         word = f"{self.report.words['table']['position']} {self.report.machine.position(k)}"
         language = self.report.assignment.language
         line = Text(f"{of}, {word[0].lower()}{word[1:]}" if of else word)
@@ -58,7 +58,7 @@ class Sources:
 
 @dataclass(frozen=True, slots=True)
 class Drawn:
-    """The scenes of a plate, drawn small: its name among the words, its layer, and as in `DrawingPlate`."""
+    """The scenes of a plate, drawn small; `name` is its key among the words, the others are as in `DrawingPlate`."""
 
     name: str
     layer: str
@@ -73,21 +73,22 @@ Listed = Callable[[ReportContext], Sequence[str]]
 
 
 def table_of(sources: Sources, name: str, listed: Sequence[Listed], cycle: bool = False) -> Iterator[Drawn]:
+    """Yield a plate of tables of the listed quantities; `name` is its key among the words."""
     yield Drawn(name, "tables", grids(sources.report, listed, cycle))
 
 
 def grids(report: ReportContext, listed: Sequence[Listed], cycle: bool = False) -> list[Scene]:
-    """Quantities at the positions of one turn or of the cycle, as many tables as they need."""
+    """Return quantities at the positions of one turn, or of the cycle, in as many tables as they need."""
     at = report.all_positions if cycle else report.positions
     tabulated = dict.fromkeys(id for columns in listed for id in columns(report))
-    shown = [id for id in tabulated if not all(report.is_zero(id, k) for k in at)]
+    listed_ids = [id for id in tabulated if not all(report.is_zero(id, k) for k in at)]
     parts = -(-len(at) // MOST_ROWS)
     rows = [at[len(at) * n // parts : len(at) * (n + 1) // parts] for n in range(parts)]
-    head, every = _quantities(report, shown, at)
+    head, every = _quantities(report, listed_ids, at)
     first, *across = widths([*head, *every])
     columns: list[list[str]] = []
     right = math.inf
-    for id, width in zip(shown, across, strict=True):
+    for id, width in zip(listed_ids, across, strict=True):
         right += ENLARGED * width
         if right > WIDEST:
             columns.append([])
@@ -99,7 +100,7 @@ def grids(report: ReportContext, listed: Sequence[Listed], cycle: bool = False) 
 def _quantities(
     report: ReportContext, quantities: Sequence[str], positions: Sequence[int]
 ) -> tuple[list[list[Content]], list[list[Content]]]:
-    """The head of a table of quantities and its rows."""
+    """Return the head of a table of quantities, and its rows."""
     head: list[list[Content]] = [
         [report.words["table"]["position"], *(report.ledger.symbol(id) for id in quantities)],
         ["", *(unit_of(report, id) for id in quantities)],
@@ -108,12 +109,13 @@ def _quantities(
 
 
 def unit_of(report: ReportContext, id: str) -> str:
+    """Return the printed unit of a quantity."""
     unit = report.ledger[id].how.unit
     return str(report.ledger.units.get(unit, unit))
 
 
 def bare(report: ReportContext, id: str, k: int | None) -> Content:
-    """A number without its unit, a dash for what does not exist."""
+    """Return a number without its unit, or a dash for a value that does not exist."""
     family, number = report.ledger[id], report.ledger.number(id, k)
     if family.kind == "segment" and number.value:
         return Number(number.value, SEGMENT)

@@ -1,7 +1,7 @@
-"""Plates of drawing sheets: the report's figures, to its scales, with the numbers that it prints.
+"""Draw the plates of a machine's drawing sheets: the report's figures, at its scales, with its printed numbers.
 
-A figure is drawn small and then enlarged with its letters, so that the letters are as high as on a drawing, and its
-lines as long as the report says.
+A figure is drawn small and then enlarged with its letters. So the letters have the height usual on a drawing, and the
+lines have the length that the report prints.
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ from reportgen.sheets.topic_plates import PLATES, DrawPlates, PlateHooks
 LARGER_FORCES = (2.0, 3.0)
 """Factors by which the force plans of all positions may be larger than in the report."""
 ONE_LINE = 1e-6
-"""Directions that differ by no more (radians) are one."""
+"""Angle (rad) below which two directions count as one."""
 
 
 def plates_of(sources: Sources, chosen: str) -> Iterator[DrawingPlate]:
@@ -67,7 +67,7 @@ def plates_of(sources: Sources, chosen: str) -> Iterator[DrawingPlate]:
 
 
 def _set(sources: Sources, chosen: str, topics: Sequence[PlateHooks]) -> Iterator[DrawPlates]:
-    """Yield what draws the plates of a set, with those that topics add to the set of forces."""
+    """Yield the functions that draw the plates of a set; topics add theirs to the set of forces."""
     if chosen == KINEMATICS:
         yield from OF_MOTION
     elif chosen == FORCES:
@@ -107,7 +107,7 @@ def _plate(sources: Sources, drawn: Drawn, spare: bool) -> DrawingPlate:
 
 
 def _scheme(sources: Sources) -> Iterator[Drawn]:
-    """The scheme with the dimensions, true and as drawn."""
+    """Yield the scheme with its dimensions: true sizes and drawn ones."""
     yield Drawn("scheme", "scheme", (*scheme(sources.small).scenes, *_dimensions(sources.report)))
 
 
@@ -134,7 +134,10 @@ def _accelerations(sources: Sources) -> Iterator[Drawn]:
 
 
 def _motion_plans(sources: Sources, what: What, name: str) -> Iterator[Drawn]:
-    """The worked plans, then those of one turn as large as there is room, or all to the scale of the worked ones."""
+    """Yield the worked plans, then those of one turn.
+
+    The latter are as large as fits, or, with `every`, at the scale of the worked plans.
+    """
     report, label = sources.report, sources.report.machine.position
     for k in report.worked:
         drawing = motion_plan(sources.small, what, k)
@@ -143,23 +146,26 @@ def _motion_plans(sources: Sources, what: What, name: str) -> Iterator[Drawn]:
     if report.parts("velocity-plates"):
         series, mirrored = MotionFigures(what).series(report), positions_mirrored(report, what)
         share = 1.0 if sources.every else series.fitted()[0]
-        told: tuple[Content, ...] = ()
+        notes: tuple[Content, ...] = ()
         if sources.every:
             series = replace(series, positions=one_turn(report))
         elif mirrored.at:
             pairs = ", ".join(f"{label(at)} ({label(of)})" for at, of in zip(mirrored.at, mirrored.of, strict=True))
-            told = (str(sources.words["mirrored"]).format(pairs=pairs),)
-        yield _drawn_series(sources, series, share, Drawn(f"{name}-plates", name, (), told, name))
+            notes = (str(sources.words["mirrored"]).format(pairs=pairs),)
+        yield _drawn_series(sources, series, share, Drawn(f"{name}-plates", name, (), notes, name))
 
 
 def _drawn_series(sources: Sources, series: PlanSeries, usual: float, of: Drawn, share: float = 0.0) -> Drawn:
-    """Plans of one scale, a `usual` share as large as the worked ones or up to as large; they say the report's, too."""
+    """Return plans drawn at a `share` of the size of the worked ones, by default the `usual` share.
+
+    Plans at another share also note the scale of the report.
+    """
     share = share or usual
     after = min((one for one in SHARES if one > share), default=None)
-    (symbol, shown), (_, in_report) = series.note(share).parts, series.note(usual).parts
-    assert isinstance(shown, Number)
+    (symbol, number), (_, in_report) = series.note(share).parts, series.note(usual).parts
+    assert isinstance(number, Number)
     assert isinstance(in_report, Number)
-    larger = on_sheet(sources.report.case, 1).told(symbol, shown, in_report)
+    larger = on_sheet(sources.report.case, 1).compared(symbol, number, in_report)
     return replace(
         of,
         scenes=tuple(replace(series, report=sources.small).scenes(share)),
@@ -179,7 +185,7 @@ def _centres(sources: Sources) -> Iterator[Drawn]:
 
 
 def _indicator(sources: Sources) -> Iterator[Drawn]:
-    """The diagram of one cylinder, from which its forces are read."""
+    """Yield the indicator diagram of one cylinder, from which its forces are read."""
     if sources.report.has_gas and len(sources.report.pistons) == 1:
         yield Drawn("indicator", "indicator", indicator(sources.small).scenes)
 
@@ -209,7 +215,7 @@ def _worked_forces(sources: Sources) -> Iterator[Drawn]:
 
 
 def _force_plan(sources: Sources, polygon: Polygon, k: int, place: str, family: str) -> Iterator[Drawn]:
-    """A force plan, unless all its forces are on one line."""
+    """Yield a force plan unless all its forces are on one line."""
     drawing = force_plan(sources.small, polygon, k)
     if not _on_one_line(drawing):
         yield Drawn("forces", "forces", (plan(drawing),), (place,), family)
@@ -221,14 +227,14 @@ def _on_one_line(drawing: Plan) -> bool:
 
 
 def _force_plates(sources: Sources) -> Iterator[Drawn]:
-    """The force plans of each group at all positions, as the report has them."""
+    """Yield the force plans of each group at all positions, as in the report."""
     for group in reversed(sources.report.groups if sources.report.parts("force-plates") else ()):
         if group.polygon is not None:
             yield _drawn_forces(sources, ForcePlans(sources.small, group.polygon), sources.called(group))
 
 
 def _drawn_forces(sources: Sources, plans: ForcePlans, called: str, times: float = 1.0) -> Drawn:
-    """Force plans, each with its scale, so many times as large as in the report or as there is room for."""
+    """Return force plans with their scales, `times` as large as in the report, or as large as fits."""
     after = next((one for one in LARGER_FORCES if one > times), None)
     return Drawn(
         "force-plates",
@@ -275,7 +281,7 @@ def _load_table(sources: Sources) -> Iterator[Drawn]:
 
 
 def applied(report: ReportContext) -> list[str]:
-    """The loads other than of gas."""
+    """Return the names of the loads other than gas forces."""
     return report.known(load.name for load in report.loads)
 
 
@@ -285,7 +291,7 @@ def on_sheet(case: Case, steps: int) -> FigureSize:
 
 
 def drawn(table: Table, language: Language) -> Scene:
-    """A table of a report as a sheet shows it."""
+    """Return a table of a report as a scene."""
     rows = [[_content(cell.inlines, language) for cell in row] for row in (*table.head, *table.rows)]
     return lettered(grid(rows[: len(table.head)], rows[len(table.head) :]))
 
@@ -318,8 +324,8 @@ OF_MOTION: tuple[DrawPlates, ...] = (
     *(_scheme, _positions, _indicator_of_several, _velocities, _centres, _accelerations, _motion),
     *(_velocity_table, _acceleration_table),
 )
-"""The set of the motion, in the order of the work."""
+"""Plates of the set of motion, in the order of the work."""
 FURTHER = frozenset({_centres, _force_plates, _polar})
 """Plates that appear only if every plate is requested."""
 RESULTS = frozenset({_velocity_table, _acceleration_table, _reaction_table, _load_table})
-"""Tables that else fill what is left of a sheet."""
+"""Tables that only fill the remaining room of a sheet, unless every plate is requested."""

@@ -1,7 +1,7 @@
-"""The frame of a drawing sheet and its title block, as scenes: one source for every writer.
+"""Frame and title block of a drawing sheet as scenes, the common source of all writers; title block files.
 
-Sizes are those of ISO 216, the frame that of ISO 5457: a filing edge at the left, centring marks in the
-middle of each side.  Letters have the heights of ISO 3098.
+Sizes are those of ISO 216. The frame is that of ISO 5457, with a filing edge on the left and centring marks in the
+middle of each side. Letters have the heights of ISO 3098.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ SIZES: Mapping[str, tuple[float, float]] = {
     "A2": (594.0, 420.0),
     "A3": (420.0, 297.0),
 }
-"""Width and height of each size of paper, lying, mm."""
+"""Width and height (mm) of each paper size in landscape."""
 
 HEAVY, FINE, EDGE = Pen(0.7), Pen(0.35), Pen(0.18)
 CENTRING = 5.0
@@ -40,11 +40,11 @@ CENTRING = 5.0
 HEIGHTS = (7.0, 5.0, 3.5, 2.5, 1.8)
 """Heights of capital letters, mm; the last in narrow cells of a title block only."""
 NARROW = 0.75
-"""Letters are made narrower to this share of their width before smaller ones are taken, as type A is beside B."""
+"""Smallest share of their width to which letters are narrowed before smaller ones are used, like type A beside B."""
 PADDING, BESIDE = 0.6, 0.25
-"""White around a text in its cell, mm; before and behind it also at least this share of its height."""
+"""White space around a text in its cell (mm), and at least this share of its height before and after it."""
 LEADING = 1.6
-"""From line to line, in heights of capitals."""
+"""Distance between lines, in heights of capitals."""
 
 LINE = 1.3
 """Height of a line with its descenders, in heights of capitals."""
@@ -54,7 +54,7 @@ Align = Literal["left", "center"]
 
 @dataclass(frozen=True, slots=True)
 class BlockCell:
-    """A box of a title block, its lower left corner from that of the block, with a printed text or a field."""
+    """A cell of a title block with a printed text or a field; x and y (mm) lead from the block's lower left corner."""
 
     x: float
     y: float
@@ -71,14 +71,14 @@ class BlockCell:
 
 @dataclass(frozen=True, slots=True)
 class Margins:
-    """From each edge of the paper to the frame, mm."""
+    """Distances (mm) from the edges of the paper to the frame; `other` is for all edges but the left one."""
 
     left: float = 20.0
     other: float = 10.0
 
 
 FRAME = "frame"
-"""The layer of what belongs to the sheet itself."""
+"""Layer of the items that belong to the sheet itself."""
 
 
 def room(size: str, block: TitleBlock) -> Room:
@@ -88,13 +88,13 @@ def room(size: str, block: TitleBlock) -> Room:
 
 
 def _frame(size: str, margins: Margins) -> tuple[complex, complex]:
-    """The lower left and the upper right corner of the frame."""
+    """Return the lower left and the upper right corner of the frame."""
     width, height = SIZES[size]
     return complex(margins.left, margins.other), complex(width - margins.other, height - margins.other)
 
 
 def frame_scene(size: str, block: TitleBlock, fields: Mapping[str, str]) -> Scene:
-    """The edge of the paper, the frame, its centring marks and the columns beside it; the format is noted below it."""
+    """Return the paper's edge, the frame with its centring marks, the columns beside it, and the format below it."""
     width, height = SIZES[size]
     low, high = _frame(size, block.margins)
     middle = (low + high) / 2
@@ -121,19 +121,19 @@ def frame_scene(size: str, block: TitleBlock, fields: Mapping[str, str]) -> Scen
 
 
 def title_block(cells: Sequence[BlockCell], size: tuple[float, float]) -> Scene:
-    """The title block of a size (mm) with its cells filled in; the texts keep inside their cells."""
+    """Return a title block of a size (mm) with its cells filled in; the texts stay inside their cells."""
     outline = Polyline(_corners(0j, complex(*size)), HEAVY, closed=True)
     items = tuple(_cells(cells))
     return Scene(*size, (*items, outline), description=_said(items))
 
 
 def _said(items: Iterable[Item]) -> Description:
-    """The texts of a frame, in the order of its cells."""
+    """Return a description with the texts of a frame, in the order of its cells."""
     return tuple(fact("line", item.content) for item in items if isinstance(item, Label))
 
 
 def _cells(cells: Sequence[BlockCell]) -> Iterator[Item]:
-    """The boxes of some cells, then their texts."""
+    """Yield the boxes of some cells, then their texts."""
     for cell in cells:
         low, pen = complex(cell.x, cell.y), HEAVY if cell.heavy else FINE
         yield Polyline(_corners(low, low + complex(cell.width, cell.height)), pen, closed=True)
@@ -150,7 +150,7 @@ def _corners(low: complex, high: complex) -> tuple[complex, ...]:
 def _letters(cell: BlockCell) -> Iterator[Label]:
     """Yield the cell's text in the largest letters that fit, not above the cell's own.
 
-    It may take several lines; sizes at which letters need not be narrower come first.  In the smallest size the whole
+    It may take several lines; sizes at which letters need not be narrower come first. In the smallest size the whole
     text is kept: its letters are as narrow as necessary.
     """
     along, across = (cell.height, cell.width) if cell.turned else (cell.width, cell.height)
@@ -167,12 +167,12 @@ def _letters(cell: BlockCell) -> Iterator[Label]:
 
 
 def _beside(height: float) -> float:
-    """White before and behind a text in letters of a height (mm)."""
+    """Return the white space (mm) before and after a text in letters of a height (mm)."""
     return max(PADDING, BESIDE * height)
 
 
 def _broken(text: str, height: float, along: float, across: float) -> tuple[float, list[str], float]:
-    """A text in letters of a height: its lines, as many as make the letters widest, and how narrow these are (≤ 1)."""
+    """Return how a text fits a cell of `along` × `across` mm: height of letters, lines, and narrowing (≤ 1)."""
     most = max(int((across / height - LINE) / LEADING) + 1, 1) if across >= LINE * height else 0
     words = text.split()
     best = (height, [text], 0.0)
@@ -185,7 +185,7 @@ def _broken(text: str, height: float, along: float, across: float) -> tuple[floa
 
 
 def _evenly(words: Sequence[str], count: int, height: float) -> list[str]:
-    """Words in so many lines, the longest as short as can be."""
+    """Return words in `count` lines, the longest of them as short as possible."""
     if count == 1:
         return [" ".join(words)]
     ways = (
@@ -281,16 +281,16 @@ class TitleBlock:
     designation: str = ""
     """Designation of a sheet if the assignment does not give it."""
     following: TitleBlock | None = None
-    """The block of all sheets but the first, if they have another one."""
+    """Block of all sheets but the first, or None if it is the same."""
 
     def scene(self, fields: Mapping[str, str]) -> Scene:
-        """The block with its fields filled in; a field without a value stays blank."""
+        """Return the block with its fields filled in; a field without a value stays blank."""
         filled = tuple(replace(cell, text=_filled(cell.text, fields)) for cell in self.cells)
         return title_block(filled, self.size)
 
 
 def _filled(text: str, fields: Mapping[str, str]) -> str:
-    """The text with its fields filled in, in one pass: a value that looks like a field stays as it is."""
+    """Return the text with its fields filled in once: a value that looks like a field is not filled in again."""
     return _FIELD.sub(lambda found: fields.get(found[1], ""), text)
 
 
@@ -306,7 +306,7 @@ def blocks(school: Path | str = "", language: Language | None = None) -> dict[st
 
 
 def read_block(path: Path, language: Language | None = None) -> TitleBlock:
-    """The title block of a file.  Raises `AssignmentError` with its faults, located."""
+    """Return the title block of a file; raise `AssignmentError` with all its faults, located."""
     content = read_model(path, _File, language)
     findings = [*_findings(content, ()), *(_findings(content.following, ("following",)) if content.following else ())]
     findings += [finding for index, cell in enumerate(content.beside) for finding in _texts(cell, ("beside", index))]
@@ -341,7 +341,7 @@ def _findings(block: _Block, at: Where) -> Iterator[Finding]:
 
 
 def _texts(cell: _Cell, where: Where) -> Iterator[Finding]:
-    """Blanks alone, or an unknown field."""
+    """Yield the faults of a cell's text: blanks alone, or an unknown field."""
     if cell.text and not cell.text.strip():
         yield Finding("block-blank", (*where, "text"))
     for name in re.findall(r"\{([^{}]*)\}?", cell.text):
@@ -350,7 +350,10 @@ def _texts(cell: _Cell, where: Where) -> Iterator[Finding]:
 
 
 def framed(parts: Iterable[PlacedScene], form: TitleBlock, fields: Mapping[str, str]) -> DrawingSheet:
-    """A sheet with its frame and its title block, which is another one from the second sheet on where there is such."""
+    """Return a sheet with its frame and its title block.
+
+    From the second sheet on, this is the `following` block if there is one.
+    """
     paper = fields["format"]
     own = form if fields["sheet"] == "1" or form.following is None else form.following
     space = room(paper, own)
@@ -363,7 +366,10 @@ def framed(parts: Iterable[PlacedScene], form: TitleBlock, fields: Mapping[str, 
 
 
 def numbered(sheets: Sequence[DrawingSheet], form: TitleBlock, designation: str) -> list[DrawingSheet]:
-    """The sheets of several parts as one set: those with a title block numbered on, all of one designation if given."""
+    """Return the sheets of several parts as one set.
+
+    Sheets with a title block are numbered consecutively, and all get the `designation` if one is given.
+    """
     total, number = sum(bool(sheet.fields) for sheet in sheets), 0
     numbered_on = []
     for sheet in sheets:

@@ -1,7 +1,7 @@
-"""A school's Word file: its styles, header and footer and page margins, read as data.
+"""Read a school's Word file as data: its styles, header and footer, and page margins.
 
-The package is checked like a workbook's. Embedded objects, links that lead out of the file, and fields that could
-do so are refused, too. The body text is ignored; header and footer keep their text with its fields but no pictures.
+The package is checked like a workbook's. Embedded objects, links that lead out of the file, and fields that could do so
+are refused as well. The body text is ignored. Header and footer keep their text with its fields, but no pictures.
 """
 
 from __future__ import annotations
@@ -21,11 +21,11 @@ from reportgen.workbook.zip_package import Attributes, Package, RefusedError
 LETTERHEAD = "report.docx"
 """Name of the Word file in a folder of templates."""
 LARGEST = 5_000_000
-"""Bytes of the file."""
+"""Largest size of the file in bytes."""
 DEEPEST = 60
-"""Elements inside one another."""
+"""Largest nesting of elements."""
 MOST = 20_000
-"""Elements of a part."""
+"""Largest number of elements of a part."""
 FIELDS = frozenset({"PAGE", "NUMPAGES", "SECTION", "SECTIONPAGES", "STYLEREF", "TITLE", "AUTHOR", "SUBJECT"})
 """Fields allowed in a header; other fields can reach for files or change from day to day."""
 WORD = "http://schemas.openxmlformats.org/wordprocessingml/2006/main"
@@ -68,11 +68,11 @@ _KINDS = frozenset({"paragraph", "character", "table", "numbering"})
 _LENGTHS = frozenset(
     {"left", "right", "start", "end", "firstLine", "hanging", "before", "after", "line", "pos", "w", "h"}
 )
-"""Attributes that are lengths, in twips as a rule."""
+"""Attributes that are lengths, usually in twips."""
 _VALUES = {"sz": (2, 3276), "szCs": (2, 3276), "kern": (0, 3276), "position": (-3276, 3276), "outlineLvl": (0, 9)}
 """Elements whose value is a whole number, with the least and the greatest that Word takes."""
 FARTHEST = 31_680
-"""Twips of the longest length that Word takes: 22 inches."""
+"""Longest length (twips) that Word accepts: 22 inches."""
 _NUMBER = re.compile(r"[+-]?[0-9]+")
 _LENGTH = re.compile(r"[+-]?[0-9]+(\.[0-9]+)?(mm|cm|in|pt|pc|pi|%)?")
 _COLOUR = re.compile(r"auto|[0-9A-Fa-f]{6}")
@@ -85,7 +85,7 @@ _TWIPS = 1440 / 25.4
 PAGE = {("left", "right"): 210.0, ("top", "bottom"): 297.0}
 """The page of a report, in mm, along its margins."""
 LEAST_ROOM = 100.0
-"""Millimetres between two margins that the widest words of a report need."""
+"""Distance (mm) between two margins that the widest words of a report need."""
 MARGINS = {"top": "top", "bottom": "bottom", "left": "left", "right": "right", "header": "above", "footer": "below"}
 """The margins of a section by the names that pages have for them."""
 
@@ -101,7 +101,7 @@ class Letterhead:
 
 
 def read_letterhead(path: Path, language: Language) -> Letterhead:
-    """Return the letterhead that a report takes over from a file; raises `TemplateError` if the file is refused."""
+    """Return the letterhead that a report takes over from a file; raise `TemplateError` if the file is refused."""
     try:
         return _read(path)
     except RefusedError as refused:
@@ -233,7 +233,7 @@ def _judge(root: ElementTree.Element, called: str, package: Package, name: str) 
         raise package.refused("letterhead-part", text=name)
     if any(not len(cell) or cell[-1].tag != f"{_W}p" for cell in root.iter(f"{_W}tc")):
         raise package.refused("letterhead-part", text=name)
-    if any(not _stands_right(child, parent) for parent in root.iter() for child in parent):
+    if any(not _is_allowed(child, parent) for parent in root.iter() for child in parent):
         raise package.refused("letterhead-part", text=name)
     marks = [one.get(f"{_W}fldCharType") for one in root.iter(f"{_W}fldChar")]
     if marks.count("begin") != marks.count("end"):
@@ -245,7 +245,7 @@ def _judge(root: ElementTree.Element, called: str, package: Package, name: str) 
         _judge_styles(root.findall(f"{_W}style"), package, name)
 
 
-def _stands_right(child: ElementTree.Element, parent: ElementTree.Element) -> bool:
+def _is_allowed(child: ElementTree.Element, parent: ElementTree.Element) -> bool:
     """Return True if an element is allowed at its place."""
     local, above = child.tag.removeprefix(_W), parent.tag.removeprefix(_W)
     first = _FIRST.get(local) != above or (parent[0] is child and len(parent.findall(child.tag)) == 1)

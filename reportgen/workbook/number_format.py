@@ -1,4 +1,4 @@
-"""Display text of numbers that are codes in a spreadsheet: 125040 in the number format `00000000` is 00125040."""
+"""Display text of numbers that are codes in a spreadsheet: 125040 in the format `00000000` is 00125040."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from reportgen.workbook.zip_package import number_text
 
 LARGEST = 1e15
-"""From here on a spreadsheet does not keep every digit."""
+"""Number from which a spreadsheet does not keep every digit."""
 _TOKEN = re.compile(r'"([^"]*)"|\\(.)|_(.)|\*.|\[[^\]]*\]|([0#?])|([-+(): $!^&\'~{}<>=])|(.)', re.DOTALL)
 
 
@@ -25,21 +25,22 @@ def displayed(value: float, number_format: str) -> str:
     if not is_code or None in [text for text, _ in tokens] or not value.is_integer() or not 0 <= value < LARGEST:
         return ""
     digits = number_text(value)
-    shown: list[str] = []
+    pieces: list[str] = []
     for text, is_digit in reversed(tokens):
         if not is_digit:
-            shown.append(text or "")
+            pieces.append(text or "")
             continue
         places -= 1
         # The first place takes all the digits that are left.
         own, digits = (digits, "") if not places else (digits[-1:], digits[:-1])
-        shown.append(own or {"0": "0", "?": " "}.get(text or "", ""))
-    return "".join(reversed(shown)).strip()
+        pieces.append(own or {"0": "0", "?": " "}.get(text or "", ""))
+    return "".join(reversed(pieces)).strip()
 
 
 def _first_section(number_format: str) -> str:
-    """Return the part of a format for numbers that are not negative, up to the first semicolon outside
-    quotation marks.
+    """Return the part of a format for numbers that are not negative.
+
+    It ends at the first semicolon outside quotation marks.
     """
     match = re.match(r'(?:"[^"]*"|\\.|[^;"])*', number_format)
     return match[0] if match else ""

@@ -52,13 +52,13 @@ GENERAL = "General"
 _ESCAPE = re.compile(r"_x([0-9A-Fa-f]{4})_")
 
 CellRow = tuple[Any, ...]
-"""The cells of a row as openpyxl gives them."""
-Marks = Callable[[int, int], CellLocation]
-"""Gives the mark of a cell of one sheet by its row and column."""
+"""The cells of a row as openpyxl returns them."""
+LocationAt = Callable[[int, int], CellLocation]
+"""Returns the location of a cell of one sheet by its row and column."""
 
 
 def read_xlsx(data: bytes, file: str) -> tuple[Page, ...]:
-    """Return the sheets of a workbook in their order; raises `RefusedError`."""
+    """Return the sheets of a workbook in their order; raise `RefusedError` for a file that is refused."""
     copy, counts, formulas = _judged(Package(data, file))
     with warnings.catch_warnings(), redirect_stdout(io.StringIO()):
         # openpyxl warns of, and even prints, the parts that it ignores: looks and rules, but never the value of a cell.
@@ -77,10 +77,9 @@ def read_xlsx(data: bytes, file: str) -> tuple[Page, ...]:
 
 
 def _judged(package: Package) -> tuple[bytes, list[int], bool]:
-    """Return a copy with the parts that openpyxl is to read; the number of cells of each sheet; whether any is a
-    formula.
+    """Return a copy with the parts that openpyxl reads, the number of cells of each sheet, and True for any formula.
 
-    Raises `RefusedError` where a sheet cannot be found or a part has too much in it.
+    Raise `RefusedError` if a sheet cannot be found or a part is too large.
     """
     root = next((r.target for r in package.relations("_rels/.rels").values() if r.kind == "officeDocument"), "")
     workbook = root.lstrip("/")
@@ -90,8 +89,10 @@ def _judged(package: Package) -> tuple[bytes, list[int], bool]:
     beside = posixpath.join(folder, "_rels", f"{name}.rels")
     relations = package.relations(beside)
     places = {
-        id: one.target.lstrip("/") if one.target.startswith("/") else posixpath.normpath(f"{folder}/{one.target}")
-        for id, one in relations.items()
+        id: relation.target.lstrip("/")
+        if relation.target.startswith("/")
+        else posixpath.normpath(f"{folder}/{relation.target}")
+        for id, relation in relations.items()
     }
     listed = [attributes.get("id", "") for tag, attributes in package.elements(workbook) if tag == "sheet"]
     if len(listed) > MOST_SHEETS:
@@ -102,7 +103,9 @@ def _judged(package: Package) -> tuple[bytes, list[int], bool]:
     sheets = [places[id] for id in listed if relations[id].kind == "worksheet"]
     if not sheets:
         raise package.refused("sheet-no-zip")
-    tables = {one.kind: places[id] for id, one in relations.items() if one.kind in ("styles", "sharedStrings")}
+    tables = {
+        relation.kind: places[id] for id, relation in relations.items() if relation.kind in ("styles", "sharedStrings")
+    }
     others = [CONTENT_TYPES, workbook, beside, *(place for place in tables.values() if place in package)]
     for sheet in set(sheets):
         package.without_empty_cells(sheet)
@@ -144,13 +147,15 @@ def _pages(values: Workbook, formulas: Workbook | None, counts: Sequence[int], f
             same = formulas.worksheets[number - 1]
             same.reset_dimensions()
             typed, stored = same.rows, sheet.rows
-        mark = partial(CellLocation, file, sheet=sheet.title, number=number)
-        rows = _rows(zip(typed, stored, strict=True), count, mark)
+        location_at = partial(CellLocation, file, sheet=sheet.title, number=number)
+        rows = _rows(zip(typed, stored, strict=True), count, location_at)
         pages.append(Page(sheet.title, rows, sheet.sheet_state != "visible"))
     return tuple(pages)
 
 
-def _rows(read: Iterator[tuple[CellRow, CellRow]], count: int, mark: Marks) -> tuple[tuple[SheetCell, ...], ...]:
+def _rows(
+    read: Iterator[tuple[CellRow, CellRow]], count: int, location_at: LocationAt
+) -> tuple[tuple[SheetCell, ...], ...]:
     """Return all rows of a sheet from the first on, each up to its last cell with content.
 
     `read` gives each row twice, with formulas as typed and with stored values; `count` cells must be among them.
@@ -159,15 +164,15 @@ def _rows(read: Iterator[tuple[CellRow, CellRow]], count: int, mark: Marks) -> t
 
     cells: dict[int, dict[int, SheetCell]] = {}
     rows_read = 0
-    for number, pair in enumerate(_whole(read, mark), start=1):
+    for number, pair in enumerate(_whole(read, location_at), start=1):
         if number > MOST_GROUPS:
-            raise RefusedError("sheet-damaged", mark(number, 1))
+            raise RefusedError("sheet-damaged", location_at(number, 1))
         for typed, stored in zip(*pair, strict=True):
             if not isinstance(typed, ReadOnlyCell):
                 continue
             rows_read += 1
             row, column = typed.row, typed.column
-            cell = _cell(typed, stored, mark(row, column))
+            cell = _cell(typed, stored, location_at(row, column))
             if cell.blank:
                 continue
             if exceeds(row, column):
@@ -177,21 +182,21 @@ def _rows(read: Iterator[tuple[CellRow, CellRow]], count: int, mark: Marks) -> t
             cells.setdefault(row, {})[column] = cell
     if rows_read != count:
         # openpyxl leaves out rows and cells that are not in order.
-        raise RefusedError("sheet-damaged", mark(1, 1))
+        raise RefusedError("sheet-damaged", location_at(1, 1))
     lengths = {row: max(columns) for row, columns in cells.items()}
     last = max(cells, default=0)
     if exceeds(0, 0, sum(lengths.values())):
-        raise too_large(mark(last, 1))
+        raise too_large(location_at(last, 1))
     return tuple(
         tuple(
-            cells[row].get(column) or SheetCell(None, mark(row, column), "empty")
+            cells[row].get(column) or SheetCell(None, location_at(row, column), "empty")
             for column in range(1, lengths.get(row, 0) + 1)
         )
         for row in range(1, last + 1)
     )
 
 
-def _whole(read: Iterator[tuple[CellRow, CellRow]], mark: Marks) -> Iterator[tuple[CellRow, CellRow]]:
+def _whole(read: Iterator[tuple[CellRow, CellRow]], location_at: LocationAt) -> Iterator[tuple[CellRow, CellRow]]:
     """Yield the rows up to one that openpyxl cannot read, which is refused as the row after the last whole one."""
     last = 0
     try:
@@ -199,7 +204,7 @@ def _whole(read: Iterator[tuple[CellRow, CellRow]], mark: Marks) -> Iterator[tup
             yield pair
             last += 1
     except Exception:
-        raise RefusedError("sheet-damaged", mark(last + 1, 1)) from None
+        raise RefusedError("sheet-damaged", location_at(last + 1, 1)) from None
 
 
 def _cell(typed: Any, stored: Any, location: CellLocation) -> SheetCell:
@@ -213,7 +218,7 @@ def _cell(typed: Any, stored: Any, location: CellLocation) -> SheetCell:
 
 
 def _format(cell: Any) -> str:
-    """Return the number format of a cell; that of any number where the workbook names one that it does not have."""
+    """Return the number format of a cell, or `GENERAL` if the workbook names a format that it does not have."""
     try:
         return str(cell.number_format or GENERAL)
     except (IndexError, KeyError):
@@ -244,8 +249,9 @@ def _value(value: object, type: str, location: CellLocation) -> tuple[str | floa
 
 
 def _date(value: object) -> str:
-    """Return a day as 2011-03-24, a moment as 2011-03-24T08:30:00, a time of day as 08:30:00, hours passed as
-    36:00:00.
+    """Return a day as 2011-03-24, a moment as 2011-03-24T08:30:00, a time of day as 08:30:00.
+
+    A duration is written in hours: 36:00:00.
     """
     match value:
         case datetime.datetime() if value.time() == datetime.time():
@@ -261,7 +267,7 @@ def _date(value: object) -> str:
 
 
 LARGEST = 10_000_000
-"""Bytes of a file."""
+"""Largest size of a file in bytes."""
 BOOKS = frozenset({".xlsx", ".xlsm", ".xltx", ".xltm", ".xls", ".xlsb", ".ods"})
 _BINARY = (b"PK\x03\x04", b"\xd0\xcf\x11\xe0")
 
@@ -271,9 +277,9 @@ _LINE_END = re.compile(r"\r\n|\r|\n")
 
 
 def read(path: Path, language: Language | None = None, data: bytes | None = None) -> tuple[Page, ...]:
-    """Return the pages of a CSV or XLSX file; raises `AssignmentError` with the fault that stops it, in `language`.
+    """Return the pages of a CSV or XLSX file; raise `AssignmentError` with the fault that stops it, in `language`.
 
-    `data` is its content where it does not lie on disk; `path` then only names it.
+    `data` is the content of a file that is not on disk; `path` then only names it.
     """
     try:
         return _read(path, data)
@@ -335,8 +341,8 @@ def _csv_rows(text: str, file: str) -> Iterator[tuple[SheetCell, ...]]:
         content = unquoted if quoted is None else quoted.replace('""', '"') + behind
         if len(content) > LONGEST_CELL:
             raise too_long(location)
-        shown = unguarded(unicodedata.normalize("NFC", content))
-        row.append(SheetCell(shown, location, "text") if shown.strip() else SheetCell(None, location, "empty"))
+        clean = unguarded(unicodedata.normalize("NFC", content))
+        row.append(SheetCell(clean, location, "text") if clean.strip() else SheetCell(None, location, "empty"))
         for inner in _LINE_END.finditer(text, at, match.end()):
             line, start = line + 1, inner.end()
         at = match.end()

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 CellStyle = Literal["", "title", "head", "bold", "note", "input", "unasked", "good", "linked", "warn", "bad", "doubt"]
 
 MOMENT = (2000, 1, 1, 0, 0, 0)
-"""When every file says that it was made, so that its bytes depend on its content alone."""
+"""Date of creation in every file, fixed so that its bytes depend on its content alone."""
 FILLS = {
     "head": "D9E2EC",
     "input": "FFF9DB",
@@ -38,7 +38,7 @@ FILLS = {
 }
 LONGEST_NAME = 31
 UPRIGHT = 110.0
-"""Characters of a line that is legible on A4 upright."""
+"""Largest number of characters of a line that is legible on A4 in portrait."""
 CHARACTER, MARGIN = 1.86, 1.33
 """Width (mm) of a character of a column, and of a column without characters."""
 PRINTED = {True: 174.0, False: 261.0}
@@ -89,7 +89,7 @@ class Book:
 
 
 def write_csv(rows: Iterable[Sequence[str | float | None]]) -> bytes:
-    """Write rows as UTF-8 CSV with a byte order mark, by which spreadsheets know the encoding."""
+    """Return rows as UTF-8 CSV with a byte order mark, from which spreadsheets recognise the encoding."""
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\r\n")
     for row in rows:
@@ -222,7 +222,7 @@ def _clean(text: str) -> str:
 
 
 def _timeless(data: bytes) -> bytes:
-    """Return the package again, with one fixed moment in place of when it was written."""
+    """Return the package with a fixed moment in place of its dates."""
     stream = io.BytesIO()
     with zipfile.ZipFile(io.BytesIO(data)) as old, zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as new:
         for name in old.namelist():

@@ -21,25 +21,23 @@ from reportgen.base.errors import Fault, Location
 
 MOST_PARTS = 2_000
 MOST_UNPACKED = 60_000_000
-"""Bytes of all parts together."""
+"""Largest number of bytes of all parts together."""
 MOST_RATIO = 250
 """Largest ratio of unpacked to packed size of a part of more than `SMALL` bytes; sheets of numbers reach 40."""
 SMALL = 1_000_000
 MOST_ELEMENTS = 100_000
-"""Elements of a part that lists other parts."""
+"""Largest number of elements of a part that lists other parts."""
 CONTENT_TYPES = "[Content_Types].xml"
 CHUNK = 1 << 16
 MOST_HELD = 1 << 18
 """Largest number of elements and attributes in memory; the longest possible row, of styled empty cells, has 50 000."""
 MOST_GROUPS = 1 << 20
-"""Rows of a sheet, strings of a table; no sheet can have more rows."""
+"""Largest number of rows of a sheet, or strings of a table; no sheet can have more rows."""
 MOST_TRANSLATED = 20_000_000
-"""Characters of all formulas that take the text of a shared one, as if each were as long as the longest shared."""
+"""Largest number of characters of all formulas that repeat a shared one, each counted as the longest shared one."""
 
 UNREADABLE_ZIP = (zipfile.BadZipFile, zlib.error, EOFError, RuntimeError, ValueError, OverflowError)
-"""Exceptions of `zipfile` for an archive that it cannot read: damaged, cut off, with numbers out of range,
-encrypted or packed in an unknown way (`RuntimeError` and a subclass).
-"""
+"""Exceptions of `zipfile` for an archive that is damaged, cut off, encrypted or packed in an unknown way."""
 
 _EMPTY_CELL = re.compile(rb"<((?:\w+:)?c)(?=\s)[^<>]*?(?:/>|>\s*</\1\s*>)")
 """A cell with a style but without content."""
@@ -78,7 +76,7 @@ class Package:
     """An opened package whose directory has been found harmless; parts are read on demand, within limits."""
 
     def __init__(self, data: bytes, file: str, bounds: Bounds | None = None) -> None:
-        """Open and check a package; raises `RefusedError`."""
+        """Open and check a package; raise `RefusedError` if it is refused."""
         self.location = Location(file)
         self.bounds = bounds or Bounds()
         if data.startswith(_OLD):
@@ -180,7 +178,7 @@ class Package:
         return elements
 
     def content(self, name: str) -> bytes:
-        """Return the bytes of a part; raises `RefusedError` for damage or more bytes than the directory announced."""
+        """Return the bytes of a part; raise `RefusedError` if it is damaged or larger than the directory announced."""
         return b"".join(self._chunks(name))
 
     def without_empty_cells(self, name: str) -> None:
@@ -198,9 +196,9 @@ class Package:
         *,
         prologue_only: bool = False,
     ) -> None:
-        """Hand the events of an XML part to the callables; a name follows its namespace and a space.
+        """Pass the events of an XML part to the functions; a name has its namespace and a space before it.
 
-        Raises `RefusedError` for a document type, damage, or more bytes than the directory announced.
+        Raise `RefusedError` for a document type, damage, or more bytes than the directory announced.
         """
         parser: Any = expat.ParserCreate(namespace_separator=" ")
         parser.buffer_text = True
@@ -267,8 +265,9 @@ def measure(package: Package, name: str) -> tuple[int, int]:
     shared = False
 
     def start(tag: str, attributes: Attributes) -> None:
-        """Count an element; `depth` is 1 right inside a row or a string, 0 outside of all; `outside` is never
-        released.
+        """Count an element.
+
+        `depth` is 1 directly inside a row or a string and 0 outside of all; `outside` is never released.
         """
         nonlocal depth, held, outside, groups, cells, formulas, dependents, shared, length
         if depth:
@@ -316,7 +315,7 @@ MOST_ROWS = 10_000
 MOST_COLUMNS = 500
 MOST_CELLS = 200_000
 LONGEST_CELL = 32_767
-"""Characters; no spreadsheet program writes more into a cell."""
+"""Largest number of characters that any spreadsheet program writes into a cell."""
 
 _LIVE = re.compile(r"'*\s*[=+\-@\t\r\n＝＋－＠]")
 _NUMBER = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
@@ -344,7 +343,7 @@ class SheetCell:
 
     @property
     def text(self) -> str:
-        """The value as a reader of the table sees it: whole numbers without a decimal point, empty as ""."""
+        """The value as a reader of the table sees it: whole numbers without a decimal point, "" for an empty cell."""
         if self.value is None:
             return ""
         return self.value if isinstance(self.value, str) else number_text(self.value)
@@ -361,7 +360,7 @@ class SheetCell:
 
 @dataclass(frozen=True, slots=True)
 class Page:
-    """A sheet, or a whole CSV file: rows from the first on, each up to its last cell with content."""
+    """A sheet, or a whole CSV file: its rows in order, each up to its last cell with content."""
 
     name: str
     rows: tuple[tuple[SheetCell, ...], ...]
@@ -382,17 +381,19 @@ def exceeds(row: int, column: int, cells: int = 0) -> bool:
 
 
 def too_large(location: Location) -> RefusedError:
+    """Return the error for a table with more rows, columns or cells than the limits."""
     return RefusedError(
         "table-too-large", location, rows=str(MOST_ROWS), columns=str(MOST_COLUMNS), cells=str(MOST_CELLS)
     )
 
 
 def too_long(location: Location) -> RefusedError:
+    """Return the error for a cell with more than `LONGEST_CELL` characters."""
     return RefusedError("text-too-long", location, largest=str(LONGEST_CELL))
 
 
 def number_text(value: float) -> str:
-    """Return a number as short as it can be read back from: 195520103001, 0.35, 1e-20."""
+    """Return a number in the shortest form that reads back as the same number: 195520103001, 0.35, 1e-20."""
     return str(int(value)) if value.is_integer() and abs(value) < 1e16 else repr(value)
 
 

@@ -164,7 +164,7 @@ class _Writer:
         return f"{_command(name, f'{room:g}mm')}{self.block(block)}\\par\\nobreak"
 
     def room_to_go_on(self, blocks: Sequence[tree.Block]) -> float:
-        """Return the approximate height (mm) of words with what they lead to, and with what that leads to in turn."""
+        """Return the approximate height (mm) of words with the block that they lead to, and with its own successor."""
         _, following, *after = blocks
         room = _beginning(following)
         if len(after) > 1 and isinstance(after[0], tree.Paragraph) and layout.leads(following, after[0], self.language):
@@ -342,8 +342,8 @@ class _Writer:
         """Return the rows of a figure with the caption below, on as many pages as they need."""
         if figure.turned:
             drawing = paint_latex(figure.scenes[0], self.formulas)
-            shown = _command("turned", drawing, self.caption(self.document.words.figure, figure))
-            return f"\\begin{{turnedscene}}\n{shown}\n\\end{{turnedscene}}"
+            rotated = _command("turned", drawing, self.caption(self.document.words.figure, figure))
+            return f"\\begin{{turnedscene}}\n{rotated}\n\\end{{turnedscene}}"
         word = self.document.words.figure
         first, *others = layout.in_parts(figure)
         place = "herescenes" if figure.here else "scenes"

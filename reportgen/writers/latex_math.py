@@ -134,8 +134,8 @@ class LatexFormulas(TextSetter):
         return f"${mathematics}$"
 
     def sign(self, sign: Sign) -> str:
-        shown = self.BREAKS.get(sign.role, "") + self.SIGNS.get(sign.of, sign.of)
-        return self.AHEAD.get(sign.role, " ") + shown + self.BEHIND.get(sign.role, " ")
+        text = self.BREAKS.get(sign.role, "") + self.SIGNS.get(sign.of, sign.of)
+        return self.AHEAD.get(sign.role, " ") + text + self.BEHIND.get(sign.role, " ")
 
     def fence(self, fence: Fence) -> str:
         if fence.left == "[":

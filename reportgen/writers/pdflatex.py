@@ -128,7 +128,7 @@ def compile(source: str | Iterable[str], timeout: float = 120.0, ahead: Ahead | 
             directory, run = ahead.directory, ahead.process
             (directory / "report.aux").write_bytes(known)
             rest = whole[0].removeprefix(ahead.opening)
-            whole += _told(run, rest, pieces, timeout) if run else ()
+            whole += _sent(run, rest, pieces, timeout) if run else ()
         else:
             directory = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="reportgen-")))
         whole += pieces
@@ -146,7 +146,7 @@ def compile(source: str | Iterable[str], timeout: float = 120.0, ahead: Ahead | 
     return compiled
 
 
-def _told(run: subprocess.Popen[bytes], begun: str, pieces: Iterable[str], timeout: float) -> Iterator[str]:
+def _sent(run: subprocess.Popen[bytes], begun: str, pieces: Iterable[str], timeout: float) -> Iterator[str]:
     """Yield the pieces of a source after sending each to the run, following the part that it `begun` with."""
     late = Timer(timeout, run.kill)
     late.start()

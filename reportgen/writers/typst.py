@@ -106,7 +106,7 @@ def write_sheet(
     author: str = "",
     date: datetime.date | None = None,
 ) -> str:
-    """Return the Typst source of a drawing sheet, one page of its own size; it needs no other file.
+    """Return the Typst source of a drawing sheet, one page in the sheet's size; it needs no other file.
 
     Each plate is a figure with a text alternative made from `phrases`; plates without one are decoration.
     """
@@ -117,8 +117,8 @@ def write_sheet(
         drawing = paint_typst(Scene(sheet.width, sheet.height, items), formulas)
         facts = [said for part in plate for said in sentences(part.scene.description, phrases, language)]
         text = literal(within("", facts, language, phrases["rest-in-report"]))
-        shown = f"D({text},{drawing})" if facts else f"pdf.artifact({drawing})"
-        figures.append(f"#place(top+left,{shown})")
+        content = f"D({text},{drawing})" if facts else f"pdf.artifact({drawing})"
+        figures.append(f"#place(top+left,{content})")
     page = f"#page(width:{sheet.width:g}mm,height:{sheet.height:g}mm,margin:0pt)[{''.join(figures)}]"
     opening = ",".join((*map(literal, (title, author, setting_of(language).typst.lang or language)), _date(date)))
     return "\n".join((frame(language), f"#show: described.with({opening})", sheet_look(language), page, ""))
@@ -270,8 +270,8 @@ class _Blocks:
             case tree.Value(number) if by_power_of_ten(number.value, number.decimals):
                 return self.formula(number)
             case tree.Value(number):
-                shown = literal(written(number, self.language).text(NARROW))
-                return f"#box({shown})" if "/" in number.unit else f"#{shown}"
+                digits = literal(written(number, self.language).text(NARROW))
+                return f"#box({digits})" if "/" in number.unit else f"#{digits}"
             case tree.Reference(key, text):
                 return f"#link(label({literal(key)}),{literal(text)})"
             case tree.LineBreak():

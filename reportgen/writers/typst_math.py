@@ -21,6 +21,8 @@ def literal(text: str) -> str:
 
 
 class TypstFormulas(TextSetter):
+    """Writer of expressions in Typst's mathematical notation, in one language."""
+
     BELOW = "%s_(script(%s))"
     RAISED = POWER = "%s^(%s)"
     QUOTIENT, RADICAL = "frac(%s, %s)", "sqrt(%s)"

@@ -207,8 +207,8 @@ class _Blocks:
             case tree.List():
                 return self.listing(block, setting)
             case tree.Equation(rows, key, number):
-                shown = self.counted(EQUATION, number, key, around="(%s)") if number else ""
-                return self.equations.displayed(rows, shown, setting.indent, setting.lines)
+                numbered = self.counted(EQUATION, number, key, around="(%s)") if number else ""
+                return self.equations.displayed(rows, numbered, setting.indent, setting.lines)
             case tree.Table():
                 return self.table(block)
             case tree.Figure():
@@ -247,8 +247,8 @@ class _Blocks:
         return "".join(field(f"SEQ {sequence(name)} \\h \\r 0", "", "<w:vanish/>") for name in names)
 
     def run_in(self, section: tree.Section) -> str:
-        shown = run(f"{section.number} " if section.number else "", BOLD) + self.inlines(section.title, BOLD)
-        marked = self.bookmarked(self.places[section.key].bookmark, shown) if section.key else shown
+        heading = run(f"{section.number} " if section.number else "", BOLD) + self.inlines(section.title, BOLD)
+        marked = self.bookmarked(self.places[section.key].bookmark, heading) if section.key else heading
         return marked + run(" ")
 
     def bookmarked(self, name: str, content: str) -> str:
@@ -284,8 +284,8 @@ class _Blocks:
             stops = f'<w:tabs><w:tab w:val="left" w:pos="{twips(58)}"/>{right_tab(COVER.room - 10, "dot")}</w:tabs>'
             white = "" if index else low.format(twips(34), 160)
             hanging = f'<w:ind w:left="{twips(58)}" w:hanging="{twips(48)}"/>'
-            shown = run(f"{label}{self.setting.colon.strip()}") + TAB + (run(value, BOLD) if value else TAB)
-            lines.append(paragraph("CoverField", shown, stops + white + hanging))
+            entry = run(f"{label}{self.setting.colon.strip()}") + TAB + (run(value, BOLD) if value else TAB)
+            lines.append(paragraph("CoverField", entry, stops + white + hanging))
         lines.append(paragraph("Institution", run(cover.place_and_date, ITALIC), low.format(twips(26), 80)))
         return "".join(lines)
 
@@ -300,8 +300,8 @@ class _Blocks:
             mark = self._entries[id(entry)]
             number = run(entry.number) + TAB if entry.number else ""
             page = TAB + field(f"PAGEREF {mark} \\h", "")
-            shown = number + self.inlines(entry.title) + page
-            link = f'<w:hyperlink w:anchor="{mark}" w:history="1">{shown}</w:hyperlink>'
+            text = number + self.inlines(entry.title) + page
+            link = f'<w:hyperlink w:anchor="{mark}" w:history="1">{text}</w:hyperlink>'
             lines.append(paragraph(f"TOC{entry.level}", link if lines else begin + link))
         if not lines:
             return paragraph("TOCHeading", run(title))
@@ -329,7 +329,7 @@ class _Blocks:
                 return run(written(number, self.language).text(NARROW), look)
             case tree.Reference(key, text):
                 place = self.places.get(key)
-                return field(f"REF {place.bookmark}{place.shown} {LINKED}", text, look) if place else run(text, look)
+                return field(f"REF {place.bookmark}{place.switch} {LINKED}", text, look) if place else run(text, look)
             case tree.LineBreak():
                 return BREAK
             case tree.Blank():
@@ -339,14 +339,14 @@ class _Blocks:
         """Return the number of a caption or an equation as fields, with a bookmark for references to `key`."""
         part, _, last = number.rpartition(".")
         if part:
-            shown = field("STYLEREF 1 \\s", part, look) + run(".", look)
-            shown += field(f"SEQ {sequence(name)} \\* ARABIC \\s 1", last, look)
+            fields = field("STYLEREF 1 \\s", part, look) + run(".", look)
+            fields += field(f"SEQ {sequence(name)} \\* ARABIC \\s 1", last, look)
         else:
             # In parts without a number, they count through the whole document.
-            shown = field(f"SEQ {sequence(name)}_0 \\* ARABIC", last, look)
+            fields = field(f"SEQ {sequence(name)}_0 \\* ARABIC", last, look)
         opening, closing = (run(mark, look) for mark in around.split("%s"))
-        shown = opening + shown + closing
-        return self.bookmarked(self.places[key].bookmark, shown) if key else shown
+        fields = opening + fields + closing
+        return self.bookmarked(self.places[key].bookmark, fields) if key else fields
 
     def caption(self, word: str, block: tree.Table | tree.Figure | tree.Plate) -> str:
         """Return word, number and text of a caption; "" for a block without one."""

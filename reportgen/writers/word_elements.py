@@ -177,8 +177,8 @@ def rule(side: str, width: int) -> str:
     return f'<w:{side} w:val="{kind}" w:sz="{width}" w:space="0" w:color="auto"/>'
 
 
-def control(tag: str, title: str, shown: str) -> str:
+def control(tag: str, title: str, hint: str) -> str:
     """Return an empty inline content control for plain text; its placeholder disappears when text is typed."""
     about = f'<w:alias w:val="{escape(title)}"/><w:tag w:val="{escape(tag)}"/><w:showingPlcHdr/><w:text/>'
-    content = run(shown, '<w:color w:val="808080"/>')
+    content = run(hint, '<w:color w:val="808080"/>')
     return f"<w:sdt><w:sdtPr>{about}</w:sdtPr><w:sdtContent>{content}</w:sdtContent></w:sdt>"

@@ -87,9 +87,9 @@ class OmmlFormulas(TextSetter):
     def number(self, number: Written) -> str:
         digits = number.digits.lstrip("−")
         minus = letters("−") * (len(number.digits) - len(digits))
-        shown = minus + (letters(digits) if _FIGURES.issuperset(digits) else upright(digits))
+        digits_text = minus + (letters(digits) if _FIGURES.issuperset(digits) else upright(digits))
         gap = NARROW if number.spaced else ""
-        return shown + (upright(gap + number.unit) if number.unit else "")
+        return digits_text + (upright(gap + number.unit) if number.unit else "")
 
     def sign(self, sign: Sign) -> str:
         return upright(f"{sign.of} ") if sign.role == "separator" else letters(sign.of)
@@ -372,8 +372,8 @@ class Equations:
         left = max(SLIVER, min(room - widest, (TEXT_WIDTH - indent - widest) / 2))
         grids = []
         for storey in storeys:
-            shown = [place for index in storey for place in self.term(terms[index])]
-            rows = [[FREE, FREE, *shown]]
+            terms_shown = [place for index in storey for place in self.term(terms[index])]
+            rows = [[FREE, FREE, *terms_shown]]
             for row, name in enumerate(equation.rows):
                 known = (
                     (FREE, GridEntry(self.formulas.known(terms[index].known[row]), style="Known")) for index in storey

@@ -19,11 +19,11 @@ class Bookmark:
     """The target of a reference: a bookmark, and the switch that shows something other than the marked text."""
 
     bookmark: str
-    shown: str = ""
+    switch: str = ""
 
 
 def paged(blocks: Sequence[tree.Block], usual: PageSetup) -> Iterator[tuple[tuple[PageSetup, int], tree.Block]]:
-    """Yield each block with its page, and a unique number if it has a page of its own."""
+    """Yield each block with its page, and a unique number if it has its own page."""
     for index, block in enumerate(blocks, start=1):
         page = _page(block, usual)
         yield (page, index if isinstance(block, (tree.Plate, tree.Figure)) and page != usual else 0), block

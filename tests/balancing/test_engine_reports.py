@@ -71,7 +71,7 @@ def test_a_ruler_on_the_stars(name: str) -> None:
             sides = {name: side for name, side in arrows(star(case, letter, n)).items() if "×" not in name}
             resultant = sides.pop(f"{letter}{n}", 0j)
             assert sum(sides.values()) == pytest.approx(resultant, abs=1e-9)
-            assert abs(resultant) == pytest.approx(printed.number(orders_ids.measured(letter, n)).shown, abs=ROUNDED)
+            assert abs(resultant) == pytest.approx(printed.number(orders_ids.measured(letter, n)).printed, abs=ROUNDED)
             for place, cylinder in zip(case.cylinders, case.given.cylinders, strict=True):
                 times = n - 1 if letter in "fp" else n + 1
                 angle = n * cylinder.crank.si - (0 if case.given.is_inline else times * cylinder.bank.si)

@@ -76,7 +76,7 @@ def test_every_line_recomputes(name: str, language: Language) -> None:
 def table_of(case: RotorCase, key: str) -> list[list[float]]:
     """The numbers of a table of the report."""
     table = next(one for one in case.document().blocks if isinstance(one, tree.Table) and one.key == key)
-    return [[cell.inlines[0].number.shown for cell in row[1:]] for row in table.rows]
+    return [[cell.inlines[0].number.printed for cell in row[1:]] for row in table.rows]
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -116,12 +116,12 @@ def test_a_ruler_on_the_plans(name: str) -> None:
             assert along.imag == pytest.approx(0, abs=1e-6)
             assert along.real * μ == pytest.approx(printed.number(family(str(number))).value, abs=0.005 * μ)
         last = sides[f"{of}{closing}"]
-        assert abs(last) == pytest.approx(printed.number(rotor_ids.laid_off(of, closing)).shown, abs=ROUNDED)
+        assert abs(last) == pytest.approx(printed.number(rotor_ids.laid_off(of, closing)).printed, abs=ROUNDED)
         direction = printed.number(rotor_ids.direction(closing))
-        assert math.degrees(cmath.phase(last)) % 360 == pytest.approx(direction.shown, abs=direction.half_unit + 1e-9)
+        assert math.degrees(cmath.phase(last)) % 360 == pytest.approx(direction.printed, abs=direction.half_unit + 1e-9)
         length = printed.number("rotor.L").value if of == "V" else 1.0
         result = printed.number(rotor_ids.unbalance(closing))
-        assert abs(last) * μ / length == pytest.approx(result.shown, abs=0.005 * μ / length + result.half_unit)
+        assert abs(last) * μ / length == pytest.approx(result.printed, abs=0.005 * μ / length + result.half_unit)
 
 
 @pytest.mark.parametrize("name", NAMES)

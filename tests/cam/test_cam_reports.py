@@ -49,7 +49,7 @@ def recomputes(chain: Chain) -> bool | None:
     # What is nothing is printed as 0: the values of a graph leave half a thousandth at most.
     half = ZERO if result.value == 0 else result.half_unit
     # Exact results are free of the dust of floats; ties may fall either way.
-    return abs(value - result.shown) <= half * (1 + 1e-6) + 1e-9 * max(abs(value), 1)
+    return abs(value - result.printed) <= half * (1 + 1e-6) + 1e-9 * max(abs(value), 1)
 
 
 @pytest.mark.parametrize(("name", "language"), matrix(CASES, TELLING))

@@ -11,7 +11,7 @@ import pytest
 
 from reportgen.base.errors import AssignmentError, Fault
 from reportgen.base.yaml_source import plain, read_text
-from reportgen.classes.variant_draw import FindFaults, judge_of, pick
+from reportgen.classes.variant_draw import FindFaults, fault_finder, pick
 from reportgen.classes.variant_spec import Settings, Spec, read_spec
 from reportgen.classes.variants import Effort, compare, make_variants
 from reportgen.workbook import Book, WorksheetData, write_xlsx
@@ -24,7 +24,7 @@ _judged: dict[tuple[object, ...], tuple[Fault, ...]] = {}
 
 def judge_of_bars(spec: Spec) -> FindFaults:
     """The judge of `BARS`, who remembers what was found of a variant in an earlier draw."""
-    judge = judge_of(spec)
+    judge = fault_finder(spec)
 
     def ask(settings: Settings) -> tuple[Fault, ...]:
         key = tuple((where, plain(node)) for where, node in sorted(settings.items()))
@@ -78,7 +78,7 @@ def test_combinations_that_do_not_turn_are_not_drawn(put_file: Put) -> None:
     text = text.replace("[340 mm, 350 mm]", "340 mm").replace("[opposing, clockwise]", "opposing")
     text = text.replace("{from: 0.1 mm, to: 0.4 mm, step: 0.1 mm}", "0.1 mm")
     spec = read_spec(put_file(text))
-    result = draw(spec, classes(*ids(14)), judge_of(spec))
+    result = draw(spec, classes(*ids(14)), fault_finder(spec))
     cranks = Counter(one.settings["parameters", "AB"].text for one in result.drawn)
     # s + l < p + q: AB + 400 < 340 + 280.
     assert cranks == {f"{length} mm": 2 for length in range(150, 220, 10)}
@@ -105,7 +105,7 @@ def test_every_assignment_is_a_usable_spec_of_one_variant(file: Path) -> None:
     """Nothing in it is taken for a choice, and what the reports are made from is not called unusable."""
     spec = read_spec(file)
     assert (spec.axes, spec.size) == ((), 1)
-    assert judge_of(spec)({}) == ()
+    assert fault_finder(spec)({}) == ()
 
 
 def test_the_eight_published_engines_go_round_a_class(put_file: Put) -> None:
@@ -121,7 +121,7 @@ def test_the_eight_published_engines_go_round_a_class(put_file: Put) -> None:
     assert "parameters:" not in text
     text += "parameters: {flywheel: {delta: 1/100}}\n"
     spec = read_spec(put_file(text))
-    judge = judge_of(spec)
+    judge = fault_finder(spec)
     assert sorted(spec.label(one.combination) for one in draw(spec, classes(*ids(8)), judge).drawn) == sorted(
         top["variant"] for top in tops
     )

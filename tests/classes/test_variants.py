@@ -12,7 +12,7 @@ from reportgen.base.errors import AssignmentError, Location
 from reportgen.base.yaml_source import Scalar, plain, read_text
 from reportgen.base.yaml_values import put
 from reportgen.classes.roster import read_roster
-from reportgen.classes.variant_draw import judge_of
+from reportgen.classes.variant_draw import fault_finder
 from reportgen.classes.variant_spec import read_spec
 from reportgen.classes.variants import Variants, make_variants
 from reportgen.cli import app
@@ -54,7 +54,7 @@ def test_every_file_passes_check_and_says_what_was_drawn(put_file: Put, kind: st
     table = "id,name,class\n" + "".join(f"{id},An {id},K58\n" for id in ids(2))
     path, roster = put_file(text), put_file(table, "r.csv")
     spec = read_spec(path)
-    result = draw(spec, read_roster(roster), judge_of(spec))
+    result = draw(spec, read_roster(roster), fault_finder(spec))
     for file, one in zip(made(path, roster).files, result.drawn, strict=True):
         assert api.check(file.path) == []
         assignment = api.load(file.path)

@@ -45,7 +45,9 @@ def test_a_pipe_gets_readable_text() -> None:
 
 def test_a_link_is_shown_by_the_name_of_the_page(tmp_path: Path) -> None:
     page = tmp_path / "page.md"
-    page.write_text("See [the form](../reference/edit.md#fields), `[a](b.md)`.\n\n```sh\n[a](b.md)\n```\n", "utf-8")
+    page.write_text(
+        "See [the form](../reference/edit.md#fields), 1 step:\n\n1. Type\n\n   ```sh\n   [a](b.md)\n   ```\n", "utf-8"
+    )
     shown = as_text(page)
     assert "See the form (→ edit)" in shown
     assert "[a](b.md)" in shown

@@ -68,11 +68,11 @@ def test_each_help_names_a_page_that_there_is(monkeypatch: pytest.MonkeyPatch) -
     assert shown(COMMANDS["grade"], "en", monkeypatch).endswith("More: reportgen docs grading")
 
 
-def test_the_start_leads_from_the_kinds_to_the_report(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_start_leads_to_the_form_then_from_the_kinds_to_the_report(monkeypatch: pytest.MonkeyPatch) -> None:
     for language in languages():
         monkeypatch.setenv(SPOKEN, language)
         named = re.findall(r"reportgen (\w+)", start())
-        assert [name for name in named if name in COMMANDS][:4] == ["kinds", "new", "check", "build"]
+        assert [name for name in named if name in COMMANDS][:5] == ["edit", "kinds", "new", "check", "build"]
 
 
 def test_the_first_page_is_in_the_language_and_the_others_are_all_there() -> None:

@@ -50,7 +50,7 @@ def test_what_is_printed_is_right_to_a_unit_of_its_last_decimal(name: str, tmp_p
                 continue
             number, exact = case.worked.printed.number(id), family.values / family.how.scale
             unit = 10.0 ** -(number.decimals or 0) if number.value else 10.0 ** -(case.worked.printed.decimals[id] or 9)
-            apart = vocabulary.distance(id, np.radians(number.shown), np.radians(exact)) * 180 / math.pi
+            apart = vocabulary.distance(id, np.radians(number.printed), np.radians(exact)) * 180 / math.pi
             assert float(apart[0]) <= unit * (1 + 1e-6) if number.decimals is not None else 1e-9, id
             checked += 1
     assert checked > 5

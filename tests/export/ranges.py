@@ -71,7 +71,7 @@ def deviations(path: Path, seed: int) -> Iterator[Deviation]:
             own, of_study = np.asarray(alone[id]), np.asarray(found[id][k])
             assert (np.isnan(own) == np.isnan(of_study)).all()
             scale = np.nanmax(np.abs(own), initial=1e-300)
-            together = study.is_told(id)
+            together = study.is_determined(id)
             off = (
                 float(np.nanmax(np.abs(own - of_study), initial=0.0) / scale)
                 if scale > _nothing(alone.case, id)

@@ -42,7 +42,7 @@ def drawn(node: Expression, slashed: bool = False) -> Heard:
                 return ("neg", large) if parts.factor < 0 else large
             case Number(value, decimals, unit):
                 shown = float(write(abs(value), decimals, "en"))
-                return ("neg", ("n", shown, unit)) if node.shown < 0 else ("n", shown, unit)
+                return ("neg", ("n", shown, unit)) if node.printed < 0 else ("n", shown, unit)
             case Sum(terms):
                 first, *others = terms
                 start = of(first)

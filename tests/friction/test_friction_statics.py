@@ -10,16 +10,16 @@ from typing import Any
 import numpy as np
 import pytest
 
-from reportgen.friction import exercise_calculations as friction_sheets
+from reportgen.friction import exercise_calculations as calculations
 from reportgen.friction.friction_file import Parameters
 
-SHEETS = {
-    "incline": friction_sheets.incline_sheet,
-    "wedge": friction_sheets.wedge_sheet,
-    "screw": friction_sheets.screw_sheet,
-    "belt": friction_sheets.belt_sheet,
-    "band": friction_sheets.band_sheet,
-    "shoe": friction_sheets.shoe_sheet,
+CALCULATIONS = {
+    "incline": calculations.incline_calculation,
+    "wedge": calculations.wedge_calculation,
+    "screw": calculations.screw_calculation,
+    "belt": calculations.belt_calculation,
+    "band": calculations.band_calculation,
+    "shoe": calculations.shoe_calculation,
 }
 EXACT = 1e-9
 
@@ -27,7 +27,7 @@ EXACT = 1e-9
 def worked(task: str, data: Mapping[str, Any]) -> dict[str, float]:
     """All values (SI) of a task by the ends of their ids."""
     given = getattr(Parameters.model_validate({task: data}), task)
-    families = SHEETS[task](given).families
+    families = CALCULATIONS[task](given).families
     return {id.removeprefix(f"friction.{task}."): float(family.values[0]) for id, family in families.items()}
 
 

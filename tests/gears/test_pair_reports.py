@@ -57,7 +57,7 @@ def recomputes(chain: Chain) -> bool | None:
     value = float(evaluate(formula))
     value = math.degrees(value) if result.unit == "°" else value
     # Exact results are free of the dust of floats; ties may fall either way.
-    return abs(value - result.shown) <= result.half_unit * (1 + 1e-6) + 1e-9 * max(abs(value), 1)
+    return abs(value - result.printed) <= result.half_unit * (1 + 1e-6) + 1e-9 * max(abs(value), 1)
 
 
 @pytest.mark.parametrize(("name", "language"), matrix(CASES, TELLING))
@@ -90,7 +90,7 @@ def test_tables_print_what_the_lines_say(name: str) -> None:
     """Every number in the table of the pair is the result of a line with the figures of its kind, or given."""
     case = pair_case(name)
     printed = {
-        (number.shown, number.unit)
+        (number.printed, number.unit)
         for id, family in case.printed.families.items()
         for k in range(1, len(family.values) + 1)
         for number in (case.printed.number(id, k), case.printed.result(id, k))
@@ -105,8 +105,8 @@ def test_tables_print_what_the_lines_say(name: str) -> None:
         if isinstance(one, tree.Value)
     ]
     assert len(values) > 80
-    off = [one for one in values if (one.shown, one.unit) not in printed and (-one.shown, one.unit) not in printed]
-    assert [one for one in off if one.shown != 0] == []
+    off = [one for one in values if (one.printed, one.unit) not in printed and (-one.printed, one.unit) not in printed]
+    assert [one for one in off if one.printed != 0] == []
 
 
 @pytest.mark.parametrize("name", [file.stem for file in FILES])
@@ -156,7 +156,7 @@ def test_sheets_have_the_pair_and_each_wheel_in_true_size() -> None:
         middle = (points.real.min() + points.real.max()) / 2 + 1j * (points.imag.min() + points.imag.max()) / 2
         assert 2 * np.abs(points - middle).max() == pytest.approx(tip * MM, rel=2e-2), wheel
     drawn = [item for part in sheet.parts if part.layer == "profile" for item in part.scene.items]
-    (μ,) = [item.content.parts[1].shown for item in drawn if isinstance(item, Label) and is_scale(item.content)]
+    (μ,) = [item.content.parts[1].printed for item in drawn if isinstance(item, Label) and is_scale(item.content)]
     teeth = [np.array(item.points) for item in drawn if isinstance(item, Polyline) and len(item.points) > 300]
     # Both halves of the line of centres begin at the pitch point.
     starts = [item.start for item in drawn if isinstance(item, Line) and item.start.real == item.end.real]
@@ -213,9 +213,9 @@ def test_involutes_are_worked_out_in_radians(language: str) -> None:
         [angle] = tangent.arguments
         assert isinstance(angle, Number)
         assert (angle.unit, arc.of.unit) == ("°", "")
-        assert arc.of.shown == pytest.approx(math.radians(angle.shown), abs=arc.of.half_unit * 1.001)
-        by_hand = math.tan(math.radians(angle.shown)) - arc.of.shown
-        assert by_hand == pytest.approx(result.shown, abs=result.half_unit * 1.001)
+        assert arc.of.printed == pytest.approx(math.radians(angle.printed), abs=arc.of.half_unit * 1.001)
+        by_hand = math.tan(math.radians(angle.printed)) - arc.of.printed
+        assert by_hand == pytest.approx(result.printed, abs=result.half_unit * 1.001)
 
 
 @pytest.mark.parametrize("data", ["z1: 20, z2: 90, shifts: {x1: 0.2, x2: 0.1}", "z1: 13, z2: 36"])

@@ -47,7 +47,7 @@ def recomputes(chain: Chain) -> bool | None:
         return None
     value = float(evaluate(formula)) * (100 if result.unit == "%" else 1)
     # Exact results are free of the dust of floats; ties may fall either way.
-    return abs(value - result.shown) <= result.half_unit * (1 + 1e-6) + 1e-9 * max(abs(value), 1)
+    return abs(value - result.printed) <= result.half_unit * (1 + 1e-6) + 1e-9 * max(abs(value), 1)
 
 
 @pytest.mark.parametrize(("name", "language"), matrix(CASES, TELLING))
@@ -92,10 +92,10 @@ def test_rates_hold_to_rolling(name: str) -> None:
     ω = {wheel: float(case.ledger[train_ids.omega(wheel)].at(1)) for wheel in ("1", "2", "H")}
     z, m, m2 = case.train.teeth, case.given.m.si, case.given.second_module.si
     s1, s3 = case.scheme.signs
-    a = m * abs(z.one - s1 * z.two) / 2
+    a = m * abs(z.z1 - s1 * z.z2) / 2
     # The meshes lie on the line of centres, inside or outside of the satellite's axis.
-    assert ω["1"] * m * z.one / 2 == pytest.approx(ω["H"] * a + ω["2"] * s1 * m * z.two / 2)
-    still = ω["H"] * a + ω["2"] * s3 * m2 * z.other / 2
+    assert ω["1"] * m * z.z1 / 2 == pytest.approx(ω["H"] * a + ω["2"] * s1 * m * z.z2 / 2)
+    still = ω["H"] * a + ω["2"] * s3 * m2 * z.z2_prime / 2
     assert still == pytest.approx(0, abs=1e-9 * abs(ω["H"]) * a)
     assert None not in turned(case.train, case.given.k)[1]
 
@@ -109,8 +109,8 @@ def test_rows_bring_the_motor_to_the_crank(tmp_path: Path) -> None:
         file.write_text(text.replace("0.03", tolerance), encoding="utf-8")
         case = open_case(file, "en")
         z = case.train.teeth  # type: ignore[attr-defined]
-        assert (z.one, z.three) == teeth
-        u = (1 + z.three / z.one) * 2.5 * 2
+        assert (z.z1, z.z3) == teeth
+        u = (1 + z.z3 / z.z1) * 2.5 * 2
         assert case.ledger["train.n.reached"].at(1) == pytest.approx(1440 / u)
         assert case.ledger["train.omega.7"].at(1) == pytest.approx(2 * math.pi * 24 / u)
 
@@ -123,7 +123,7 @@ def test_the_triangles_measure_as_they_say(name: str) -> None:
     printed = case.printed
 
     def shown(id: str) -> float:
-        return float(printed.number(id).shown)
+        return float(printed.number(id).printed)
 
     for place in "AB":
         drawn = (arrows[f"{place}{place.lower()}"].end - arrows[f"{place}{place.lower()}"].start).real
@@ -137,7 +137,7 @@ def test_the_triangles_measure_as_they_say(name: str) -> None:
         # It has the figures that the drawing gives: half a unit of the last is its rounding.
         read = printed.number(train_ids.read(wheel))
         assert read.half_unit > step / 4
-        assert read.shown == pytest.approx(shown(train_ids.omega(wheel)), abs=step + read.half_unit)
+        assert read.printed == pytest.approx(shown(train_ids.omega(wheel)), abs=step + read.half_unit)
         # Each ray is parallel to a line of the triangles.
         along = [(line.end - line.start) / abs(line.end - line.start) for line in lines if line.end != line.start]
         assert min(abs((ray / abs(ray) / one).imag) for one in along) < 1e-9

@@ -144,8 +144,8 @@ def test_assembly_puts_satellites_in() -> None:
         stands = all(angle is not None for angle in angles)
         # Each satellite put in by itself: (z₁z₂′ ± z₂z₃)/k is a multiple of the common divisor of z₂ and z₂′.
         z = train.teeth
-        whole = z.one * z.other + SCHEMES[train.scheme].sign * z.two * z.three
-        assert stands == (whole % (k * math.gcd(z.two, z.other)) == 0)
+        whole = z.z1 * z.z2_prime + SCHEMES[train.scheme].sign * z.z2 * z.z3
+        assert stands == (whole % (k * math.gcd(z.z2, z.z2_prime)) == 0)
         if train.turns(k) is not None:
             assert stands
             said += 1

@@ -20,7 +20,7 @@ from reportgen.base.errors import AssignmentError, Location
 from reportgen.case.answer_key import Key, KeyRow
 from reportgen.cases import opened
 from reportgen.formula.ledger import follow
-from reportgen.marking.answer_sheet import asked_positions, grid, info_page, page, rows_shown
+from reportgen.marking.answer_sheet import asked_positions, grid, info_page, page, sheet_rows
 from reportgen.marking.marking_data import Answer, Submission
 from reportgen.marking.marking_scheme import MarkingScheme, marking_scheme
 from reportgen.marking.mistakes import Mistake
@@ -193,7 +193,7 @@ def filled_book(key: Key, submission: Submission) -> Book:
         return Entry(given.value if plain else given.text, "input", unlocked=True)
 
     words = words_of(key)["answer_sheet"]
-    rows = grid(key, words["title"], words["note"], filling, rows_shown(key), asked_positions(key))
+    rows = grid(key, words["title"], words["note"], filling, sheet_rows(key), asked_positions(key))
     return Book((page(words["answers"], rows), info_page(key)), words["title"])
 
 

@@ -70,7 +70,7 @@ def marking(language: Language = "en", student: str = "Nguyễn Văn A") -> Mark
         key,
         Submission(key.id, FILE, values, problems),
         cells,
-        (Notice("classmate", (("v.B", 3),), other="classmate-99"),),
+        (Notice("classmate", (("v.B", 3),), classmate="classmate-99"),),
     )
 
 

@@ -96,7 +96,7 @@ def test_two_data_are_enough_where_the_sheet_is_a_classmates(mine: MarkingScheme
     copied = students.sheet(theirs, lambda row, k, value: students.figures(value))
     assert mark(mine, copied).flags == ()
     (flag,) = mark(mine, copied, [Classmate(theirs.key)]).flags
-    assert (flag.kind, flag.other) == ("other-data", "SV01")
+    assert (flag.kind, flag.classmate) == ("other-data", "SV01")
     once = students.sheet(other(G2="24 N"), lambda row, k, value: students.figures(value))
     assert mark(mine, once, [Classmate(theirs.key)]).flags == ()
 
@@ -118,7 +118,7 @@ def test_the_key_of_another_variant_with_the_own_geometry(mine: MarkingScheme, p
     before = mark(mine, sheet)
     marking = mark(mine, sheet, [Classmate(theirs.key)])
     (flag,) = marking.flags
-    assert (flag.kind, flag.other) == ("classmate-key", "SV01")
+    assert (flag.kind, flag.classmate) == ("classmate-key", "SV01")
     assert len(flag.taken) > 30
     assert marking.points == before.points - len(flag.taken)
     right = [cell for cell in before.cells if cell.verdict is Verdict.right]
@@ -233,7 +233,7 @@ def test_what_is_a_classmates_is_told(room: Room, what: str, digits: int) -> Non
     copied = hands.with_cells(sheet, theirs, lambda id, k: COPIES[what](scheme, id, k))
     marking = mark(scheme, copied, room.classmates)
     flags = [flag for flag in marking.flags if flag.kind.startswith("classmate")]
-    assert {flag.other for flag in flags} == {source.key.id}
+    assert {flag.classmate for flag in flags} == {source.key.id}
     assert all(flag.chance < 1e-3 for flag in flags)
     assert {name for cell in marking.cells for name in cell.classmates} == {source.key.id}
     # Of part of a sheet nothing is taken but what only follows from values of another key.

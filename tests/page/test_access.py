@@ -80,7 +80,7 @@ def test_reduced_motion_starts_paused(browser: Browser) -> None:
     browser.show(file, still=True)
     assert not browser.run("return moving.playing()")
     shown = made.made(built.SAMPLE, "vi").animation
-    assert browser.run("return moving.angle()") == pytest.approx(shown.positions[shown.shown][1])
+    assert browser.run("return moving.angle()") == pytest.approx(shown.positions[shown.opening][1])
     browser.run("document.getElementById('play').click()")
     assert browser.run("return moving.playing()")
 

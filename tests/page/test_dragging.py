@@ -15,7 +15,7 @@ from reportgen.base.yaml_values import at, put
 from reportgen.case import MachineAnalysis
 from reportgen.cases import open_case, opened
 from reportgen.page.animation_panel import PanelWriter
-from reportgen.page.controlled_parts import Owned, moved, owners
+from reportgen.page.controlled_parts import ControlledParts, moved, owners
 from reportgen.page.drag_samples import Resident, tracks
 from reportgen.page.motion_samples import Samples
 from tests.lanes import matrix
@@ -99,8 +99,8 @@ def test_each_value_leads_to_what_it_moves() -> None:
     assert isinstance(case, MachineAnalysis)
     assert isinstance(source.top, MappingNode)
     owned = {where[-1]: own for where, own in owners(case.analysis.machine, source.top, source)}
-    assert owned["l4"] == Owned(bars=(("D", "E"),))
-    assert owned["H"] == Owned(bars=(("A", "B"),))
+    assert owned["l4"] == ControlledParts(bars=(("D", "E"),))
+    assert owned["H"] == ControlledParts(bars=(("A", "B"),))
     assert "D" in owned["l3"].points
-    assert owned["b"] == owned["F"] == Owned(points=("E",))
+    assert owned["b"] == owned["F"] == ControlledParts(points=("E",))
     assert [moved(text) for text in ("1/3.6", "0 mm", "50 mm", "left")] == ["1.01/3.6", "0.5 mm", "50.5 mm", None]

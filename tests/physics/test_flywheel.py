@@ -245,7 +245,7 @@ def test_the_tangents_are_drawn_to_the_axis_at_their_inclinations(name: str) -> 
     upper, lower = ((points[0], points[-1]) for points in open_lines if abs(points[0].real - left) < 1e-9)
     for points, bound in ((upper, "max"), (lower, "min")):
         angle = math.degrees(cmath.phase(points[1] - points[0]))
-        assert angle == pytest.approx(ledger.number(f"psi.{bound}").shown, abs=0.01)
+        assert angle == pytest.approx(ledger.number(f"psi.{bound}").printed, abs=0.01)
     apart = ledger.number("A.upper").value - ledger.number("A.lower").value
     # Both heights are printed with five figures.
     assert (upper[0] - lower[0]).imag * ledger.number("mu.A").value == pytest.approx(apart, rel=2e-4)

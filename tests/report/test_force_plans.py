@@ -39,5 +39,5 @@ def test_each_has_its_own_round_scale_and_can_be_measured(path: Path) -> None:
             if isinstance(item, Label) and isinstance(item.content, Chain)
         )
         assert isinstance(scale, Number)
-        step = scale.shown / 10 ** math.floor(math.log10(scale.shown) + 1e-9)
+        step = scale.printed / 10 ** math.floor(math.log10(scale.printed) + 1e-9)
         assert min(abs(step - one) for one in ROUND) < 1e-9, (key, scene.at)

@@ -109,7 +109,7 @@ def called(function: str) -> Iterator[str]:
 @cache
 def documented() -> set[str]:
     """The names that the page on templates explains."""
-    text = (REPOSITORY / "docs" / "developers" / "templates.md").read_text(encoding="utf-8")
+    text = (REPOSITORY / "docs" / "reference" / "template-language.md").read_text(encoding="utf-8")
     section = text.split("## Names in templates\n")[1].split("\n## ")[0]
     rows = [line.split(" | ")[0] for line in section.splitlines() if line.startswith("| `")]
     return set(re.findall(r"`(\w+)", "\n".join(rows)))

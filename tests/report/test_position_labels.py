@@ -156,7 +156,7 @@ def test_text_and_caption_say_how_much_smaller_a_plan_is(name: str, language: st
         if plan.smaller == 1.0:
             assert "smaller" not in caption
             assert "thu nhỏ" not in caption
-            assert [chain.parts[1].value for chain in scales] == [pytest.approx(scale.parts[1].shown)]
+            assert [chain.parts[1].value for chain in scales] == [pytest.approx(scale.parts[1].printed)]
         else:
             assert words in caption
             assert key == "fig.extremes" or words in said

@@ -118,7 +118,7 @@ def own_scales(written: Written, key: str, positions: list[int], symbol: Symbol)
         if figure == key:
             for shown in (item.content for item in scene.items if isinstance(item, Label)):
                 if isinstance(shown, Chain) and shown.parts[0] == symbol and isinstance(shown.parts[-1], Number):
-                    found[label[scene.at]] = shown.parts[-1].shown
+                    found[label[scene.at]] = shown.parts[-1].printed
     return found
 
 
@@ -130,7 +130,7 @@ def scale_of(written: Written, key: str, symbol: Symbol) -> float:
         if isinstance(block, (Figure, Plate)) and block.key == key:
             shown += [inline.expression for inline in block.caption if isinstance(inline, InlineMath)]
     found = {
-        part.shown
+        part.printed
         for one in shown
         if isinstance(one, Chain) and one.parts[0] == symbol
         for part in one.parts[1:]

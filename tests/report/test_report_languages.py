@@ -57,7 +57,7 @@ def said(inlines: Inlines) -> set[object]:
             case InlineMath(expression):
                 result.add(re.sub(r"[,.]|vg/ph|rpm", "", in_english(formula(expression, "en"))))
             case Value(number):
-                result.add(number.shown)
+                result.add(number.printed)
             case Reference(key):
                 result.add(key)
             case Emph(of) | Strong(of):

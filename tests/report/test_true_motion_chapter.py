@@ -132,7 +132,9 @@ def test_the_verdict_compares_what_is_printed(true: float, verdict: str) -> None
     ):
         assert running.verdict(report) == verdict
         by = running.exceeded_by(report)
-    assert [value.number.shown for value in by if isinstance(value, Value)] == ([0.03] if verdict == "exceeded" else [])
+    assert [value.number.printed for value in by if isinstance(value, Value)] == (
+        [0.03] if verdict == "exceeded" else []
+    )
 
 
 ENGINE = built.ROOT / "assignments" / "engine-single-load.yaml"

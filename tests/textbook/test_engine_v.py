@@ -159,9 +159,9 @@ def test_the_mean_of_the_positions_is_of_the_even_ones() -> None:
     from reportgen.cases import open_case
 
     ledger = open_case(FILE).printed
-    torque = [ledger.number("M.eq", k).shown for k in (1, 2, 4, 5, 6, 7, 9, 10)]
+    torque = [ledger.number("M.eq", k).printed for k in (1, 2, 4, 5, 6, 7, 9, 10)]
     # Printed to a thousandth of 1 N·m.
-    assert ledger.number("M.mean.positions").shown == pytest.approx(sum(torque) / 8, abs=5.1e-4)
+    assert ledger.number("M.mean.positions").printed == pytest.approx(sum(torque) / 8, abs=5.1e-4)
 
 
 @pytest.mark.proof

@@ -42,7 +42,7 @@ EXPRESSIONS: st.SearchStrategy[Expression] = st.recursive(
         st.lists(inner, min_size=1, max_size=3).map(lambda terms: Sum(tuple(terms))),
         st.lists(inner, min_size=1, max_size=3).map(lambda factors: Product(tuple(factors))),
         inner.map(Negative),
-        st.builds(Fraction, inner, NUMBERS.filter(lambda number: number.shown != 0)),
+        st.builds(Fraction, inner, NUMBERS.filter(lambda number: number.printed != 0)),
         inner.map(lambda base: Power(base, Number(2))),
         inner.map(lambda of: Root(Power(of, Number(2)))),
         st.builds(lambda name, of: Call(name, (of,)), st.sampled_from(["sin", "cos", "abs"]), inner),
