@@ -48,7 +48,7 @@ TemplatesOption = Annotated[
         envvar="REPORTGEN_TEMPLATES",
         exists=True,
         file_okay=False,
-        help="A school's own words.",
+        help="Folder with a school's own templates.",
         show_default=False,
         callback=lambda folder: _use_templates(folder),
     ),
@@ -57,7 +57,9 @@ EngineOption = Annotated[Literal["typst", "latex"], typer.Option("--engine", hel
 StandardOption = Annotated[
     str,
     typer.Option(
-        "--standard", metavar="LIST", help="What a PDF of typst keeps: of ua-1, a-2a, …, parted by commas, or none."
+        "--standard",
+        metavar="LIST",
+        help="Standards that a PDF of typst follows: of ua-1, a-2a, …, separated by commas, or none.",
     ),
 ]
 USUAL_STANDARDS = ",".join(STANDARDS)
@@ -68,7 +70,7 @@ def offered(known: Iterable[str]) -> str:
 
     Its translation is found by the words around the names.
     """
-    return f"Of {', '.join(known)}; parted by commas."
+    return f"Of {', '.join(known)}; separated by commas."
 
 
 def format_option(product: str) -> Any:

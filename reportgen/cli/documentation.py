@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 def docs(
     page: Annotated[
-        str | None, typer.Argument(metavar="PAGE", help="One of the pages.", show_default="all, a line each")
+        str | None, typer.Argument(metavar="PAGE", help="Name of a page.", show_default="all, a line each")
     ] = None,
     browser: Annotated[bool, typer.Option("--open", help="Open the page in a browser.")] = False,
     printed: Annotated[bool, typer.Option("--print", help="Print the page as text.")] = False,

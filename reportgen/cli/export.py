@@ -32,17 +32,17 @@ def figure(
         list[str] | None, typer.Argument(metavar="NAME", help="Figures, see --list.", show_default="all of the report")
     ] = None,
     at: Annotated[
-        str, typer.Option("--at", metavar="POSITION", help="What shows this position.", show_default=False)
+        str, typer.Option("--at", metavar="POSITION", help="Figures of this position.", show_default=False)
     ] = "",
     format: Annotated[str, format_option("figures")] = usual_formats("figures"),
     dpi: Annotated[
         int | None,
-        typer.Option("--dpi", min=10, max=1200, help="Dots an inch.", show_default="220; 110 of GIF and MP4"),
+        typer.Option("--dpi", min=10, max=1200, help="Dots per inch.", show_default="220; 110 of GIF and MP4"),
     ] = None,
     layers: Annotated[
-        str, typer.Option("--layers", metavar="LIST", help="What moving drawings show besides.")
+        str, typer.Option("--layers", metavar="LIST", help="Additional layers of moving drawings.")
     ] = "paths",
-    list_names: Annotated[bool, typer.Option("--list", help="Only name the figures.")] = False,
+    list_names: Annotated[bool, typer.Option("--list", help="List the figures without writing them.")] = False,
     out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder of the figures.")] = Path("out"),
     lang: LangOption = None,
     templates: TemplatesOption = None,
@@ -75,20 +75,20 @@ def figure(
 def plot(
     files: Files,
     of: Annotated[
-        str, typer.Option("--of", metavar="IDS", help="Quantities, parted by commas.", show_default=False)
+        str, typer.Option("--of", metavar="IDS", help="Quantities, separated by commas.", show_default=False)
     ] = "",
     over: Annotated[
-        Literal["phi", "time"], typer.Option("--over", help="The driver's angle, or its way, or time.")
+        Literal["phi", "time"], typer.Option("--over", help="Horizontal axis: displacement of the driver, or time.")
     ] = "phi",
     measured: Annotated[
         Path | None, typer.Option("--with", metavar="TABLE", help="Measured values, CSV or XLSX.", show_default=False)
     ] = None,
     format: Annotated[str, format_option("plots")] = usual_formats("plots"),
-    dpi: Annotated[int, typer.Option("--dpi", min=10, max=1200, help="Dots an inch.")] = 220,
+    dpi: Annotated[int, typer.Option("--dpi", min=10, max=1200, help="Dots per inch.")] = 220,
     out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder of the charts.")] = Path("out"),
     lang: LangOption = None,
 ) -> None:
-    """Plot quantities of each FILE as curves, a chart a unit. They go to DIR/<id of the first>/plots/ID.svg, ….
+    """Plot quantities of each FILE as curves, one chart per unit. The files are DIR/<id of the first>/plots/ID.svg, ….
 
     Without --of, list the quantities of the first FILE.
 

@@ -35,11 +35,11 @@ from reportgen.cli.common import (
 
 PolicyOption = Annotated[
     Path | None,
-    typer.Option("--policy", metavar="FILE", help="What is asked for and how it is marked.", show_default=False),
+    typer.Option("--policy", metavar="FILE", help="Policy: the questions and how they are marked.", show_default=False),
 ]
-Roster = Annotated[Path, typer.Argument(metavar="ROSTER", help="The class, CSV or XLSX.", show_default=False)]
+Roster = Annotated[Path, typer.Argument(metavar="ROSTER", help="The class list, CSV or XLSX.", show_default=False)]
 OnePdfOption = Annotated[
-    bool, typer.Option("--one-pdf", help="Also put all PDFs of the class into one, for each kind.")
+    bool, typer.Option("--one-pdf", help="Also bind the PDFs of the class into one, for each product.")
 ]
 MakeOption = Annotated[str, typer.Option("--make", help=offered(product.name for product in PRODUCTS))]
 USUAL_PRODUCTS = ",".join(product.name for product in PRODUCTS if product.usual)
@@ -50,7 +50,7 @@ SharedOption = Annotated[
         metavar="DIR",
         exists=True,
         file_okay=False,
-        help="Tables that SPEC names may lie below DIR, too; repeatable.",
+        help="Further folder for tables that SPEC names; repeatable.",
         show_default=False,
     ),
 ]
@@ -70,7 +70,7 @@ def variants(
     redraw: Annotated[
         list[str] | None,
         typer.Option(
-            "--redraw", metavar="ID", help="Give this student another variant; repeatable.", show_default=False
+            "--redraw", metavar="ID", help="Draw another variant for this student; repeatable.", show_default=False
         ),
     ] = None,
     drop: Annotated[
@@ -116,20 +116,26 @@ def _bar(things: Iterable[Any], count: int) -> Iterable[Any]:
 def batch(
     roster: Roster,
     spec: Annotated[
-        Path | None, typer.Option("--spec", metavar="SPEC.yaml", help="Draw the variants of this.", show_default=False)
+        Path | None,
+        typer.Option(
+            "--spec",
+            metavar="SPEC.yaml",
+            help="Assignment file with choices, from which variants are drawn.",
+            show_default=False,
+        ),
     ] = None,
     assignments: Annotated[
         Path | None, typer.Option("--assignments", metavar="DIR", help="Assignment files by id.", show_default=False)
     ] = None,
     make: MakeOption = USUAL_PRODUCTS,
     jobs: Annotated[
-        int | None, typer.Option("--jobs", metavar="N", min=1, help="Processes.", show_default="one a core")
+        int | None, typer.Option("--jobs", metavar="N", min=1, help="Number of processes.", show_default="one a core")
     ] = None,
     engine: EngineOption = "typst",
     lang: LangOption = None,
     out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder of the results.")] = Path("out"),
     cluster: Annotated[
-        str | None, typer.Option("--cluster", metavar="ADDRESS", help="A Dask scheduler to work for us.")
+        str | None, typer.Option("--cluster", metavar="ADDRESS", help="Address of a Dask scheduler.")
     ] = None,
     policy: PolicyOption = None,
     shared: SharedOption = None,
@@ -218,31 +224,38 @@ def grade(
     submissions: Annotated[
         list[Path],
         typer.Argument(
-            metavar="SUBMISSION", help="Sheets, reports, folders, downloads of a platform.", show_default=False
+            metavar="SUBMISSION",
+            help="Sheets, reports, folders, or downloads of a learning platform.",
+            show_default=False,
         ),
     ],
     assignments: Annotated[
-        Path, typer.Option("--assignments", metavar="DIR", help="The class's assignment files.", show_default=False)
+        Path, typer.Option("--assignments", metavar="DIR", help="Assignment files of the class.", show_default=False)
     ],
     policy: PolicyOption = None,
     out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder of the results.")] = Path("out/marked"),
     engine: EngineOption = "typst",
     lang: LangOption = None,
     roster: Annotated[
-        Path | None, typer.Option("--roster", metavar="FILE", help="The class, for its names.", show_default=False)
+        Path | None, typer.Option("--roster", metavar="FILE", help="The class list, for the names.", show_default=False)
     ] = None,
     gradebook: Annotated[
         Path | None,
-        typer.Option("--gradebook", metavar="FILE", help="A platform's table to fill in.", show_default=False),
+        typer.Option(
+            "--gradebook", metavar="FILE", help="Table of a learning platform to fill in.", show_default=False
+        ),
     ] = None,
     corrections: Annotated[
         Path | None,
         typer.Option(
-            "--corrections", metavar="FILE", help="What you judge otherwise, CSV or XLSX.", show_default=False
+            "--corrections", metavar="FILE", help="Your corrections of marks, CSV or XLSX.", show_default=False
         ),
     ] = None,
     column: Annotated[
-        str, typer.Option("--column", metavar="NAME", help="The gradebook's assignment.", show_default=False)
+        str,
+        typer.Option(
+            "--column", metavar="NAME", help="Column of the gradebook for this assignment.", show_default=False
+        ),
     ] = "",
     standard: StandardOption = USUAL_STANDARDS,
     templates: TemplatesOption = None,

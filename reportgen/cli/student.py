@@ -47,10 +47,11 @@ def build(
     out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder of the reports.")] = Path("out"),
     engine: EngineOption = "typst",
     lang: LangOption = None,
-    keep_source: Annotated[bool, typer.Option("--keep-source", help="Also leave the source with its figures.")] = False,
+    keep_source: Annotated[bool, typer.Option("--keep-source", help="Also keep the source with its figures.")] = False,
     format: Annotated[str, format_option("report")] = usual_formats("report"),
     extent: Annotated[
-        Literal["full", "short"] | None, typer.Option("--extent", help="Instead of the file's own.", show_default=False)
+        Literal["full", "short"] | None,
+        typer.Option("--extent", help="Title block in place of the file's own.", show_default=False),
     ] = None,
     listing: Annotated[
         bool, typer.Option("--listing", help="Add a Python program of the closed formulas, also as report.py.")
@@ -58,7 +59,7 @@ def build(
     standard: StandardOption = USUAL_STANDARDS,
     templates: TemplatesOption = None,
 ) -> None:
-    """Write the complete report of each FILE. It goes to DIR/<id>/report.pdf, .html as a page, .docx for Word."""
+    """Write the complete report of each FILE to DIR/<id>/report.pdf; as .html it is a page, as .docx a Word file."""
     from reportgen import api
 
     formats = listed(format, api.FORMATS, "--format", "no_format", lang)
@@ -79,12 +80,14 @@ def sheet(
     files: Files,
     size: Annotated[
         Literal["A0", "A1", "A2", "A3"] | None,
-        typer.Option("--size", help="Of the paper.", show_default="the smallest that holds each set"),
+        typer.Option("--size", help="Paper size.", show_default="the smallest that holds each set"),
     ] = None,
     sets: Annotated[
-        Literal["kinematics", "forces", "balancing", "all"], typer.Option("--set", help="What the sheets show.")
+        Literal["kinematics", "forces", "balancing", "all"], typer.Option("--set", help="Contents of the sheets.")
     ] = "all",
-    every: Annotated[bool, typer.Option("--all", help="Every plan of the report, not only those handed in.")] = False,
+    every: Annotated[
+        bool, typer.Option("--all", help="Include all plans of the report, not only those to hand in.")
+    ] = False,
     format: Annotated[str, format_option("sheet")] = usual_formats("sheet"),
     block: Annotated[
         str | None,
@@ -100,7 +103,7 @@ def sheet(
     lang: LangOption = None,
     templates: TemplatesOption = None,
 ) -> None:
-    """Lay the plans out on drawing sheets, true to scale. They go to DIR/<id>/sheet-1.pdf, sheet-1.dxf, …."""
+    """Arrange the plans on drawing sheets, true to scale. The files are DIR/<id>/sheet-1.pdf, sheet-1.dxf, …."""
     from reportgen import api
     from reportgen.base.files import scratch
     from reportgen.base.provenance import hash_of, put_made
@@ -136,13 +139,13 @@ def sheet(
 
 def watch(
     file: File,
-    no_open: Annotated[bool, typer.Option("--no-open", help="Open no browser; the address is printed anyway.")] = False,
-    pdf: Annotated[bool, typer.Option("--pdf", help="Renew DIR/<id>/report.pdf, too.")] = False,
+    no_open: Annotated[bool, typer.Option("--no-open", help="Do not open a browser; print only the address.")] = False,
+    pdf: Annotated[bool, typer.Option("--pdf", help="Also renew DIR/<id>/report.pdf.")] = False,
     out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder of the PDF.")] = Path("out"),
     lang: LangOption = None,
     templates: TemplatesOption = None,
 ) -> None:
-    """Show the report in a browser, renewed whenever FILE changes. Ctrl-C ends it."""
+    """Show the report in a browser and renew it when FILE changes. Ctrl-C ends it."""
     from reportgen.api import serving
 
     with ending(lang):
@@ -154,17 +157,17 @@ def watch(
 def edit(
     what: Annotated[
         str | None,
-        typer.Argument(metavar="[FILE|KIND]", help="Assignment file, or a kind to begin with.", show_default="choose"),
+        typer.Argument(metavar="[FILE|KIND]", help="Assignment file, or a kind for a new file.", show_default="choose"),
     ] = None,
     output: Annotated[
-        Path | None, typer.Option("-o", "--output", metavar="FILE", help="Begin this file.", show_default="KIND.yaml")
+        Path | None, typer.Option("-o", "--output", metavar="FILE", help="File to create.", show_default="KIND.yaml")
     ] = None,
-    no_open: Annotated[bool, typer.Option("--no-open", help="Open no browser; the address is printed anyway.")] = False,
-    out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder of what is made of it.")] = Path("out"),
+    no_open: Annotated[bool, typer.Option("--no-open", help="Do not open a browser; print only the address.")] = False,
+    out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder of the products.")] = Path("out"),
     lang: LangOption = None,
     templates: TemplatesOption = None,
 ) -> None:
-    """Edit FILE in a browser by a form, the machine moving beside it. A KIND begins a file. Ctrl-C ends it."""
+    """Edit FILE in a browser, with a form beside the moving machine. A KIND creates a new file. Ctrl-C ends it."""
     from reportgen.api import serving
     from reportgen.base.kinds import kinds
 
@@ -239,7 +242,7 @@ def solve(
     file: File,
     positions: Annotated[
         int | None,
-        typer.Option("--positions", metavar="N", min=4, max=360, help="Positions a turn.", show_default=False),
+        typer.Option("--positions", metavar="N", min=4, max=360, help="Positions per turn.", show_default=False),
     ] = None,
     json_file: Annotated[
         Path | None, typer.Option("--json", metavar="FILE|-", help="Write the results as JSON.", show_default=False)
@@ -256,7 +259,7 @@ def solve(
     out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder of these tables.")] = Path("out"),
     lang: LangOption = None,
 ) -> None:
-    """Compute motion, forces and torque. They are printed as tables, or written in SI units."""
+    """Compute motion, forces and torque. Print them as tables, or write them as JSON in SI units."""
     from reportgen import api
     from reportgen.base.provenance import put_made
 
@@ -281,7 +284,7 @@ def solve(
 
 
 def check(files: Files, lang: LangOption = None, templates: TemplatesOption = None) -> None:
-    """Validate each FILE. All is well where nothing is said but warnings, and notes where positions have labels."""
+    """Check each FILE and print its errors and warnings. Without errors, the exit code is 0."""
     from reportgen import api
 
     problems = [problem for file in files for problem in api.examine(file, lang)]
@@ -295,13 +298,13 @@ def new(
         str, typer.Argument(metavar="KIND", help="A kind of machine, see `kinds`.", autocompletion=lambda: _kinds())
     ],
     output: Annotated[
-        Path | None, typer.Option("-o", "--output", metavar="FILE", help="Write here.", show_default=False)
+        Path | None, typer.Option("-o", "--output", metavar="FILE", help="File to write.", show_default=False)
     ] = None,
     example: Annotated[
         str | None,
-        typer.Option("--from", metavar="EXAMPLE", help="Begin with this example, see `samples`.", show_default=False),
+        typer.Option("--from", metavar="EXAMPLE", help="Start from this example, see `samples`.", show_default=False),
     ] = None,
-    force: Annotated[bool, typer.Option("--force", help="Also replace a file that is there.")] = False,
+    force: Annotated[bool, typer.Option("--force", help="Also replace an existing file.")] = False,
     lang: LangOption = None,
 ) -> None:
     """Print a commented assignment file to fill in, or an example."""
@@ -328,8 +331,8 @@ def _kinds() -> list[str]:
 
 
 def samples(
-    folder: Annotated[Path, typer.Argument(metavar="DIR", help="Where to, as a rule a new folder.")],
-    force: Annotated[bool, typer.Option("--force", help="Also replace files that are there.")] = False,
+    folder: Annotated[Path, typer.Argument(metavar="DIR", help="Destination, usually a new folder.")],
+    force: Annotated[bool, typer.Option("--force", help="Also replace existing files.")] = False,
     lang: LangOption = None,
 ) -> None:
     """Copy the examples, and a class to try, to DIR. Every kind of machine has examples."""
@@ -347,7 +350,7 @@ def samples(
 
 
 def kinds(lang: LangOption = None) -> None:
-    """List the machines that are known, a line each."""
+    """List the kinds of assignments, one per line."""
     from reportgen.base.kinds import title
     from reportgen.base.languages import setting_of
     from reportgen.base.translation_coverage import offered
@@ -362,7 +365,7 @@ def kinds(lang: LangOption = None) -> None:
 
 
 def schema(lang: LangOption = None) -> None:
-    """Print the JSON Schema of the assignment file, for editors. Its keys are told in the language."""
+    """Print the JSON Schema of the assignment file, for editors, with descriptions in the language."""
     from reportgen import api
 
     print(json.dumps(api.schema(lang), ensure_ascii=False, indent=2))
@@ -381,11 +384,11 @@ HandedIn = Annotated[
 def compare(
     file: File,
     sheet: HandedIn,
-    hint: Annotated[bool, typer.Option("--hint", help="Also say where to look.")] = False,
+    hint: Annotated[bool, typer.Option("--hint", help="Also give hints.")] = False,
     lang: LangOption = None,
     templates: TemplatesOption = None,
 ) -> None:
-    """Check your own SHEET before handing it in. It is told where it first leaves the assignment, without answers."""
+    """Check your own SHEET before handing it in. The first values that do not agree are named, without answers."""
     from reportgen import api
 
     with ending(lang):
@@ -397,17 +400,19 @@ def compare(
 def read(
     file: File,
     report: Annotated[
-        list[Path], typer.Argument(metavar="REPORT", help="A report (.docx), drawings (.dxf).", show_default=False)
+        list[Path], typer.Argument(metavar="REPORT", help="Report (.docx) and drawings (.dxf).", show_default=False)
     ],
     out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder of the results.")] = Path("out"),
     policy: Annotated[
         Path | None,
-        typer.Option("--policy", metavar="FILE", help="What is asked for and how it is marked.", show_default=False),
+        typer.Option(
+            "--policy", metavar="FILE", help="Policy: the questions and how they are marked.", show_default=False
+        ),
     ] = None,
     lang: LangOption = None,
     templates: TemplatesOption = None,
 ) -> None:
-    """Read a REPORT into an answer sheet. DIR/<id>/reading.xlsx has what was read, and why the rest was not."""
+    """Read a REPORT into an answer sheet. DIR/<id>/reading.xlsx lists what was read, and why the rest was not."""
     from reportgen import api
 
     with ending(lang):

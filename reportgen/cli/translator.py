@@ -14,7 +14,9 @@ from reportgen.cli.common import AT_FAULT, LangOption, ending, say
 
 def words(
     place: Annotated[str, typer.Argument(metavar="LANG|DIR", help="A language, or the folder of one.")],
-    sheet: Annotated[bool, typer.Option("--proof", help="Set all of it beside English, to be read.")] = False,
+    sheet: Annotated[
+        bool, typer.Option("--proof", help="Typeset all texts beside the English ones, for proofreading.")
+    ] = False,
     out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder of the proof sheet.")] = Path("out"),
     lang: LangOption = None,
 ) -> None:

@@ -21,7 +21,7 @@ COMMANDS: dict[str, Any] = GROUP.commands
 ENGLISH = re.compile(r"\b(the|of|or|and|with|is|Usage|default|required|Options|Arguments|Show|Print|Folder)\b")
 
 
-LISTS = re.compile(r"(?<=^Of ).*(?=; parted by commas\.$)|(?<=^Write the table of a full turn: ).*(?=\.$)")
+LISTS = re.compile(r"(?<=^Of ).*(?=; separated by commas\.$)|(?<=^Write the table of a full turn: ).*(?=\.$)")
 """Lists of names in these texts: one translation serves any list."""
 
 
