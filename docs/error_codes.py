@@ -1,7 +1,7 @@
 """Write `docs/reference/error-codes.md` and its translation: the codes of faults with their texts and hints.
 
-`make pictures` runs this in the project's folder, too. The texts are those of `templates/<language>/messages.yaml` and of
-the topics, so the page has every code that the program can print.
+`make pictures` runs this in the project's folder, too. The texts are those of `templates/<language>/messages.yaml` and
+of the topics, so the page has every code that the program can print.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ TEXTS: Mapping[Language, Mapping[str, str]] = {
         "file": "error-codes.md",
         "top": """# Error codes
 
-An error is printed as `FILE:LINE:COLUMN: error[code]: message`. Warnings and notes have `warning[code]` and `note[code]`.
+An error is printed as `FILE:LINE:COLUMN: error[code]: message`, a warning with `warning[code]`, a note with `note[code]`.
 The place is where the faulty text begins; in a workbook it is the cell. This page has each code with its message; “…”
 stands for the text, names and numbers of your file. [The assignment file](assignment.md) explains how to write one.
 """,
@@ -32,7 +32,7 @@ stands for the text, names and numbers of your file. [The assignment file](assig
         "file": "error-codes.vi.md",
         "top": """# Mã lỗi
 
-Mỗi lỗi được in ra theo dạng `TỆP:DÒNG:CỘT: error[mã]: nội dung`. Cảnh báo và lưu ý có dạng `warning[mã]` và `note[mã]`.
+Mỗi lỗi được in ra theo dạng `TỆP:DÒNG:CỘT: error[mã]: nội dung`; cảnh báo là `warning[mã]`, lưu ý là `note[mã]`.
 Vị trí được báo là chỗ bắt đầu của phần sai; trong bảng tính, đó là ô. Trang này liệt kê từng mã cùng nội dung của nó;
 dấu “…” thay cho chữ, tên và số trong tệp của bạn.
 """,
@@ -50,19 +50,19 @@ def page(language: Language) -> str:
     hints: Mapping[str, str] = table["hints"]
     sections = []
     for code in sorted(faults):
-        lines = [f"## `{code}`", "", f"{as_text(faults[code])}."]
+        lines = [f"## `{code}`", "", as_text(faults[code])]
         given = [as_text(hints[key]) for key in (code, code + OTHERWISE) if key in hints]
         for label, hint in zip((texts["do"], texts["or"]), given, strict=False):
-            lines += ["", f"{label}: {hint}."]
+            lines += ["", f"{label}: {hint}"]
         sections.append("\n".join((*lines, "")))
     return "\n".join((texts["top"], *sections))
 
 
 def as_text(message: str) -> str:
-    """Return a message as a sentence of Markdown, with “…” for its placeholders."""
+    """Return a message as a sentence of Markdown, with “…” for its placeholders and a full stop at its end."""
     plain = re.sub(r"(?<!\{)\{\w+\}(?!\})", "…", message).replace("{{", "{").replace("}}", "}")
     escaped = re.sub(r"[*_<\[\]|]", r"\\\g<0>", plain).strip().removesuffix(".")
-    return escaped[:1].upper() + escaped[1:]
+    return escaped[:1].upper() + escaped[1:] + "." * (escaped[-1] not in "?…")
 
 
 def pages() -> dict[Path, str]:
