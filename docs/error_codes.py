@@ -21,8 +21,8 @@ TEXTS: Mapping[Language, Mapping[str, str]] = {
         "file": "error-codes.md",
         "top": """# Error codes
 
-An error is printed as `FILE:LINE:COLUMN: error[code]: message`, a warning with `warning[code]`, a note with `note[code]`.
-The place is where the faulty text begins; in a workbook it is the cell. This page has each code with its message; “…”
+An error is printed as `FILE:LINE:COLUMN: error[code]: message`; a warning has `warning[code]`, a note `note[code]`. The
+place is where the faulty text begins; in a workbook it is the cell. This page has each code with its message; “…”
 stands for the text, names and numbers of your file. [The assignment file](assignment.md) explains how to write one.
 """,
         "do": "What to do",
