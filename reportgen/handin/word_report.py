@@ -34,7 +34,8 @@ def read(path: Path, data: bytes, key: Key, plans: object = None) -> FileReading
         whole = read_report(file.all_blocks, key, str(path))
         unseen = frozenset(place for place, answer in whole.values.items() if not _has(reading, place, answer))
         unseen |= (whole.unread.keys() & reading.values.keys()) | (whole.unread.keys() - reading.unread.keys())
-        notes = (*notes, Fault("word-unseen", Location(str(path)), {"count": str(len(unseen))}))
+        if unseen:
+            notes = (*notes, Fault("word-unseen", Location(str(path)), {"count": str(len(unseen))}))
     if not reading.values and not reading.unread:
         notes = (*notes, Fault("word-nothing", Location(str(path)), {"count": str(file.pictures)}))
     return replace(reading, notes=notes, unseen=unseen)

@@ -26,7 +26,7 @@ def test_every_key_that_may_be_left_out_is_warned_of_when_it_is_empty(tmp_path: 
     problems = catalogue.examine(file, "en")
     assert [one for one in problems if one.level == "error"] == []
     found = [one.message for one in problems if one.code == "left-empty"]
-    assert found == [f"“{name}” has no value: it counts as left out" for name in empty]
+    assert found == [f"“{name}” has no value and is ignored" for name in empty]
 
 
 def test_names_for_the_cover_may_stay_empty(tmp_path: Path) -> None:

@@ -61,7 +61,7 @@ def test_a_row_alone_makes_a_format(language: str, tmp_path: Path) -> None:
     )
     assert ran.returncode == 0, ran.stderr
     help_text, refused, built, found, by_api = ran.stdout.splitlines()
-    assert {"en": "Of pdf, html, docx, troff; parted", "vi": "Trong số pdf, html, docx, troff; cách"}[
+    assert {"en": "Of pdf, html, docx, troff; separated", "vi": "Trong số pdf, html, docx, troff; cách"}[
         language
     ] in help_text
     assert "pdf, html, docx, troff" in refused

@@ -125,8 +125,8 @@ def test_a_build_of_another_format_leaves_the_first(tmp_path: Path, capsys: pyte
     (there / "report.docx").write_bytes(b"written on")
     file.write_bytes(EXERCISE.read_bytes() + b"\n# looked through\n")
     removed, left = run(capsys, *build, "html")
-    assert removed == f"reportgen: removed, since what it was made of has changed: {there / 'report.pdf'}"
-    assert left.startswith("reportgen: left as it is")
+    assert removed == f"reportgen: removed because its inputs have changed: {there / 'report.pdf'}"
+    assert left.startswith("reportgen: kept because it was edited")
     assert left.endswith(str(there / "report.docx"))
     assert names(there) == {"report.html", "report.docx"}
 
@@ -140,7 +140,7 @@ def test_one_set_of_sheets_leaves_the_other(tmp_path: Path, capsys: pytest.Captu
     assert run(capsys, *sheet, "--set", "kinematics") == []
     assert second.exists()
     told = run(capsys, *sheet, "--set", "kinematics", "--size", "A1")
-    assert told == [f"reportgen: removed, since what it was made of has changed: {second}"]
+    assert told == [f"reportgen: removed because its inputs have changed: {second}"]
     assert names(second.parent) == {"sheet-1.dxf"}
 
 

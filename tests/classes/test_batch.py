@@ -130,9 +130,7 @@ def test_a_sheet_that_is_filled_in_is_kept_and_told(tmp_path: Path, changed: str
     (batch.given / "K1.yaml").write_text(changed, encoding="utf-8")
     for _ in range(2):
         done = batch.run()
-        assert done.notes == [
-            f"kept, since it was changed after it was made (move it away to have it made anew): {sheet}"
-        ]
+        assert done.notes == [f"kept because it was edited (move it away to make it again): {sheet}"]
         assert sheet.read_bytes() == b"filled in"
         assert (page.read_bytes() == before) == (changed == "seconds: 0")
     assert (done.made, done.kept) == (0, 2)

@@ -66,8 +66,8 @@ def test_damaged_files_leave_the_marks_of_the_class(handed: tuple[Path, Path], t
     assert {id for id, row in rows.items() if row["mark"]} >= {GOOD, SETTINGS, CUT, UNITS}
     assert rows[GOOD]["per cent"] == rows[SETTINGS]["per cent"] == "100"
     # What could not be given back is reported in the row of its student, and nowhere else.
-    assert rows[SETTINGS]["not given back"].startswith(f"{SETTINGS}.docx: it is marked, but no comments")
-    assert rows[CUT]["not given back"].startswith(f"{CUT}.dxf: it is marked, but no comments")
+    assert rows[SETTINGS]["not given back"].startswith(f"{SETTINGS}.docx: it was marked, but the comments")
+    assert rows[CUT]["not given back"].startswith(f"{CUT}.dxf: it was marked, but the comments")
     assert not rows[GOOD]["not given back"]
     assert not rows[UNITS]["not given back"]
     assert {(Path(one.location.file).stem, one.level) for one in told} == {(SETTINGS, "warning"), (CUT, "warning")}

@@ -298,7 +298,7 @@ def test_ctrl_c_ends_all_processes_and_keeps_what_is_done(tmp_path: Path) -> Non
         # To all of the terminal's foreground processes, as a terminal does.
         os.killpg(process.pid, signal.SIGINT)
         *_, last = process.stderr.read().splitlines()
-        assert last == "reportgen: stopped; run the same command again to go on"
+        assert last == "reportgen: stopped; run the same command again to continue"
         assert process.wait(20) == 130
     assert (tmp_path / "out" / student / "report.pdf").read_bytes().startswith(b"%PDF")
     deadline = time.monotonic() + 10

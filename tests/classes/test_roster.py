@@ -172,7 +172,7 @@ def test_all_faults_are_told_at_once_with_their_cells(put: Put) -> None:
 def test_a_duplicate_names_the_first(put: Put) -> None:
     with pytest.raises(AssignmentError) as caught:
         read_roster(put("id\nK1\nK2\nK1\n"), "en")
-    assert "the id “K1” was given before, at 2:1" in str(caught.value)
+    assert "the id “K1” was already given at 2:1" in str(caught.value)
 
 
 @pytest.mark.parametrize(

@@ -195,7 +195,7 @@ def test_any_nodes_are_read_as_they_were_written(content: object) -> None:
 OUTSIDE = ("../secret.csv", "../../../../../../../../etc/passwd", "/etc/passwd", "link.csv", "there/secret.csv", "\\0")
 
 
-@pytest.mark.parametrize(("language", "told"), [("en", "leads out of the folder"), ("vi", "dẫn ra ngoài thư mục")])
+@pytest.mark.parametrize(("language", "told"), [("en", "points outside the folder"), ("vi", "dẫn ra ngoài thư mục")])
 @pytest.mark.parametrize("name", OUTSIDE)
 def test_a_table_of_variants_lies_below_the_spec(tmp_path: Path, name: str, language: Language, told: str) -> None:
     """By `..`, from the root, by a link to a file or a folder: nothing of it is opened or quoted."""

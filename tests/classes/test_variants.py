@@ -250,7 +250,7 @@ def test_the_command_prints_each_path_and_the_table(put_file: Put, capsys: pytes
     first_file = out / "K1.yaml"
     first_file.write_text("mine\n", encoding="utf-8")
     assert command("variants", path, roster, "-o", out, "--lang", "en") == 0
-    assert f"kept, since it was edited by hand (--force replaces it): {first_file}" in capsys.readouterr().err
+    assert f"kept because it was edited by hand (use --force to replace it): {first_file}" in capsys.readouterr().err
     assert command("variants", path, roster, "-o", out, "--force") == 0
     assert api.check(first_file) == []
 

@@ -87,7 +87,7 @@ from reportgen.cli import main
 sys.argv[0] = "reportgen"
 %smain()
 """
-IN_WORDS = {"vi": "đã dừng theo yêu cầu; không có tệp nào bị ghi dở", "en": "interrupted; nothing half-written is left"}
+IN_WORDS = {"vi": "đã dừng theo yêu cầu; không có tệp nào bị ghi dở", "en": "interrupted; no incomplete files are left"}
 
 
 @pytest.mark.parametrize("language", matrix(IN_WORDS, ["vi"]))
@@ -149,7 +149,7 @@ def test_faults_speak_the_language_of_the_file(faulty: Path) -> None:
 def test_a_file_of_wrong_syntax_still_tells_its_language(tmp_path: Path) -> None:
     file = tmp_path / "a.yaml"
     file.write_text("report: {language: en}\nkind: [\n", encoding="utf-8")
-    assert reportgen("check", file).stderr.startswith(f"{file}:3:1: error[syntax]: this is no valid YAML")
+    assert reportgen("check", file).stderr.startswith(f"{file}:3:1: error[syntax]: this is not valid YAML")
 
 
 def test_a_missing_file_is_a_fault_of_input(tmp_path: Path) -> None:
@@ -261,7 +261,7 @@ def test_without_a_home_nothing_is_said(tmp_path: Path, lane: str) -> None:
     assert lane == "batch" or done.stderr == ""
 
 
-TOO_LITTLE = {"vi": "không đủ bộ nhớ để làm việc này", "en": "too little memory for this work"}
+TOO_LITTLE = {"vi": "không đủ bộ nhớ để làm việc này", "en": "not enough memory"}
 
 
 @pytest.mark.parametrize("language", ["vi", "en"])

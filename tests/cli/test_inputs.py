@@ -47,7 +47,7 @@ def _idle(monkeypatch: pytest.MonkeyPatch) -> None:
 # --- new --------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(("language", "words"), [("vi", "đã có tệp này"), ("en", "this file is there already")])
+@pytest.mark.parametrize(("language", "words"), [("vi", "đã có tệp này"), ("en", "this file already exists")])
 def test_new_leaves_an_edited_file_alone(tmp_path: Path, language: str, words: str) -> None:
     file = tmp_path / "mine.yaml"
     file.write_text("my own")
@@ -95,7 +95,7 @@ def test_results_are_not_written_over_the_assignment(tmp_path: Path, name: Name)
     output, before = name(file), tree(tmp_path)
     done = command("solve", file, "--json", output, "--lang", "en")
     assert (done.exit_code, done.stdout) == (1, "")
-    assert f"{output}:1:1: error[is-input]: this would be written over" in done.stderr
+    assert f"{output}:1:1: error[is-input]: the output would overwrite" in done.stderr
     assert tree(tmp_path) == before
 
 
@@ -139,7 +139,7 @@ def test_no_command_writes_over_its_inputs(
     before = tree(tmp_path)
     done = command(*line.split(), "--lang", "en")
     assert (done.exit_code, done.stdout) == (1, "")
-    assert f"{name}:1:1: error[is-input]: this would be written over" in done.stderr
+    assert f"{name}:1:1: error[is-input]: the output would overwrite" in done.stderr
     assert tree(tmp_path) == before
 
 
@@ -147,7 +147,7 @@ def test_a_fault_speaks_the_language_of_the_file(tmp_path: Path) -> None:
     file = tmp_path / "me.yaml"
     text = SAMPLE.read_text(encoding="utf-8").replace("language: vi", "language: en")
     file.write_text(text, encoding="utf-8")
-    words = "this would be written over" if "language: en" in text else "kết quả sẽ ghi đè"
+    words = "the output would overwrite" if "language: en" in text else "kết quả sẽ ghi đè"
     assert words in command("solve", file, "--json", file).stderr
 
 

@@ -162,7 +162,7 @@ def test_a_folder_is_named_and_refused(tmp_path: Path) -> None:
         assert done.returncode == 1
         assert done.stderr.splitlines() == [
             ".:1:1: error[unreadable]: the file cannot be read: it is a folder",
-            f"    hint: name a file of the folder {tmp_path.resolve()}",
+            f"    hint: give a file in the folder {tmp_path.resolve()}",
         ]
 
 
@@ -208,7 +208,7 @@ def test_a_school_keeps_its_words_where_it_likes(own: Path, way: str) -> None:
 NO_SCHOOL = [
     (
         "templates: wordz",
-        "error[no-templates]: this is no folder with a school's words, a file such as vi.md or ru.md: {}/wordz",
+        "error[no-templates]: this folder has no templates of a school (no file such as vi.md or ru.md): {}/wordz",
     ),
     ("templates: ../words", "error[path-outside]: "),
     ("templates: " + "a" * 280, "error[no-templates]: "),

@@ -131,7 +131,7 @@ def test_who_compares_is_told_of_doubts_and_of_columns_that_nobody_asks_for(tmp_
     lines, agrees = compare(built.case(FOLDER / "pair-least-shift.yaml", "en"), sheet)
     assert agrees
     assert [line.split(" ")[1] for line in lines[:2]] == ["note[cell-no-position]:", "note[cell-thousands]:"]
-    assert "135 or as 135000" in lines[1]
+    assert "135 or 135000" in lines[1]
 
 
 def test_other_ways_to_a_value_are_as_right() -> None:

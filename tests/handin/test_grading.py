@@ -149,7 +149,7 @@ def test_a_class_hands_in_reports_and_sheets_together(assignments: Path, key: Ke
     assert f"K03/{NAME}" not in files
     said = list(class_outputs.summary(graded, "en"))
     assert said[0].startswith("K01 Nguyễn Văn An: ")
-    assert said[0].endswith(f"to settle: 1 ({NAME})")
+    assert said[0].endswith(f"values to decide: 1 ({NAME})")
 
 
 def _as_plain_sheet(book: bytes) -> bytes:

@@ -65,7 +65,7 @@ def marking(language: Language = "en", student: str = "Nguyễn Văn A") -> Mark
         cell("M.eq", 2, Verdict.wrong, 1e300, -1234.5, first=True),
     )
     values = {(one.id, one.position): Answer(one.given, "", at(1, 1)) for one in cells if one.given is not None}
-    problems = {("v.B", 4): Problem("not-a-number", "“see page 3” is no number", at(11, 8))}
+    problems = {("v.B", 4): Problem("not-a-number", "“see page 3” is not a number", at(11, 8))}
     return Marking(
         key,
         Submission(key.id, FILE, values, problems),
@@ -99,7 +99,7 @@ def test_every_verdict_has_its_colour_and_what_is_not_right_a_comment(tmp_path: 
     first = cells["omega.1", "Value"].comment.text
     assert "revolutions per minute was used at ω_1" in first
     assert "Expected: 31.42 ± 0.050 rad/s." in first
-    assert "“see page 3” is no number" in cells["v.B", "Position 4"].comment.text
+    assert "“see page 3” is not a number" in cells["v.B", "Position 4"].comment.text
     assert cells["l.AB", "Value"].value == 0.15
 
 
@@ -139,7 +139,7 @@ def test_the_page_tells_errors_by_name_what_followed_and_points_by_part() -> Non
     assert "1. ω_1: your value is 300 rad/s, expected is 31.42 rad/s. The speed in revolutions per minute" in text
     assert "2. M_cb at position 2: your value is 1·10³⁰⁰ N·m" in text
     assert "earned their points: v_B (1)." in text
-    assert "Answers!H11: “see page 3” is no number." in text
+    assert "Answers!H11: “see page 3” is not a number." in text
     assert "Velocities | 2 | 1 | 2 | 1 | 1 | 1 | 3 | 8" in text
     assert "Total | 3 | 1 | 3 | 1 | 1 | 1 | 4 | 10" in text
 

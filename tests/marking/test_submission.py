@@ -294,7 +294,7 @@ def test_a_cell_that_holds_no_number_is_a_problem_of_its_own(tmp_path: Path) -> 
     }
     assert numbers(submission) == {("omega.1", 0): 31.4}
     problem = submission.problems["v.B", 1]
-    assert str(problem) == f"{path}:Bài làm!F11: error[not-a-number]: “see page 3” is no number"
+    assert str(problem) == f"{path}:Bài làm!F11: error[not-a-number]: “see page 3” is not a number"
 
 
 def test_a_formulas_stored_result_is_taken_and_noted(tmp_path: Path) -> None:
@@ -347,7 +347,7 @@ def test_a_number_that_reads_two_ways_is_noted_unless_the_sheet_decides(tmp_path
     assert numbers(alone) == {("v.B", 1): 4.71}
     (note,) = alone.notes
     assert note.code == "cell-thousands"
-    assert "4.71 or as 4710" in note.message
+    assert "4.71 or 4710" in note.message
     path.write_text("id;Value;1;2\nv.B;;4.710;2.4\n", encoding="utf-8")
     decided = read_submission(path, small_key("vi"))
     assert numbers(decided) == {("v.B", 1): 4.71, ("v.B", 2): 2.4}

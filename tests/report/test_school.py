@@ -193,7 +193,7 @@ def test_a_gap_that_names_nothing_is_a_fault_of_its_line(gap: str, report: Repor
     file = tmp_path / "en.md"
     file.write_text(f'%% foreword\n# Ours\n\n{{{{ say("{gap}", driver) }}}} ends here.\n', encoding="utf-8")
     prose = Prose((file, *search_path("en", "slider-crank")))
-    with pytest.raises(TemplateError, match="nothing fills a gap"):
+    with pytest.raises(TemplateError, match="unknown placeholder"):
         prose.render("foreword", names(report))
 
 
