@@ -109,6 +109,7 @@ def _app() -> typer.Typer:
     )
     made.callback()(begin)
     for command in (
+        student.edit,
         student.new,
         student.check,
         student.build,
@@ -116,7 +117,6 @@ def _app() -> typer.Typer:
         export.figure,
         export.plot,
         student.watch,
-        student.edit,
         student.solve,
         student.compare,
         student.read,

@@ -19,14 +19,12 @@ import numpy as np
 
 from reportgen import catalogue
 from reportgen.assignment import parts
-from reportgen.assignment.fields import UNIT_KEY
-from reportgen.assignment.schema import file_schema, places
 from reportgen.base.errors import Fault, Location, Problem, ReportgenError, Where
 from reportgen.base.files import contents, renew_file
 from reportgen.base.kinds import kinds, titles
 from reportgen.base.template_folders import REFERENCE
-from reportgen.base.units import Language, QuantityFault, read_quantity, read_unit
-from reportgen.base.yaml_edit import EditError, as_list, exchanged, with_key, with_value, without
+from reportgen.base.units import Language
+from reportgen.base.yaml_edit import EditError, exchanged, with_key, with_value, without
 from reportgen.base.yaml_source import (
     LARGEST,
     MOST_TOKENS,
@@ -49,6 +47,7 @@ from reportgen.page.drag_samples import Resident
 from reportgen.page.form_fields import Form, written_at
 from reportgen.page.html import Live
 from reportgen.page.live_view import PART, LiveSession, empty_document
+from reportgen.page.typed_values import only_meaning, same_quantity, value_node
 
 PART_KEYS = "kind", "parameters"
 """Keys with which a new part begins."""
@@ -315,9 +314,11 @@ class EditSession(LiveSession):
         if "was" in asked and operation in ("set", "instead"):
             self._same(text, where, str(asked["was"]), str(asked["value"]))
         if operation == "instead" and not asked.get("value"):
-            asked = {**asked, "value": _the_same(text, where, str(asked["key"]))}
+            asked = {**asked, "value": same_quantity(text, where, str(asked["key"]))}
         try:
             changed = _changed(text, operation, where, asked)
+            while operation == "set" and (meant := self._meant(changed, where)):
+                changed = with_value(text, where, Scalar(meant, HERE))
         except EditError as error:
             raise RefusedChangeError(error.key, **error.arguments) from error
         # Only a long text can exceed the limits of a file, for which no form could be made.
@@ -332,6 +333,12 @@ class EditSession(LiveSession):
             self._write(Change(before, after, str(asked.get("typing", ""))))
             self.undone.clear()
         return written_at(at(read_text(changed).top, where))
+
+    def _meant(self, text: str, where: Where) -> str:
+        """Return how the program writes the value typed at a place if it is faulty but can mean only one thing."""
+        given = catalogue.with_taken(read_text(text, str(self.path)), self.path, self.whole)
+        problems = catalogue.problems_of(given, self.path, self._spoken()[0])
+        return only_meaning(problem for problem in problems if problem.where == where)
 
     def _same(self, text: str, place: Where, was: str, wanted: str) -> None:
         """Raise `RefusedChangeError` if the value at a place is neither the page's value nor the requested one."""
@@ -425,7 +432,7 @@ def _changed(text: str, operation: str, where: Where, asked: Asked) -> str:
     """Return the text with a change; raise `EditError`, `KeyError` or `ValueError`."""
     match operation:
         case "set":
-            return with_value(text, where, _value(text, where, str(asked["value"]), bool(asked.get("list"))))
+            return with_value(text, where, value_node(text, where, str(asked["value"]), bool(asked.get("list"))))
         case "remove":
             return without(text, where)
         case "instead":
@@ -457,34 +464,6 @@ def _item(asked: Asked) -> Node:
 def part_kinds() -> tuple[str, ...]:
     """Return the kinds that can be a part of a coursework."""
     return tuple(kind for kind in kinds() if catalogue.kind(kind).part)
-
-
-def _the_same(text: str, place: Where, key: str) -> str:
-    """Return the value at a place in the unit of another key beside it; "" if that has another dimension."""
-    top = read_text(text).top
-    old, kind = at(top, place), at(top, ("kind",))
-    if not isinstance(old, Scalar) or not isinstance(kind, Scalar) or kind.text not in kinds():
-        return ""
-    schema = file_schema(catalogue.kind(kind.text))
-    units = [schema[UNIT_KEY] for schema in places(schema, schema, (*place[:-1], key)) if UNIT_KEY in schema]
-    return next(filter(None, (converted(old.text, unit) for unit in units)), "")
-
-
-def _value(text: str, where: Where, typed: str, as_items: bool) -> Node:
-    if as_items:
-        old = at(read_text(text).top, where)
-        if typed.strip() in ("all", "find") and not isinstance(old, SequenceNode | None):
-            return Scalar(typed.strip(), HERE)
-        return Scalar("all", HERE) if typed.strip() == "all" else as_list(typed)
-    return Scalar(typed, HERE, null=not typed)
-
-
-def converted(text: str, unit: str) -> str:
-    """Return a quantity in another unit of the same dimension, to three figures; "" if the dimension differs."""
-    try:
-        return f"{read_quantity(text, unit).si / read_unit(unit, unit):.3g} {unit}"
-    except QuantityFault:
-        return ""
 
 
 def _by_place(problems: list[Problem], source: Source) -> dict[Where, list[Problem]]:
