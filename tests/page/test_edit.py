@@ -96,12 +96,12 @@ def settled(browser: Browser) -> list[str]:
 
 
 @contextmanager
-def editing(*arguments: object) -> Iterator[str]:
+def editing(*arguments: object, folder: Path | None = None) -> Iterator[str]:
     """The command: the address that it prints, until Ctrl-C."""
     command = [sys.executable, "-m", "reportgen.cli", "edit", *map(str, arguments), "--no-open"]
     # It hears of Ctrl-C also where the tests run in the background.
     heard = partial(signal.signal, signal.SIGINT, signal.SIG_DFL)
-    process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, preexec_fn=heard)
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, preexec_fn=heard, cwd=folder)
     assert process.stdout is not None
     try:
         yield process.stdout.readline().strip()
@@ -195,3 +195,17 @@ def test_the_form_can_be_used_by_all(
             until(lambda: written(file, "lambda") == "1/3.8")
         # What stands beside the form is looked at by itself.
         assert browser.violations(axe(), "#form") == []
+
+
+@proof
+def test_the_form_of_a_chosen_kind_begins_at_its_top(browser: Browser, tmp_path: Path) -> None:
+    """The button of the last kind is far down; its form is seen from the first field, with the machine."""
+    with editing("--lang", "en", folder=tmp_path) as address:
+        browser.show(address, still=True)
+        browser.run("document.querySelector('[data-kind=toggle-press]').scrollIntoView()")
+        browser.run("scrollTo(0, document.body.scrollHeight)")
+        assert browser.run("return scrollY") > 0
+        browser.run("document.querySelector('[data-kind=toggle-press]').click()")
+        until(lambda: browser.run("return document.getElementById('saved') !== null"))
+        assert browser.run("return scrollY") == 0
+    assert (tmp_path / "toggle-press.yaml").is_file()

@@ -6,6 +6,8 @@
     button.addEventListener("click", async () => {
       buttons.forEach((one) => { one.disabled = true; });
       await fetch("begin.json", { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify({ kind: button.dataset.kind }) });
+      // The form begins at its top, wherever the button was.
+      scrollTo({ top: 0, behavior: "instant" });
       location.reload();
     });
   }
