@@ -45,7 +45,11 @@ def put_files(folder: Path, files: Mapping[str, bytes], gone: Collection[Path] =
 
 
 def put_file(target: Path, content: bytes) -> None:
-    """Replace a file by `content` in one step: a reader sees the old content or the new, never a part."""
+    """Replace a file by `content` in one step: a reader sees the old content or the new, never a part.
+
+    A missing folder is created.
+    """
+    target.parent.mkdir(parents=True, exist_ok=True)
     put_set({target: content})
 
 

@@ -195,7 +195,8 @@ def test_new_writes_a_file_that_check_accepts(tmp_path: Path, language: str) -> 
 
 
 def test_new_where_nothing_can_be_written_ends_with_3(tmp_path: Path) -> None:
-    done = reportgen("new", "engine-twin", "-o", tmp_path / "none" / "a.yaml")
+    (tmp_path / "file").touch()
+    done = reportgen("new", "engine-twin", "-o", tmp_path / "file" / "a.yaml")
     assert done.returncode == 3
     assert len(done.stderr.splitlines()) == 1
 

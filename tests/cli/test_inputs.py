@@ -156,3 +156,10 @@ def test_other_files_are_no_inputs(tmp_path: Path) -> None:
     others = [tmp_path / "me.json", tmp_path / "none" / "me.yaml", tmp_path / "me.yaml" / "me.yaml"]
     assert list(overwritten(others, [file, tmp_path / "none"])) == []
     assert command("solve", file, "--json", tmp_path / "me.json").exit_code == 0
+
+
+@pytest.mark.parametrize("line", ["new four-bar -o {file}", "solve {sample} --json {file}"])
+def test_a_missing_folder_of_an_output_is_created(tmp_path: Path, line: str) -> None:
+    file = tmp_path / "not" / "there" / "x.out"
+    assert command(*(part.format(file=file, sample=SAMPLE) for part in line.split())).exit_code == 0
+    assert file.stat().st_size > 1000
