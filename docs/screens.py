@@ -35,7 +35,7 @@ LABELS: Mapping[str, Mapping[str, str]] = {
         "pause": "Pause",
         "crank": "Crank AB",
         "coupler": "Coupler BC",
-        "not right": "This is not right yet",
+        "not right": "Errors and missing values",
         "no unit": "“95” has no unit",
         "use": "Use 95 mm",
         "student": "Student",

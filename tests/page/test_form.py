@@ -164,7 +164,7 @@ def test_one_key_gives_way_to_another(tmp_path: Path) -> None:
     edited.edit({"op": "instead", "where": ["parameters", "G3"], "key": "m3", "value": ""})
     assert "  m3:   " in edited.path.read_text(encoding="utf-8")
     there = edited.edit({"op": "instead", "where": ["parameters", "a"], "key": "b", "value": "1 mm"})
-    assert there["refused"].startswith("parameters.a cannot give way to b")
+    assert there["refused"].startswith("parameters.a cannot be replaced by b")
 
 
 def test_parts_are_added_moved_and_removed(tmp_path: Path) -> None:
