@@ -50,7 +50,7 @@ kinds from `engine-twin` to `linkage`.
 
 Các khóa nằm dưới `parameters` của tệp đề bài, theo thứ tự của biểu mẫu. Mỗi đại lượng viết kèm đơn vị. Khóa có dấu
 chấm nằm bên trong khóa đứng trước dấu chấm: `force.F` nghĩa là `force: {F: 800 N}`. Trang [các loại cơ
-cấu](machines.vi.md) có hình và giải thích từng loại; trang [tệp đề bài](assignment.md) liệt kê các khóa nằm ngoài
+cấu](machines.vi.md) có hình và giải thích từng loại; trang [tệp đề bài](assignment.vi.md) liệt kê các khóa nằm ngoài
 `parameters`.
 “Mọi máy” là các loại từ `engine-twin` đến `linkage`.
 """,
