@@ -69,16 +69,23 @@ def enter_forces(
 
 
 # --- reactions of a group in the textbook's order, two unknowns or fewer a step -------------------
-# The group's loads are laid head to tail, link j's first (e … b), then link i's (b … c). Vertex n closes the plan:
-# R_ci = cn acts on i in its outer joint, R_dj = ne on j in its own, R_ji = nb on i in the inner joint.
-# ==== ======================================== ================================================== kind computed by
-# moments n lies on ==== ======================================== ==================================================
-# RRR Rᵗ in both outer joints, about Q a line along PQ and one along TQ RRP Rᵗ in P, about Q a line along PQ and one
-# across the guide RPR R_ij across the slot, about T the end of R_ij laid on from b PRP – lines across the guides RPP
-# – from b across the slot, from e across the guide ==== ========================================
-# ==================================================
-# In a slide, M is the moment of all other loads on the link about the pin; the reaction acts at the distance M/R. The
-# driver comes last, under the reactions of the groups, and the balance by virtual work on Zhukovsky's lever.
+# A group has its outer joints in P (link i) and T (link j) and its inner joint in Q. Its loads are laid head to tail,
+# link j's first (e … b), then link i's (b … c). Vertex n closes the plan: R_ci = cn acts on i in its outer joint,
+# R_dj = ne on j in its outer joint, R_ji = nb on i in the inner joint.
+#
+# ==== ================================= ====================================================
+# kind computed by moments               n lies on
+# ==== ================================= ====================================================
+# RRR  Rᵗ in both outer joints, about Q  a line along PQ and a line along TQ
+# RRP  Rᵗ in P, about Q                  a line along PQ and a line from e across the guide
+# RPR  R_ij across the slot, about T     the end of R_ij, which is laid off from b
+# PRP  –                                 a line from c and a line from e, each across the link's guide
+# RPP  –                                 a line from b across the slot and a line from e across the guide
+# ==== ================================= ====================================================
+#
+# A line along a rod starts at the free end of the rod's Rᵗ, which is laid before e (joint T) or after c (joint P).
+# In a slide, M is the moment of all other loads on the link about the pin; the reaction acts at the distance M/R.
+# After the groups, the driver is solved under their reactions, and the balance by virtual work on Zhukovsky's lever.
 
 CLEAR = 1e-3
 """A slide's reaction that stays above this share of the loads has a distance printed as M/R."""
