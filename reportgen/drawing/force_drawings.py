@@ -132,7 +132,10 @@ def lever(
 
 
 def coriolis(sliding: Sliding) -> Scene:
-    """Draw the rule of 90°: the relative velocity, turned in the sense of ω, points along aᵏ = 2 ω × v_r."""
+    """Draw the rule of 90°: the relative velocity, turned in the sense of ω, has the direction of aᵏ = 2 ω × v_r.
+
+    Lengths are not to scale.
+    """
     along, sense = unit(sliding.velocity[1]), sliding.omega[1]
     start = cmath.phase(along)
     quarter = Arc(0j, QUARTER, start, start + sense * math.pi / 2, style.CONSTRUCTION, style.DIMENSION_HEAD)
@@ -190,8 +193,9 @@ def inclination() -> Scene:
 
 
 def link_and_plan(what: Literal["v", "a"]) -> tuple[Scene, Scene]:
-    """Draw a link with its points B, C, E, and its plan: of velocities, with the lines that meet in e, or of
-    accelerations.
+    """Return two scenes: a link with its points B, C, E, and its plan of velocities ("v") or accelerations ("a").
+
+    The plan of velocities also has the lines that meet in e.
     """
     places = {name: OF_B[what] + RATE[what] * place for name, place in TRIANGLE.items()}
     link = (*style.body(tuple(TRIANGLE.values())), *(style.point(place) for place in TRIANGLE.values()))
@@ -281,7 +285,7 @@ def _as_printed(force: Force, arm: ArmOf | None) -> Force:
 
 
 def draw_couples(couples: Sequence[Couple]) -> Canvas:
-    """Draw couples as arcs of seven tenths of a turn about their points."""
+    """Draw couples as arcs of seven tenths of a turn about their points (mm); couples of sense 0 are left out."""
     arcs: list[Item] = []
     requests: list[Request] = []
     for couple in couples:
