@@ -50,10 +50,11 @@ def enter_forces(
     scales: Scaling = own_scales,
     guides: tuple[EnterGuide, ...] = (),
 ) -> tuple[Polygon, ...]:
-    """Enter all force quantities, the outermost group first; returns the force plans in that order.
+    """Enter all force quantities, the outermost group first, and return the force plans in that order.
 
-    `applied` maps a force's id to (link, point, unit vector of its positive sense), `torques` a signed
-    torque's id to its link.  Plans are drawn at the `scales` of their sizes.  Topics enter more of sliders in `guides`.
+    The driver's plan is the last.  `applied` maps a force's id to (link, point, unit vector of its positive sense),
+    `torques` a signed torque's id to its link.  `scales` chooses the scales of the plans from their sizes.  With the
+    functions `guides`, topics enter further quantities of sliders.
     """
     statics = Statics(q, scheme(linkage), turn, natural_sizes(q, linkage), scales=scales, guides=guides)
     loads = enter_loads(statics, applied, torques or {})
@@ -93,7 +94,7 @@ CLEAR = 1e-3
 
 @dataclass(frozen=True, slots=True)
 class Group:
-    """A dyad with the names of its joints and the loads of its two links."""
+    """A dyad with the digits of its joints' reactions and the loads on its links i and j."""
 
     statics: Statics
     dyad: Dyad
@@ -121,7 +122,7 @@ class Group:
 
 
 def group(statics: Statics, dyad: Dyad) -> Polygon:
-    """Enter a group's reactions; `statics.loads` contains those of later groups on its links."""
+    """Enter a group's reactions and return its force plan; `statics.loads` contains those of later groups."""
     i, j = dyad.links
     carriers = [end.link if isinstance(end, Guide) else statics.scheme.owner[end] for end in (dyad.start, dyad.end)]
     parts = Group(
@@ -160,7 +161,7 @@ def _rpr(g: Group) -> Polygon:
     q, across = g.q, ids.joint(g.i, g.j)
     couple = _moment(g, g.inner, g.start, g.on_i)
     moment = moments(g.statics, g.on_j, g.dyad.end)
-    # One flat sum: a sum within it would vanish with the first of its terms that is left out.
+    # The sum must be flat: an inner sum would vanish as soon as one of its terms is left out.
     known = [*(moment.terms if isinstance(moment, Sum) else [moment] if moment else []), *([couple] if couple else [])]
     size = total(known) / _reach(g) if known else 0.0
     reaction = q.define(ids.reaction(across, "s"), size, Symbol("R", across), scale=g.statics.force)
@@ -295,9 +296,7 @@ def _moment(g: Group, digits: str, pin: str, loads: tuple[LoadOn, ...]) -> Expre
 
 
 def _offset(g: Group, digits: str) -> None:
-    """Enter the distance x = M/R from the pin to the line of a slide's reaction; nan where R = 0 leaves M to a
-    couple.
-    """
+    """Enter the distance x = M/R from the pin to the line of a slide's reaction; nan where R = 0 and M is a couple."""
     q, statics, size, moment = g.q, g.statics, g.q[ids.reaction(digits)], g.q.find(ids.reaction_couple(digits))
     values = q.value(size)
     written: Expression | None = None
@@ -315,9 +314,7 @@ DYADS: Mapping[DyadKind, Callable[[Group], Polygon]] = {"RRR": _rrr, "RRP": _rrp
 
 
 def driver(statics: Statics) -> Polygon:
-    """Return the force plan of the driver under the groups' reactions and its own loads: R01, and the balance
-    (`M.eq`).
-    """
+    """Enter R01 and the balance `M.eq` of the driver under the groups' reactions and its own loads; return its plan."""
     machine = statics.scheme.linkage.driver
     own = tuple(sorted(statics.on(DRIVER), key=lambda load: load.origin is not Origin.reaction))
     if isinstance(machine, Crank):
@@ -405,7 +402,7 @@ def lever(statics: Statics, loads: tuple[LoadOn, ...]) -> None:
 
 
 def _omega(statics: Statics, link: int) -> Expression | None:
-    """Return a link's signed angular velocity, None if it does not turn."""
+    """Return a link's signed angular velocity; None if it does not turn."""
     q = statics.q
     if ids.signed("omega", link) in q:
         return q[ids.signed("omega", link)]
