@@ -19,6 +19,7 @@ from reportgen.drawing.labels import Request, label_row, place
 from reportgen.formula import Chain, Symbol
 
 MARGIN = 6.0
+"""Usual margin of a scene on each side (mm)."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -29,6 +29,7 @@ SHORTEST, STEP, LONGEST = 13.0, 6.5, 26.0
 ON_EACH_OTHER = math.radians(9)
 """Arrows at one point closer than this in direction would overlap."""
 COUPLE_RADIUS = 6.0
+"""Radius of the arc of a couple (mm)."""
 LEAST_ARM = 0.5
 """An arm shorter than this (mm) is not drawn: the force passes through the point."""
 TOGETHER, EQUAL = 0.3, 0.002

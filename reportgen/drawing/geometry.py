@@ -20,6 +20,7 @@ from reportgen.drawing.label_size import box
 Part = TypeVar("Part")
 
 CIRCLE_SIDES = 24
+"""Number of chords of a full circle."""
 CELL = 0.25
 """Side of the cells of paper (mm) of the stroke index."""
 

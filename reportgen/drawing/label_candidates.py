@@ -15,10 +15,13 @@ from reportgen.drawing.geometry import Ink, overlap
 Indices = NDArray[np.intp]
 
 DIRECTIONS = settled(np.exp(2j * np.pi * np.arange(24) / 24))
+"""Unit vectors of the directions [24] in which most candidates lie."""
 FINE = settled(np.exp(2j * np.pi * np.arange(120) / 120))
+"""Unit vectors of the directions [120] of labels that break lines."""
 NEAR = (0.0, 0.7, 1.6)
 """Additional distances (mm) at which a label is still recognised as that of its point."""
 FAR = (2.6, 3.6, 4.8, 6.0, 7.2, 8.4, 9.6, 10.8, 12.0)
+"""Distances (mm) of labels that need a leader."""
 ALL = (0.0, 0.4, 0.8, 1.2, 1.6, *np.arange(2.0, 12.0, 0.4))
 """Distances of labels that break lines, in `FINE` directions; the first `LEADERLESS` of them need no leader."""
 LEADERLESS = 5

@@ -29,6 +29,7 @@ TOGETHER = 0.3
 CROWDED = 24
 """Above this number of positions only the emphasised one is numbered."""
 DOT = 0.55
+"""Radius of the circle at a numbered position or an instant centre (mm)."""
 VELOCITY, ANGLE = 20.0, 11.0
 """Length of a velocity's arrow and radius of an angle's arc (mm) beside instant centres."""
 LEAST_ANGLE = 0.03

@@ -23,6 +23,7 @@ LEAD, TEETH, SIDE = 0.18, 8, 1.7
 TURNS, INNER, OUTER = 2.25, style.JOINT, 5.6
 """Number of turns and radii (mm) of the spiral about a pin."""
 PER_TURN = 24
+"""Number of lines that draw a turn of the spiral."""
 MOUNT = 4.6
 """Half the length of the ground at the end of a spring (mm), as wide as that below a pivot."""
 

@@ -111,7 +111,7 @@ class Bracket:
         return np.asarray((self.pressure_before != self.pressure_after) & ~at_node)
 
     def in_first(self, turn: float) -> Bracket:
-        """Return the same places less the whole turns that lie before them."""
+        """Return the bracket shifted by whole turns, each `turn` (rad), so that its nodes `before` are in the first."""
         before = turn * np.floor(self.before / turn)
         return replace(self, at=self.at - before, before=self.before - before, after=self.after - before)
 
@@ -140,7 +140,7 @@ class StrokeIndicator:
 
     @property
     def rows(self) -> tuple[tuple[float, ...], ...]:
-        """The four rows in the order of `STROKES`."""
+        """The four rows of pressures (Pa), each [K], in the order of `STROKES`."""
         return self.intake, self.compression, self.expansion, self.exhaust
 
     def tabled(self, turns: int = 2) -> Tabled:
@@ -209,7 +209,7 @@ class AngleIndicator:
 
     @property
     def rows(self) -> tuple[tuple[float, ...], ...]:
-        """The one row of pressures."""
+        """The only row of pressures (Pa) [K]."""
         return (self.pressures,)
 
     def tabled(self, turns: int = 2) -> Tabled:
