@@ -26,7 +26,9 @@ from reportgen.machine.load_laws import Stroke
 from reportgen.machine.loads import Applied, Torque
 
 ONE_QUANTITY = (("M.eq", "M.vw", "M.least", "M.greatest", "M.difference"), ("M.mean", "M.energy"))
-"""Quantities that are one: both torques and the extremes of their curve, the mean by the curve and by the work."""
+"""Groups of ids of one quantity, printed with the same decimals: both torques with the extremes of their curve, and the
+mean by the curve and by the work.
+"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,9 +45,10 @@ class PlannedLedger:
 def write_ledger(
     analysis: Analysis, units: Mapping[str, str] | None = None, worked: Sequence[int] = ()
 ) -> PlannedLedger:
-    """Return the ledger of an analysis: given data, plans, closed formulas, forces, both torques, the cycle's figures.
+    """Return the ledger of an analysis: given data, plans, closed formulas, forces, both torques, values of the cycle.
 
-    The plans of the `worked` positions fill their paper, of all positions if none is named.
+    `units` are the printed forms of units that depend on the language.  The plans of the `worked` positions, counted
+    from 1, fill their paper; if none is named, those of all positions do.
     """
     machine = analysis.machine
     q, polygons = enter_plans(analysis, worked, machine.closed_formulas.write)
@@ -69,11 +72,11 @@ def enter_plans(
     formulas: Callable[[Calculation], None] = no_formulas,
     scaled: bool = True,
 ) -> tuple[Calculation, tuple[Polygon, ...]]:
-    """Return the sheet of an analysis at all its positions, with given data, plans, `formulas` and forces; and its
-    force plans.
+    """Return the calculation of an analysis at all its positions, and its force plans; without loads there are none.
 
-    The plans of the `worked` positions, counted from 1, fill their paper. Plans that are not `scaled` are drawn
-    elsewhere at another scale, so theirs is arbitrary.
+    The calculation has the given data, the plans, the closed `formulas` and the forces. The plans of the `worked`
+    positions, counted from 1, fill their paper; if none is named, those of all positions do. Plans that are not
+    `scaled` are drawn elsewhere at another scale, so theirs is arbitrary.
     """
     machine = analysis.machine
     q = Calculation(len(analysis.cycle_angle))
@@ -98,7 +101,7 @@ def enter_plans(
 
 
 def _masses(q: Calculation, analysis: Analysis) -> None:
-    """Enter the mass m = G/g if the weight is given, the weight G = m g if the mass is."""
+    """Enter the mass m = G/g of a body whose weight is given, and the weight G = m g of one whose mass is given."""
     for body in analysis.machine.linkage.inertias:
         weight, mass = ids.weight(body.link), ids.mass(body.link)
         if body.mass > 0 and weight in q and mass not in q:
@@ -114,8 +117,7 @@ def _between_nodes(
 
         p = p′ + (p″ − p′)/(x″ − x′)·(x − x′)
 
-    x is s/H of the `course`, the angle φ of the cycle, or the way s of a sliding driver; `of` names the load in
-    ids.
+    x is s/H of the `course`, the angle φ of the cycle, or the travel s of a sliding driver; `of` names the load in ids.
     """
     letter, sort = {"ratio": ("x", "ratio"), "angle": ("φ", "angle"), "length": ("s", "length")}[among.kind]
 
@@ -140,7 +142,7 @@ def _between_nodes(
 
 
 def _stroke(q: Calculation, course: Stroke) -> Ref:
-    """Return the stroke of a slider: H as given, or with five figures as its dead centres are found."""
+    """Return the stroke of a slider (m): H as given, or rounded from the distance of its dead centres."""
     if "H" in q and abs(q.si("H") - course.stroke) <= ZERO * course.stroke:
         return q["H"]
     if (entered := q.find(ids.stroke(course.link))) is not None:
@@ -150,7 +152,10 @@ def _stroke(q: Calculation, course: Stroke) -> Ref:
 
 
 def _way(q: Calculation, linkage: Linkage, link: int, values: np.ndarray, stroke: float) -> None:
-    """Enter a slider's way from its dead centre, measured on the drawing; there crank and rod lie in one line."""
+    """Enter a slider's distances from its dead centre, the `values` [N] (m), as measured on the drawing.
+
+    At the dead centre crank and rod lie in one line.
+    """
     driver, id = linkage.driver, ids.displacement(link)
     dyad = next((one for one in linkage.dyads if one.kind == "RRP" and one.links[1] == link), None)
     if dyad is not None and isinstance(driver, Crank) and ids.length(driver.centre, dyad.start) in q:
@@ -171,11 +176,12 @@ def _way(q: Calculation, linkage: Linkage, link: int, values: np.ndarray, stroke
 
 
 def _applied(q: Calculation, analysis: Analysis) -> None:
-    """Enter forces, positive along their own direction, with the values they are read by; torques, anticlockwise
-    positive.
+    """Enter forces, positive along their own direction, and torques, anticlockwise positive, with the values by which
+    they are read from tables.
     """
     machine = analysis.machine
-    # A slider has one way, from which the gas on it is computed; a working force beside it is read off its own table.
+    # A slider has one displacement. If gas acts on it, the gas pressure is computed from that, and a working force on
+    # it is read from a table of its own.
     gassed = {force.link for force in machine.applied if force.name in analysis.gas}
     for force in machine.applied:
         if force.name in q:
@@ -197,7 +203,7 @@ def _applied(q: Calculation, analysis: Analysis) -> None:
 
 
 def _size(q: Calculation, load: Applied | Torque, analysis: Analysis, symbol: Symbol | str = "") -> None:
-    """Enter the size of a load by the formula of its law, or as it is given."""
+    """Enter the size [N] (N or N·m) of a load by the formula of its law, or as it is given."""
     formula = load.law.formula(q, load.link)
     if formula is not None:
         with q.within(KeyChapter.loads):
@@ -217,9 +223,9 @@ def _cycle(q: Calculation, analysis: Analysis) -> None:
     machine = analysis.machine
     size, most = float(np.nanmax(np.abs(analysis.torque))), possible(analysis.motion, analysis.loads)
     if size < ZERO * most:
-        # All of it is rounding, as where a guide takes the whole load.
+        # The whole torque is a rounding error, for example if a guide carries the whole load.
         size = most
-    # A sliding driver is balanced by a force, and its way replaces the angle.
+    # A force balances a sliding driver, and its travel replaces the angle.
     letter, kind = ("P", "force") if machine.span else ("M", "torque")
     q.define("M.difference", abs(q["M.eq"] - q["M.vw"]), Symbol(f"Δ{letter}", "cb"), kind, scale=size, residue=True)
     nothing = abs(float(np.nanmean(q.value("M.eq")))) < ZERO * size

@@ -1,6 +1,7 @@
 """The two sides of a group's vector equation, derived from the dyad kind alone.
 
-Every group of class II is solved by writing the motion of one point M in two ways:
+Every group of class II is solved with two expressions for the motion of one point M, of which each has one of two
+forms:
 
 * M turns about a known point P of its link: v_M = v_P + v_MP, v_MP ⊥ PM;
   a_M = a_P + aⁿ_MP + aᵗ_MP.
@@ -34,11 +35,11 @@ def image(name: str) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Side:
-    """One of the two ways in which the motion of a `point` is written: with its `base`, and relative to it.
+    """One side of a group's vector equation: the motion of a `point` as that of its `base` plus the relative motion.
 
-    Either both lie on `link` and the point turns about the base, or it slides over the base along the direction
-    `along` (an id).  `still` when the base is fixed to the ground; `shown` is the base as vectors name it: B2 for
-    the pin B as a point of block 2.
+    Either both are points of `link`, and the point turns about the base, or it slides over the base along the direction
+    with the id `along`.  `still` is True if the base is fixed to the ground; `shown` is the name of the base in the
+    symbols of vectors: B2 for the pin B as a point of block 2.
     """
 
     point: str
@@ -50,14 +51,15 @@ class Side:
     """True if the distance of a turning point from its base changes and is measured on the drawing."""
     along: str = ""
     turning: int = 0
-    """The link whose turning gives a sliding point its Coriolis acceleration, 0 if nothing turns."""
+    """The link whose rotation gives a sliding point its Coriolis acceleration; 0 if the guide does not rotate."""
     carrier: int | None = None
-    """The link that has the guide when the base is that link's point under `point`, None when the base is a pin."""
+    """The link that has the guide, if the base is that link's point under `point`; None if the base is a pin."""
     alike: bool = False
     """True if the other side of the group also slides along a guide, so that a guide must be named by its link."""
 
     @property
     def turns(self) -> bool:
+        """True if the point turns about its base, False if it slides."""
         return not self.along
 
     @property
@@ -83,12 +85,12 @@ class Side:
 
     @property
     def relative(self) -> str:
-        """The point relative to its base as ids name it."""
+        """The point and its base as ids name a relative motion: "BA"."""
         return f"{self.point}{self.base}"
 
     @property
     def pair(self) -> str:
-        """The same as vectors name it."""
+        """The point and its base as the symbols of vectors name them."""
         return f"{self.point}{self.shown}"
 
     @property
@@ -98,7 +100,7 @@ class Side:
 
     @property
     def part(self) -> str:
-        """The letter of the relative acceleration that velocities give, n or k, "" where there is none."""
+        """Letter of the part of the relative acceleration that velocities give, n or k; "" without such a part."""
         return "n" if self.turns else "k" if self.turning else ""
 
     @property
@@ -110,22 +112,23 @@ class Side:
 
     @property
     def velocity(self) -> str:
-        """The relative velocity."""
+        """Id of the relative velocity."""
         return ids.velocity(self.relative)
 
     @property
     def known(self) -> str:
-        """The segment of the relative acceleration that velocities give."""
+        """Id of the segment of the relative acceleration that follows from velocities."""
         return ids.relative_segment(self.part, self.relative)
 
     @property
     def omega(self) -> str:
+        """Id of the angular velocity of the link `turning`."""
         return ids.angular_velocity(self.turning)
 
 
 @dataclass(frozen=True, slots=True)
 class Scheme:
-    """A linkage seen as links that turn or only shift."""
+    """A linkage with the link of each point (`owner`), and the links that rotate together (`spins`)."""
 
     linkage: Linkage
     owner: Mapping[str, int]
@@ -133,11 +136,15 @@ class Scheme:
     """For each link the link whose angular velocity it shares: itself if it turns freely, 0 if it never turns."""
 
     def still(self, name: str) -> bool:
+        """Return True if a point is fixed to the ground."""
         return self.owner[name] == GROUND
 
 
 def scheme(linkage: Linkage) -> Scheme:
-    """Return the links that turn, and the links that they turn with; raises `ValueError` for two points of one name."""
+    """Return the scheme of a linkage: the owners of its points and the links that rotate together.
+
+    Raises `ValueError` for two points of one name.
+    """
     spins = {GROUND: 0, DRIVER: DRIVER if isinstance(linkage.driver, Crank) else 0}
     for dyad in linkage.dyads:
         i, j = dyad.links

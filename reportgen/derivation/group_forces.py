@@ -50,10 +50,11 @@ def enter_forces(
     scales: Scaling = own_scales,
     guides: tuple[EnterGuide, ...] = (),
 ) -> tuple[Polygon, ...]:
-    """Enter all force quantities, the outermost group first; returns the force plans in that order.
+    """Enter all force quantities, the outermost group first, and return the force plans in that order.
 
-    `applied` maps a force's id to (link, point, unit vector of its positive sense), `torques` a signed
-    torque's id to its link.  Plans are drawn at the `scales` of their sizes.  Topics enter more of sliders in `guides`.
+    The driver's plan is the last.  `applied` maps a force's id to (link, point, unit vector of its positive sense),
+    `torques` a signed torque's id to its link.  `scales` chooses the scales of the plans from their sizes.  With the
+    functions `guides`, topics enter further quantities of sliders.
     """
     statics = Statics(q, scheme(linkage), turn, natural_sizes(q, linkage), scales=scales, guides=guides)
     loads = enter_loads(statics, applied, torques or {})
@@ -69,16 +70,23 @@ def enter_forces(
 
 
 # --- reactions of a group in the textbook's order, two unknowns or fewer a step -------------------
-# The group's loads are laid head to tail, link j's first (e … b), then link i's (b … c). Vertex n closes the plan:
-# R_ci = cn acts on i in its outer joint, R_dj = ne on j in its own, R_ji = nb on i in the inner joint.
-# ==== ======================================== ================================================== kind computed by
-# moments n lies on ==== ======================================== ==================================================
-# RRR Rᵗ in both outer joints, about Q a line along PQ and one along TQ RRP Rᵗ in P, about Q a line along PQ and one
-# across the guide RPR R_ij across the slot, about T the end of R_ij laid on from b PRP – lines across the guides RPP
-# – from b across the slot, from e across the guide ==== ========================================
-# ==================================================
-# In a slide, M is the moment of all other loads on the link about the pin; the reaction acts at the distance M/R. The
-# driver comes last, under the reactions of the groups, and the balance by virtual work on Zhukovsky's lever.
+# A group has its outer joints in P (link i) and T (link j) and its inner joint in Q. Its loads are laid head to tail,
+# link j's first (e … b), then link i's (b … c). Vertex n closes the plan: R_ci = cn acts on i in its outer joint,
+# R_dj = ne on j in its outer joint, R_ji = nb on i in the inner joint.
+#
+# ==== ================================= ====================================================
+# kind computed by moments               n lies on
+# ==== ================================= ====================================================
+# RRR  Rᵗ in both outer joints, about Q  a line along PQ and a line along TQ
+# RRP  Rᵗ in P, about Q                  a line along PQ and a line from e across the guide
+# RPR  R_ij across the slot, about T     the end of R_ij, which is laid off from b
+# PRP  –                                 a line from c and a line from e, each across the link's guide
+# RPP  –                                 a line from b across the slot and a line from e across the guide
+# ==== ================================= ====================================================
+#
+# A line along a rod starts at the free end of the rod's Rᵗ, which is laid before e (joint T) or after c (joint P).
+# In a slide, M is the moment of all other loads on the link about the pin; the reaction acts at the distance M/R.
+# After the groups, the driver is solved under their reactions, and the balance by virtual work on Zhukovsky's lever.
 
 CLEAR = 1e-3
 """A slide's reaction that stays above this share of the loads has a distance printed as M/R."""
@@ -86,7 +94,7 @@ CLEAR = 1e-3
 
 @dataclass(frozen=True, slots=True)
 class Group:
-    """A dyad with the names of its joints and the loads of its two links."""
+    """A dyad with the digits of its joints' reactions and the loads on its links i and j."""
 
     statics: Statics
     dyad: Dyad
@@ -114,7 +122,7 @@ class Group:
 
 
 def group(statics: Statics, dyad: Dyad) -> Polygon:
-    """Enter a group's reactions; `statics.loads` contains those of later groups on its links."""
+    """Enter a group's reactions and return its force plan; `statics.loads` contains those of later groups."""
     i, j = dyad.links
     carriers = [end.link if isinstance(end, Guide) else statics.scheme.owner[end] for end in (dyad.start, dyad.end)]
     parts = Group(
@@ -153,7 +161,7 @@ def _rpr(g: Group) -> Polygon:
     q, across = g.q, ids.joint(g.i, g.j)
     couple = _moment(g, g.inner, g.start, g.on_i)
     moment = moments(g.statics, g.on_j, g.dyad.end)
-    # One flat sum: a sum within it would vanish with the first of its terms that is left out.
+    # The sum must be flat: an inner sum would vanish as soon as one of its terms is left out.
     known = [*(moment.terms if isinstance(moment, Sum) else [moment] if moment else []), *([couple] if couple else [])]
     size = total(known) / _reach(g) if known else 0.0
     reaction = q.define(ids.reaction(across, "s"), size, Symbol("R", across), scale=g.statics.force)
@@ -288,9 +296,7 @@ def _moment(g: Group, digits: str, pin: str, loads: tuple[LoadOn, ...]) -> Expre
 
 
 def _offset(g: Group, digits: str) -> None:
-    """Enter the distance x = M/R from the pin to the line of a slide's reaction; nan where R = 0 leaves M to a
-    couple.
-    """
+    """Enter the distance x = M/R from the pin to the line of a slide's reaction; nan where R = 0 and M is a couple."""
     q, statics, size, moment = g.q, g.statics, g.q[ids.reaction(digits)], g.q.find(ids.reaction_couple(digits))
     values = q.value(size)
     written: Expression | None = None
@@ -308,9 +314,7 @@ DYADS: Mapping[DyadKind, Callable[[Group], Polygon]] = {"RRR": _rrr, "RRP": _rrp
 
 
 def driver(statics: Statics) -> Polygon:
-    """Return the force plan of the driver under the groups' reactions and its own loads: R01, and the balance
-    (`M.eq`).
-    """
+    """Enter R01 and the balance `M.eq` of the driver under the groups' reactions and its own loads; return its plan."""
     machine = statics.scheme.linkage.driver
     own = tuple(sorted(statics.on(DRIVER), key=lambda load: load.origin is not Origin.reaction))
     if isinstance(machine, Crank):
@@ -398,7 +402,7 @@ def lever(statics: Statics, loads: tuple[LoadOn, ...]) -> None:
 
 
 def _omega(statics: Statics, link: int) -> Expression | None:
-    """Return a link's signed angular velocity, None if it does not turn."""
+    """Return a link's signed angular velocity; None if it does not turn."""
     q = statics.q
     if ids.signed("omega", link) in q:
         return q[ids.signed("omega", link)]

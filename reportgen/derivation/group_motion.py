@@ -56,8 +56,8 @@ def enter_kinematics(
 
     An accelerated driver runs faster with the `sense` +1, slower with −1; then `eps.1` or `a.A` is already entered.
 
-    The plans are solved once on trial, to find the scales with which those of the `worked` positions (all of them
-    if none is named) fill their paper. If they are not `scaled`, the trial is skipped.
+    The plans are first solved on trial to find the scales at which those of the `worked` positions, counted from 1,
+    fill their paper (those of all positions if none is named). If they are not `scaled`, the trial is skipped.
     """
     if not scaled:
         _enter(q, linkage, turn, sense)
@@ -165,7 +165,7 @@ def _enter_relative(k: Kinematics, side: Side, definition: Expression) -> None:
 
 
 def _known_acceleration(k: Kinematics, side: Side) -> Expression:
-    """Enter aⁿ = v²/l towards the base, or aᵏ = 2ω v_r square to v_r; gives where the unknown part starts."""
+    """Enter aⁿ = v²/l towards the base, or aᵏ = 2ω v_r square to v_r; return the start of the unknown part."""
     q, start, part = k.q, _start(k, "a", side), side.part
     if not part:
         return start
@@ -216,11 +216,13 @@ def _unknown_acceleration(k: Kinematics, side: Side, start: Expression, same_let
 
 
 OFF_LINE = 1e-9
-"""A point nearer to the line of a link's joints than this share of its distance lies on it."""
+"""A point counts as on the line of a link's joints if its distance from the line is below this share of its distance
+from the origin.
+"""
 
 
 def group(k: Kinematics, dyad: Dyad) -> None:
-    """Enter a group: its places, velocities, accelerations, and those of its links' points."""
+    """Enter the places, velocities and accelerations of a group and of the points of its links."""
     both = sides(k.scheme, dyad)
     PLACES[dyad.kind](k, dyad)
     turns = {link: _turn_of(link, both) for link in dyad.links}
@@ -358,7 +360,11 @@ def _turn_of(link: int, sides: tuple[Side, Side]) -> Side | None:
 
 
 def places(k: Kinematics, link: int, turn: Side | None) -> None:
-    """Enter the places of a link's points: on a rod by the ratio of lengths, else along the frame's axis."""
+    """Enter the places of a link's named points besides its joints.
+
+    On a rod their axis is the line of the rod, otherwise the axis of the link's frame; `turn` is the side that the link
+    turns on, None for a link that slides.
+    """
     q, placed = k.q, k.links[link]
     for point in _points(k, link):
         x, y = point.local.real, point.local.imag
@@ -375,7 +381,11 @@ def places(k: Kinematics, link: int, turn: Side | None) -> None:
 
 
 def images(k: Kinematics, what: What, link: int, turn: Side | None) -> None:
-    """Enter velocities or accelerations of a link's points."""
+    """Enter velocities or accelerations of a link's named points besides its joints.
+
+    They follow by similarity if the link turns on a side (`turn`), otherwise from its rotation, or are those of its
+    origin if it does not rotate.
+    """
     placed = k.links[link]
     for point in _points(k, link):
         if turn is not None:
@@ -387,8 +397,8 @@ def images(k: Kinematics, what: What, link: int, turn: Side | None) -> None:
 
 
 def _by_similarity(k: Kinematics, what: What, point: LinkPoint, turn: Side) -> None:
-    """Enter a point by the similarity theorem: the plan's figure is similar to the link's and turned in the
-    same way.
+    """Enter a point by the similarity theorem: the figure in the plan is similar to that of the link, with the same
+    sense.
     """
     q, base, tip = k.q, turn.base, turn.point
     first, last, new = "p" if turn.still else image(base), image(tip), image(point.name)

@@ -1,4 +1,4 @@
-"""Kinematics of a linkage during entry: the sheet and every link placed so far, beginning with the driver.
+"""Kinematics of a linkage during entry: the calculation and every link placed so far, beginning with the driver.
 
 The driver is a crank with ω₁, ε₁ or a slide with v, a; it fixes the scales of the plans.
 """
@@ -42,12 +42,12 @@ What = Literal["v", "a"]
 POLES: dict[str, str] = {"v": "p", "a": "π"}
 NOWHERE = Number(0.0)
 ROTATION = {"v": ("omega", 1), "a": ("eps", 2)}
-"""The id of a link's rotation, and the power of 1/s that it is counted in."""
+"""Name of a link's rotation in ids, and the power of 1/s in its unit."""
 
 
 @dataclass(frozen=True, slots=True)
 class Sizes:
-    """Reference size of each kind of quantity: values below a billionth of it are zero."""
+    """Reference sizes (m/s, m/s², rad/s): values below a billionth of them count as zero."""
 
     velocity: float
     acceleration: float
@@ -60,10 +60,10 @@ class Sizes:
 
 @dataclass(frozen=True, slots=True)
 class PlacedLink:
-    """A link that is placed: the point its frame starts at, its unit axis, and how its points move.
+    """A placed link: the point at the origin of its frame, its unit axis, and the data of its points' motion.
 
     With a second point `tip`, images follow by similarity; else by `omega` and `eps`, its signed angular
-    velocity and acceleration; where these are None the link only shifts.
+    velocity and acceleration; a link without them only translates.
     """
 
     origin: str
@@ -85,7 +85,7 @@ class Kinematics:
     """+1 where the driver's acceleration has the sense of its speed, −1 where it is opposite."""
     links: dict[int, PlacedLink] = field(default_factory=dict)
     vertices: dict[What, list[Ref]] = field(default_factory=lambda: {"v": [], "a": []})
-    """All points of the plans."""
+    """The points entered on the velocity and the acceleration plan (m on paper), in order."""
 
     @property
     def arm_length(self) -> Ref:
@@ -157,15 +157,15 @@ class Kinematics:
     # --- sizes on paper
 
     def paper(self, what: What) -> float:
-        """Return the size of a plan on paper (m)."""
+        """Return the reference size of a plan on paper (m)."""
         return self.sizes.of(what) / self.q.si(ids.scale(what))
 
     def span(self) -> float:
-        """Return the size of the mechanism as it is drawn (m)."""
+        """Return the longest length of the mechanism as it is drawn (m on paper)."""
         return longest(self.scheme.linkage) / self.q.si("mu.l")
 
     def segment(self, id: str, first: Symbol | str, second: Symbol | str, along: Expression, what: What) -> Ref:
-        """Return a segment measured on a plan."""
+        """Enter and return the length (m on paper) of the vector `along`, a segment measured on a plan."""
         return self.q.define(id, abs(along), segment(first, second), scale=self.paper(what))
 
     def constant(self, id: str, value: complex) -> Ref:
@@ -178,10 +178,9 @@ class Kinematics:
         return self.q[id] if id in self.q else self.q.give(id, value, exact=is_short(value))
 
     def distance(self, start: str, end: str, along: float, across: float, rod: Ref | None = None) -> Ref:
-        """Return a distance (m) of which coordinates along and across a link are given: √(x² + y²), or from the
-        rod's end.
+        """Return the distance (m) from `start` to a point `end` with given coordinates (m) along and across a link.
 
-        From that end, whose `rod` has the length l, it is √((l − x)² + y²).
+        From the link's origin it is √(x² + y²); from the far end of a `rod` of length l, it is √((l − x)² + y²).
         """
         signed = along if rod is not None else abs(along)
         x, y = (Number(float(f"{value:.{TYPED}g}")) for value in (signed, abs(across)))
@@ -193,7 +192,7 @@ class Kinematics:
         return self.q.give(id, value, exact=is_short(value), written=sqrt(first**2 + y**2))
 
     def drawn(self, start: str, end: str) -> Expression:
-        """Enter a length as it is drawn; gives the length (m) that the drawing then shows."""
+        """Enter a length as it is drawn (m on paper) and return the length (m) that the drawing represents."""
         q, on_paper = self.q, self.q[ids.length(start, end)] / self.q["mu.l"]
         drawn = q.define(ids.drawn(start, end), on_paper, drawn_length(start, end))
         return q["drawing"] * q.construct(ids.laid_line(start, end), on_paper, of=drawn.id)
@@ -220,7 +219,7 @@ class Kinematics:
         return self.q.construct(at, start + own_place * axis), self.q.construct(along, own_direction * axis)
 
     def share_rotation(self, what: What, link: int) -> None:
-        """Enter ω or ε of a link that turns with another one as that of the other."""
+        """Enter ω or ε of a link that rotates with another link as equal to that of the other."""
         q, leader = self.q, self.scheme.spins[link]
         rate, order = ROTATION[what]
         rotation = ids.LINK_RATE[rate]
@@ -238,7 +237,7 @@ class Kinematics:
         return Ref(ids.signed("omega", link))
 
     def put(self, link: int, origin: str, axis: Ref | None, tip: str = "") -> None:
-        """Place a link; the motion of its points follows from the link that it turns with."""
+        """Place a link; the motion of its points follows from the link with which it rotates."""
         source = self.scheme.spins[link]
         omega = self.omega(link) if source else None
         of_source = ids.signed("eps", source)
@@ -247,7 +246,7 @@ class Kinematics:
 
 
 def longest(linkage: Linkage) -> float:
-    """Return the longest length of a linkage (m): of a rod, or between fixed points."""
+    """Return the longest length of a linkage (m): a rod, or a distance of fixed points or points of a link."""
     fixed = list(linkage.ground.values())
     spans = [abs(p - q) for p in fixed for q in fixed]
     rods = [length for dyad in linkage.dyads for length in dyad.lengths]
@@ -255,7 +254,7 @@ def longest(linkage: Linkage) -> float:
 
 
 def natural_sizes(q: Calculation, linkage: Linkage) -> Sizes:
-    """Return the reference sizes of velocity, acceleration and rotation of a linkage: those of its driver's pin."""
+    """Return the reference sizes of velocity, acceleration and rotation of a linkage, from the motion of its driver."""
     driver = linkage.driver
     if isinstance(driver, Crank):
         omega, ε1 = q.si("omega.1"), ids.angular_acceleration(DRIVER)
@@ -269,16 +268,16 @@ def natural_sizes(q: Calculation, linkage: Linkage) -> Sizes:
 DRAWN = 0.05
 """Drawn length of the crank (m on paper) when the machine does not say."""
 LONGEST_DRAWN = 0.08
-"""A sliding driver's mechanism is drawn with its longest length no longer than this (m on paper)."""
+"""Largest drawn length (m on paper) in a mechanism with a sliding driver."""
 
 
 def crank(
     q: Calculation, scheme: Scheme, driver: Crank, turn: int, sense: int, scales: Mapping[str, float | None]
 ) -> Kinematics:
-    """Place the driving crank: v_A = ω₁ l, aⁿ_A = ω₁² l, aᵗ_A = ε₁ l; `scales` (SI per mm) default to μ_v = ω₁ μ_l,
-    μ_a = ω₁² μ_l.
+    """Place the driving crank: v_A = ω₁ l, aⁿ_A = ω₁² l, aᵗ_A = ε₁ l.
 
-    Then pa and πn are the drawn crank; without `eps.1` πn is πa′.
+    `scales` are SI per metre of paper and default to μ_v = ω₁ μ_l, μ_a = ω₁² μ_l, at which pa and πn are the drawn
+    crank; without `eps.1`, πn is πa′.
     """
     centre, pin = driver.centre, driver.pin
     k = Kinematics(q, scheme, turn, natural_sizes(q, scheme.linkage), sense)
@@ -354,11 +353,10 @@ def _accelerated_pin(k: Kinematics, driver: Crank, ε1: Ref) -> None:
 def slide(
     q: Calculation, scheme: Scheme, driver: SlidingDriver, turn: int, sense: int, scales: Mapping[str, float | None]
 ) -> Kinematics:
-    """Place the driving slide: the pin moves along its guide with v_A, and a_A if given; `scales` (SI per mm) are
-    μ_v, μ_a.
+    """Place the driving slide: the pin moves along its guide with v_A, and a_A if given.
 
-    Without scales, it is a trial. Expects the driver's coordinate `s.1` and the size of its speed, `v.` and the
-    pin's name.
+    `scales` are μ_v, μ_a (SI per metre of paper); without them the plans are a trial. The driver's coordinate `s.1` and
+    the size of its speed, `v.` and the pin's name, must have been entered.
     """
     pin, size = driver.pin, longest(scheme.linkage)
     k = Kinematics(q, scheme, turn, natural_sizes(q, scheme.linkage), sense)
@@ -384,8 +382,9 @@ def slide(
 
 
 def chosen_scale(trial: Kinematics, what: What, worked: Sequence[int]) -> float | None:
-    """Return the scale of all plans (SI), from a trial; None if the crank's gives the worked ones their size
-    already.
+    """Return the common scale of the plans (SI per metre of paper), from a trial.
+
+    None if the scale by the crank already draws the `worked` plans, counted from 1, large enough.
     """
     q, μ = trial.q, trial.q.si(ids.scale(what))
     sizes = extents([np.zeros(1), *map(q.value, trial.vertices[what])], q.positions) * μ
@@ -410,7 +409,7 @@ FARTHEST = 0.4
 
 
 def links_in_plane_motion(scheme: Scheme) -> tuple[Side, ...]:
-    """Return the links with two points whose velocities are drawn, each as one point turning about another."""
+    """Return the links in plane motion, each as one moving point that turns about another."""
     both = (side for dyad in scheme.linkage.dyads for side in sides(scheme, dyad))
     return tuple(side for side in both if side.turns and not side.still)
 
@@ -421,7 +420,7 @@ def centre_symbol(link: int) -> Symbol:
 
 
 def enter_centres(k: Kinematics) -> None:
-    """Enter the centres of all links in plane motion and the checks by them."""
+    """Enter the instant centres of all links in plane motion, and the checks of ω and v by them."""
     for turn in links_in_plane_motion(k.scheme):
         _enter_centre(k, turn)
 
@@ -451,8 +450,9 @@ def _enter_centre(k: Kinematics, turn: Side) -> None:
 
 
 def _reach(k: Kinematics, centre: np.ndarray) -> np.ndarray:
-    """Return the largest distance (m on paper) of a centre at each position: 0 if no sheet can show it with the
-    mechanism.
+    """Return the largest measurable distance (m on paper) of a centre at each position [N].
+
+    It is 0 where no sheet can show the centre with the mechanism.
     """
     q = k.q
     points = [family.values for id, family in q.families.items() if id in ids.place]

@@ -40,9 +40,9 @@ class Origin(IntEnum):
 
 @dataclass(frozen=True, slots=True)
 class LoadOn:
-    """A load: its name, its link, the point it acts at ("" for a couple alone), its size, the name of its arm.
+    """A load: its name, its link, its point of action ("" for a couple alone), its size, and its `letters` in symbols.
 
-    A force that was read from the plan of another group has the scale of that plan.
+    `read_at` is the scale of the plan from which a force of another group was read.
     """
 
     name: str
@@ -59,7 +59,7 @@ EnterGuide = Callable[["Statics", str, int], None]
 
 @dataclass(frozen=True, slots=True)
 class Statics:
-    """Calculation `q`, linkage and loads while reactions are entered group by group."""
+    """The calculation `q`, the linkage and the loads while reactions are entered group by group."""
 
     q: Calculation
     scheme: Scheme
@@ -80,7 +80,7 @@ class Statics:
 
     @property
     def span(self) -> float:
-        """Reference size on paper (mm) of arms: the drawn crank."""
+        """Reference size of arms (m on paper): the drawn crank, or the longest length with a sliding driver."""
         driver = self.scheme.linkage.driver
         if isinstance(driver, Crank):
             return self.q.si(ids.drawn(driver.centre, driver.pin))
@@ -88,7 +88,7 @@ class Statics:
 
     @property
     def torque(self) -> float:
-        """The moment of the largest load at the crank (N·m)."""
+        """The moment (N·m) of the largest load on the crank, or on the longest length with a sliding driver."""
         driver = self.scheme.linkage.driver
         return self.force * (driver.length if isinstance(driver, Crank) else longest(self.scheme.linkage))
 
@@ -97,14 +97,15 @@ class Statics:
         return tuple(load for load in self.loads if load.link == link)
 
     def image(self, what: str, name: str) -> Expression:
-        """Return a point's image on a plan, 0 for a fixed one."""
+        """Return a point's image on the plan "v" or "a" (m on paper); 0, the pole, for a fixed point."""
         return NOWHERE if self.scheme.still(name) else self.q[ids.plan_point(what, image(name))]
 
     def vector(self, load: LoadOn) -> Ref:
+        """Return the vector of a force (N)."""
         return self.q[ids.force_vector(load.name)]
 
     def couple(self, load: LoadOn) -> Ref | None:
-        """Return a load's couple, None if it has none."""
+        """Return the couple of a load (N·m); None if it has no couple."""
         return self.q.find(ids.couple(load.name))
 
     def beside(self, load: LoadOn, divisor: Expression) -> Expression:
@@ -128,7 +129,7 @@ def enter_loads(statics: Statics, applied: Applied, torques: Mapping[str, int]) 
             downwards = q.give(ids.down(link), complex(down), "g", "ratio")
             q.construct(ids.force_vector(name), q[name] * downwards, of=name)
             loads.append(LoadOn(name, link, centre, q[name], Origin.weight, name))
-        # A crank on its own axis that turns evenly.
+        # A crank with its mass centre on the axis that turns evenly has no inertia load.
         idle = link == DRIVER and statics.scheme.still(centre) and ids.signed("eps", DRIVER) not in q
         if (body.mass > 0 or body.moment > 0) and not idle:
             loads.append(_inertia(statics, body))
@@ -170,7 +171,7 @@ def _inertia(statics: Statics, body: Inertia) -> LoadOn:
 
 
 def _centre_of_percussion(statics: Statics, link: int, centre: str) -> None:
-    """Enter its distance from the mass centre, l_SK = J/(m l_AS), on a link that turns about a pin A."""
+    """Enter the distance l_SK = J/(m l_AS) of the centre of percussion from S, on a link that turns about a pin A."""
     q = statics.q
     driver = statics.scheme.linkage.driver
     ends: dict[int, str | Guide] = {DRIVER: driver.centre} if isinstance(driver, Crank) else {}
@@ -186,7 +187,7 @@ def _centre_of_percussion(statics: Statics, link: int, centre: str) -> None:
 
 
 def carried_reactions(statics: Statics, links: tuple[int, ...]) -> tuple[LoadOn, ...]:
-    """Enter the reactions of later groups on these links as loads, R42 = −R24, in the order of assembly."""
+    """Enter the reactions of later groups on these links as loads, R42 = −R24; return them in the order of assembly."""
     q, loads = statics.q, []
     for dyad in statics.scheme.linkage.dyads:
         for link, outer in zip(dyad.links, (dyad.start, dyad.end), strict=True):
@@ -202,7 +203,7 @@ def carried_reactions(statics: Statics, links: tuple[int, ...]) -> tuple[LoadOn,
 
 
 def opposite(q: Calculation, here: str, there: str, link: int, point: str, plan: str) -> LoadOn:
-    """Enter a reaction, which a group's plan gave, as that of the other link turned round: R42 = −R24."""
+    """Enter a reaction from a group's plan as the opposite load on the other link, and return it: R42 = −R24."""
     size = q.define(ids.reaction(here), q[ids.reaction(there)], scale=q.families[ids.reaction(there)].scale)
     q.construct(ids.force_vector(ids.reaction_force(here)), -q[ids.force_vector(ids.reaction_force(there))], of=size.id)
     read_at = q[ids.force_scale(plan)]
@@ -213,7 +214,7 @@ def opposite(q: Calculation, here: str, there: str, link: int, point: str, plan:
 
 
 def _divisor(statics: Statics, load: LoadOn) -> Expression:
-    """Return a load's size; that of a reaction is 0 where it is but rounding."""
+    """Return the size of a load; 0 where a reaction with a couple is only a rounding error."""
     if load.origin is Origin.reaction and statics.couple(load) is not None:
         return above(load.size, FAINT * statics.force)
     return load.size
@@ -225,7 +226,7 @@ def above(size: Expression, floor: float) -> Expression:
 
 
 def arm(statics: Statics, load: LoadOn, centre: str) -> Ref:
-    """Return the signed arm, measured on the drawing, of a load about a point: h = M/(F μ_l), its couple included."""
+    """Enter the signed arm (m on paper) of a load about a point, h = M/(F μ_l), its couple included, and return it."""
     q, couple = statics.q, statics.couple(load)
     moment = cross(q[ids.place(load.point)] - q[ids.place(centre)], statics.vector(load))
     divisor = _divisor(statics, load)
@@ -237,7 +238,7 @@ def arm(statics: Statics, load: LoadOn, centre: str) -> Ref:
 
 
 def moments(statics: Statics, loads: Iterable[LoadOn], centre: str) -> Expression | None:
-    """Return the moments about a point as printed: (ΣF·h)·μ_l, and couples; None if there are none."""
+    """Return the sum of moments (N·m) about a point as it is printed: (ΣF·h)·μ_l, and couples; None without moments."""
     terms: list[Expression] = []
     couples: list[Expression] = []
     for load in loads:
@@ -255,7 +256,7 @@ def moments(statics: Statics, loads: Iterable[LoadOn], centre: str) -> Expressio
 
 
 def lone_couple(statics: Statics, load: LoadOn) -> Expression:
-    """Return the couple of a load at positions where its force is zero; elsewhere the term is left out of a line."""
+    """Return the couple (N·m) of a load at positions where its force is zero; other positions leave out the term."""
     q, id, couple = statics.q, ids.lone_couple(load.name), statics.couple(load)
     assert couple is not None
     if id not in q:
@@ -274,10 +275,7 @@ LETTERS = "efghijklmqrtuvwxyzabcd"
 
 @dataclass(frozen=True, slots=True)
 class Edge:
-    """One force of a polygon, from vertex to vertex; `unknown` edges are found by closing it.
-
-    `link` is the link it acts on.
-    """
+    """One force on a `link` in a polygon, from vertex to vertex; closing the polygon gives the `unknown` edges."""
 
     name: str
     start: str
@@ -287,6 +285,7 @@ class Edge:
 
     @property
     def is_reaction(self) -> bool:
+        """True for a reaction or a component of one."""
         return self.name in ids.reaction_force
 
     @property
@@ -309,7 +308,7 @@ class Polygon:
 
     @property
     def carried(self) -> tuple[Edge, ...]:
-        """The reactions that groups solved before have left on these links."""
+        """The reactions of groups solved before on the links of this group."""
         return tuple(edge for edge in self.edges if edge.is_reaction and not edge.unknown and not edge.part)
 
 
@@ -325,14 +324,14 @@ class ForceChain:
         self.read_at: list[Ref] = []
 
     def lay_loads(self, loads: Iterable[LoadOn]) -> None:
-        """Lay the forces among some loads on from the last vertex."""
+        """Append the forces among some loads to the last vertex; couples alone are skipped."""
         for load in loads:
             if load.point:
                 self.lay(load.name, load.link)
                 self.read_at += [load.read_at] if load.read_at else []
 
     def lay(self, name: str, link: int) -> None:
-        """Lay the force `F.name` on from the last vertex."""
+        """Append the force `F.name` on a link to the last vertex."""
         letter = next(self._letters)
         self.corners[letter] = self.corners[self.last] + self._q[ids.force_vector(name)]
         self.edges.append(Edge(name, self.last, letter, link=link))
@@ -344,9 +343,10 @@ Closing = Callable[[Mapping[str, Expression], Expression], Expression]
 
 
 def force_plan(statics: Statics, name: str, title: str, path: ForceChain, closing: Closing | None = None) -> None:
-    """Choose μ_R for each position so that its plan fills its space; lay the known forces and close the plan at n.
+    """Choose μ_R [N] so that the plan of each position fills its space; lay the known forces and close the plan at n.
 
-    Enters their drawn lengths and, on paper, the forces as they are laid (`laid.23.P3`) and the vertices.
+    Enters the drawn lengths of the known forces and, in metres on paper, the forces as they are laid (`laid.23.P3`) and
+    the vertices.  Without `closing`, the plan has no vertex n.
     """
     q = statics.q
     corners = path.corners | ({} if closing is None else {"n": closing(path.corners, Number(1.0))})

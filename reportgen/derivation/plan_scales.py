@@ -16,13 +16,13 @@ TEXT_BOX = (0.145, 0.190)
 SHEET_BOXES = (0.360, 0.210), (0.235, 0.335)
 """Width and height of a plan on an A3 sheet (m), landscape or portrait."""
 LEAST_MOTION, LEAST_FORCES = 0.060, 0.100
-"""A worked plan of velocities or accelerations, and one of forces, is drawn at least so wide or high (m)."""
+"""Least width or height (m) of a worked plan of velocities or accelerations, and of one of forces."""
 DIAGRAM = 0.110, 0.090
-"""The energy–mass diagram is at most so wide and high (m)."""
+"""Largest width and height of the energy–mass diagram (m)."""
 UNLOADED = 1e-6
-"""A plan below this share of the largest one is that of an unloaded position."""
+"""A position whose plan is below this share of the largest one counts as unloaded."""
 PER_MM = 1e3
-"""Scales are round in the unit in which they are printed, per mm of paper."""
+"""Scales are SI values per metre of paper; divided by this factor they are per mm, as printed, and round."""
 
 
 Scaling = Callable[[np.ndarray, float, Iterable[np.ndarray]], np.ndarray]
@@ -30,35 +30,43 @@ Scaling = Callable[[np.ndarray, float, Iterable[np.ndarray]], np.ndarray]
 
 
 def extents(points: Iterable[np.ndarray], positions: int) -> np.ndarray:
-    """Return width and height [2, N] of the boxes around points of a plan; nan where the mechanism has no position."""
+    """Return width and height [2, N] of the boxes around points [N] or [1] of a plan, in their unit.
+
+    They are nan where the mechanism has no position.
+    """
     places = np.array([np.broadcast_to(point, (positions,)) for point in points])
     return np.array([np.ptp(places.real, axis=0), np.ptp(places.imag, axis=0)])
 
 
 def fitting(sizes: np.ndarray, box: tuple[float, float]) -> float:
-    """Return the smallest round scale with which all plans of the `sizes` [2, K] (SI) fit the box (m); 0
-    without any.
+    """Return the smallest round scale (SI per m) at which all plans of the `sizes` [2, K] (SI) fit the box (m).
+
+    It is 0 without plans.
     """
     needed = float(np.max(sizes / np.array(box)[:, None], initial=0.0))
     return nice_up(needed / PER_MM) * PER_MM if needed > 0 else 0.0
 
 
 def fitting_axis(length: float, room: float) -> float:
-    """Return the smallest round scale at which a length (SI) fits an axis (m of paper)."""
+    """Return the smallest round scale (SI per m) at which a length (SI) fits an axis of `room` (m of paper)."""
     return nice_up(length / room / PER_MM) * PER_MM
 
 
 def filling(sizes: np.ndarray, least: float) -> float:
-    """Return the largest round scale that draws each plan of the `sizes` [2, K] (SI) at least so long (m); 0 without
-    any.
+    """Return the largest round scale (SI per m) at which each plan of the `sizes` [2, K] (SI) has at least the length
+    `least` (m).
+
+    It is 0 without plans.
     """
     smallest = float(np.min(sizes.max(axis=0, initial=0.0), initial=np.inf))
     return nice_down(smallest / least / PER_MM) * PER_MM if 0 < smallest < np.inf else 0.0
 
 
 def common_scale(sizes: np.ndarray, worked: Sequence[int], least: float) -> float:
-    """Return one scale for plans at all positions [2, N]: the worked ones (from 1) at least so long if they fit
-    their page.
+    """Return one scale (SI per m) for the plans of all positions, of `sizes` [2, N] (SI).
+
+    The `worked` plans, counted from 1 (all if none is named), have at least the length `least` (m) if they then fit
+    their page; all plans fit a drawing sheet.
     """
     chosen = sizes[:, [k - 1 for k in worked]] if worked else sizes
     printed, every = (part[:, np.isfinite(part).all(axis=0) & (part.max(axis=0) > 0)] for part in (chosen, sizes))
@@ -67,10 +75,11 @@ def common_scale(sizes: np.ndarray, worked: Sequence[int], least: float) -> floa
 
 
 def own_scales(sizes: np.ndarray, least: float, read_at: Iterable[np.ndarray] = ()) -> np.ndarray:
-    """Return a scale for the plan of each position [N]: the plan is at least so long, or just fits a page of text.
+    """Return a scale (SI per m) for the plan of each position [N], of `sizes` [2, N] (SI).
 
-    So the largest of them serves all plans together. A position without forces takes that one. Forces `read_at`
-    other scales are not laid off at a finer one, which would enlarge the errors of reading.
+    The plan has at least the length `least` (m), or just fits a page of text. A position without forces takes the
+    largest of the scales, which suits all plans. Forces that were read at other scales `read_at` [N] are not drawn at a
+    finer one, which would enlarge the errors of reading.
     """
     known = np.isfinite(sizes).all(axis=0) & (sizes.max(axis=0) > UNLOADED * np.nanmax(sizes, initial=0.0))
     scales = [
@@ -83,5 +92,5 @@ def own_scales(sizes: np.ndarray, least: float, read_at: Iterable[np.ndarray] = 
 
 
 def no_scales(sizes: np.ndarray, least: float, read_at: Iterable[np.ndarray] = ()) -> np.ndarray:
-    """Return one arbitrary scale for all positions, for plans that are not drawn at it."""
+    """Return one arbitrary scale (SI per m) for all positions [N], for plans that are drawn elsewhere."""
     return np.full(sizes.shape[1], PER_MM)

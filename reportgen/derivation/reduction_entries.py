@@ -15,13 +15,16 @@ from reportgen.machine.analysis import Analysis
 from reportgen.machine.load_laws import FULL_TURN
 
 TERMS = 4
-"""More terms than these do not fit in one line of a page."""
+"""Largest number of terms that fit in one line of a page."""
 
 
 def enter_reduced(
     q: Calculation, analysis: Analysis, torque: np.ndarray, largest: float
 ) -> tuple[Expression, Ref, Ref]:
-    """Enter J_r, which is 0 if no link with mass moves, M_r [N] as computed, and the ways between positions."""
+    """Enter and return J_r (kg·m²), M_r (N·m) with the values `torque` [N], and the steps between positions (rad) [N].
+
+    J_r is 0, and not entered, if no link with mass moves; `largest` (N·m) is the reference size of torques.
+    """
     machine = analysis.machine
     inertia = _reduced(q, machine.linkage)
     J_r: Expression = NOTHING if inertia is None else q.define("J.r", inertia, Symbol("J", "tt"))
@@ -42,7 +45,10 @@ def enter_reduced(
 
 
 def moving_bodies(q: Calculation, linkage: Linkage) -> Iterator[tuple[Inertia, str, str]]:
-    """Yield the bodies with the ids of the speeds of their mass centre and rotation; "" for a speed without inertia."""
+    """Yield each moving body with the ids of the velocity of its mass centre and of its angular velocity.
+
+    An id is "" if the body has no mass, or no moment of inertia, to move at that velocity, or does not move so.
+    """
     for body in linkage.inertias:
         centre, rotation = ids.velocity(body.centre), ids.angular_velocity(body.link)
         moving = centre if body.mass > 0 and centre in q else ""

@@ -13,7 +13,7 @@ from reportgen.formula.ledger import Ledger
 from reportgen.machine.analysis import Analysis, Machine
 
 Changed = Mapping[str, Sequence[tuple[str, Expression]]]
-"""Other definitions of quantities, by id, with the names of the mistakes that they are."""
+"""Wrong definitions of quantities, by id, each with the name of the mistake that leads to it."""
 
 
 def _enter_nothing(q: Calculation, analysis: Analysis) -> None:
@@ -41,17 +41,20 @@ class LedgerHooks:
     """The entries of a topic, in the order in which they are made, and mistakes that marking looks for."""
 
     enter_guide: EnterGuide = _no_guide
-    """Enters more of a slider in its guide, by the digits of its reaction and its link."""
+    """Enters further quantities of a slider in its guide, from the digits of its reaction and its link."""
     enter_forces: Callable[[Calculation, Analysis, Sequence[int]], None] = _not_worked_out
-    """Enters quantities that depend on the forces at the positions, some of which are worked out."""
+    """Enters quantities that depend on the forces at the positions; the last argument are the worked positions."""
     enter_cycle: Callable[[Calculation, Analysis], None] = _enter_nothing
     """Enters quantities of the cycle as a whole."""
     enter_last: Callable[[Calculation, Analysis], None] = _enter_nothing
     """Enters quantities that depend on all other results."""
     reduced: Callable[[Calculation, float], Ref | None] = _not_reduced
-    """Enters the part of the reduced torque (N·m) that the topic adds, compared with the largest torque."""
+    """Enters and returns the part of the reduced torque (N·m) that the topic adds; None if it adds none.
+
+    The float is the largest torque (N·m), the reference size.
+    """
     mistakes: Callable[[Ledger, Machine], Changed] = _no_mistakes
-    """Gives other definitions of those who make a common mistake."""
+    """Returns the definitions that follow from common mistakes."""
 
 
 LEDGER = HookModule("ledger", LedgerHooks)

@@ -18,8 +18,9 @@ def with_rest(
     scale: float = 0.0,
     optional: bool = False,
 ) -> Ref:
-    """Enter an integrated value as a rule plus a constant rest, so that it follows the inputs of the rule, which
-    is nearly exact.
+    """Enter integrated `values` (SI) [N] or one value as a rule plus a constant rest, and return the quantity.
+
+    It thus follows the inputs of the rule, which is nearly exact.
     """
     by_rule_alone = q.construct(ids.rule(id), by_rule)
     rest = q.give(ids.rest(id), np.asarray(values) - q.value(by_rule_alone), Symbol(id), "ratio", hidden=True)

@@ -29,7 +29,7 @@ class Pen:
 
 @dataclass(frozen=True, slots=True)
 class Line:
-    """A straight line."""
+    """A straight line from `start` to `end` (mm)."""
 
     start: complex
     end: complex
@@ -52,7 +52,7 @@ class Arrow:
 
 @dataclass(frozen=True, slots=True)
 class Circle:
-    """A circle, outlined or filled."""
+    """A circle about `centre` with a `radius` (mm); `stroke` and `fill` (#rrggbb) are None where it has none."""
 
     centre: complex
     radius: float
@@ -62,9 +62,9 @@ class Circle:
 
 @dataclass(frozen=True, slots=True)
 class Arc:
-    """An arc from `start` to `stop` (rad, anticlockwise if stop > start).
+    """An arc about `centre` with a `radius` (mm), from `start` to `stop` (rad, anticlockwise if stop > start).
 
-    A `head` > 0 (mm) puts an arrow tip at the stop.
+    A `head` > 0 (mm) is the length of an arrow tip at the stop.
     """
 
     centre: complex
@@ -77,7 +77,10 @@ class Arc:
 
 @dataclass(frozen=True, slots=True)
 class Polyline:
-    """Straight lines through points; a `smooth` curve has such short ones that CAD programs get a spline, too."""
+    """Straight lines through points (mm).
+
+    `smooth` marks a curve whose lines are so short that the CAD file may contain a spline as well.
+    """
 
     points: tuple[complex, ...]
     stroke: Pen | None = Pen()
@@ -101,7 +104,7 @@ class Hatch:
 
 @dataclass(frozen=True, slots=True)
 class Label:
-    """Text at a point; `anchor` is the point of its box that lies on `at`."""
+    """Text at a point (mm); `anchor` is the point of its box that lies on `at`."""
 
     at: complex
     content: Content

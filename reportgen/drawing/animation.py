@@ -108,7 +108,11 @@ class MovingName:
 
 @dataclass(frozen=True, slots=True)
 class Spot:
-    """Named point that displays its motion under the pointer: `place` in m, rates in SI units, `on_stage` in mm."""
+    """A named point that displays its motion under the pointer.
+
+    `on_stage` is its place on the drawing (mm); the other tracks are those of the machine: `place` (m), `velocity`
+    (m/s) and `acceleration` (m/s²).
+    """
 
     name: str
     on_stage: Track
@@ -122,14 +126,20 @@ MovingItem = Still | MovingBody | MovingVector | MovingName
 
 @dataclass(frozen=True, slots=True)
 class BarScale:
-    """Value of a millimetre of a drawing, in SI units, for a kind of quantity; visible with its `layers`."""
+    """The scale of a drawing for a `kind` of quantity: `per` is the SI value that one millimetre represents.
+
+    Its bar is visible with any of its `layers`, or always if it has none.
+    """
 
     per: float
     kind: str
     layers: tuple[str, ...] = ()
 
     def bar(self, room: float, units: Mapping[str, str] = NO_UNITS) -> tuple[Number, float]:
-        """Return the round value of a bar that has `room` mm, and the bar's length (mm)."""
+        """Return the round value of a bar in a room of `room` mm, and the bar's length (mm).
+
+        The value is in the unit of the kind, which `units` may translate; the bar takes at least `BAR` of the room.
+        """
         how = KINDS[self.kind]
         value = nice_up(BAR * room * self.per / how.scale, (1.0, 2.0, 5.0))
         return Number(value, None, units.get(how.unit, how.unit)), value * how.scale / self.per
@@ -139,8 +149,8 @@ class BarScale:
 class Pane:
     """A moving drawing, in mm, in the box from `low` to `high`, with its scales as bars below.
 
-    With `finer` one of the scales is in use at a time, the first of them in the items: `finer` is its index at each
-    sample.
+    With `finer`, one scale is used at a time, and `finer` is its index at each sample; the items are drawn at the first
+    scale.
     """
 
     key: str
@@ -317,7 +327,11 @@ def linkage_items(linkage: Linkage, motion: Motion, at: int, scale: float, looks
 def spring_items(
     coil: Coil, linkage: Linkage, motion: Motion, at: int, scale: float, pivots: Sequence[str]
 ) -> list[MovingItem]:
-    """Return a spring that is stretched, its ground as at the sample `at`; or one wound about its pin, which turns."""
+    """Return the items of a spring, `scale` mm of paper per m.
+
+    A stretched spring is a zigzag between its ends; the ground at a fixed end is drawn as at the sample `at`, except at
+    `pivots`.  A wound spring is a spiral that turns about its pin.
+    """
     start, end = (place * scale for place in coil.at(motion))
     if coil.wound:
         turned = np.angle(end - start)
@@ -364,7 +378,10 @@ def _neighbours(name: str, bones: Skeleton, places: dict[str, Track]) -> Iterabl
 
 
 def path_items(linkage: Linkage, motion: Motion, names: Sequence[str], scale: float) -> list[MovingItem]:
-    """Return the curves that points (m) trace, at `scale` mm of paper per m."""
+    """Return the curves that the points `names` trace, at `scale` mm of paper per m, on the layer "paths".
+
+    Positions that the mechanism cannot reach are left out.
+    """
     curves: list[MovingItem] = []
     for name in names:
         curve = motion.points[name].p[motion.reachable] * scale
@@ -373,7 +390,7 @@ def path_items(linkage: Linkage, motion: Motion, names: Sequence[str], scale: fl
 
 
 def plan_items(plan: Construction[str], tracks: Mapping[str, Track]) -> list[MovingItem]:
-    """Return a moving plan: each of its corners follows the track of its name."""
+    """Return the items of a moving plan; each of its corners follows the track of the same name (mm)."""
     items: list[MovingItem] = [
         MovingVector(tracks[line.start], tracks[line.end], style.CONSTRUCTION, 0.0, beyond=BEYOND)
         for line in plan.lines
@@ -388,7 +405,7 @@ def plan_items(plan: Construction[str], tracks: Mapping[str, Track]) -> list[Mov
 
 
 def lever_items(plan: Construction[str], tracks: Mapping[str, Track]) -> list[MovingItem]:
-    """Return a plan as a rigid lever about its pole."""
+    """Return the items of a plan drawn as a rigid lever about its pole; its corners follow the `tracks` (mm)."""
     items: list[MovingItem] = [
         MovingVector(tracks[vector.start], tracks[vector.end], style.VISIBLE, 0.0) for vector in plan.vectors
     ]
@@ -410,8 +427,10 @@ def _names(plan: Construction[str], tracks: Mapping[str, Track], gap: float) -> 
 
 @dataclass(frozen=True, slots=True)
 class Fitted:
-    """Moving corners that fit a panel: their tracks (mm about its middle), their scales, and where the finer one is in
-    use.
+    """Moving corners that fit a panel.
+
+    `tracks` are their places (mm from the panel's middle) at the first of the `scales`; `finer` is 1 at samples that
+    use the second, finer scale, and None if none does.
     """
 
     tracks: Mapping[str, Track]
@@ -420,10 +439,10 @@ class Fitted:
 
 
 def fitted(corners: Mapping[str, np.ndarray], kind: str, turn: int, scale: float | None = None) -> Fitted:
-    """Fit corners (SI) into the panel at every sample, at one scale, each moment's corners in its middle.
+    """Fit corners [N] or [1] (SI) into the panel at one scale, with the corners of each sample in its middle.
 
-    A moment that would be too small to read has a finer scale.  Tracks of corners have the samples of one `turn`, or of
-    the cycle if that is as long.  A given `scale` (SI per mm) is the only scale.
+    A sample that would be too small to read uses a finer scale.  The tracks keep the first `turn` samples.  A given
+    `scale` (SI per mm) replaces the scale at which the largest sample fills the panel.
     """
     length = max(corner.size for corner in corners.values())
     places = np.array([np.broadcast_to(corner, length) for corner in corners.values()])
@@ -441,8 +460,9 @@ def fitted(corners: Mapping[str, np.ndarray], kind: str, turn: int, scale: float
 
 
 def extent(items: Iterable[MovingItem]) -> tuple[complex, complex]:
-    """Return the lower left and upper right corner (mm) that items, except switched ones, ever cover, with room for
-    labels.
+    """Return the lower left and upper right corner (mm) of all that the items ever cover, with room for labels.
+
+    Bodies and vectors on a layer, which can be switched off, and names are ignored.
     """
     points: list[complex] = []
     for item in items:

@@ -19,6 +19,7 @@ from reportgen.drawing.labels import Request, label_row, place
 from reportgen.formula import Chain, Symbol
 
 MARGIN = 6.0
+"""Usual margin of a scene on each side (mm)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,12 +34,18 @@ class Canvas:
         return Canvas(self.items + other.items, self.requests + other.requests, self.says + other.says)
 
     def moved(self, by: complex) -> Canvas:
-        """Return the draft shifted by a vector (mm); its labels must have been placed before."""
+        """Return the items and the description, shifted by a vector (mm).
+
+        Label requests are dropped: place the labels with `settle` first.
+        """
         return Canvas(tuple(moved(item, by) for item in self.items), says=self.says)
 
 
 def settle(draft: Canvas) -> Canvas:
-    """Return the draft with its labels placed."""
+    """Return the draft with its labels placed, as items; it has no requests left.
+
+    The lines of a key (`Placed.key`) are not drawn.
+    """
     return Canvas(draft.items + place(draft.items, draft.requests).items, says=draft.says)
 
 
@@ -50,9 +57,11 @@ def finish(
     margin: float = MARGIN,
     frame: tuple[complex, complex] | None = None,
 ) -> Scene:
-    """Return the scene: labels placed, `notes` (the figure's scale) below and last described, cropped with `margin` mm.
+    """Place the labels of a draft and return its scene, cropped to the content with a `margin` (mm) on each side.
 
-    The `frame` (lower left, upper right) is kept even if it is empty, so that several scenes have the same size.
+    The key of the labels and the `notes` (the figure's scale) are centred below the content; the notes come last in
+    the text description.  The `frame` (lower left and upper right corner, mm) stays inside the scene even if nothing
+    is drawn there, so that several scenes have the same size.
     """
     labels = place(draft.items, draft.requests)
     done = Canvas(draft.items + labels.items)

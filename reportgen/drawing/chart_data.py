@@ -18,8 +18,9 @@ Content = Expression | str
 WIDE = 450.0
 """Above this range (degrees), ticks are at multiples of 90 instead of 45."""
 MEAN = {"linestyle": "-.", "linewidth": 0.8, "color": "black"}
+"""Matplotlib style of the line at a level."""
 BESIDE = {"textcoords": "offset points", "xytext": (3, 3), "fontsize": "small"}
-"""Matplotlib style and offset of the name at a level."""
+"""Matplotlib style and offset (points) of the name at a marked point or an angle."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,8 +72,9 @@ class Diagram:
     zero: bool = True
 
     def on(self, axes: Any, language: Language = "en", **look: Any) -> Any:
-        """Draw the diagram on axes of matplotlib, over their contents, and return them; `look` is passed to their
-        `plot`.
+        """Add the diagram to axes of matplotlib and return the axes.
+
+        `look` is passed to `axes.plot` for every curve.  An inclination gets only its name, without an arc.
         """
         label = MathText(language).label
         for curve in self.curves:

@@ -68,6 +68,7 @@ BEYOND = 4.0
 MARK, DOT = 0.75, 0.45
 """Radius of the circle at a marked point, and of a measured point (mm)."""
 TICKS = 6
+"""Approximate number of steps of an axis of a polar diagram or of counts."""
 MOST_TURNED = 10
 """Largest number of steps of an axis of angles."""
 LEAST_POWER = 12
@@ -142,10 +143,11 @@ def chart(diagram: Diagram, *, half: bool = False, area: Area | None = None) -> 
 
 
 def plotted(diagram: Diagram, *, half: bool = False, height: float = HEIGHT, area: Area | None = None) -> Plotted:
-    """Draw a diagram on paper.  An angle has the ticks of `angle_ticks`.
+    """Draw a diagram on paper and return its scene with the coordinates of its axes.
 
-    With `half`, two charts fit side by side; with an `area`, both scales are round and printed.  Raises `ValueError` if
-    no value is finite.
+    If x is an angle, its ticks are those of `angle_ticks`.  The area inside the axes is `height` mm high.  With `half`,
+    two charts fit side by side; with an `area`, both scales are round and printed.  Raises `ValueError` if no x or no
+    value is finite.
     """
     series, turn, levels = diagram.curves, diagram.turn, diagram.levels
     window, x_ticks, y_ticks = _window(
@@ -187,7 +189,8 @@ def plotted(diagram: Diagram, *, half: bool = False, height: float = HEIGHT, are
 def polar(diagram: Diagram, *, size: float = POLAR_SIZE, area: Area | None = None) -> Scene:
     """Draw hodographs of vectors (x, y) about the pole at equal scales, with their marks and the names of the axes.
 
-    The longer side inside the axes is `size` mm; with an `area` the scale is round and printed.
+    The longer side inside the axes is `size` mm; with an `area`, which replaces `size`, the scale is round and printed.
+    Curves of `dots` have only their marks.
     """
     x, y = (
         np.concatenate([np.asarray(getattr(curve, axis), dtype=np.float64) for curve in diagram.curves])
@@ -280,10 +283,10 @@ def _ticks(low: float, high: float, most: int) -> list[float]:
 
 
 def angle_ticks(low: float, high: float, most: int) -> list[float]:
-    """Return ticks (degrees) within a range: at 45°, doubled until there are at most `most` steps; at least three
-    ticks.
+    """Return at least three ticks (degrees) within a range.
 
-    A range too short for three of these takes the largest step that fits of 30°, 15°, 10°, 5°, 2°, 1°, 0.5°, …
+    The step is 45°, doubled until there are at most `most` steps.  For a range too short for three such ticks it is
+    the largest of 30°, 15°, 10°, 5°, 2°, 1°, 0.5°, … that gives three; if none does, the two ends are returned.
     """
 
     def within(step: float) -> list[float]:

@@ -14,20 +14,20 @@ from reportgen.drawing.label_size import box
 from reportgen.formula import Number
 
 COUNT_WIDTH = 148.0
-"""Width and height of a chart of bars or a histogram with its text (mm)."""
+"""Width of a chart of bars or of a histogram, with its text (mm)."""
 COLUMN_HEIGHT = 55.0
-"""Size of a histogram, mm."""
+"""Height of the area inside the axes of a histogram (mm)."""
 LENGTH = 100.0
-"""Least length of the axis of bars, mm."""
+"""Least length of the axis of bars (mm)."""
 ROW, BAR = 6.0, 4.0
 """Distance from one horizontal bar to the next, and their thickness (mm)."""
 OUTLINE = Pen(0.3, style.BLUE)
 
 
 def bars(names: Sequence[Content], counts: Sequence[int], x_label: Content) -> Scene:
-    """Draw horizontal bars, each with its name on the left and its count at its end.
+    """Draw a horizontal bar for each of the `counts` [K], with its name on the left, over a scale of whole numbers.
 
-    Raises `ValueError` if there are none.
+    The counts themselves are only in the text description.  Raises `ValueError` if there are no counts.
     """
     if not counts:
         raise ValueError("bars need something to count")
@@ -51,7 +51,10 @@ def bars(names: Sequence[Content], counts: Sequence[int], x_label: Content) -> S
 
 
 def histogram(counts: Sequence[int], edges: Sequence[float], x_label: Content, y_label: Content) -> Scene:
-    """Draw a histogram: `counts` [K] of the values between each two of the evenly spaced `edges` [K+1]."""
+    """Draw a histogram: `counts` [K] of the values between each two of the evenly spaced `edges` [K+1].
+
+    Raises `ValueError` if there are no counts, or not one more edge than counts.
+    """
     if len(edges) != len(counts) + 1 or not counts:
         raise ValueError("a histogram has one more edge than counts")
     step, most = _whole_steps(max(counts))

@@ -23,7 +23,7 @@ SAME = 1e-6
 FIGURES = 4
 """Digits of values that are read from a curve."""
 MOST_ZEROS = 6
-"""A curve that crosses zero more often than this is described as oscillating about it."""
+"""The zeros of a curve are listed only if it has at most this many."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,8 +38,9 @@ Told = Content | PaperLength | tuple[Content, ...]
 
 @dataclass(frozen=True, slots=True)
 class Fact:
-    """One statement about a drawing: the key of a phrase, and the values of its placeholders, several contents as a
-    list.
+    """One statement about a drawing: the key of a phrase, and the values of its placeholders in order.
+
+    A value that is a tuple of contents is read as a list.
     """
 
     phrase: str
@@ -55,7 +56,7 @@ def fact(phrase: str, *values: Told) -> Fact:
 
 
 def enlarged(description: Description, by: float) -> Description:
-    """Return the description of a drawing enlarged by a factor."""
+    """Return the description of a drawing that is enlarged by a factor: only its paper lengths change."""
     return tuple(
         replace(fact, values=tuple(PaperLength(v.value * by) if isinstance(v, PaperLength) else v for v in fact.values))
         for fact in description
@@ -63,13 +64,13 @@ def enlarged(description: Description, by: float) -> Description:
 
 
 def direction(vector: complex) -> Number:
-    """Return the direction of a vector, in degrees from the x-axis anticlockwise: 0 to 360, to a tenth."""
+    """Return the direction of a vector, in degrees from the x-axis anticlockwise: from 0 to below 360, to a tenth."""
     tenths = round(10 * rounded(math.degrees(cmath.phase(vector)), 1)) % 3600
     return Number(tenths / 10, 1 if tenths % 10 else 0, "°")
 
 
 def alignment(along: complex) -> Number:
-    """Return the direction of an undirected line, in degrees from the x-axis: 0 to 180, to a tenth."""
+    """Return the direction of an undirected line, in degrees from the x-axis: from 0 to below 180, to a tenth."""
     degrees = direction(along)
     return replace(degrees, value=rounded(degrees.value % 180, 1))
 
@@ -90,7 +91,7 @@ def turning(name: Told, sense: float) -> Fact:
 
 
 def angle(name: Told, size: float) -> Fact:
-    """Return the fact of an angle (rad) that is drawn and named."""
+    """Return the fact of a named angle of the `size` (rad); its sign is ignored."""
     return Fact("angle", (name, direction(cmath.rect(1.0, abs(size)))))
 
 
@@ -98,9 +99,7 @@ def angle(name: Told, size: float) -> Fact:
 
 
 def of_chart(diagram: Diagram, x: tuple[float, float], y: tuple[float, float]) -> Iterator[Fact]:
-    """Yield the facts of a chart whose axes show these ranges: axes, extremes of each curve and where, zeros,
-    levels.
-    """
+    """Yield the facts of a chart: its axes with their ranges `x` and `y`, its curves (`of_curve`) and its levels."""
     unit = "°" if diagram.turn else ""
     for phrase, name, ends, of in (("across", diagram.x, x, unit), ("up", diagram.y, y, "")):
         yield fact(phrase, name, *(_read(end, of) for end in ends))
@@ -111,7 +110,9 @@ def of_chart(diagram: Diagram, x: tuple[float, float], y: tuple[float, float]) -
 
 
 def of_hodograph(diagram: Diagram, x: tuple[float, float], y: tuple[float, float]) -> Iterator[Fact]:
-    """Yield the facts of curves of vectors about a pole: the axes, and each curve's longest and shortest vector."""
+    """Yield the facts of curves of vectors about a pole: the axes with their ranges, and the longest and shortest
+    vector of each curve.
+    """
     for phrase, name, ends in (("across", diagram.x, x), ("up", diagram.y, y)):
         yield fact(phrase, name, *map(_read, ends))
     for curve in diagram.curves:
@@ -125,7 +126,11 @@ def of_hodograph(diagram: Diagram, x: tuple[float, float], y: tuple[float, float
 
 
 def of_curve(curve: PlottedCurve, unit: str = "") -> Iterator[Fact]:
-    """Yield the facts of a curve over an axis of a unit: its extremes and where they are, its zeros if they are few."""
+    """Yield the facts of a curve over an axis with the `unit`: its extremes, their places, and a few zeros.
+
+    A constant curve has one value instead; one of `dots` has their number and no zeros.  A curve without finite points
+    has no facts.
+    """
     x, y = np.asarray(curve.x, dtype=np.float64), np.asarray(curve.y, dtype=np.float64)
     # Across a gap, such as a radius that becomes infinite, a curve has no zero.
     zeros = [] if curve.dots else crossings(x, y)
@@ -152,8 +157,9 @@ def _label(curve: PlottedCurve) -> tuple[Content, ...]:
 
 
 def crossings(x: ArrayLike, y: ArrayLike) -> list[float]:
-    """Return the places where a broken line through points x, y [K] meets zero, each once; a point that is nan is a
-    gap.
+    """Return the x at which the broken line through points x, y [K] meets zero, rising and each once.
+
+    A point whose y is nan is a gap in the line.
     """
     x, y = np.asarray(x, dtype=np.float64), np.asarray(y, dtype=np.float64)
     greatest = float(np.abs(y[np.isfinite(y)]).max(initial=0.0))
@@ -183,5 +189,5 @@ def listed(contents: Iterable[Content]) -> tuple[Content, ...]:
 
 
 def names_of(contents: Sequence[Content]) -> Told:
-    """Return a single content alone, several as a list."""
+    """Return a single content as it is, several as a tuple."""
     return contents[0] if len(contents) == 1 else tuple(contents)

@@ -119,7 +119,10 @@ LETTERS = ENLARGED * style.SMALL
 
 
 def lettered(scene: Scene) -> Scene:
-    """Return a report's figure, drawn small, as on a sheet: `ENLARGED` times as large, with its title below it."""
+    """Return a report's figure as a drawing sheet has it: `ENLARGED` times as large, with its title below it.
+
+    All letters, line widths and arrowheads get the standard sizes of a sheet.
+    """
     items = [_standard(enlarged(item, ENLARGED)) for item in scene.items]
     facts = drawing_description.enlarged(scene.description, ENLARGED)
     width, height = ENLARGED * scene.width, ENLARGED * scene.height
@@ -174,14 +177,18 @@ EDGE, RULE = Pen(0.35), Pen(0.15)
 
 
 def widths(rows: Sequence[Sequence[Content]]) -> list[float]:
-    """Return the widths (mm) of columns: the widest cell with its padding."""
+    """Return the widths (mm) of the columns of a table: the widest cell with its padding.
+
+    Raises `ValueError` if the rows have different numbers of cells.
+    """
     columns = zip(*rows, strict=True)
     return [max(box(cell, style.SMALL).width for cell in column) + 2 * PADDING for column in columns]
 
 
 def grid(head: Sequence[Sequence[Content]], rows: Sequence[Sequence[Content]]) -> Scene:
-    """Draw a table: rows below head rows, all with the same number of cells; columns are as wide as their
-    widest cell.
+    """Draw a table of `head` rows and the `rows` below them; columns are as wide as their widest cell.
+
+    Raises `ValueError` if the rows have different numbers of cells.
     """
     every = [*head, *rows]
     across = widths(every)
@@ -216,11 +223,11 @@ TRIM = 3.5
 def sheets(
     scenes: Sequence[Scene], width: float, height: float, note: Content | None = None, trim: float = TRIM
 ) -> tuple[Scene, ...]:
-    """Return the scenes in true size on as many sheets of `width` × `height` mm as they need.
+    """Return the scenes in true size on as many sheets of at most `width` × `height` mm as they need.
 
     Rows are filled in order and spread over the width; each scene's title is below it and `note` (the common scale)
-    below all.  `trim` mm of each scene's margin are removed.  A scene larger than the sheet gets a sheet of its own
-    size.
+    below all.  `trim` mm of each scene's margin are removed on each side.  A sheet is only as high as its rows; a scene
+    larger than the sheet enlarges it.
     """
     foot = NOTE_HEIGHT if note is not None else 0.0
 

@@ -30,33 +30,42 @@ class FigureSize:
     language: Language = "en"
 
     def scale(self, usual: float) -> float:
-        """Return the scale, per mm of the finished paper, for a scale that a report has as `usual`."""
+        """Return the scale (unit of the drawn quantity per mm of finished paper) for the report's scale `usual`."""
         for _ in range(self.steps):
             usual = nice_down(usual * NEXT)
         return usual
 
     def fitting(self, points: Sequence[complex], room: complex) -> tuple[float, float]:
-        """Return the scale at which points fit a room (mm) of a report, and the figure's mm per unit."""
+        """Return the round scale at which points [N] fit the room of a report, and millimetres of the figure per unit.
+
+        Points are in the unit of the drawn object, `room` is width + i height (mm).  The scale is that of the report,
+        in units per mm; the second value is `per_unit` of it.
+        """
         array = np.array(points)
         size = complex(np.ptp(array.real), np.ptp(array.imag))
         usual = nice_up(max(size.real / room.real, size.imag / room.imag))
         return usual, self.per_unit(usual)
 
     def per_unit(self, usual: float) -> float:
-        """Return millimetres of the figure, before enlargement, for a unit of the drawn object, by the report's scale
-        `usual`.
+        """Return the millimetres of the figure, before enlargement, that one unit of the drawn object takes.
+
+        `usual` is the report's scale (units per mm).
         """
         return 1 / (self.scale(usual) * self.enlarged)
 
     def note(self, symbol: Expression, usual: float, unit: str = RATIO) -> Chain:
-        """Return the scale as printed below the figure; on a sheet also as a ratio of lengths, and the report's
-        scale.
+        """Return the scale as it is printed below the figure, from the report's scale `usual` (`unit`).
+
+        On a drawing sheet it is followed by the ratio of lengths, if the unit is mm/mm, and by the report's scale.
         """
         drawn = self.scale(usual)
         return self.compared(symbol, _number(drawn, unit), _number(usual, unit), _ratio(drawn) if unit == RATIO else 0)
 
     def compared(self, symbol: Expression, drawn: Number, usual: Number, ratio: float = 0) -> Chain:
-        """Return the scale as `drawn`, followed by the report's scale if they differ."""
+        """Return the scale as `drawn`; on a drawing sheet, followed by the report's scale `usual`.
+
+        A `ratio` of paper to object other than 0 is printed before the report's scale, as 1:2 or 2:1.
+        """
         if not self.beside:
             return Chain((symbol, drawn))
         parts = [self.beside.format(scale=quantity(usual, self.language))]

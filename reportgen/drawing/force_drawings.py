@@ -29,6 +29,7 @@ SHORTEST, STEP, LONGEST = 13.0, 6.5, 26.0
 ON_EACH_OTHER = math.radians(9)
 """Arrows at one point closer than this in direction would overlap."""
 COUPLE_RADIUS = 6.0
+"""Radius of the arc of a couple (mm)."""
 LEAST_ARM = 0.5
 """An arm shorter than this (mm) is not drawn: the force passes through the point."""
 TOGETHER, EQUAL = 0.3, 0.002
@@ -132,7 +133,10 @@ def lever(
 
 
 def coriolis(sliding: Sliding) -> Scene:
-    """Draw the rule of 90°: the relative velocity, turned in the sense of ω, points along aᵏ = 2 ω × v_r."""
+    """Draw the rule of 90°: the relative velocity, turned in the sense of ω, has the direction of aᵏ = 2 ω × v_r.
+
+    Lengths are not to scale.
+    """
     along, sense = unit(sliding.velocity[1]), sliding.omega[1]
     start = cmath.phase(along)
     quarter = Arc(0j, QUARTER, start, start + sense * math.pi / 2, style.CONSTRUCTION, style.DIMENSION_HEAD)
@@ -190,8 +194,9 @@ def inclination() -> Scene:
 
 
 def link_and_plan(what: Literal["v", "a"]) -> tuple[Scene, Scene]:
-    """Draw a link with its points B, C, E, and its plan: of velocities, with the lines that meet in e, or of
-    accelerations.
+    """Return two scenes: a link with its points B, C, E, and its plan of velocities ("v") or accelerations ("a").
+
+    The plan of velocities also has the lines that meet in e.
     """
     places = {name: OF_B[what] + RATE[what] * place for name, place in TRIANGLE.items()}
     link = (*style.body(tuple(TRIANGLE.values())), *(style.point(place) for place in TRIANGLE.values()))
@@ -281,7 +286,7 @@ def _as_printed(force: Force, arm: ArmOf | None) -> Force:
 
 
 def draw_couples(couples: Sequence[Couple]) -> Canvas:
-    """Draw couples as arcs of seven tenths of a turn about their points."""
+    """Draw couples as arcs of seven tenths of a turn about their points (mm); couples of sense 0 are left out."""
     arcs: list[Item] = []
     requests: list[Request] = []
     for couple in couples:

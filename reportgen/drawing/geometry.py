@@ -20,12 +20,16 @@ from reportgen.drawing.label_size import box
 Part = TypeVar("Part")
 
 CIRCLE_SIDES = 24
+"""Number of chords of a full circle."""
 CELL = 0.25
 """Side of the cells of paper (mm) of the stroke index."""
 
 
 def ends(item: Item) -> Sequence[complex] | Complexes:
-    """Return the item's strokes as segments (mm) [2 × strokes], alternating start and end; none for a label."""
+    """Return the item's strokes as segments (mm) [2 × strokes], alternating start and end; none for a label.
+
+    Circles and arcs become short chords; a hatch becomes its outline.
+    """
     match item:
         case Line(start, end):
             return start, end
@@ -60,7 +64,7 @@ def _chain(points: Complexes) -> Complexes:
 
 
 def segments(items: Iterable[Item]) -> Complexes:
-    """Return all strokes of the items as segments [K, 2], `settled`, since labels are placed by them."""
+    """Return all strokes of the items as segments (mm) [K, 2], rounded by `settled` for placing labels."""
     return settled(_stacked(map(ends, items))).reshape(-1, 2)
 
 
@@ -106,7 +110,10 @@ def bounds(items: Iterable[Item]) -> tuple[complex, complex]:
 
 
 def corners_of(points: Sequence[complex] | Complexes) -> tuple[complex, complex]:
-    """Return the lower left and upper right corner of the box around points [N], in their unit."""
+    """Return the lower left and upper right corner of the box around points [N], in their unit.
+
+    Raises `ValueError` without points.
+    """
     p = np.asarray(points, dtype=np.complex128)
     return complex(p.real.min(), p.imag.min()), complex(p.real.max(), p.imag.max())
 
@@ -127,7 +134,7 @@ def moved(item: Item, by: complex) -> Item:
 
 
 def enlarged(item: Item, factor: float) -> Item:
-    """Return the item enlarged about the origin like a photograph: pens, arrowheads and letters grow, too."""
+    """Return the item enlarged about the origin by a factor; pens, arrowheads and letters grow as in a photograph."""
 
     def pen(stroke: Pen) -> Pen:
         return _enlarged_pen(stroke, factor)
@@ -156,7 +163,10 @@ def _enlarged_pen(stroke: Pen, factor: float) -> Pen:
 
 
 def clipped(start: complex, end: complex, low: complex, high: complex) -> tuple[complex, complex] | None:
-    """Return the part of a segment inside the box low…high (mm), or None (Liang–Barsky)."""
+    """Return the part of a segment inside the box low…high (mm), by the algorithm of Liang and Barsky.
+
+    None if the segment misses the box or has only one point in common with it.
+    """
     d = end - start
     enter, leave = 0.0, 1.0
     for speed, lower, upper in (
@@ -185,7 +195,10 @@ class HalfPlane:
 
 
 def region(planes: Sequence[HalfPlane], box: Sequence[complex]) -> list[complex]:
-    """Return the part of a convex polygon (mm) that lies in all half-planes (Sutherland–Hodgman)."""
+    """Return the corners of the part of a convex polygon `box` (mm) that lies in all half-planes; empty if none does.
+
+    By the algorithm of Sutherland and Hodgman.
+    """
     corners = list(box)
     for plane in planes:
         kept: list[complex] = []
@@ -202,7 +215,10 @@ def region(planes: Sequence[HalfPlane], box: Sequence[complex]) -> list[complex]
 
 
 def clusters(parts: Iterable[Part], reach: float, at: Callable[[Part], complex]) -> list[list[Part]]:
-    """Group parts of a figure, in order, so that parts with places `at` within `reach` mm of any in a group join it."""
+    """Group parts of a figure, in order: a part whose place `at` is within `reach` mm of any in a group joins it.
+
+    Groups can thus be chains whose ends are farther apart; see `coincident`.
+    """
     parts = list(parts)
     points = list(map(at, parts))
     group = list(range(len(points)))
@@ -228,8 +244,10 @@ def coincident(parts: Iterable[Part], reach: float, at: Callable[[Part], complex
 
 
 def on_one_line(longer: tuple[complex, complex], shorter: tuple[complex, complex], apart: float, least: float) -> bool:
-    """Return True if two segments lie within `apart` mm of the longer one's line and share more than `least` mm of
-    it.
+    """Return True if the shorter of two segments lies within `apart` mm of the line of the longer one, and they share
+    more than `least` mm of it.
+
+    The segments (mm) may be given in either order.
     """
     longer, shorter = sorted((longer, shorter), key=lambda ends: -abs(ends[1] - ends[0]))
     u = unit(longer[1] - longer[0])
@@ -252,16 +270,17 @@ def polar(angle: float) -> complex:
 
 
 def rectangle(centre: complex, length: float, width: float, angle: float = 0.0) -> tuple[complex, ...]:
-    """Return the corners of a rectangle (mm), its length along `angle` (rad)."""
+    """Return the four corners of a rectangle (mm), anticlockwise; its length has the direction `angle` (rad)."""
     u = polar(angle)
     a, b = complex(length, width) / 2, complex(length, -width) / 2
     return (centre - u * a, centre + u * b, centre + u * a, centre - u * b)
 
 
 def overlap(centres: Complexes, half: Complexes, strokes: Complexes, clearance: float) -> Flags:
-    """Return flags [K, S] of boxes [K] (centre, half size as width + i height) that touch segments [S, 2].
+    """Return flags [K, S]: True where a box [K] (mm) comes nearer than `clearance` (mm) to a segment [S, 2] (mm).
 
-    The separating axes of a box and a segment are x, y and the segment's normal.
+    `half` is half the size of each box, as width + i height.  The separating axes of a box and a segment are x, y and
+    the segment's normal.
     """
     middle, reach = (strokes[:, 0] + strokes[:, 1]) / 2, (strokes[:, 1] - strokes[:, 0]) / 2
     along, up = reach.real.copy(), reach.imag.copy()
@@ -299,7 +318,10 @@ class Ink:
         self.inked = np.cumsum(inked, axis=0, out=inked)
 
     def touches(self, centres: Complexes, half: Complexes) -> Flags:
-        """Return flags of the boxes [N], by centres and half sizes (mm), that touch a stroke, to half a cell."""
+        """Return flags of the boxes [N] that touch a stroke, to within half a cell.
+
+        `centres` and `half`, half their sizes as width + i height, are in mm.
+        """
         return np.asarray(self.covered(centres, half) != 0)
 
     def covered(self, centres: Complexes, half: Complexes) -> NDArray[np.uint16]:

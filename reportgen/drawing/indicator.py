@@ -40,6 +40,7 @@ AWAY = 0.94
 """Distance from the cylinder, in widths of the diagram."""
 AXIS_PEN = Pen(0.2)
 TICK = 1.0
+"""Length of a tick (mm)."""
 READ = 4
 """Digits of a pressure that is read from the diagram."""
 
@@ -94,9 +95,10 @@ class ChartFrame:
 def beside(
     top: complex, bottom: complex, side: complex, highest: float, enlarged: float = 1.0
 ) -> tuple[complex, complex, float]:
-    """Return the ends (mm) of the diagram's axis beside the cylinder, and the round μ_p (Pa per mm) at which it fits.
+    """Return the ends (mm) of the diagram's stroke axis beside the cylinder, and the round μ_p (Pa/mm) that fits.
 
-    μ_p is that of the drawing after enlargement by `enlarged`.
+    `top` and `bottom` are the dead centres (mm), `side` is the direction away from the cylinder (any length), and
+    `highest` is the greatest pressure (Pa).  μ_p is that of the drawing after enlargement by `enlarged`.
     """
     away = unit(side) * AWAY * WIDTH / enlarged
     return top + away, bottom + away, nice_up(highest / WIDTH)

@@ -15,10 +15,13 @@ from reportgen.drawing.geometry import Ink, overlap
 Indices = NDArray[np.intp]
 
 DIRECTIONS = settled(np.exp(2j * np.pi * np.arange(24) / 24))
+"""Unit vectors of the directions [24] in which most candidates lie."""
 FINE = settled(np.exp(2j * np.pi * np.arange(120) / 120))
+"""Unit vectors of the directions [120] of labels that break lines."""
 NEAR = (0.0, 0.7, 1.6)
 """Additional distances (mm) at which a label is still recognised as that of its point."""
 FAR = (2.6, 3.6, 4.8, 6.0, 7.2, 8.4, 9.6, 10.8, 12.0)
+"""Distances (mm) of labels that need a leader."""
 ALL = (0.0, 0.4, 0.8, 1.2, 1.6, *np.arange(2.0, 12.0, 0.4))
 """Distances of labels that break lines, in `FINE` directions; the first `LEADERLESS` of them need no leader."""
 LEADERLESS = 5
@@ -33,8 +36,9 @@ PLACES = np.linspace(0.15, 0.95, 9)
 
 
 def ring(half: complex, distances: Floats, directions: Complexes = DIRECTIONS) -> Complexes:
-    """Return offsets [D, 24] of a box from its point, in 24 directions, with its nearest edge or corner at the
-    distances [D].
+    """Return offsets (mm) [D, K] of a box from its point, at the `distances` [D] (mm) in the `directions` [K].
+
+    The distance is that of the nearest edge or corner; `half` is half the size of the box, as width + i height.
     """
     corners = np.clip(directions.real * math.sqrt(2), -1, 1) + 1j * np.clip(directions.imag * math.sqrt(2), -1, 1)
     return settled(
@@ -44,21 +48,25 @@ def ring(half: complex, distances: Floats, directions: Complexes = DIRECTIONS) -
 
 @lru_cache(maxsize=KEPT)
 def nearby(half: complex, gap: float) -> Complexes:
-    """Return the offsets [72] at the near distances; cached, since names recur from plan to plan."""
+    """Return the offsets [72] (mm) of a box at the near distances; cached, since names recur from plan to plan."""
     return ring(half, np.asarray(NEAR) + gap).ravel()
 
 
 @lru_cache(maxsize=KEPT)
 def ranking(prefer: tuple[float, ...], anchors: int) -> Indices:
-    """Return the order [72 × anchors] of nearby candidates: the first point and preferred directions (rad) first."""
+    """Return the indices [72 × anchors] of nearby candidates in the order in which they are tried.
+
+    The first anchor, short distances and the directions `prefer` (rad) are first.
+    """
     cost = (np.asarray(NEAR)[:, None] * 0.45 + turned(prefer)).ravel()
     total = (0.25 * np.arange(anchors)[:, None] + cost).ravel()
     return np.argsort(settled(total), kind="stable")
 
 
 def turned(prefer: tuple[float, ...], directions: Complexes = DIRECTIONS) -> Floats:
-    """Return the distance of each direction [N] from the nearest preferred one: 1 − cos of the angle (rad) between
-    them.
+    """Return the cost of each direction [N]: 1 − cos of its angle to the nearest one of `prefer` (rad).
+
+    Without preference it is 0.35 times that for the direction up and to the right.
     """
     if not prefer:
         # Without preference: up and to the right reads best.
@@ -69,7 +77,10 @@ def turned(prefer: tuple[float, ...], directions: Complexes = DIRECTIONS) -> Flo
 
 @lru_cache(maxsize=KEPT)
 def around(half: complex, gap: float, prefer: tuple[float, ...]) -> tuple[Complexes, Floats, Complexes]:
-    """Return all spots, the near ones first, seen from their point: centres, costs and leaders [K, 2]."""
+    """Return candidates in fine directions, the near ones first, relative to their point.
+
+    They are centres [K] (mm), costs [K] and leaders [K, 2] (mm).
+    """
     centres = ring(half, np.asarray(ALL) + gap, FINE).ravel()
     cost = settled((np.asarray(ALL)[:, None] * 0.2 + turned(prefer, FINE)).ravel())
     return centres, cost, leaders_to(gap, centres, half)
@@ -77,7 +88,11 @@ def around(half: complex, gap: float, prefer: tuple[float, ...]) -> tuple[Comple
 
 @lru_cache(maxsize=KEPT)
 def beyond(half: complex, gap: float, prefer: tuple[float, ...]) -> tuple[Complexes, Floats, Complexes]:
-    """Return the spots farther out, the cheapest first, seen from their point: centres, costs and leaders [K, 2]."""
+    """Return the candidates farther out, the cheapest first, relative to their point; those with too long a leader are
+    left out.
+
+    They are centres [K] (mm), costs [K] and leaders [K, 2] (mm).
+    """
     centres = ring(half, np.asarray(FAR) + gap).ravel()
     cost = settled((np.asarray(FAR)[:, None] * 0.2 + turned(prefer)).ravel())
     leaders = leaders_to(gap, centres, half)
@@ -87,13 +102,14 @@ def beyond(half: complex, gap: float, prefer: tuple[float, ...]) -> tuple[Comple
 
 
 def touched(centres: Complexes, half: complex, strokes: Complexes) -> Flags:
-    """Return flags of the boxes [N] (mm) that come too close to any stroke."""
+    """Return flags of the boxes [N] (mm) of one half size that are within `CLEAR` of any of the strokes [S, 2]."""
     return np.asarray(overlap(centres, np.array([half]), strokes, CLEAR).any(axis=1), dtype=np.bool_)
 
 
 def leaders_to(gap: float, centres: Complexes, half: complex) -> Complexes:
-    """Return segments [K, 2] from a point's edge to just before the nearest place on each box, relative to the
-    point.
+    """Return the leaders [K, 2] (mm) from the edge of a point to just before the nearest place on each box.
+
+    All places are relative to the point; `gap` is the point's radius (mm).
     """
     foot = (centres.real - np.clip(centres.real, -half.real, half.real)) + 1j * (
         centres.imag - np.clip(centres.imag, -half.imag, half.imag)
@@ -103,7 +119,7 @@ def leaders_to(gap: float, centres: Complexes, half: complex) -> Complexes:
 
 
 def crossings(leaders: Complexes, strokes: Complexes) -> Floats:
-    """Return the number of strokes that each leader [K] crosses; ends in mm."""
+    """Return the number [K] of strokes [S, 2] that each leader [K, 2] crosses; all ends in mm."""
 
     def side(a: Complexes, b: Complexes, p: Complexes) -> Floats:
         return settled(np.asarray(((b - a).conj() * (p - a)).imag))
@@ -115,13 +131,13 @@ def crossings(leaders: Complexes, strokes: Complexes) -> Floats:
 
 
 def distances(leaders: Complexes, points: Complexes) -> Floats:
-    """Return the distances of points [P] from leaders [K, 2] (mm) [K, P]."""
+    """Return the distances (mm) [K, P] of points [P] from leaders [K, 2]."""
     start, direction = leaders[:, :1], leaders[:, 1:] - leaders[:, :1]
     share = np.clip(((points - start) / direction).real, 0.0, 1.0)
     return settled(np.asarray(np.abs(points - start - share * direction)))
 
 
 def inked(ink: Ink, leaders: Complexes) -> Floats:
-    """Return the number of `PLACES` at which each leader [K, 2] meets strokes, by crossing one or lying on it [K]."""
+    """Return the number [K] of `PLACES` at which each leader [K, 2] (mm) crosses a stroke or lies on one."""
     places = leaders[:, :1] + (leaders[:, 1:] - leaders[:, :1]) * PLACES
     return np.asarray(ink.touches(places, np.array(0.25 + 0.25j)).sum(axis=1), dtype=np.float64)

@@ -26,10 +26,10 @@ WHITE = 0.5
 
 
 def respelled(scene: Scene, spell: Callable[[Content], Content]) -> Scene:
-    """Return a scene whose labels have `spell` of their contents.
+    """Return a scene in which `spell` has replaced the content of every label.
 
-    A row of labels that grows keeps its middle or one of its ends, or moves as far up or down, whichever touches least
-    strokes and other labels; if it leaves the drawing, the drawing grows, too.
+    A row of labels that grows keeps its middle, or is moved by up to 3/2 of its growth sideways, up or down, to where
+    it touches fewest strokes and other labels.  If it leaves the drawing, the drawing grows.
     """
     items = list(scene.items)
     strokes = segments(item for item in items if not isinstance(item, Label))

@@ -170,10 +170,11 @@ class Boxes(formula_setter.Setter[Box]):
 
     @property
     def script(self) -> Boxes:
+        """Return the setter of scripts, at 0.7 of the size."""
         return Boxes(SCRIPT * self.em)
 
     def quotient(self, top: formula_layout.Part, bottom: formula_layout.Part) -> Box:
-        """Return a fraction, whose parts have script size and padding within a line of text."""
+        """Return the box of a fraction; within a line of text, its parts have script size, and it has padding."""
         em, size, white = self.em, self if self.displayed else self.script, 0.0 if self.displayed else 0.24
         above, below = size.part(top), size.part(bottom)
         axis, gap = 0.25 * em, 0.12 * em

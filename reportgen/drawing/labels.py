@@ -325,7 +325,10 @@ class Placed:
 
 @lru_cache(maxsize=FIGURES)
 def place(items: tuple[Item, ...], requests: tuple[Request, ...]) -> Placed:
-    """Return labels (and leaders) for the requests among the items, in order."""
+    """Place the labels of all requests, clear of the items, and return them with their leaders, in order.
+
+    The module docstring describes the order of attempts.  Results are cached.
+    """
     requests = tuple(map(_settled, requests))
     field = _Field(items, requests)
     frames = [(settled(centre), settled(half)) for centre, half in map(frame, _labels(items))]

@@ -58,7 +58,7 @@ class DrawingPlate:
 
     @cached_property
     def arrangements(self) -> list[Arranged]:
-        """Return the arrangements of the scenes, each wider and lower than the one before."""
+        """Return the arrangements of the scenes in rows, each wider and lower than the one before."""
         widths = [scene.width + GAP for scene in self.scenes]
         ends = list(accumulate(widths, initial=0.0))
         sums = {end - start - GAP for at, end in enumerate(ends) for start in ends[:at]}
@@ -87,14 +87,15 @@ class DrawingPlate:
         return bisect_right(self.arrangements, width + DUST, key=lambda one: one.width)
 
     def divided(self, count: int) -> tuple[DrawingPlate, DrawingPlate]:
-        """Return plates of its first `count` scenes and of the others."""
+        """Return the plate with its first `count` scenes and one with the others, whose first line is `further`."""
         lines = (self.further, *(line for line in self.lines if line != self.further))
         rest = replace(self, lines=lines, scenes=self.scenes[count:], first=self.first + count)
         return replace(self, scenes=self.scenes[:count]), rest
 
     def placed(self, how: Arranged, corner: complex) -> Iterator[PlacedScene]:
-        """Yield its parts with the upper left corner of its box at a place (mm): the head, then the rows, each evenly
-        spread.
+        """Yield the parts of the plate, arranged as in `how`: the head, then the scenes of each row, evenly spread.
+
+        `corner` is the upper left corner of the plate's box (mm).
         """
         top = corner - 1j * self.top.height
         yield PlacedScene(f"{self.number}", self.layer, self.top, top + (how.width - self.top.width) / 2)

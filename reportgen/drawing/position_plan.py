@@ -29,6 +29,7 @@ TOGETHER = 0.3
 CROWDED = 24
 """Above this number of positions only the emphasised one is numbered."""
 DOT = 0.55
+"""Radius of the circle at a numbered position or an instant centre (mm)."""
 VELOCITY, ANGLE = 20.0, 11.0
 """Length of a velocity's arrow and radius of an angle's arc (mm) beside instant centres."""
 LEAST_ANGLE = 0.03
@@ -36,7 +37,7 @@ LEAST_ANGLE = 0.03
 ARC_OVER = 9.0
 """Length (mm) of an arc on either side of its point."""
 BEYOND_BOTH = 0.7
-"""Position of the arc of a small angle, as a share of the distance to the nearer end."""
+"""Radius of the arc of the angle at the crank's centre, as a share of the distance to the second end."""
 BEYOND = 3.0
 """Length (mm) of a normal beyond the centre."""
 
@@ -71,8 +72,11 @@ def position_plan(
     *,
     beside: Canvas | None = None,
 ) -> Scene:
-    """Return the scene at `scale` mm of paper per m, with a drawing `beside` it about the same origin (an indicator
-    diagram).
+    """Draw a position plan at `scale` mm of paper per m.
+
+    `motion` gives the numbered positions, `dense` the curves of points; curves are drawn only if every position of
+    `dense` can be reached.  The drawing `beside` it has the same origin (an indicator diagram, say); `notes` are
+    printed below.
     """
     count = len(motion.driver)
     every = [skeleton(linkage, motion, k, scale) for k in range(count)]
@@ -239,8 +243,10 @@ class SwingMarks:
 
 
 def swing_marks(marks: SwingMarks, scale: float) -> Canvas:
-    """Draw the radii to both ends about the crank's centre (m, `scale` mm per m), with lines and angles
-    between them.
+    """Draw the construction of `SwingMarks` at `scale` mm of paper per m.
+
+    It has the lines from the crank's centre to both ends with arcs about it, both named angles, and the arc of the
+    circle, if there is one.
     """
     centre, pivot = marks.centre * scale, marks.pivot * scale
     ends = [end * scale for end in marks.ends]

@@ -72,7 +72,7 @@ def skeleton(linkage: Linkage, motion: Motion, index: int, scale: float) -> Skel
     owners = {point.name: point.link for point in linkage.points}
 
     def pin(name: str, link: int) -> None:
-        """A revolute joint of `link` at a point that another link carries."""
+        """Enter a revolute joint of `link` at the named point, which may belong to another link."""
         for number in (link, owners.get(name, GROUND)):
             if number in bars and name not in bars[number]:
                 bars[number].append(name)
@@ -80,7 +80,7 @@ def skeleton(linkage: Linkage, motion: Motion, index: int, scale: float) -> Skel
             joints.append(name)
 
     def slide(link: int, name: str, guide: Guide | Dyad, turns: bool = True) -> None:
-        """The block of a link on a guide, or on the other link of its dyad, from end to end of its way there."""
+        """Enter the block of a link on a guide, or on the other link of its dyad, with the ends of its travel."""
         on, angle, base = _axis(motion, guide)
         p, direction = motion.points[name].p, np.exp(1j * angle)
         along = ((p - base) * direction.conj()).real
@@ -189,7 +189,7 @@ def scheme(linkage: Linkage, motion: Motion, index: int, scale: float, looks: Lo
 def groups(
     linkage: Linkage, motion: Motion, index: int, scale: float, looks: Looks, titles: Sequence[str] = ()
 ) -> tuple[Scene, ...]:
-    """Draw the driver with the ground, then each Assur group alone, a scene for each, at `scale` mm per m."""
+    """Draw the driver with the ground, then each Assur group alone, at `scale` mm per m; a scene and a title each."""
     bones = skeleton(linkage, motion, index, scale)
     parts = [mechanism(bones, (GROUND, DRIVER), looks) + driver_marks(linkage, motion, bones)]
     parts += [mechanism(bones, dyad.links, looks) for dyad in linkage.dyads]
@@ -229,7 +229,7 @@ def thumbnail(linkage: Linkage, motion: Motion, index: int) -> Canvas:
 
 
 def mechanism(bones: Skeleton, links: Sequence[int], looks: Looks) -> Canvas:
-    """Draw the given links with their joints, names and numbers; link 0 with its pivots and guides."""
+    """Draw the given links with their joints, names and numbers; with link 0, the ground, its pivots and guides."""
     rails: list[Item] = []
     bars: list[Item] = []
     blocks: list[Item] = []
@@ -479,7 +479,7 @@ SAMPLE, COLUMN, ROW, GAP = 18.0, 76.0, 6.5, 2.5
 
 
 def line_styles(words: Mapping[str, str]) -> Scene:
-    """Draw two columns of samples, lines and arrows; `words` has the text of each by its key."""
+    """Draw two columns of samples, lines and arrows; `words` has their texts by key; one without text is omitted."""
     items: list[Item] = []
     facts: list[Fact] = []
     for column, pens in enumerate((LINES, ARROWS)):

@@ -23,12 +23,16 @@ LEAD, TEETH, SIDE = 0.18, 8, 1.7
 TURNS, INNER, OUTER = 2.25, style.JOINT, 5.6
 """Number of turns and radii (mm) of the spiral about a pin."""
 PER_TURN = 24
+"""Number of lines that draw a turn of the spiral."""
 MOUNT = 4.6
 """Half the length of the ground at the end of a spring (mm), as wide as that below a pivot."""
 
 
 def zigzag(start: Complexes, end: Complexes) -> list[Complexes]:
-    """Return the corners (mm) [N] of a spring between two ends [N]; its coils separate as it is stretched."""
+    """Return the corners of a zigzag spring between two ends [N] (mm), each corner [N] (mm).
+
+    Its width is constant, and its coils separate as it is stretched.
+    """
     along = end - start
     length = np.abs(along)
     across = 1j * SIDE * along / np.where(length > 0, length, 1.0)
@@ -50,7 +54,7 @@ def named(coil: Coil) -> Symbol:
 
 
 def mounts(coil: Coil, linkage: Linkage, start: complex, end: complex, pivots: Collection[str]) -> list[Item]:
-    """Return the ground at the ends (mm) of a spring that are fixed and are not pivots."""
+    """Return the ground, with a joint, at each end (mm) of a spring that is fixed to the frame and is not a pivot."""
     items: list[Item] = []
     for anchor, at, opposite in zip(coil.ends, (start, end), (end, start), strict=True):
         if not anchor.name or (anchor.name in linkage.ground and anchor.name not in pivots):

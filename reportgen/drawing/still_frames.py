@@ -72,7 +72,10 @@ def sample_at(animation: Animation, degrees: float) -> int:
 
 
 def stills(animation: Animation, pane: Pane, samples: Sequence[int], layers: Collection[str] = ()) -> Iterator[Scene]:
-    """Yield a pane at samples, with the visible layers; letters, arrowheads and pens are as large as on a page."""
+    """Yield a scene of a pane at each of the `samples`, with the given layers visible.
+
+    Labels and moving arrows and lines are enlarged as the pane requires (`Pane.enlargement`).
+    """
     low, bars = scale_bars(pane, animation.units)
     size, foot = pane.high - low, complex(pane.high.real, pane.low.imag)
     visible = [item for item in pane.items if not item.layer or item.layer in layers]

@@ -121,8 +121,9 @@ def ground(start: complex, end: complex, side: int) -> tuple[Item, ...]:
 def guide(
     low: complex, high: complex, size: tuple[float, float], bars: Sequence[tuple[complex, complex]] = ()
 ) -> tuple[Item, ...]:
-    """Return the walls (mm) on both sides of a block's travel, half a block longer than it, open where `bars` cross
-    them.
+    """Return the walls on both sides of a block that travels from `low` to `high` (mm), open where `bars` cross them.
+
+    `size` is the length and width of the block (mm).  Each wall extends half a block and 2 mm beyond the travel.
     """
     u = unit(high - low)
     away = u * 1j * (size[1] / 2 + PLAY)
@@ -157,12 +158,15 @@ def _uncrossed(
 
 
 def block(at: complex, angle: float, size: tuple[float, float]) -> Item:
-    """Return a block of a size (mm) at a place (mm), turned by an angle (rad)."""
+    """Return a block at a place (mm) with a `size` (length, width in mm), its length at an angle (rad) to x."""
     return Polyline(rectangle(at, *size, angle), VISIBLE, closed=True, fill=TINT)
 
 
 def body(points: Sequence[complex], pen: Pen = HEAVY, fill: str | None = TINT) -> tuple[Item, ...]:
-    """Return a link through its joints (mm): a bar if they are collinear, otherwise the polygon around them."""
+    """Return a link through its joints (mm): a bar if they are collinear, otherwise the convex polygon around them.
+
+    The result is empty for fewer than two joints.
+    """
     if len(points) < 2:
         return ()
     p = np.asarray(points)
@@ -214,7 +218,7 @@ def arrow_head(start: complex, end: complex, length: float) -> tuple[complex, Tr
     """Return the end of the shaft and the head's triangle, tip first, of an arrow (mm) whose tip lies on `end`.
 
     The shaft ends inside the head, so that no square pen end is visible beside the tip; the head shrinks on an arrow
-    shorter than itself.  For an arrow of no length the triangle is None.
+    shorter than itself.  If the arrow or its head has no length, the triangle is None.
     """
     span = abs(end - start)
     if span == 0 or length <= 0:
@@ -227,7 +231,7 @@ def arrow_head(start: complex, end: complex, length: float) -> tuple[complex, Tr
 
 
 def arc_to_beziers(centre: complex, radius: float, start: float, stop: float) -> list[Bezier]:
-    """Return cubic Bézier pieces of an arc from `start` to `stop` (rad), each of at most 45°.
+    """Return cubic Bézier pieces (mm) of an arc from `start` to `stop` (rad), each of at most 45°.
 
     The handles are (4/3) tan(Δ/4) of the radius; the error stays below 5e-6 of the radius.
     """
@@ -258,10 +262,10 @@ def arc_with_head(arc: Arc) -> tuple[list[Bezier], Triangle | None]:
 
 
 def clip_hatch(points: Sequence[complex], spacing: float, turn: float = 0.0) -> list[Segment]:
-    """Return strokes at 45° to `turn` (rad) inside a convex polygon, `spacing` mm apart, counted from the sheet's
-    origin.
+    """Return strokes at 45° to `turn` (rad) inside a convex polygon (mm), `spacing` mm apart.
 
-    Neighbouring hatches thus join.  Raises `ValueError` for a spacing that is not positive.
+    They are counted from the sheet's origin, so that neighbouring hatches join.  Raises `ValueError` for a spacing that
+    is not positive.
     """
     if spacing <= 0:
         raise ValueError("the spacing of a hatch must be positive")

@@ -117,6 +117,7 @@ class Construction(Generic[Corner]):
 
     @property
     def last_stage(self) -> int:
+        """Return the number of the last stage; 0 if everything is drawn at once."""
         numbers = [v.stage for v in self.vectors] + [p.stage for p in self.points]
         return max(numbers + [k.stage for k in self.lines], default=0)
 
@@ -140,7 +141,7 @@ class Construction(Generic[Corner]):
         )
 
     def until(self, stage: int) -> Construction[Corner]:
-        """Return the part of the construction up to a stage."""
+        """Return the part of the construction up to and including a stage."""
         return replace(
             self,
             vectors=tuple(v for v in self.vectors if v.stage <= stage),
@@ -188,8 +189,8 @@ def plan(
 ) -> Scene:
     """Return the scene of a plan in true size; `enlarged` repeats vectors under 3 mm in insets.
 
-    The drawings `beside` it, their labels placed, and the insets are stacked to its right; if that would be wider than
-    `width` (mm), they are in rows below it.
+    The drawings `beside` it, whose labels must have been placed, and the insets are stacked to its right.  If that
+    would be wider than `width` (mm), they are in rows below it, and the margin is `CLOSE`.
     """
     vectors = drawing.drawn()
     draft = Canvas(
@@ -212,8 +213,8 @@ def plan(
 def stages(drawing: Plan, factor: float = 1.0, titles: Titles = lettered, begin: int = 0) -> tuple[Scene, ...]:
     """Draw the construction step by step, `factor` times as large: a panel for each stage, with its additions in blue.
 
-    Only points are named, as on every small plan.  All panels have one size.  A stage without additions is drawn
-    together with the next one; stages before `begin` have no panel.
+    Only points are named, as on every small plan; `titles` gives the title of each panel.  All panels have one size.  A
+    stage without additions is drawn together with the next one; stages before `begin` have no panel.
     """
     scaled = drawing.scaled(factor).lettered
     kept = kept_stages(scaled)
@@ -256,7 +257,7 @@ def merged(drawing: Plan) -> Plan:
 
 
 def kept_stages(drawing: Plan) -> list[int]:
-    """Return the stages that add an arrow or a line, in order."""
+    """Return the stages that add a line or an arrow that does not repeat an earlier one, in order."""
     arrows = [(v.stage, v.start, v.end) for v in drawing.drawn()]
     lines = [(k.stage, k.start, k.end) for k in drawing.lines if abs(k.end - k.start) > INVISIBLE]
 
@@ -267,7 +268,7 @@ def kept_stages(drawing: Plan) -> list[int]:
 
 
 def vector_facts(vectors: Sequence[PlanVector[complex]]) -> Description:
-    """Return the facts of vectors: name, length and direction of each, or that none is longer than a point."""
+    """Return the facts of vectors (mm): name, length and direction of each, or that there are none."""
     facts = (arrow(v.name if v.label is None else v.label, v.end - v.start) for v in vectors)
     return tuple(facts) or (fact("no-vectors"),)
 
@@ -390,8 +391,7 @@ def _outward(at: complex, vectors: Sequence[PlanVector[complex]]) -> tuple[float
 
 
 def insets(drawing: Plan) -> tuple[list[Canvas], Canvas]:
-    """Return insets for groups of short vectors, each about its own middle, and the circles that mark the enlarged
-    areas.
+    """Return insets of groups of short vectors, each about its own middle, and circles around those groups.
 
     Vectors shorter than `DOT` get none.  Each inset prints its ratio (e.g. 10:1) and draws the other vectors of the
     plan that pass through its frame.

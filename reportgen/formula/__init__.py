@@ -21,12 +21,14 @@ from reportgen.base.units import rounded
 
 
 class _Algebra:
-    """The arithmetic operators. A sum or product merges only the terms of its left operand, so that parentheses
-    are printed where they are written. A minus before a product or a fraction applies to the whole of it.
+    """The arithmetic operators.
+
+    A sum or product merges only the terms of its left operand, so that parentheses are printed where they are written.
+    A minus before a product or a fraction applies to the whole of it.
     """
 
     __slots__ = ()
-    __array_ufunc__ = None  # a number of numpy leaves the operation to the expression
+    __array_ufunc__ = None  # A NumPy number then leaves the operation to the expression.
 
     def __add__(self, other: Operand) -> Sum:
         return Sum((*_terms(self), as_expression(other)))
@@ -73,8 +75,8 @@ class _Algebra:
 class Symbol(_Algebra):
     """A printed symbol: base letter(s) with upright subscript and superscript.
 
-    `over` is "vector" for an arrow above, "segment" for a bar above a length measured on a drawing.
-    A constant such as π carries its `value`; any other symbol evaluates only by name.
+    `over` is "vector" for an arrow above, "segment" for a bar above a length measured on a drawing. A constant such as
+    π has a `value` (dimensionless); any other symbol has none and cannot be evaluated.
     """
 
     base: str
@@ -86,7 +88,7 @@ class Symbol(_Algebra):
 
 @dataclass(frozen=True, slots=True)
 class Number(_Algebra):
-    """A number as printed: `value` is in `unit`, shown with `decimals` (None: exact, shown as it is)."""
+    """A number as printed: `value` is in the printed `unit`, with `decimals` (None: exact, printed unchanged)."""
 
     value: float
     decimals: int | None = None
@@ -94,12 +96,12 @@ class Number(_Algebra):
 
     @property
     def printed(self) -> float:
-        """The value a reader of the page sees, in the number's unit."""
+        """The value as printed, in the number's unit: rounded to its decimals."""
         return self.value if self.decimals is None else rounded(self.value, self.decimals)
 
     @property
     def half_unit(self) -> float:
-        """Half a unit of the last printed digit; 0 for exact numbers."""
+        """Half a unit of the last printed digit, in the number's unit; 0 for exact numbers."""
         return 0.0 if self.decimals is None else 0.5 * 10.0**-self.decimals
 
 
@@ -144,7 +146,7 @@ class Root(_Algebra):
 
 @dataclass(frozen=True, slots=True)
 class Call(_Algebra):
-    """A function of `evaluation.FUNCTIONS` by its name: sin, cos, …, or a construction of plane geometry."""
+    """A function of `evaluation.FUNCTIONS`, by its name: sin, cos, …, or a construction of plane geometry."""
 
     name: str
     arguments: tuple[Expression, ...]
@@ -152,17 +154,17 @@ class Call(_Algebra):
 
 @dataclass(frozen=True, slots=True)
 class Matrix(_Algebra):
-    """A matrix, or with rows of one entry a column, of a displayed equation; it has no single value."""
+    """A matrix or column (rows of one entry) of a displayed equation; it has no single value."""
 
     rows: tuple[tuple[Expression, ...], ...]
 
 
 @dataclass(frozen=True, slots=True)
 class Chain(_Algebra):
-    """formula = substitution = result, as one printed line.
+    """A worked line: formula = substitution = result.
 
-    `parts` are shown joined by "="; the last is the result.  `note` is a word of reason after the
-    result ("since ω1 is constant"); it is never evaluated.
+    `parts` are printed with "=" between them; the last is the result. `note` is a reason printed after the result
+    ("since ω1 is constant"); it is never evaluated.
     """
 
     parts: tuple[Expression, ...]
@@ -171,10 +173,10 @@ class Chain(_Algebra):
 
 @dataclass(frozen=True, slots=True)
 class Term:
-    """One vector of a vector equation and the known facts about it.
+    """A vector of a vector equation and the known facts about it.
 
-    `known` gives, in the order of the equation's `rows` (direction, sense, size), the text or
-    expression printed below the symbol; None prints as the mark of an unknown, "?".
+    `known` gives, in the order of the equation's `rows` (direction, sense, size), the text or expression printed below
+    the symbol; None prints "?" for an unknown. `sign` is +1 or −1.
     """
 
     symbol: Symbol
@@ -204,12 +206,12 @@ E = Symbol("e", value=math.e)
 
 
 def as_expression(value: Operand) -> Expression:
-    """Return a node as it is, a number as an exact `Number`."""
+    """Return a node unchanged, a number as an exact `Number` without unit."""
     return Number(float(value)) if isinstance(value, (int, float)) else value
 
 
 def _node(value: Any) -> Expression:
-    """Return a node, which the type checker knows as the base of all."""
+    """Return the node, cast to `Expression` for the type checker."""
     return cast(Expression, value)
 
 
@@ -224,15 +226,17 @@ def total(terms: Iterable[Expression]) -> Expression:
 
 
 def call(name: str, *arguments: Operand) -> Call:
-    """Return a function of `evaluation.FUNCTIONS` by its name."""
+    """Return a call of a function of `evaluation.FUNCTIONS`, by its name."""
     return Call(name, tuple(map(as_expression, arguments)))
 
 
 def column(*entries: Operand) -> Matrix:
+    """Return a column of entries."""
     return Matrix(tuple((as_expression(entry),) for entry in entries))
 
 
 def sqrt(of: Operand) -> Root:
+    """Return the square root of an operand."""
     return Root(as_expression(of))
 
 
@@ -255,24 +259,29 @@ arcinv: OfOne = partial(call, "arcinv")
 
 
 def signed(sense: float, of: Expression) -> Expression:
-    """Return an expression unchanged, or with the other sign if `sense` is negative."""
+    """Return an expression unchanged if `sense` is above 0, else with the other sign.
+
+    Only the sign of `sense` counts, in any unit.
+    """
     if sense > 0:
         return of
     return of.of if isinstance(of, Negative) else Negative(of)
 
 
 def size(of: Operand) -> Call:
-    """Return |of| of a signed number, printed unchanged; abs is measured on a drawing."""
+    """Return |of| as a printed formula; the function `abs` instead denotes a length measured on a drawing."""
     return call("size", of)
 
 
 def atan2(across: Operand, along: Operand) -> Call:
+    """Return the direction of the vector with the components `along` x and `across` it, in (−π, π] (rad)."""
     return call("arctan2", across, along)
 
 
 def branch(number: Operand, *branches: Operand) -> Call:
-    """Return a call that selects one of `branches` at each position by its number, from 0; the line prints that
-    one only.
+    """Return a call that selects one of `branches` at each position by its number, from 0.
+
+    The printed line has the selected branch only.
     """
     return call("branch", number, *branches)
 
@@ -283,13 +292,13 @@ NOTHING, ONE, MINUS_ONE = map(Number, (0.0, 1.0, -1.0))
 
 
 def plus(*terms: Expression) -> Expression:
-    """Return the sum of terms, those that are 0 left out."""
+    """Return the sum of terms without zeros."""
     parts = [part for term in terms for part in (term.terms if isinstance(term, Sum) else (term,)) if part != NOTHING]
     return total(parts) if parts else NOTHING
 
 
 def minus(of: Expression) -> Expression:
-    """Return the same with the other sign, term by term."""
+    """Return an expression with the other sign; a sum changes the sign of each term."""
     match of:
         case Sum(terms):
             return Sum(tuple(map(minus, terms)))
@@ -301,7 +310,7 @@ def minus(of: Expression) -> Expression:
 
 
 def times(*factors: Expression) -> Expression:
-    """Return the product of factors, 0 if one of them is 0; factors 1 are left out, −1 gives its sign."""
+    """Return the product of factors, simplified: 0 if one of them is 0, without factors 1; factors −1 give the sign."""
     if NOTHING in factors:
         return NOTHING
     kept = [factor for factor in factors if factor not in (ONE, MINUS_ONE)] or [ONE]
@@ -316,7 +325,7 @@ def _begins_negative(of: Expression) -> bool:
 
 
 def over(top: Expression, bottom: Expression) -> Expression:
-    """Return a fraction; 0 where its top is."""
+    """Return the fraction top / bottom, simplified: 0 if the top is 0, and without a bottom of 1 or −1 or its minus."""
     if top == NOTHING:
         return NOTHING
     if bottom in (ONE, MINUS_ONE):
@@ -327,22 +336,25 @@ def over(top: Expression, bottom: Expression) -> Expression:
 
 
 def square(of: Expression) -> Expression:
+    """Return the square of an expression, simplified: 0 for 0, and without a minus."""
     return NOTHING if of == NOTHING else Power(of.of if isinstance(of, Negative) else of, Number(2.0))
 
 
 def between(minuend: Expression, subtrahend: Expression) -> Expression:
-    """Return minuend − subtrahend, simplified."""
+    """Return minuend − subtrahend, simplified; the difference of two typed angles is a number in degrees."""
     if isinstance(minuend, Number) and isinstance(subtrahend, Number):
         return Number(minuend.value - subtrahend.value, unit="°")
     return plus(minuend, NOTHING if is_zero(subtrahend) else minus(subtrahend))
 
 
 def sine(of: Expression) -> Expression:
+    """Return the sine of an angle; a typed multiple of 90° gives 0, 1 or −1."""
     quarters = _quarters(of)
     return sin(of) if quarters is None else Number((0.0, 1.0, 0.0, -1.0)[quarters])
 
 
 def cosine(of: Expression) -> Expression:
+    """Return the cosine of an angle; a typed multiple of 90° gives 0, 1 or −1."""
     quarters = _quarters(of)
     return cos(of) if quarters is None else Number((1.0, 0.0, -1.0, 0.0)[quarters])
 
@@ -354,6 +366,7 @@ def _quarters(angle: Expression) -> int | None:
 
 
 def is_zero(angle: Expression) -> bool:
+    """Return True if an angle is the number 0."""
     return isinstance(angle, Number) and angle.value == 0
 
 
@@ -361,17 +374,28 @@ def is_zero(angle: Expression) -> bool:
 
 
 def meet(p: Operand, u: Operand, q: Operand, w: Operand) -> Call:
-    """Return the intersection of the line through p along u with the line through q along w."""
+    """Return the intersection of the line through p along u with the line through q along w.
+
+    Points are complex, in one unit, which is also the result's; u and w have any length.
+    """
     return call("meet", p, u, q, w)
 
 
 def circle_line(centre: Operand, radius: Operand, p: Operand, u: Operand, sign: float) -> Call:
-    """Return the intersection of a circle and the line through p along u, in one unit; sign +1: farther along u."""
+    """Return the intersection of a circle and the line through p along u, a vector of any length.
+
+    Points and radius are in one unit, which is also the result's. The `sign` ±1 selects the intersection; +1 is the one
+    farther along u.
+    """
     return call("circle_line", centre, radius, p, u, sign)
 
 
 def circle_circle(c1: Operand, r1: Operand, c2: Operand, r2: Operand, sign: float) -> Call:
-    """Return the intersection of two circles, in one unit; sign +1: to the left of the way from c1 to c2."""
+    """Return the intersection of two circles.
+
+    Points and radii are in one unit, which is also the result's. The `sign` ±1 selects the intersection; +1 is the one
+    to the left of the direction from c1 to c2.
+    """
     return call("circle_circle", c1, r1, c2, r2, sign)
 
 
@@ -382,19 +406,19 @@ cross: OfTwo = partial(call, "cross")
 dot: OfTwo = partial(call, "dot")
 """The scalar product."""
 cis: OfOne = partial(call, "cis")
-"""The unit vector at an angle from +x."""
+"""The unit vector (dimensionless) at an angle (rad) from +x."""
 arg: OfOne = partial(call, "arg")
-"""A vector's direction from +x, in (−π, π]."""
+"""A vector's direction from +x, in (−π, π] (rad)."""
 heading: OfOne = partial(call, "heading")
-"""A vector's direction from +x, in [0, 2π)."""
+"""A vector's direction from +x, in [0, 2π) (rad)."""
 sign: OfOne = partial(call, "sign")
 """+1, 0 or −1."""
 quotient: OfTwo = partial(call, "quotient")
-"""a / b, and 0 where b is 0: the arm of a force that is not there."""
+"""a / b, and 0 where b is 0, for example the arm of a force that is zero."""
 
 
 def unit(vector: Operand) -> Call:
-    """Return a vector's direction, a vector of length 1; 0 for one of no length."""
+    """Return a vector's direction as a vector of length 1 (dimensionless); 0 for a vector of length 0."""
     return quotient(vector, call("abs", vector))
 
 

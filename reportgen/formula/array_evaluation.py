@@ -1,4 +1,4 @@
-"""Evaluate the definitions of a sheet over arrays of other values, so that no formula is written a second time."""
+"""Evaluate definitions of a calculation for arrays of other values, so that no formula is written a second time."""
 
 from __future__ import annotations
 
@@ -12,10 +12,13 @@ from reportgen.formula.evaluation import evaluate
 
 
 def model(sheet: Calculation, wanted: Iterable[str], **known: Value) -> dict[str, Value]:
-    """Return the values (SI) of some ids of a sheet with others in place of its own, over arrays of any shape.
+    """Return the values (SI) of the `wanted` ids of a calculation with other values for the `known` ids.
 
-    Only the inputs of the wanted ids are evaluated; undefined values are nan or infinite, as on the sheet. Raises
-    `KeyError` for an id that is not on the sheet.
+    The known values (SI) are scalars or arrays of any shape that broadcast together; results have the broadcast shape.
+    A given quantity of the calculation enters as a scalar if it has one value, else as [N] over the positions. Only
+    inputs of the wanted ids are evaluated. Undefined values are nan or infinite, as in the calculation.
+
+    Raises `KeyError` for a wanted id that is neither known nor in the calculation.
     """
     wanted, values = tuple(wanted), dict(known)
     needed = {*wanted} - {*known}

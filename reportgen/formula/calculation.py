@@ -1,6 +1,6 @@
-"""A sheet of formulas: named quantities with their definitions, each entered once and evaluated when it is entered.
+"""A calculation: named quantities with their definitions, each entered once and evaluated when it is entered.
 
-A machine opens the sheet with its given data; the ledger adds entries position by position. `define` and `give`
+A machine starts the calculation with its given data; further entries follow position by position. `define` and `give`
 return the quantity as an expression, so that the next formula can be written with it:
 
     R = q.define("R", H / 2)
@@ -27,16 +27,16 @@ ZERO = 1e-9
 """A value below this share of its own scale is negligible and prints as 0."""
 
 DUST = 1e-12
-"""Shares of a value below this are of floats."""
+"""Relative differences below this are floating-point errors."""
 
 COMPUTED = 1e-9
-"""A computed value is as exact as this share of it, those of integrals among them."""
+"""Relative accuracy of computed values, including integrals."""
 
 TYPED = 10
-"""Significant figures that given data have at most."""
+"""Largest number of significant figures of given data."""
 
 BELOW_A_TURN = 1e-12
-"""An angle this little below a whole turn (rad) is one."""
+"""An angle that is less than this (rad) below a full turn counts as a full turn."""
 
 CONSTRUCTIONS = frozenset(
     {"meet", "circle_line", "circle_circle", "abs", "cis", "turned", "arg", "re", "im", "cross", "dot"}
@@ -62,15 +62,15 @@ CONSTRUCTIONS = frozenset(
 class Family:
     """One quantity at all positions.
 
-    `values` are SI (complex for a point or vector of the plane), one per position or a single one. `definition` is
-    None for given data. `exact` data print as they were given. An `arm` is a signed length printed by its size, its
-    sign going to the term that contains it; an `optional` term is left out of a sum where it is negligible. `scale`
-    is a reference size: a value below 1e-9 of it is negligible. A `hidden` family serves a construction and is
-    never printed. `of` is the id of the size whose direction, signed value or vector this is, of an arm the load,
-    `about` the point an arm is measured from; both are "" for any other quantity. `written` is a formula of the
-    same value that replaces the definition on the page, where printed figures would be too few for that. A
-    `residue` is the rounding difference of two ways to one number. A `converted` value was typed in a unit that
-    gives more figures than anyone types; it is rounded like a result.
+    `values` are SI (complex for a point or vector of the plane): [N] over the positions, or [1] if they do not vary.
+    `definition` is None for given data. `exact` data print as they were given. An `arm` is a signed length that prints
+    its size; its sign moves to the term that contains it. An `optional` term is left out of a sum where it is
+    negligible. `scale` is a reference size (SI): a value below 1e-9 of it is negligible. A `hidden` family serves a
+    construction and is never printed. `of` is the id of the size whose direction, signed value or vector this is, for
+    an arm the id of the load; `about` is the point from which an arm is measured. Both are "" for any other quantity.
+    `written` is a formula of the same value that replaces the definition on the page, where printed figures would be
+    too few for that. A `residue` is the rounding difference of two computations of one number. A `converted` value was
+    typed in a unit that gives more figures than anyone types; it is rounded like a result.
     """
 
     id: str
@@ -97,7 +97,7 @@ class Family:
 
     @property
     def how(self) -> QuantityKind:
-        """The unit and the number of figures with which it is printed."""
+        """The printed unit with its factor to SI, and the number of figures or decimals."""
         return KINDS[self.kind]
 
     @property
@@ -112,7 +112,7 @@ class Family:
 
     @property
     def is_of_vector(self) -> bool:
-        """True if it is an angle of the vector of size `of`; a vector of length 0 has none."""
+        """True if it is an angle of the vector with the size `of`; a vector of length 0 has none."""
         return bool(self.of) and self.how.unit == "°"
 
     @property
@@ -128,35 +128,42 @@ class Family:
         )
 
     def at(self, position: int | None) -> Any:
-        """Return its SI value at a position counted from 1; a negligible value is exactly 0."""
+        """Return the SI value at a position counted from 1, a scalar; a negligible value is exactly 0.
+
+        A point or vector of the plane gives a complex number. The position is ignored if there is only one value; None
+        selects the first.
+        """
         value = self.values[0 if len(self.values) == 1 or position is None else position - 1]
         return value * 0 if abs(value) < ZERO * self.scale else value
 
 
 class Calculation:
-    """Quantities in the order of their definition, over `positions` positions; each is evaluated when it is entered."""
+    """Quantities in the order of their definition, over `positions` positions; each is evaluated when it is entered.
+
+    Values are SI, [N] over the positions, or [1] for a quantity that does not vary.
+    """
 
     def __init__(self, positions: int = 1) -> None:
         self.positions = positions
         self.families: dict[str, Family] = {}
         self.typed: dict[str, Number] = {}
-        """Given data in the units that they were typed with."""
+        """Given data in the units in which they were typed."""
         self.lines: dict[str, tuple[str, ...]] = {}
-        """Ids of the lines that the report sets out together, by the names that templates use."""
+        """Ids of the lines that the report prints together, by the names that templates use."""
         self.chapter = KeyChapter.geometry
         """Chapter of quantities for which the vocabulary gives none."""
         self._values: dict[str, np.ndarray] = {}
         self._inputs: dict[str, tuple[str, ...]] = {}
 
     def copy(self, positions: int = 0) -> Calculation:
-        """Return a copy with the entries so far, for more entries; `positions` changes the number of positions."""
+        """Return a copy with the entries so far, for further ones; `positions` > 0 changes the number of positions."""
         copy = Calculation(positions or self.positions)
         copy.families, copy._values, copy.lines = dict(self.families), dict(self._values), dict(self.lines)
         copy.chapter, copy.typed = self.chapter, dict(self.typed)
         return copy
 
     def extend(self, sheet: Calculation) -> None:
-        """Enter all quantities of another sheet; raises `ValueError` for a quantity that is on both."""
+        """Enter all quantities of another calculation; raise `ValueError` for a quantity that both have."""
         for family in sheet.families.values():
             self.enter(family)
         for name, ids in sheet.lines.items():
@@ -165,7 +172,7 @@ class Calculation:
     def set_out(self, name: str, *quantities: Ref | str) -> None:
         """Let the report print these quantities in this order, after those already under this name.
 
-        A quantity may be entered later; one that never is, is left out.
+        A quantity may be entered later; one that is never entered is left out.
         """
         ids = (quantity if isinstance(quantity, str) else quantity.id for quantity in quantities)
         self.lines[name] = (*self.lines.get(name, ()), *ids)
@@ -176,8 +183,9 @@ class Calculation:
 
     @contextmanager
     def within(self, chapter: KeyChapter) -> Iterator[None]:
-        """Assign entries made in this context to a chapter: always if it is `formulas`, else if the vocabulary
-        gives none.
+        """Assign entries made in this context to a chapter.
+
+        The chapter `formulas` always applies, any other one only if the vocabulary gives none.
         """
         before, self.chapter = self.chapter, chapter
         yield
@@ -187,7 +195,7 @@ class Calculation:
         return id in self.families
 
     def __getitem__(self, id: str) -> Ref:
-        """Return a quantity that is entered, as an expression; raises `KeyError` for any other."""
+        """Return an entered quantity as an expression; raise `KeyError` for any other id."""
         return Ref(self.families[id].id)
 
     def find(self, id: str) -> Ref | None:
@@ -195,43 +203,60 @@ class Calculation:
         return Ref(id) if id in self.families else None
 
     def inputs(self, id: str) -> tuple[str, ...]:
-        """Return the ids that the definition of a quantity names."""
+        """Return the ids in the definition of a quantity; raise `KeyError` for an id that is not entered."""
         if id not in self._inputs:
             definition = self.families[id].definition
             self._inputs[id] = () if definition is None else refs(definition)
         return self._inputs[id]
 
     def value(self, quantity: str | Ref) -> np.ndarray:
-        """Return the SI values of a quantity, one or one per position."""
+        """Return the SI values of a quantity: [N] over the positions, or [1] if it does not vary.
+
+        Points and vectors of the plane are complex. Raises `KeyError` for an id that is not entered.
+        """
         return self._values[quantity if isinstance(quantity, str) else quantity.id]
 
     def si(self, quantity: str | Ref) -> float:
-        """Return the SI value of a quantity that has one for all positions."""
+        """Return the SI value of a quantity that does not vary, or its value at the first position.
+
+        Raises `KeyError` for an id that is not entered.
+        """
         return float(self.value(quantity)[0])
 
     def give(
         self, id: str, value: Any, symbol: Symbol | str = "", kind: str = "", *, exact: bool = True, **traits: Any
     ) -> Ref:
-        """Enter given data (SI): a number, or one per position."""
+        """Enter given data (SI), a number or an array [N] over the positions.
+
+        Without a symbol or kind, the vocabulary gives it; `traits` are further fields of the `Family`. Raises
+        `ValueError` for a quantity that is entered twice or has neither 1 nor N values.
+        """
         values = np.atleast_1d(np.asarray(value))
         return self._enter(id, symbol, kind, values, None, exact=exact, **traits)
 
     def define(self, id: str, definition: Operand, symbol: Symbol | str = "", kind: str = "", **traits: Any) -> Ref:
-        """Enter a quantity defined by earlier ones; raises `KeyError` if one of them is missing."""
+        """Enter a quantity that earlier ones define.
+
+        Its values (SI) have the broadcast shape of its inputs, [N] over the positions or [1]; undefined values are nan
+        or infinite. Raises `KeyError` if an input is missing, and `ValueError` as `give` does.
+        """
         expression = as_expression(definition)
         with np.errstate(all="ignore"):
             values = np.atleast_1d(np.asarray(evaluate(expression, self._values)))
         return self._enter(id, symbol, kind, values, expression, **traits)
 
     def angle(self, id: str, values: np.ndarray, symbol: Symbol | str = "") -> Ref:
-        """Enter an angle at every position [N], within one turn; whole hundredths of a degree print as they are."""
+        """Enter an angle (rad) at every position [N], reduced to one turn.
+
+        If all values are whole hundredths of a degree, they print as they are.
+        """
         turned = np.mod(values + BELOW_A_TURN, 2 * np.pi) - BELOW_A_TURN
         hundredths = np.degrees(turned) * 100
         whole = bool(np.allclose(hundredths, np.round(hundredths), rtol=0, atol=1e-7))
         return self.give(id, turned, symbol, "angle", exact=whole, scale=1.0)
 
     def construct(self, id: str, definition: Operand, of: str = "") -> Ref:
-        """Enter a point or vector of a drawing, which has no printed symbol."""
+        """Enter a point or vector of a drawing (complex), which has no printed symbol."""
         return self.define(id, definition, Symbol(id), "ratio", hidden=True, of=of)
 
     def _enter(
@@ -244,7 +269,7 @@ class Calculation:
         return self.enter(Family(id, symbol, kind or row.kind, values, definition, chapter=chapter, **traits))
 
     def enter(self, family: Family) -> Ref:
-        """Enter a quantity unchanged; raises `ValueError` for one that is defined twice or has too few values."""
+        """Enter a quantity unchanged; raise `ValueError` if it is defined twice or has neither 1 nor N values."""
         id, count = family.id, len(family.values)
         if id in self.families:
             raise ValueError(f"quantity {id} is defined twice")
@@ -256,16 +281,27 @@ class Calculation:
 
 
 def is_typed(values: np.ndarray | float) -> bool:
-    """Return True if the values have finitely many decimals, as typed ones do; 360°/7 does not."""
+    """Return True if the values have finitely many decimals, as typed values do; 360°/7 does not.
+
+    `values` is [N] or a scalar, in any unit. `TYPED` significant figures must give each of them, within `DUST` of the
+    largest.
+    """
     sizes = np.abs(np.atleast_1d(values))
     return all(abs(float(f"{size:.{TYPED}g}") - size) <= DUST * sizes.max() for size in sizes)
 
 
 def is_short(values: np.ndarray | float) -> bool:
-    """Return True if values have few digits, as typed ones do, and can be printed exactly (0.171 m)."""
+    """Return True if the values have few digits, as typed values do, and can be printed exactly (0.171 m).
+
+    `values` is [N] or a scalar, in any unit. `shortened` must not change any of them by more than `COMPUTED` of its
+    size.
+    """
     return bool(np.all(np.abs(shortened(values) - values) <= COMPUTED * np.abs(values)))
 
 
 def shortened(values: np.ndarray | float) -> np.ndarray:
-    """Return values with the few digits that a value has which is printed as it is."""
+    """Return the values rounded to the number of significant figures of exactly printed values (`MAX_DIGITS` − 1).
+
+    `values` is [N] or a scalar, in any unit; the result is [N] or [1], in the same unit.
+    """
     return np.array([float(f"{value:.{MAX_DIGITS - 1}g}") for value in np.atleast_1d(values)])

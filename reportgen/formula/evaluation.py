@@ -1,4 +1,9 @@
-"""Evaluate expressions: the functions that a `Call` may name, including constructions of plane geometry."""
+"""Evaluate expressions, with the functions that a `Call` may name, including constructions of plane geometry.
+
+`evaluate` takes an expression and the SI values of its `Ref`s. The functions work element by element on scalars or
+arrays [..., N] over the N positions, which broadcast together, unless their docstrings say otherwise. Values are SI,
+angles in rad; points and vectors are complex.
+"""
 
 from __future__ import annotations
 
@@ -27,20 +32,26 @@ from reportgen.formula.constructions import Value
 NOTHING = 1e-9
 """A value below this share of the greatest is negligible."""
 UNPHYSICAL = 1e10
-"""No machine has such values (SI): a machine with a student's own numbers may not go together at some positions, where
-its rates divide by rounding errors.  They are no measure of the others."""
+"""Values (SI) of this size are not compared with others. With a student's own numbers, a machine may not close at some
+positions, and its rates there divide by rounding errors."""
 BEHIND = 1e-12
-"""Directions that differ by less (rad) are one."""
+"""Directions that differ by less (rad) count as equal."""
 
 
 def circle_line(centre: Value, radius: Value, p: Value, u: Value, sign: Value) -> Value:
-    """Return the intersection of a circle and the line through p along u, a vector of any length."""
+    """Return the intersection of a circle and the line through p along u, a vector of any length and unit.
+
+    Points and radius have one unit, which is also the result's; the shape is the broadcast one. The `sign` +1 selects
+    the intersection farther along u. A missed circle counts as touching the line.
+    """
     return constructions.circle_line(centre, radius, p, u / abs(u), sign)
 
 
 def nothing(value: Value) -> Value:
-    """Return True where a value is negligible beside the greatest of all positions (last axis): its sign would be
-    noise.
+    """Return True where a value is negligible beside the largest of all positions: its sign would be noise.
+
+    `value` [..., N] has any unit; the mask has the same shape. The largest size is that along the last axis, without
+    nan and sizes of `UNPHYSICAL` or more. A scalar is negligible only if it is 0.
     """
     sizes = np.abs(value)
     if sizes.ndim == 0:
@@ -49,110 +60,153 @@ def nothing(value: Value) -> Value:
 
 
 def quotient(a: Value, b: Value) -> Value:
-    """Return a / b, and 0 where b is negligible: the arm of a force that is zero."""
+    """Return a / b, and 0 where b is negligible over its positions, for example the arm of a force that is zero.
+
+    `a` and `b` broadcast to the shape of the result; its unit is the ratio of their units.
+    """
     b = np.asarray(b)
     none = nothing(b)
     return np.where(none, 0.0, a / np.where(none, 1.0, b))
 
 
 def sign(value: Value) -> Value:
-    """Return +1 or −1, and 0 for a negligible value."""
+    """Return +1 or −1 (dimensionless, same shape), and 0 for a negligible value."""
     return np.where(nothing(value), 0.0, np.sign(value))
 
 
 def arg(vector: Value) -> Value:
-    """Return a vector's direction from +x, in (−π, π], one just above −π counted as π; 0 for a negligible vector."""
+    """Return a vector's direction from +x in (−π, π] (rad, same shape).
+
+    A direction just above −π becomes π; a negligible vector has direction 0.
+    """
     angle = np.where(nothing(vector), 0.0, np.angle(vector))
     return np.where(angle <= BEHIND - np.pi, np.pi, angle)
 
 
 def single(moment: Value, force: Value) -> Value:
-    """Return the distance M/F of the one force that has this moment: 0 where both are zero, nan for a couple."""
+    """Return the distance M/F (m) at which a single force (N) has a moment (N·m).
+
+    It is 0 where both are zero, and nan for a couple: a moment without a force. The shape is the broadcast one.
+    """
     moment, force = np.asarray(moment), np.asarray(force)
     return np.where((force == 0) & (moment != 0), np.nan, quotient(moment, force))
 
 
 def if_zero(a: Value, b: Value) -> Value:
-    """Return b where a is zero, 0 elsewhere: the couple that remains when its force vanishes."""
+    """Return b where a is exactly zero, 0 elsewhere: the couple (N·m) that remains when its force (N) vanishes.
+
+    The result has the unit of b and the broadcast shape.
+    """
     return np.where(np.asarray(a) == 0, b, 0.0)
 
 
 def within(value: Value, least: Value, most: Value) -> Value:
-    """Return the value itself, nan where it is less than `least` or more than `most`."""
+    """Return the value where least ≤ value ≤ most, nan elsewhere.
+
+    All three have one unit; the result has it, too, with the broadcast shape.
+    """
     value = np.asarray(value)
     return np.where((value >= least) & (value <= most), value, np.nan)
 
 
 def branch(number: Value, *branches: Value) -> Value:
-    """Return the branch with the given number (from 0) at each position; numbers [N], branches with any axes in
-    front of theirs.
+    """Return the branch with the given number (from 0) at each position, nan for a number without a branch.
+
+    The numbers are [N]; the branches are [N], or [..., N] with further axes in front. The result has their unit and the
+    broadcast shape.
     """
     number, *shaped = np.broadcast_arrays(number, *branches)
     return np.select([number == index for index in range(len(shaped))], shaped, np.nan)
 
 
 EDGE = 1e-9
-"""An angle (rad) or a share closer than this below an edge belongs to the next interval."""
+"""An angle (rad) or a share that is closer than this below the end of an interval belongs to the next one."""
 
 
 def around(angle: Value) -> Value:
-    """Return the angle within one turn from 0; one just below a whole turn is 0."""
+    """Return the angle (rad, same shape) within one turn, from 0; an angle just below a full turn counts as 0."""
     return np.mod(angle + EDGE, 2 * np.pi) - EDGE
 
 
 def amid(value: Value, least: Value, most: Value) -> Value:
-    """Return 1 from `least` up to `most`, 0 elsewhere."""
+    """Return 1 where least ≤ value < most, 0 elsewhere (dimensionless, broadcast shape).
+
+    All three are angles (rad) or shares; a value less than `EDGE` below a limit counts as above it.
+    """
     return np.where((value >= least - EDGE) & (value < most - EDGE), 1.0, 0.0)
 
 
 def beyond(value: Value, place: Value, least: Value, most: Value) -> Value:
-    """Return the value where the place, which a couple lacks, does not lie between `least` and `most`; nan
-    elsewhere.
+    """Return the value where the place is not between `least` and `most`, nan where it is.
+
+    A place of nan, as of a couple, is not between them. The place and its limits have one unit (m); the result has the
+    unit of the value and the broadcast shape.
     """
     return np.where((place >= least) & (place <= most), np.nan, value)
 
 
 def where_positive(value: Value, place: Value) -> Value:
-    """Return the value where another one is above 0, nan elsewhere."""
+    """Return the value where `place` is above 0, nan elsewhere (unit of the value, broadcast shape)."""
     return np.where(np.asarray(place) > 0, value, np.nan)
 
 
 def mean(values: Value, weights: Value = 1.0) -> Value:
-    """Return the mean over positions (last axis); the axis is kept with length 1."""
+    """Return the weighted mean over positions: values and weights [..., N] give [..., 1], in the unit of the values.
+
+    The weights are relative, in any unit.
+    """
     values, weights = np.broadcast_arrays(np.atleast_1d(values), weights)
     return np.sum(values * weights, axis=-1, keepdims=True) / np.sum(weights, axis=-1, keepdims=True)
 
 
 def level(value: Value, steps: Value) -> Value:
-    """Return the mean over a cycle by the trapezoid rule, `steps` being the ways from each position to the next."""
+    """Return the mean over a cycle by the trapezoid rule: Σ ½(yₖ + yₖ₊₁) Δₖ / Σ Δₖ.
+
+    The values are [..., N] and give [..., 1] in their unit; `steps` [N] are the distances (rad) from each position to
+    the next. The first position follows the last.
+    """
     mean_of_step = (np.asarray(value) + np.roll(value, -1, axis=-1)) / 2
     return np.sum(mean_of_step * steps, axis=-1, keepdims=True) / np.sum(steps)
 
 
 def excess(value: Value, steps: Value) -> Value:
-    """Return the integral of the excess over the mean, from the first position to each, by the trapezoid rule."""
+    """Return the integral of the value's excess over its mean, from the first position to each, by the trapezoid rule.
+
+    The values are [..., N], the result too, with 0 at the first position; `steps` [N] are the distances (rad) from each
+    position to the next. The unit is the product of both: J for a torque in N·m.
+    """
     above = np.asarray(value) - level(value, steps)
     parts = (above + np.roll(above, -1, axis=-1)) / 2 * steps
     return np.roll(np.cumsum(parts, axis=-1), 1, axis=-1) - np.sum(parts, axis=-1, keepdims=True)
 
 
 def along(a: Value, v: Value) -> Value:
-    """Return the component of a along v; 0 where v is negligible beside the greatest of all positions."""
+    """Return the component a · v/|v| of a along v, 0 where v is negligible beside the largest of all positions.
+
+    Both are vectors [..., N] of any units; the result has the unit of a and the broadcast shape.
+    """
     size = np.abs(v)
     moves = size > EDGE * np.max(size, axis=-1, keepdims=True)
     return np.where(moves, constructions.dot(a, v) / np.where(moves, size, 1.0), 0.0)
 
 
 def summed(value: Value, steps: Value) -> Value:
-    """Return the integral from the first position to each, by the trapezoid rule."""
+    """Return the integral from the first position to each by the trapezoid rule.
+
+    The values are [..., N], the result too, with 0 at the first position; `steps` [N] are the distances (rad) from each
+    position to the next. The unit is the product of both: s for 1/ω in s/rad.
+    """
     parts = (np.asarray(value) + np.roll(value, -1, axis=-1)) / 2 * steps
     return np.roll(np.cumsum(parts, axis=-1), 1, axis=-1) * (np.arange(parts.shape[-1]) > 0)
 
 
 def stepped(speed: Value, torque: Value, inertia: Value, steps: Value) -> Value:
-    """Return the speed of a crank from position to position, from that at the first, with torque and inertia at each.
+    """Return the speed (rad/s) of a crank at each position, computed step by step from that at the first position.
 
-    ω′ = M Δφ/(J ω) + (3J − J′)ω/(2J): the equation of energy, ΔT = M Δφ, with Δ(J ω²)/2 to the first order.
+    All arguments broadcast to the shape [..., N] of the result: speed (rad/s), of which only the first position is
+    used, torque (N·m), reduced moment of inertia (kg·m²), and the steps (rad) from each position to the next.
+
+    ω′ = M Δφ/(J ω) + (3J − J′)ω/(2J), from the energy equation M Δφ = Δ(J ω²)/2, to first order in the changes.
     """
     speed, torque, inertia, steps = np.broadcast_arrays(speed, torque, inertia, steps)
     at = [np.asarray(speed)[..., 0]]
@@ -163,21 +217,23 @@ def stepped(speed: Value, torque: Value, inertia: Value, steps: Value) -> Value:
 
 
 def heading(vector: Value) -> Value:
-    """Return a vector's direction from +x, in [0, 2π), one just below a full turn counted as 0; 0 for a
-    negligible one.
+    """Return a vector's direction from +x in [0, 2π) (rad, same shape).
+
+    A direction just below a full turn becomes 0; a negligible vector has direction 0.
     """
     return np.mod(np.where(nothing(vector), 0.0, np.angle(vector)) + BEHIND, 2 * np.pi) - BEHIND
 
 
 def inv(angle: Value) -> Value:
-    """Return the involute of an angle (rad): inv α = tan α − α."""
+    """Return the involute function inv α = tan α − α of an angle (rad): dimensionless, same shape."""
     return np.tan(angle) - angle
 
 
 def arcinv(value: Value) -> Value:
-    """Return the angle α (rad) of which inv α is the value, `nan` below 0.
+    """Return the angle α (rad, same shape) whose involute function inv α is the value, nan for a value below 0.
 
-    inv is convex and both α³/3 and tan α − π/2 lie below it, so Newton's way from the lesser of their angles goes down.
+    inv is convex, and α³/3 and tan α − π/2 are lower bounds of it. The smaller of the angles at which these bounds
+    reach the value is therefore not below the root, and Newton's method decreases from there to the root.
     """
     value = np.asarray(value, float)
     with np.errstate(invalid="ignore", divide="ignore"):
@@ -232,18 +288,23 @@ FUNCTIONS: Mapping[str, Callable[..., Value]] = {
     "inv": inv,
     "arcinv": arcinv,
 }
-"""Functions that a `Call` may name. sin, cos and tan take radians; a `Number` in degrees converts itself."""
+"""Functions that a `Call` may name. sin, cos and tan take radians; `evaluate` converts a `Number` in degrees."""
 
 TRIGONOMETRIC = frozenset({"sin", "cos", "tan"})
 
 
 def evaluate(node: Expression, values: Mapping[str, Value] | None = None) -> Value:
-    """Return the value of an expression; `values` gives that of every `Ref` by id.
+    """Return the value of an expression; `values` gives the SI value of every `Ref` by id.
 
-    Printed numbers evaluate as shown, degrees as radians.  Raises `KeyError` for an unknown id and
-    `ValueError` for a symbol without a value.
+    Values are scalars or arrays that broadcast together, [N] over the positions or [cases, N]; the result has the
+    broadcast shape. A printed `Number` evaluates to its rounded value in its own unit, degrees to radians. So the
+    result is SI if all numbers are, and in printed units if a worked line is evaluated. A `Chain` has the value of its
+    last part.
+
+    Raises `KeyError` for an unknown id or function, and `ValueError` for a symbol without a value, a matrix or a vector
+    equation.
     """
-    # Searches run this a hundred thousand times, and a list is ready sooner than a generator.
+    # Searches call this function some 100,000 times, and a list is faster to build than a generator.
     match node:
         case Number():
             return math.radians(node.printed) if node.unit == "°" else node.printed

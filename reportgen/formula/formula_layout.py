@@ -34,7 +34,7 @@ from reportgen.formula import (
 )
 
 RELATION, SUM, PRODUCT, QUOTIENT, MARKED, ATOM = range(6)
-"""Levels of binding, the loosest first; MARKED is an atom that already carries a unit or superscript."""
+"""Levels of binding, the loosest first; MARKED is an atom that already has a unit or superscript."""
 PRIMES = "′″"
 NAMED = frozenset({"sin", "cos", "tan", "arcsin", "arccos", "arctan", "min", "max", "arg"})
 """Functions that typesetters know by name; any other prints its own name upright."""
@@ -61,7 +61,7 @@ class Sign:
 
     @property
     def text(self) -> str:
-        """The sign in plain text, with the white beside it."""
+        """The sign in plain text, with the spaces beside it."""
         if self.role in ("prefix", "product", "slash"):
             return self.of
         return f"{self.of} " if self.role == "separator" else f" {self.of} "
@@ -69,7 +69,7 @@ class Sign:
 
 @dataclass(frozen=True, slots=True)
 class Written:
-    """A number as it is read, in the digits of a language, and its unit."""
+    """A number as printed in the digits of a language, and its unit."""
 
     digits: str
     unit: str
@@ -107,7 +107,7 @@ class Radical:
 
 @dataclass(frozen=True, slots=True)
 class Fence:
-    """A group that neighbouring signs treat as one piece; its marks are "" where it cannot be misread without them."""
+    """A group that neighbouring signs treat as one piece; its delimiters are "" if it is clear without them."""
 
     left: Literal["(", "[", "|", ""]
     of: Part
@@ -118,7 +118,7 @@ class Fence:
 class Function:
     """A function before its argument, which is in a fence unless it is one letter.
 
-    A symbol such as inv α, a function's name and its argument with a blank between, is one, too.
+    A symbol such as inv α, with a space between the name of a function and its argument, is one, too.
     """
 
     name: str
@@ -245,7 +245,7 @@ def _joined(parts: Iterable[Part], signs: Iterable[Sign]) -> Iterator[Part]:
 
 
 def _noted(part: Part, node: Expression) -> Part:
-    """Return a part with the reason that a chain has behind its result."""
+    """Return a part with the note of a chain after its result."""
     return MathRow((part, Note(node.note))) if isinstance(node, Chain) and node.note else part
 
 
@@ -297,7 +297,7 @@ def written(number: Number, language: Language) -> Written:
 
 
 def parted(symbol: Symbol) -> tuple[str, str]:
-    """Return a symbol's letters, and the marks above behind them: primes and the superscript."""
+    """Return a symbol's letters, and the marks above that follow them: primes and the superscript."""
     letters = symbol.base.rstrip(PRIMES)
     return letters, symbol.base[len(letters) :] + symbol.sup
 
@@ -306,7 +306,7 @@ def parted(symbol: Symbol) -> tuple[str, str]:
 
 
 def sides(node: Expression, language: Language, fits: Fits | None = None, slashed: bool = False) -> list[Part]:
-    """Return the sides that "=" joins, with the note behind the last; sides that do not fit their line are opened."""
+    """Return the sides between signs "=", the last with its note; sides that do not fit their line are opened."""
     sides = [laid(part, language, slashed) for part in (node.parts if isinstance(node, Chain) else (node,))]
     if fits is not None:
         head = (sides[0], EQUALS) if len(sides) > 1 else ()
@@ -315,10 +315,10 @@ def sides(node: Expression, language: Language, fits: Fits | None = None, slashe
 
 
 def opened(part: Part, fits: Callable[[Part], bool]) -> Part:
-    """Return a side of a row whose fractions that do not fit are products, and its sums that do not fit may break
-    inside.
+    """Return a side of a row in a form that can break, if it does not fit.
 
-    (a + b)/c becomes 1/c · (a + b), whose parentheses are marks of one size each.
+    A fraction becomes a product, and a sum in parentheses may break inside: (a + b)/c becomes 1/c · (a + b), whose
+    parentheses are both of one size.
     """
     match part:
         case _ if fits(part):
@@ -337,7 +337,7 @@ def opened(part: Part, fits: Callable[[Part], bool]) -> Part:
 
 
 def _marked(part: Part) -> tuple[Part, ...]:
-    """Return a sum between marks, so that its terms belong to the row itself."""
+    """Return a sum between parentheses, so that its terms belong to the row itself."""
     return (
         Parenthesis("(", is_tall(part)),
         *(part.parts if isinstance(part, MathRow) else (part,)),
@@ -355,8 +355,7 @@ def _opened_in_row(part: Part, fits: Callable[[Part], bool]) -> tuple[Part, ...]
 
 
 def displayed(node: Expression, language: Language, fits: Fits | None = None) -> list[list[Part]]:
-    """Return a displayed row as its sides, each in the pieces between which it may break; a side that is too wide
-    is opened.
+    """Return the sides of a displayed row, each as the pieces between which it may break; wide sides are opened.
 
     A last "= 0" is joined to the side before it, unless that is a lone symbol: such rows are aligned at "=".
     """
@@ -369,8 +368,9 @@ def displayed(node: Expression, language: Language, fits: Fits | None = None) ->
 
 
 def pieces(part: Part) -> list[Part]:
-    """Return the parts between which a displayed line may break: terms of a sum, factors of a product; within
-    marks only terms.
+    """Return the parts between which a displayed line may break: terms of a sum and factors of a product.
+
+    Inside parentheses, a line may break only between terms.
     """
     match part:
         case MathRow((Sign() as sign, Fence("", MathRow(parts)))):
@@ -408,7 +408,7 @@ class TermColumn:
 
 
 def terms(equation: VectorEquation) -> Iterator[tuple[tuple[Sign, ...], Term]]:
-    """Yield each term with the signs before it: "=" at the head of a later side, then its own."""
+    """Yield each term with the signs before it: "=" before the first term of a later side, then the term's own sign."""
     for side, members in enumerate(equation.sides):
         for index, term in enumerate(members):
             if index:

@@ -28,7 +28,10 @@ Look = TypeVar("Look")
 
 
 class Setter(ABC, Generic[Look]):
-    """Renderer of the parts of formulas in one language, as a typesetter's text, runs of a label, or a box."""
+    """Renderer of the parts of formulas in one language, as a typesetter's text, runs of a label, or a box.
+
+    A subclass renders each `Part`; the layout is decided before, in `formula_layout`.
+    """
 
     linear: ClassVar[bool] = False
     """True if the format allows letters in a line only: fractions with a slash, roots without a bar."""
@@ -63,7 +66,7 @@ class Setter(ABC, Generic[Look]):
 
 
 class TextSetter(Setter[str]):
-    """A look in letters, operands in the places of "%s"."""
+    """Renderer to text; the patterns have "%s" for each operand."""
 
     BELOW: ClassVar[str] = "%s%s"
     RAISED: ClassVar[str] = "%s^%s"
@@ -111,7 +114,7 @@ class TextSetter(Setter[str]):
                 return self.mark(part)
 
     def lowered(self, pieces: Iterable[tuple[str, str]], as_letters: Callable[[str], str]) -> str:
-        """Return a symbol's letters with the digits of points below them, no smaller than an index."""
+        """Return a symbol's letters with the digits of points as indices, no smaller than an index."""
         return "".join(
             self.BELOW % (as_letters(letters), self.upright(digits)) if digits else as_letters(letters)
             for letters, digits in pieces

@@ -39,10 +39,10 @@ from reportgen.formula.formula_setter import Setter
 from reportgen.formula.vocabulary import raised
 
 PLAINLY, CAPITALS, INDICES = range(3)
-"""Level of detail of a spoken symbol: its letters, also which of them are capitals, also which of them are lowered."""
+"""Level of detail of a spoken symbol: its letters; also the capitals among them; also the lowered ones."""
 KEPT_UNITS = 256
 SHORTEST_WORD = 3
-"""Small letters of an index that are a word (max); fewer are spelled one by one (cb)."""
+"""Smallest number of small letters in an index that form a word (max); fewer are spelled one by one (cb)."""
 DOT = "\N{COMBINING DOT ABOVE}"
 
 _RUN = re.compile(r"\d+|[^\W\d_]+|.")
@@ -53,10 +53,10 @@ _IN_TEXT = re.compile(r"[A-Z][A-Z₀-₉]+|[Α-Ωα-ω][₀-₉]*|(?<=\w)[₀-�
 
 
 class Speech(Setter[str]):
-    """Formulas in words; no two of `symbols`, those of one report, sound alike.
+    """Formulas in words; no two of `symbols`, the symbols of one report, sound alike.
 
-    `words` has the spoken word for each part, and `units` by the printed signs. Raises `TemplateError` for counts
-    that are not patterns.
+    `words` has the spoken word of each part, and `units` by the printed signs. Raises `TemplateError` for counts that
+    are not patterns.
     """
 
     def __init__(self, language: Language, words: Mapping[str, Any], symbols: Iterable[Symbol] = ()) -> None:
@@ -115,7 +115,7 @@ class Speech(Setter[str]):
         return f"{said} {unit}" if said and unit else said or unit
 
     def _unit(self, unit: str, digits: str) -> str:
-        """Return a unit in words, of its forms the one that goes with a count."""
+        """Return a unit in words, in the form that agrees with the count."""
         forms = self.words["units"].get(unit, unit).split(" | ")
         fitting = (form for count, form in zip(self._counts, forms, strict=False) if count.fullmatch(digits))
         return str(next(fitting, forms[-1]))
@@ -156,9 +156,7 @@ class Speech(Setter[str]):
         return said
 
     def _symbol(self, node: Symbol, detail: int) -> str:
-        """Return the letters, the index, primes and marks above in words; an accent over the whole symbol
-        comes first.
-        """
+        """Return the letters, index, primes and marks above in words; an accent over the whole symbol comes first."""
         words = self.words
         letters, above = parted(node)
         said = self.letters(letters, detail)
@@ -231,7 +229,7 @@ class Speech(Setter[str]):
 
 
 def sound(said: str) -> str:
-    """Return the sound of words: without capitals, blanks and pauses."""
+    """Return the sound of words: without capitals, spaces and pauses."""
     return re.sub(r"[\s,-]", "", said).casefold()
 
 
@@ -247,9 +245,7 @@ def _filled(pattern: str, **parts: str) -> str:
 
 
 def _is_single(part: Part, bare: bool = False) -> bool:
-    """Return True if a part is one symbol, or one number without sign and unit; a `bare` symbol has nothing
-    above it.
-    """
+    """Return True if a part is one symbol, or one number without sign and unit; a `bare` symbol has no marks above."""
     match part:
         case MathRow((inner,)) | Fence("", inner):
             return _is_single(inner, bare)

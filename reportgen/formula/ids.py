@@ -3,7 +3,7 @@
 A quantity that is the only one of its family has its id as text (`mu.l`, `omega.1`, `M.eq`). No two families match
 the same id, with two exceptions: the distance of a centre of percussion is also a length, and families that put a
 word before any other id match more. If two families match, the first one applies. One template has two names where
-machines differ: s.3 is the way of a slider, or the place of the mass centre on a rod.
+machines differ: s.3 is the displacement of a slider, or the place of the mass centre on a rod.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from functools import cached_property
 # velocity("B") == "v.B"
 # velocity.read("v.B") == {"point": "B"}
 # "v.B" in velocity
-# A template is text with places in braces; `PLACES` gives the words allowed in them. Text in brackets is optional.
+# A template is a text with places in braces; `PLACES` gives the words allowed in them. Text in brackets is optional.
 
 PLACES: Mapping[str, str] = {
     # links and the forces between them
@@ -70,12 +70,12 @@ class Name:
     text: str
 
     def __call__(self, *of: object) -> str:
-        """Return the id with these words in its places.  Raises `KeyError` if they are too many or too few."""
+        """Return the id with these words in its places; raise `KeyError` if they are too many or too few."""
         return self._forms[len(of)] % of
 
     def read(self, id: str) -> dict[str, str] | None:
         """Return the words in the places of an id, "" for a missing one; None for an id of another family."""
-        # Most families begin otherwise: their patterns need not even be compiled.
+        # Most families begin with other letters, so that their patterns need not be compiled.
         if not id.startswith(self._beginning):
             return None
         matched = self._pattern.fullmatch(id)
@@ -89,14 +89,12 @@ class Name:
         return Name(_PLACE.sub(lambda place: words.get(place[1], place[0]), self.text))
 
     def of(self, words: Mapping[str, str]) -> str:
-        """Return the id with these words in its places, as `read` gives them: a word that is "" leaves its
-        place out.
-        """
+        """Return the id with these words in its places, as `read` gives them; an empty word leaves its place out."""
         return self(*(words[place] for place in _PLACE.findall(self.text) if words[place]))
 
     @cached_property
     def _forms(self) -> Mapping[int, str]:
-        """Templates that the words are put into, by the number of words: with and without the part in brackets."""
+        """Templates for the words, by their number: with and without the part in brackets."""
         texts = _MAY_BE_MISSING.sub("", self.text), _MAY_BE_MISSING.sub(r"\1", self.text)
         return {len(_PLACE.findall(text)): _PLACE.sub("%s", text) for text in texts}
 
@@ -212,7 +210,7 @@ formula_angular_velocity = Name("f.omega.{link}")
 formula_angular_acceleration = Name("f.eps.{link}")
 slider_way = Name("x.{slider}")
 loop_distance = Name("f.d.{group}")  # distance between the outer joints of a group, or of one from its guide
-slide_way = Name("f.s.{joint}")  # way of the second link over the first
+slide_way = Name("f.s.{joint}")  # travel of the second link on the first
 slide_velocity = Name("f.v.{joint}")
 slide_acceleration = Name("f.a.{joint}")
 matrix_entry = Name("{matrix}.{number}")
@@ -273,12 +271,12 @@ figure_of_balance = Name("M.{figure}")  # figure over the cycle, or of the reduc
 
 # --- a word before the id of another quantity
 
-formula = Name("f.{id}")  # the same by a closed formula
-far = Name("far.{id}")  # how far a fixed place is from the origin
-unit = Name("unit.{id}")  # in which direction
+formula = Name("f.{id}")  # the same quantity by a closed formula
+far = Name("far.{id}")  # distance of a fixed place from the origin
+unit = Name("unit.{id}")  # its direction
 rule = Name("rule.{id}")  # value of an integral by a rule for the positions
-reading = Name("read.{id}")  # off a curve
-rest = Name("rest.{id}")  # of that integral
+reading = Name("read.{id}")  # value read off a curve
+rest = Name("rest.{id}")  # remainder of that integral
 
 # --- names other than ids: of the forces of a plan and of the corners of a plan of accelerations
 
@@ -292,13 +290,13 @@ def joint(acting: int, acted_on: int) -> str:
 
 
 def linked(joint: str) -> tuple[str, str]:
-    """Return the two links of a joint's digits, the acting one first: 12 is 1 and 2."""
+    """Return the two links of a joint's digits, the acting one first: 12 gives 1 and 2."""
     acting, acted_on = joint.split(",") if "," in joint else tuple(joint)
     return acting, acted_on
 
 
 def links_of(reaction: str) -> tuple[int, int]:
-    """Return the two links of a reaction by its name, the acting one first: R12.t is of 1 on 2."""
+    """Return the two links of a reaction by its name, the acting one first: R12.t is the force of 1 on 2."""
     names = reaction_force.read(reaction)
     assert names is not None, f"{reaction} is no reaction"
     acting, on = linked(names["joint"])
@@ -311,6 +309,6 @@ def points(named: str) -> list[str]:
 
 
 def of_force(name: str) -> str:
-    """Return the id of a force's size by the force's name: R12.t has R.12.t, a load's size is called like the load."""
+    """Return the id of a force's size by the force's name: R.12.t for R12.t; a load's size has the load's name."""
     names = reaction_force.read(name)
     return name if names is None else reaction.of(names)

@@ -1,13 +1,14 @@
 """The ledger: all quantities of a report with their definitions. It can be evaluated again from other values.
 
-A ledger contains the families of the finished sheet (`formula.sheet`) with their decimals; a `PrintedQuantity` is a
-family at one position. Definitions are expressions over other families. So the ledger evaluates itself
-(`Ledger.evaluate`), knows the inputs of every quantity (`refs`), and prints its own worked lines (`Ledger.chain`).
+A ledger contains the families of a finished calculation (`formula.calculation`) with their decimals; a
+`PrintedQuantity` is a family at one position. Definitions are expressions over other families. So the ledger evaluates
+itself (`Ledger.evaluate`), knows the inputs of every quantity (`Ledger.inputs`), and prints its own worked lines
+(`Ledger.chain`).
 
-A plan's point and the length measured to it are two families, and later definitions use one or the other. A student
-who measured another length continues with a vector of that length; one who computed another length lays that off.
-`carried` pairs each size with its vector, and `follow` adapts the vector's length. A value computed from a measured
-length with a scale moves nothing on paper.
+A plan's point and the length measured to it are two families, and later definitions use one or the other. A student who
+measured another length continues with a vector of that length; one who computed another length lays off a vector of
+that length. `Ledger.vectors` pairs each size with its vector, and `follow` adapts the vector's length. A value computed
+from a measured length with a scale moves nothing on paper.
 """
 
 from __future__ import annotations
@@ -45,12 +46,16 @@ MistakenValues = Iterator[tuple[str, str, Expression]]
 """The id of a quantity, the name of a mistake, and the quantity's definition with the mistake."""
 
 Entered = Callable[[str, dict[str, np.ndarray]], None]
-"""Callback after each quantity of an evaluation, with its id and all values so far."""
+"""Callback after each quantity of an evaluation, with its id and all values so far (SI), [1], [N] or [cases, N]."""
 
 
 @dataclass(frozen=True, slots=True)
 class PrintedQuantity:
-    """A family at one position, as printed: `value` in `unit` with `decimals`."""
+    """A family at one position, as printed: `value` in `unit` with `decimals`.
+
+    `position` is None for a quantity with one value for all positions, `decimals` None for a value printed exactly, and
+    `definition` None for given data.
+    """
 
     id: str
     position: int | None
@@ -67,7 +72,11 @@ class PrintedQuantity:
 
 @dataclass(frozen=True)
 class Ledger:
-    """All families of a report; with the decimals of each if the values are rounded as printed (`formula.rounding`)."""
+    """All families of a report.
+
+    `positions` is the number N of positions. If values are rounded as printed (`formula.rounded_ledger`), `decimals`
+    gives the decimals of each family, None for values printed exactly.
+    """
 
     families: Mapping[str, Family]
     positions: int
@@ -77,7 +86,7 @@ class Ledger:
     same: tuple[tuple[str, ...], ...] = ()
     """Ids of families that are one quantity under several symbols, with one number of decimals."""
     lines: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
-    """Ids of the lines that the report sets out together, by the names that the machine's sheet gives."""
+    """Ids of the lines that the report prints together, by the names that the machine's calculation gives."""
 
     @cached_property
     def inputs(self) -> Mapping[str, tuple[str, ...]]:
@@ -111,12 +120,15 @@ class Ledger:
         return vectors
 
     def size_of(self, id: str) -> str:
-        """Return the id of a signed rotation's size; any other quantity is its own size."""
+        """Return the id of a signed rotation's size; any other quantity is its own size.
+
+        Raises `KeyError` for an unknown id.
+        """
         family = self.families[id]
         return family.of if family.is_signed_rotation else id
 
     def in_language(self, names: Mapping[str, str]) -> Ledger:
-        """Return the same ledger with its symbols in a language; `names` are the indices as that language has them."""
+        """Return the ledger with its symbols in a language; `names` maps letters and indices to that language."""
         symbols = {id: vocabulary.in_language(family.symbol, names) for id, family in self.families.items()}
         return replace(self, families={id: replace(one, symbol=symbols[id]) for id, one in self.families.items()})
 
@@ -135,7 +147,10 @@ class Ledger:
         return self.units.get(unit, unit)
 
     def quantity(self, id: str, position: int | None = None) -> PrintedQuantity:
-        """Return one number as printed.  Raises `KeyError` for an unknown id."""
+        """Return a quantity at a position (from 1) as printed, in its printed unit.
+
+        Without decimals, the value is rounded to 12 significant figures. Raises `KeyError` for an unknown id.
+        """
         family = self.families[id]
         how = family.how
         value = float(family.at(position).real) / how.scale
@@ -151,13 +166,17 @@ class Ledger:
         )
 
     def number(self, id: str, position: int | None = None, *, size: bool = False) -> Number:
-        """Return the printed number of a quantity with its unit; `size` leaves its sign away."""
+        """Return the printed number of a quantity with its unit; `size` removes its sign.
+
+        Raises `KeyError` for an unknown id.
+        """
         number = self.quantity(id, position).number
         return Number(abs(number.value), number.decimals, number.unit) if size else number
 
     def result(self, id: str, position: int | None = None) -> Number:
-        """Return the number of a quantity as a result: with the decimals of its kind, even if lines continue
-        with more.
+        """Return the number of a quantity as a result, with no more decimals than usual for its kind.
+
+        Lines that continue with the quantity may use more decimals. Raises `KeyError` for an unknown id.
         """
         number, usual = self.number(id, position), self.families[id].how.decimals
         carried = usual is not None and number.decimals is not None and number.decimals > usual
@@ -167,9 +186,10 @@ class Ledger:
         return self.families[id].symbol
 
     def chain(self, id: str, position: int | None = None, note: str = "") -> Chain:
-        """Return the worked line: symbol = formula = numbers put in = result with its unit.
+        """Return the worked line: symbol = formula = substituted numbers = result with its unit.
 
-        A quantity that is given or measured on a drawing has no formula: symbol = value.
+        A quantity that is given or measured on a drawing has no formula: symbol = value. Raises `KeyError` for an
+        unknown id.
         """
         family = self.families[id]
         result = self.number(id, position)
@@ -195,7 +215,7 @@ class Ledger:
         return Number(number.value, number.decimals, "°" if number.unit == "°" else "")
 
     def _signs_out(self, node: Expression, position: int | None) -> Expression:
-        """Return the definition at one position: its branch, signs of arms before their terms, nothings left out."""
+        """Return the definition at one position: its branch, signs of arms before terms, negligible terms left out."""
         match node:
             case Sum(terms):
                 kept = [self._signs_out(term, position) for term in terms if not self._is_nothing(term, position)]
@@ -231,12 +251,15 @@ class Ledger:
         entered: Entered | None = None,
         only: Container[str] | None = None,
     ) -> dict[str, np.ndarray]:
-        """Evaluate all definitions again from the given data, with some values replaced.
+        """Evaluate all definitions again from the given data, with some values replaced; return the values (SI) by id.
 
-        `changes` maps ids to SI values (a number or one per position), or to functions of the value computed and of
-        all before it; all dependent values follow. Changes may have a further axis in front, [cases, positions], to
-        evaluate many cases together. `entered` is called with each id and the values so far. If `only` is given,
-        the other families keep their values.
+        `changes` maps ids to SI values (a number or [N] over the positions), or to functions of the value computed and
+        of all values before it; all dependent values follow. Changes may have a further axis in front, [cases, N], to
+        evaluate many cases together. The result has [1] or [N] for each id, and [cases, N] or [cases, 1] for those that
+        depend on such a change; undefined values are nan.
+
+        `entered` is called with each id and the values so far. If `only` is given, the other families keep their
+        values.
         """
         values: dict[str, np.ndarray] = {}
         # An impossible drawing (a sine above 1) gives NaN, and so do the values that depend on it.
@@ -256,7 +279,7 @@ class Ledger:
         return values
 
     def ancestors(self, id: str) -> tuple[str, ...]:
-        """Return every quantity that one depends on, directly or through others, nearest first."""
+        """Return every quantity on which a quantity depends, directly or through others, nearest first."""
         ancestors: dict[str, None] = {}
         waiting = list(self.inputs[id])
         while waiting:
@@ -285,7 +308,7 @@ def _replace(node: Expression, change: Any) -> Expression:
 
 
 def _sign_before(term: Expression) -> Expression:
-    """Return a negative number as a later term of a sum: its sign becomes that of the term."""
+    """Return a later term of a sum without a negative number: the sign becomes that of the term."""
     match term:
         case Number(value) if value < 0:
             return Negative(replace(term, value=-value))
@@ -299,14 +322,15 @@ def _sign_before(term: Expression) -> Expression:
 
 
 ARC_DECIMALS = 6
-"""Decimals of an angle in radians, at least."""
+"""Smallest number of decimals of an angle in radians."""
 
 
 def _in_radians(numbers: Expression, result: Number) -> Expression:
-    """Return a line's numbers with angles in radians where it counts with the angle itself, in as many decimals as
-    it takes.
+    """Return the numbers of a line with angles in radians if it computes with an angle itself.
 
-    Functions take degrees; for an angle that comes of angles, and where only their ratios count, either unit will do.
+    Arguments of functions stay in degrees. So do all angles if the result is an angle, or if only their ratios count.
+    The angles get the fewest decimals with which the line gives the printed result, but not fewer than `ARC_DECIMALS`
+    or the decimals of the result.
     """
     if result.unit == "°" or _power_of_angle(numbers) == 0:
         return numbers
@@ -332,7 +356,7 @@ def _power_of_angle(node: Expression) -> int | None:
         case Negative(of):
             return _power_of_angle(of)
         case Power(base) | Root(base):
-            # A power of an angle is one of radians; a ratio of angles has no unit.
+            # A power of an angle needs radians; a ratio of angles has no unit.
             return 0 if _power_of_angle(base) == 0 else None
         case _:
             return 0
@@ -356,7 +380,11 @@ def _comes_to(numbers: Expression, result: Number) -> bool:
 def follow(
     ledger: Ledger, changes: Mapping[str, Any], *, entered: Entered | None = None, only: Container[str] | None = None
 ) -> dict[str, np.ndarray]:
-    """Evaluate as `Ledger.evaluate` does (SI), and give each vector the length that was measured of it or laid off."""
+    """Evaluate as `Ledger.evaluate` does, and give each vector the length that its size has, measured or laid off.
+
+    Vectors (complex) are multiplied by |size|/|vector|, and left unchanged where this is not finite. Values are SI, by
+    id, [1], [N] over the positions or [cases, N], as in `Ledger.evaluate`.
+    """
     vectors = {size: one for size, one in ledger.vectors.items() if only is None or size in only}
     sizes: dict[str, list[str]] = {}
     for size, vector in vectors.items():
@@ -380,8 +408,9 @@ def follow(
 
 
 def standing_on(ledger: Ledger, id: str) -> tuple[str, ...]:
-    """Return all quantities that one depends on, nearest first: its `ancestors` and the sizes read from their
-    vectors.
+    """Return all quantities on which a quantity depends, nearest first.
+
+    These are its `ancestors` and the sizes read from the vectors among them.
     """
     read: dict[str, list[str]] = {}
     order = {name: index for index, name in enumerate(ledger.families)}

@@ -25,7 +25,7 @@ from reportgen.formula.formula_setter import TextSetter
 
 
 class Plain(TextSetter):
-    """Formulas as letters in a line, indices and exponents behind their marks."""
+    """Formulas as letters in a line, with marks before indices and exponents."""
 
     linear = True
     APPLIED = "%s %s"

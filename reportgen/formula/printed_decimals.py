@@ -1,17 +1,16 @@
-"""Choose the number of decimals of computed values, so that each printed result is right to one unit of its last
-decimal.
+"""Choose the number of decimals of computed values, so that each printed result is right to one unit in its last place.
 
 Each line is computed from the printed values above it, so its result carries their rounding errors:
 
-    r − r₀ = Σ (∂r/∂q) Δq,  Δq the rounding of each value q that r depends on, its own included
+    r − r₀ = Σ (∂r/∂q) Δq,  Δq the rounding of each value q that r depends on, including r itself
 
-If a printed value is off by more than a unit of its last decimal, the value above it that contributes most to the
-error gets one more decimal, and everything is computed again. So each line can be checked on a calculator, and
-values such as angles get as many decimals as the results need, but no more.
+If a printed value is off by more than a unit of its last decimal, the value above it that contributes most to the error
+gets one more decimal, and everything is computed again. So each line can be checked on a calculator, and values such as
+angles get as many decimals as the results need, but no more.
 
 The actual roundings are used: a chain of twelve lines would have to begin with 16 decimals to be safe in the worst
-case. Values measured on a drawing have the accuracy of the drawing, and values computed from them have the figures
-that this gives.
+case. Values measured on a drawing have the accuracy of the drawing, and values computed from them have the figures that
+this accuracy gives.
 """
 
 from __future__ import annotations
@@ -28,19 +27,19 @@ from reportgen.formula.ledger import Ledger, follow
 from reportgen.formula.rounded_ledger import by_lines, names_of, usual_decimals, written
 
 UNIT = 1 + 1e-6
-"""Units of its last decimal that a printed value may be off, with the dust of floats."""
+"""Largest error of a printed value in units of its last decimal, with a margin for floating-point errors."""
 MEASURED = "segment"
 """Kind of lengths that are laid off and measured on paper."""
 
 MOST = 10
-"""Decimals that anything is carried with at most."""
+"""Largest number of decimals of any value."""
 
 Derivatives = Mapping[str, Mapping[str, np.ndarray]]
-"""Derivatives ∂r/∂q (SI) of each value by those that it depends on: one value, or one per position."""
+"""Derivatives ∂r/∂q (SI) of each value r by the values q that it depends on, [1] or [N] over the positions."""
 
 
 def carried(ledger: Ledger) -> Ledger:
-    """Return the ledger as it is written down when every computed value carries the figures that others need of it."""
+    """Return the ledger rounded as printed, in which each value has the decimals that later values need from it."""
     decimals = dict(usual_decimals(ledger))
     measured = {id for id, family in ledger.families.items() if family.kind == MEASURED and decimals[id] is not None}
     drawn = _standing_on(ledger, measured)
@@ -61,7 +60,7 @@ def carried(ledger: Ledger) -> Ledger:
 
 
 def _standing_on(ledger: Ledger, some: AbstractSet[str]) -> set[str]:
-    """Return the ids that depend on any of some quantities."""
+    """Return the ids that depend on any of some quantities, without these quantities."""
     standing = set[str]()
     for id, inputs in ledger.inputs.items():
         if id not in some and not {*inputs}.isdisjoint(standing | some):
@@ -70,21 +69,25 @@ def _standing_on(ledger: Ledger, some: AbstractSet[str]) -> set[str]:
 
 
 def _as_drawn(ledger: Ledger, id: str, measured: Mapping[str, np.ndarray]) -> int:
-    """Return the decimals to which a value is right to one unit, given the errors of the `measured` lengths."""
+    """Return the decimals to which a value is right to one unit, given the errors of the `measured` lengths.
+
+    `measured` has the derivatives (SI) of the value by these lengths, [1] or [N] over the positions.
+    """
     off = sum(_half_unit(ledger[one]) * float(np.max(np.abs(by))) for one, by in measured.items())
     return max(math.floor(-math.log10(2 * off / ledger[id].how.scale)), 0) if off else MOST
 
 
 def _half_unit(family: Family, decimals: int | None = None) -> float:
-    """Return half a unit (SI) of the last of so many decimals, else of those of its kind."""
+    """Return half a unit (SI) of the last of `decimals`; None stands for the usual decimals of the family's kind."""
     return 0.5 * 10.0 ** -(family.how.decimals or 0 if decimals is None else decimals) * family.how.scale
 
 
 def _derivatives(ledger: Ledger, decimals: Mapping[str, int | None]) -> Derivatives:
-    """Return the derivatives of the ledger: each value is moved by half a unit of its last decimal, in one row of
-    arrays [values, positions].
+    """Return the derivatives of the rounded values, by finite differences.
+
+    Each value is moved by half a unit of its last decimal, in one row of the arrays [values, positions].
     """
-    # A negligible value is written as 0, whatever the values above it.
+    # A negligible value prints as 0, whatever the values above it are.
     nothing = {id for id, family in ledger.families.items() if np.all(np.abs(family.values) <= ZERO * family.scale)}
     rounded = [id for id, own in decimals.items() if own is not None and id not in nothing]
     steps = {id: _half_unit(ledger[id], decimals[id]) for id in rounded}
@@ -109,8 +112,9 @@ def _derivatives(ledger: Ledger, decimals: Mapping[str, int | None]) -> Derivati
 
 
 def _causes(ledger: Ledger, rounded: Ledger, derivatives: Derivatives, roundings: Mapping[str, np.ndarray]) -> set[str]:
-    """Return, for each value that is too far off, the input that contributes most; skip values below one that will
-    be finer.
+    """Return, for each value that is too far off, the input that contributes most to its error.
+
+    Values that depend on one of these inputs are skipped, because they will change.
     """
     causes = set[str]()
     for id, by in derivatives.items():

@@ -1,7 +1,7 @@
 """The ledger as a person writes it: each value is computed from the rounded values above it, then rounded.
 
-The same families are evaluated in the same order, each by the formula of its printed line. So a calculator fed with
-the printed numbers of a line gives the printed result, digit by digit, and a plan is drawn from lengths as printed.
+The same families are evaluated in the same order, each by the formula of its printed line. So a calculator fed with the
+printed numbers of a line gives the printed result, digit by digit, and a plan is drawn from lengths as printed.
 Discrete choices (senses, arms, branches) and zeros are taken from the unrounded ledger.
 """
 
@@ -18,26 +18,31 @@ from reportgen.formula.calculation import ZERO, Family, is_short, is_typed, shor
 from reportgen.formula.ledger import Ledger, follow
 
 Ends = Callable[[Family, np.ndarray], bool]
-"""Predicate: True if a value, computed from the rounded values above it, has few digits and is printed exactly."""
+"""Predicate: True if a value (SI, [1]) that is computed from rounded values has few digits and prints exactly."""
 
 
 def printed(ledger: Ledger) -> Ledger:
-    """Return the ledger with every value as it is written down, and the decimals that each is written with."""
+    """Return the ledger with every value rounded as printed, and with the decimals of each.
+
+    Values stay in SI, [1] or [N] over the positions.
+    """
     rounded, _ = written(ledger, usual_decimals(ledger), lambda family, values: is_short(values / family.how.scale))
     return rounded
 
 
 def written(ledger: Ledger, given: Mapping[str, int | None], ends: Ends) -> tuple[Ledger, Mapping[str, np.ndarray]]:
-    """Return the ledger with every value as it is written down with the `given` decimals, or whole where it `ends`.
+    """Return the ledger with rounded values, and the change (SI) that rounding made to each value, by id.
 
-    And by how much (SI) each value was changed as it was rounded.
+    `given` has the decimals of each family in its printed unit, None for values printed exactly. A single value for
+    which `ends` is True is printed exactly, too. Values and changes are SI, [1] or [N] over the positions; hidden
+    families, points and vectors are not rounded and have no change. The ledger returned has the decimals used.
     """
     decimals, changes = dict(given), dict[str, np.ndarray]()
 
     def enter(id: str, values: dict[str, np.ndarray]) -> None:
         family, again = ledger[id], _named_again(ledger[id])
         if family.is_plane and id in ids.place:
-            # Where a joint lies is drawn as finely as can be: near a dead point hundredths would become millimetres.
+            # A joint is drawn at its exact place: near a dead point, 0.01 mm of rounding would become millimetres.
             values[id] = family.values
         if family.is_plane or family.hidden:
             return
@@ -56,13 +61,13 @@ def written(ledger: Ledger, given: Mapping[str, int | None], ends: Ends) -> tupl
 
 
 def by_lines(ledger: Ledger) -> Ledger:
-    """Return the ledger with the formula of each printed line for a definition."""
+    """Return the ledger in which each family is defined by the formula of its printed line."""
     lines = {id: replace(family, definition=_line(ledger, family)) for id, family in ledger.families.items()}
     return replace(ledger, families=lines)
 
 
 def _line(ledger: Ledger, family: Family) -> Expression | None:
-    """Return the formula by which a value is written; None for given data, and for an integral, which is read off."""
+    """Return the formula that computes the printed value; None for given data and for an integral that is read off."""
     integral = ids.rule(family.id) in ledger
     size = family.scale or _size(family.values)
     is_read = integral and _size(ledger[ids.rest(family.id)].values) > ZERO * size
@@ -70,12 +75,12 @@ def _line(ledger: Ledger, family: Family) -> Expression | None:
 
 
 def _size(values: np.ndarray) -> float:
-    """Return the greatest size of values (SI)."""
+    """Return the largest size of values (SI), ignoring nan and infinite ones; 0 if there are none."""
     return float(np.max(np.abs(values), initial=0.0, where=np.isfinite(values)))
 
 
 def _entered(family: Family, computed: np.ndarray, decimals: int | None) -> np.ndarray:
-    """Return values (SI) as they are written with so many decimals, or unrounded if None."""
+    """Return values (SI) rounded to `decimals` in the printed unit, or to 12 significant figures if None."""
     exact = np.real(family.values)
     values = np.real(computed) / family.how.scale
     values = _without_dust(values) if decimals is None else rounded(values, decimals)
@@ -108,7 +113,7 @@ def usual_decimals(ledger: Ledger) -> dict[str, int | None]:
 
 
 def _of_quantity(members: Collection[Family]) -> int:
-    """Return the decimals that show the largest value of a quantity with the figures of its kind; whole ones whole."""
+    """Return the decimals of the kind, or those with which the largest value has the kind's significant figures."""
     how = next(iter(members)).how
     if how.decimals is not None:
         return how.decimals
@@ -116,7 +121,7 @@ def _of_quantity(members: Collection[Family]) -> int:
 
 
 def _largest(family: Family) -> float:
-    """Return its largest unrounded size in its printed unit; 0 if it is negligible at all positions."""
+    """Return the largest unrounded size of a family in its printed unit; 0 if it is negligible at all positions."""
     sizes = np.abs(family.values[np.isfinite(family.values)])
     return float(np.max(sizes, initial=0.0, where=sizes >= ZERO * family.scale)) / family.how.scale
 
@@ -131,9 +136,7 @@ def _is_typed(family: Family) -> bool:
 
 
 def _named_again(family: Family) -> str:
-    """Return the id of the quantity that a line only names again or turns round (l = R, R₂₁ = −R₁₂); "" for
-    any other.
-    """
+    """Return the id of the quantity that a line only repeats or reverses (l = R, R₂₁ = −R₁₂); "" for any other line."""
     match family.line:
         case Ref(id) | Negative(Ref(id)) | Call("size", (Ref(id),)):
             return id
@@ -142,8 +145,10 @@ def _named_again(family: Family) -> str:
 
 
 def names_of(ledger: Ledger) -> dict[str, object]:
-    """Return a name for each family as a printed quantity: its symbol and kind, or the name of the family that it
-    repeats.
+    """Return a name for each family as a printed quantity, by id.
+
+    It is the symbol and kind, or the name of the family that the line repeats. Families with equal names get the same
+    number of decimals.
     """
     names: dict[str, object] = {id: members[0] for members in ledger.same for id in members}
     for id, family in ledger.families.items():

@@ -3,7 +3,7 @@
 Each family of `ids` has a row. It provides the symbol of a quantity, its chapter, the scale of a length on paper
 and the distance of two values (for marking), and the name under which `words.yaml` has its phrase.
 
-A *kind* fixes the printed unit, what one such unit is in SI, and with how many figures or decimals it is printed.
+A *kind* fixes the printed unit, the value of this unit in SI, and the number of printed figures or decimals.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ class QuantityKind:
 
 
 class _Kinds(dict[str, QuantityKind]):
-    """The kinds by name; one that is not common is looked for in the rooms of all kinds of work."""
+    """The kinds by name; a missing one is looked up in the id modules of all assignment kinds, else `KeyError`."""
 
     def __missing__(self, name: str) -> QuantityKind:
         for head in heads():
@@ -92,7 +92,7 @@ KINDS = _Kinds(
 )
 
 OWN_IDS = "_ids"
-"""Suffix of the names of modules that contain the ids of a kind of work."""
+"""Suffix of the names of modules that contain the ids of an assignment kind."""
 MAX_DIGITS = max(kind.digits for kind in KINDS.values())
 """Largest number of significant figures of any computed value."""
 
@@ -367,21 +367,21 @@ _PRINTED = {"t": "τ"}
 _NO_ROW = VocabularyRow(Name(""))
 
 
-# --- ids of a single kind of work ------------------------------------------------------------------
+# --- ids of a single assignment kind ----------------------------------------------------------------
 # The ids of a kind begin with one word, as cam.r0. They are in the kind's package with their ROWS and KINDS, in a
-# module named after that word, `cam_ids.py`. It is imported when such an id is met, in any process.
+# module named after that word, `cam_ids.py`. Any process imports it when it first needs such an id.
 
 
 @cache
 def heads() -> Mapping[str, str]:
-    """Return the modules of ids that kinds of work bring, dotted, by the word that those ids begin with."""
+    """Return the dotted names of the id modules of assignment kinds, by the word with which their ids begin."""
     modules = sorted(PACKAGE.glob(f"*/*{OWN_IDS}.py"))
     return {path.stem.removesuffix(OWN_IDS): f"{PACKAGE.name}.{path.parent.name}.{path.stem}" for path in modules}
 
 
 @cache
 def rows_of(head: str) -> tuple[VocabularyRow, ...]:
-    """Return the rows of the ids that begin with a word, the common ones if no kind of work has it for itself."""
+    """Return the rows of the ids that begin with a word: those of an assignment kind, else the common ones."""
     if head not in heads():
         return ROWS
     module = import_module(heads()[head])
@@ -399,14 +399,14 @@ def _found(id: str) -> tuple[VocabularyRow, dict[str, str]]:
 
 
 def row(id: str) -> VocabularyRow:
-    """Return the row of an id; an empty one for a quantity that a machine has for itself."""
+    """Return the row of an id; an empty row for an id without one, which belongs to a single machine."""
     return _found(id)[0]
 
 
 def symbol(id: str) -> Symbol:
     """Return the symbol of a quantity: the letter of its row, with the index that the id gives.
 
-    Raises `KeyError` for an id that no row gives a letter.
+    Raises `KeyError` for an id whose row has no letter.
     """
     family, words = _found(id)
     if not family.letter:
@@ -494,6 +494,6 @@ def is_laid(id: str) -> bool:
 
 
 def distance(id: str, value: Value, reference: Value) -> Value:
-    """Return the distance of two values (SI) of a quantity; directions are compared around the circle."""
+    """Return |value − reference| (SI, broadcast shape); directions (rad) are compared around the circle, up to π."""
     apart = np.abs(value - reference)
     return np.abs(np.mod(value - reference + np.pi, 2 * np.pi) - np.pi) if row(id).around else apart

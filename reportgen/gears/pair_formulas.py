@@ -1,7 +1,7 @@
 """Formulas of a pair of external spur gears (ISO 21771), each written once.
 
-A `Calculation` with them is printed as the report of a pair, and evaluated over arrays of shifts to choose shifts, draw
-their region and place teeth (`pair_calculation`).
+The report of a pair prints a `Calculation` of them (`PairFormulas`). To choose shifts, draw their region and place
+teeth, `pair_sheet` returns such a calculation, and `model` (`formula.array_evaluation`) evaluates it over arrays.
 """
 
 from __future__ import annotations
@@ -159,7 +159,7 @@ class PairFormulas:
 
 @lru_cache(maxsize=32)
 def pair_sheet(rack: Rack, m: float, teeth: tuple[int, int]) -> Calculation:
-    """Return the formulas of a pair of module m (m), to be evaluated with any shifts by `model(calculation, …)`."""
+    """Return a calculation of a pair of module m (in metres), for `model(sheet, …)` to evaluate with any shifts."""
     made = PairFormulas(Calculation(), m, follows=False)
     made.enter_data(rack, teeth)
     made.enter_shifts((0.0, 0.0))

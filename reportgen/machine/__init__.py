@@ -2,7 +2,8 @@
 
 Link 0 is the ground and link 1 the driver. Every moving link has a frame: its origin is the link's first named
 point, its real axis points towards the second. A point on a link is a complex number in that frame. All classes are
-frozen; the module also counts the joints and the degree of freedom. `motion` and `forces` compute.
+frozen; the module also counts the joints and the degree of freedom. `machine.kinematics` computes the motion of a
+linkage, `machine.force_analysis` its forces.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ DRIVER = 1
 
 @dataclass(frozen=True, slots=True)
 class Guide:
-    """A straight guide fixed in the frame of `link`: a line through `at` in direction `angle` (radians)."""
+    """A straight guide fixed in the frame of `link`: a line through `at` (m) in the direction `angle` (rad)."""
 
     at: complex
     angle: float
@@ -28,7 +29,9 @@ class Guide:
 
 @dataclass(frozen=True, slots=True)
 class Crank:
-    """The rotating driver: link 1 turns about the ground point `centre`; its frame points to `pin`."""
+    """The rotating driver, a crank of the `length` (m): link 1 turns about the ground point `centre`; its frame points
+    to `pin`.
+    """
 
     centre: str
     pin: str
@@ -37,7 +40,7 @@ class Crank:
 
 @dataclass(frozen=True, slots=True)
 class SlidingDriver:
-    """The sliding driver: link 1 moves along `guide`, its `pin` at the guide's `at` plus s·e^{i angle}."""
+    """The sliding driver: link 1 moves along `guide`; its `pin` is at the guide's `at` plus s·e^{i angle}, s in m."""
 
     pin: str
     guide: Guide
@@ -45,7 +48,7 @@ class SlidingDriver:
 
 @dataclass(frozen=True, slots=True)
 class LinkPoint:
-    """A named point fixed in a moving link's frame (mass centre, coupler point, pin of a later dyad)."""
+    """A named point at `local` (m) in a moving link's frame: a mass centre, coupler point or pin of a later dyad."""
 
     name: str
     link: int
@@ -71,10 +74,10 @@ class Dyad:
     ==== ============ ============== ============ ==============================================
 
     `start` and `end` name a fixed or already placed point (a revolute joint there), or give a `Guide` on ground or
-    on a link already placed. `sign` (+1, -1) is the stored orientation. RRR: Q to the left (+1) or right of the way
+    on a link already placed. `sign` (+1, -1) is the stored orientation. RRR: Q to the left (+1) or right of the line
     from P to T. RRP: Q the farther (+1) or nearer of the two meeting points along the guide's direction. RPR: link
-    j's axis points from T to the foot of P (+1) or away from it (-1). PRP and RPP assemble one way only and ignore
-    it.
+    j's axis points from T to the foot of P (+1) or away from it (-1). PRP and RPP have only one assembly mode and
+    ignore it.
 
     Frames. RRR: i at P towards Q, j at T towards Q. RRP: i at P towards Q, j at Q with the guide's angle. RPR: i at
     P and j at T, both with the angle of the line on j. PRP: i and j at Q, each with its own guide's angle. RPP: i
@@ -105,8 +108,8 @@ class Inertia:
 class Linkage:
     """A whole mechanism.
 
-    `ground` gives the fixed points; `points` further points on moving links; the joint points are
-    declared by the driver and the dyads themselves.
+    `ground` gives the fixed points (m) and `points` further points on moving links; the driver and the dyads declare
+    the points of their joints themselves. `gravity` is in m/s², as a complex vector.
     """
 
     ground: Mapping[str, complex]
@@ -148,7 +151,8 @@ class Joint:
 @dataclass(frozen=True, slots=True)
 class Mobility:
     """W = 3n − (2t + c) + r − s: n moving links, t lower and c higher pairs, r passive constraints, s
-    redundant freedoms; with the joints, the groups and the mechanism's class."""
+    redundant freedoms; with the joints, the groups and the mechanism's class.
+    """
 
     n: int
     lower_pairs: int

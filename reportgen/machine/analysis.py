@@ -1,4 +1,4 @@
-"""Compute an `Analysis` of a `Machine`: motion, loads, gas and forces as arrays over the positions of its cycle."""
+"""Compute an `Analysis` of a `Machine` with `analyse`: motion, loads, gas and forces at its positions."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ Subject = TypeVar("Subject")
 
 @dataclass(frozen=True)
 class GasState:
-    """The gas in one cylinder over positions [N]: cycle angle, s/H, stroke number 0…3, gauge pressure (Pa)."""
+    """The gas in one cylinder over positions [N]: cycle angle (rad), s/H, stroke number 0…3, gauge pressure (Pa)."""
 
     piston: Piston
     angle: np.ndarray
@@ -38,7 +38,7 @@ class GasState:
 
 @dataclass(frozen=True)
 class Analysis:
-    """Everything computed of a machine at its cycle angles [N] (0 at position 1, growing with the rotation)."""
+    """Everything computed for a machine at its cycle angles [N] (rad; 0 at position 1, growing with the rotation)."""
 
     machine: Machine
     cycle_angle: np.ndarray
@@ -49,7 +49,7 @@ class Analysis:
     applied: tuple[Load, ...]
     forces: Forces
     torque: np.ndarray
-    """Balancing torque by equilibrium of the driver (N·m, anticlockwise positive)."""
+    """Balancing torque [N] by equilibrium of the driver (N·m, anticlockwise positive); the force (N) on a slide."""
     torque_by_work: np.ndarray
     """The same by virtual work; shares no code with `torque`."""
     _derived: dict[Callable[[Analysis], object], object] = field(
@@ -58,6 +58,7 @@ class Analysis:
 
     @property
     def loads(self) -> tuple[Load, ...]:
+        """All loads: inertia, applied loads, weights."""
         return (*self.inertia, *self.applied, *self.weights)
 
     def derived(self, compute: Callable[[Analysis], Derived]) -> Derived:
@@ -68,26 +69,31 @@ class Analysis:
 
     @cached_property
     def summary(self) -> Summary:
+        """The cycle as a whole, computed at the first access."""
         return summarise(self.machine)
 
 
 @dataclass(frozen=True)
 class Summary:
-    """The cycle as a whole, from continuous quadrature: mean torque (N·m), power (W), indicated work (J).
+    """The cycle as a whole, from continuous quadrature: mean torque (N·m), power (W), work of the loads (J).
 
-    `extremes` are (cycle angle, torque) of the least and the greatest torque, to a thousandth of a degree.
+    `extremes` are (cycle angle in rad, torque) of the least and the greatest torque, to a thousandth of a degree. A
+    sliding driver has forces (N) instead of torques.
     """
 
     mean_torque: float
     power: float
     work: float
     energy_error: float
-    """|sgn(ω1)·mean(M_cb) + W/(2π·turns)| over the greatest torque of the cycle."""
+    """|sgn(ω1)·mean(M_cb) + (W − ΔE)/travel| over the greatest torque of the cycle.
+
+    The travel is 2π·turns of a crank, or the span of a slide; ΔE is the energy that the links gain on the span.
+    """
     extremes: tuple[tuple[float, float], tuple[float, float]]
 
 
 def gas_in(piston: Piston, motion: Motion, cycle_angle: np.ndarray) -> GasState:
-    """Return the gas at cycle angles [N] (rad): s/H from the pin's place, pressure (Pa) from the indicator diagram."""
+    """Return the gas at cycle angles [N] (rad): s/H from the pin's place, pressure (Pa) from the indicator table."""
     angle = piston.phase + cycle_angle
     return GasState(
         piston,
@@ -123,17 +129,17 @@ def analyse(machine: Machine, cycle_angle: np.ndarray | None = None) -> Analysis
 
 
 def motion_at(machine: Machine, cycle_angle: np.ndarray) -> Motion:
-    """Return the motion at cycle angles [N]."""
+    """Return the motion of a machine at cycle angles [N] (rad), at its own speed and acceleration."""
     rate, acceleration = machine.turn * machine.speed, machine.turn * machine.acceleration
     return solve_motion(machine.linkage, machine.angles(cycle_angle), rate, acceleration)
 
 
 SAME_BREAK = 1e-9
-"""Corners of loads at angles that differ by less (rad) are one."""
+"""Corners of loads nearer than this (rad) count as one corner."""
 
 
 def breaks(machine: Machine) -> np.ndarray:
-    """Return the cycle angles (rad) where the loads have corners: dead centres and nodes of the tables."""
+    """Return the rising cycle angles [K] (rad) where the loads bend or jump, as at nodes of tables."""
     corners = [corner for load in machine.loads for corner in load.law.breaks(partial(motion_at, machine))]
     whole = machine.turns * FULL_TURN
     angles = np.sort(np.mod(np.asarray(corners, dtype=float) + SAME_BREAK, whole) - SAME_BREAK)
@@ -145,7 +151,10 @@ ROUNDING = 1e-13
 
 
 def possible(motion: Motion, loads: Iterable[Load]) -> float:
-    """Return the torque (N·m) of loads if all acted on the fastest point and link, along their motion."""
+    """Return the torque (N·m) of loads if all acted on the fastest point and link, along their motion.
+
+    It is an upper bound, by which rounding errors are judged. Of a sliding driver it is a force (N).
+    """
     loads = tuple(loads)
     fastest = max(float(np.abs(point.v).max()) for point in motion.points.values())
     turning = max(float(np.abs(link.omega).max()) for link in motion.links.values())
@@ -199,7 +208,7 @@ def _energy_gained(machine: Machine) -> float:
 
 
 def summarise(machine: Machine) -> Summary:
-    """Return the mean, extremes and energy balance over the cycle: sgn(ω1)·mean(M_cb) = −W/(2π·turns)."""
+    """Return the mean, extremes and energy balance of a machine over its cycle: sgn(ω1)·mean(M_cb) = −W/(2π·turns)."""
     whole = machine.turns * FULL_TURN
     fine = np.linspace(0.0, whole, 360 * machine.turns, endpoint=False)
     sampled = analyse(machine, fine)
@@ -217,17 +226,18 @@ def summarise(machine: Machine) -> Summary:
 
 
 def _extreme(machine: Machine, angles: np.ndarray, torque: np.ndarray, sense: int) -> tuple[float, float]:
-    """Return the greatest (`sense` +1) or least (−1) torque and its cycle angle: the best of a grid, looked at
-    closer.
+    """Return the cycle angle (rad) and the value of the greatest (`sense` +1) or least (−1) torque.
+
+    The best of the torques [N] at evenly spaced `angles` [N] is refined twice on a finer grid.
     """
     for _ in range(2):
         best, step = int(np.nanargmax(sense * torque)), float(angles[1] - angles[0])
         angles = np.linspace(angles[best] - step, angles[best] + step, 81)
-        if machine.span:  # a slide ends where its way ends
+        if machine.span:  # A slide stops at the end of its travel.
             angles = np.unique(np.clip(angles, 0.0, FULL_TURN))
         torque = analyse(machine, angles).torque
     best = int(np.nanargmax(sense * torque))
-    # A turn closes at its end, so the end repeats the start; a slide really reaches it.
+    # The end of a turn repeats its start; the end of a slide's travel is another position.
     return float(angles[best] if machine.span else angles[best] % (machine.turns * FULL_TURN)), float(torque[best])
 
 
@@ -236,7 +246,7 @@ def _extreme(machine: Machine, angles: np.ndarray, torque: np.ndarray, sense: in
 # A module of the catalogue makes a `Machine`; later code does not depend on the kind.
 
 SAME_POSITION = 1e-6
-"""Positions nearer than this (rad) are one."""
+"""Positions nearer than this (rad) count as one position."""
 
 
 class Position(int):
@@ -259,7 +269,7 @@ def no_formulas(q: Calculation) -> None:
 
 @dataclass(frozen=True, slots=True)
 class ClosedFormulas:
-    """The closed formulas of a machine: `write` enters them on the sheet after the plans.
+    """The closed formulas of a machine: `write` enters them in the calculation after the plans.
 
     `compared` are pairs of a plan's quantity and its closed formula, compared in the report; `equations` are those
     that templates of the analytic method show, by name.
@@ -274,9 +284,10 @@ class ClosedFormulas:
 class Machine:
     """A mechanism with its drive, its loads and the outline of its report.
 
-    A turn has `count` positions, numbered from driver angle `start` in the direction `turn` (+1 anticlockwise); the
-    cycle of loads takes `turns` turns of the driver. `sheet` contains the given data and the values computed from
-    them; `outline` names the report's sections in order.
+    A turn has `count` positions, numbered from the driver's coordinate `start` (rad, or m of a slide) in the direction
+    `turn` (+1 anticlockwise); `speed` is positive (rad/s or m/s). The cycle of loads takes `turns` turns of the driver.
+    The calculation `sheet` contains the given data and the values computed from them; `outline` names the report's
+    sections in order.
     """
 
     kind: str
@@ -308,7 +319,7 @@ class Machine:
     results: dict[str, object] = field(default_factory=dict, init=False, repr=False, compare=False)
     """Results of topics that others have requested; each is computed once."""
     places: tuple[float, ...] = ()
-    """Cycle angles of the positions of one turn; empty: evenly spaced from 0."""
+    """Cycle angles (rad) of the positions of one turn; if empty, they are evenly spaced from 0."""
     labels: tuple[str, ...] = ()
     """Labels of the positions of the cycle; empty if they are numbered."""
     span: float = 0.0
@@ -316,7 +327,7 @@ class Machine:
     acceleration: float = 0.0
     """ε₁ (rad/s²) of a crank, or the acceleration (m/s²) of a slide, positive in the sense of its speed."""
     instants: bool = False
-    """True if its positions, the `places`, are single instants; the report then says nothing about the way between
+    """True if its positions, the `places`, are single instants; the report then does not describe the motion between
     them.
     """
     essential: tuple[str, ...] = ()
@@ -347,7 +358,7 @@ class Machine:
 
     @property
     def cycle_travel(self) -> float:
-        """The driver's way over the cycle: an angle (rad), or the span of a sliding driver (m)."""
+        """The driver's travel over the cycle: an angle (rad), or the span of a sliding driver (m)."""
         return self.span or self.turns * 2 * np.pi
 
     @property
@@ -377,7 +388,7 @@ class Machine:
         return np.asarray((turns + np.asarray(self.places)).ravel())
 
     def angles(self, cycle_angle: np.ndarray) -> np.ndarray:
-        """Return the driver angles at the given cycle angles; the coordinates (m) of a sliding driver."""
+        """Return the driver's angles (rad) at cycle angles (rad), both [N]; of a sliding driver its coordinates (m)."""
         return self.start + self.turn * cycle_angle * (self.span / (2 * np.pi) if self.span else 1.0)
 
     @property
@@ -392,15 +403,16 @@ class Machine:
         return Position(number, self.labels[number - 1] if self.labels else "")
 
     def numbered(self, numbers: Iterable[int]) -> tuple[Position, ...]:
+        """Return positions by their numbers from 1."""
         return tuple(map(self.position, numbers))
 
 
 def lettered(count: int, turns: int, extra: Iterable[float]) -> tuple[tuple[float, ...], tuple[str, ...]]:
-    """Return the cycle angles (rad) of a turn's positions and labels of the cycle's: `count` even ones 0, 1, …, others
-    a, b, ….
+    """Return the cycle angles (rad) of the positions of one turn, and the labels of those of the whole cycle.
 
-    Those of the `extra` angles that coincide with an even one are left out; the letters follow the angle and
-    continue from turn to turn, as the numbers do.
+    A turn has `count` evenly spaced positions, labelled 0, 1, …, and those at the `extra` angles (rad), labelled a, b,
+    …, in the order of the angle; an extra angle that coincides with an even one is left out. Numbers and letters
+    continue from turn to turn.
     """
     even = np.arange(count) * (2 * np.pi / count)
     turned = np.mod(np.asarray(list(extra)) + SAME_POSITION, 2 * np.pi) - SAME_POSITION

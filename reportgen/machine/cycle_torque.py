@@ -9,7 +9,7 @@ import numpy as np
 from reportgen.base.arrays import Floats
 
 SAME_ANGLE = 1e-9
-"""Angles nearer than this (rad) are one."""
+"""Angles nearer than this (rad) count as one angle."""
 
 
 @dataclass(frozen=True)
@@ -20,8 +20,9 @@ class CycleTorque:
     coefficients: Floats
 
     def torque(self, angle: Floats) -> Floats:
-        """Return the torque (N·m) at cycle angles [N], which may lie beyond the cycle; at an edge, the value just
-        behind it.
+        """Return the torque (N·m) [N] at cycle angles [N] (rad), which may lie beyond the cycle.
+
+        At an edge it is the value just after it.
         """
         within = np.mod(angle, self.edges[-1])
         part = np.clip(np.searchsorted(self.edges, within + SAME_ANGLE, side="right") - 1, 0, len(self.edges) - 2)

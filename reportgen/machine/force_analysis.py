@@ -42,8 +42,9 @@ class Load:
 
 
 def weights(linkage: Linkage, motion: Motion) -> tuple[Load, ...]:
-    """Return the weights m·g at the mass centres, named "G" and the link's number; empty without gravity. Links
-    without mass are skipped.
+    """Return the weights m·g (N) [N] at the mass centres, named "G" and the link's number.
+
+    Links without mass are skipped; without gravity there are no weights.
     """
     still = np.zeros_like(motion.driver)
     return tuple(
@@ -60,7 +61,7 @@ def weights(linkage: Linkage, motion: Motion) -> tuple[Load, ...]:
 
 
 def inertia_loads(linkage: Linkage, motion: Motion) -> tuple[Load, ...]:
-    """Return D'Alembert's loads −m a_S at S with the couple −J ε, named "Pqt" and the link's number."""
+    """Return D'Alembert's loads [N], named "Pqt" and the link's number: −m a_S (N) at S with the couple −J ε (N·m)."""
     return tuple(
         Load(
             ids.inertia_force(body.link),
@@ -75,7 +76,7 @@ def inertia_loads(linkage: Linkage, motion: Motion) -> tuple[Load, ...]:
 
 
 def as_single_force(load: Load) -> Complexes:
-    """Return the point where a force F at S with couple M acts as the force alone: S − i F M / F².
+    """Return the point (m) [N] where a force F at S with couple M acts as the force alone: S − i F M / F².
 
     It lies at the distance |M|/|F| = J|ε|/(m|a_S|) from S, square to the force, on the side that gives
     M.  It is S itself where M = 0, and nan where F = 0 with M ≠ 0: a pure couple.
@@ -89,12 +90,13 @@ def as_single_force(load: Load) -> Complexes:
 def percussion_points(
     a: Complexes, s: Complexes, a_a: Complexes, a_s: Complexes, l_sk: float
 ) -> tuple[Complexes, Complexes]:
-    """Return the centre of percussion K of a link, and the point Q of its single inertia force, as they are found by
+    """Return the centre of percussion K of a link and the point Q of its single inertia force (m) [N], as found by
     drawing.
 
-    Split a_S = a_A + a_SA: the part −m a_A acts along the line through S parallel to a_A, the part of
-    the turning about A along the line through K parallel to a_SA, K on AS beyond S at `l_sk`.  The
-    lines meet in Q; nan where they are parallel.  a, s in m, a_a, a_s in m/s².
+    Split a_S = a_A + a_SA: the part −m a_A acts along the line through S parallel to a_A, and the part of the turning
+    about A along the line through K parallel to a_SA; K lies on AS, `l_sk` (m) beyond S.  The lines meet in Q, which is
+    nan where they are parallel.  `a` and `s` are the places [N] of A and S (m), `a_a` and `a_s` their accelerations [N]
+    (m/s²).
     """
     k = s + (s - a) / np.abs(s - a) * l_sk
     along, _ = solve2(a_a, a_a - a_s, k - s)
@@ -105,7 +107,9 @@ def percussion_points(
 
 
 def virtual_work_torque(linkage: Linkage, motion: Motion, loads: Sequence[Load]) -> Floats:
-    """Return the driver's balancing torque M = −(ΣF·v + ΣMω)/ω₁ (N·m); with a sliding driver the force (N).
+    """Return the driver's balancing torque M = −(ΣF·v + ΣMω)/ω₁ (N·m) [N]; with a sliding driver the force (N) [N].
+
+    It is nan at positions that cannot be reached.
 
     The `loads` on links of `linkage` must include the inertia forces (D'Alembert's principle). Raises `ValueError`
     if the driver does not move.
@@ -119,15 +123,15 @@ def virtual_work_torque(linkage: Linkage, motion: Motion, loads: Sequence[Load])
 
 
 NO_FORCE = 1e-12
-"""A force across a guide below this part of the group's largest is rounding."""
+"""A force across a guide below this share of the group's largest force counts as a rounding error."""
 
 
 @dataclass(frozen=True, slots=True)
 class Reaction:
-    """The force of one link on another (N) and, in a guide, its moment (N·m) about the joint's point.
+    """The force of one link on another (N) [N] and, in a guide, its moment (N·m) [N] about the joint's point.
 
-    `point` (m) is the joint in a revolute joint; in a guide it is where the single resultant crosses
-    the guide's line, nan where the reaction is a pure couple.
+    `point` (m) [N] is the place of a revolute joint; in a guide it is where the single resultant crosses the guide's
+    line, nan where the reaction is a pure couple.
     """
 
     force: Complexes
@@ -139,7 +143,7 @@ class Reaction:
 class Forces:
     """Reactions "R12" (link 1 on link 2) and "R21" for every joint, and the torque or force that balances the driver.
 
-    `torque` is the torque on the crank (N·m), or for a sliding driver the force along its guide (N).
+    `torque` [N] is the torque on the crank (N·m), or for a sliding driver the force along its guide (N).
     """
 
     reactions: Mapping[str, Reaction]
@@ -164,7 +168,7 @@ def reaction_name(source: int, target: int) -> str:
 
 
 def solve_forces(linkage: Linkage, motion: Motion, loads: Sequence[Load]) -> Forces:
-    """Balance every link under `loads`; nan where the position is unreachable.
+    """Return the reactions and the driver's torque or force that balance `loads`; nan where a position is unreachable.
 
     Raises `KeyError` for a load on a link that does not move.
     """
@@ -173,7 +177,7 @@ def solve_forces(linkage: Linkage, motion: Motion, loads: Sequence[Load]) -> For
 
 @dataclass(frozen=True, slots=True)
 class Equilibrium:
-    """The equations of equilibrium of a linkage at the positions of a motion, which any loads may enter."""
+    """The equations of equilibrium of a linkage at the positions of a motion; `under` solves them for any loads."""
 
     motion: Motion
     links: tuple[int, ...]
@@ -229,7 +233,7 @@ class _Group:
     length: float
     columns: tuple[_Wrench, ...]
     matrix: Floats
-    """[N, 6, 6], that of ones where the position is unreachable."""
+    """Coefficients [N, 6, 6]; the unit matrix where the position is unreachable."""
 
     @classmethod
     def of(cls, dyad: Dyad, own: tuple[Joint, ...], motion: Motion) -> _Group:
@@ -240,7 +244,7 @@ class _Group:
         def farthest(points: Iterable[str]) -> float:
             return max(float(np.max(np.abs(motion.points[name].p - pole)[valid], initial=0.0)) for name in points)
 
-        # Joints that lie in one point do so but for rounding.
+        # The joints may coincide except for rounding errors; then the size of the mechanism replaces their distance.
         reach, whole = farthest(joint.point for joint in own), farthest(motion.points)
         length = reach if reach > NO_FORCE * whole else whole or 1.0
         matrix = np.zeros((6, 6, pole.size))

@@ -1,8 +1,8 @@
 """The gas pressure of a four-stroke engine over its cycle, interpolated in a table.
 
 A cycle angle (rad) is the crank's turn from the piston's own top dead centre at the start of intake, in the
-direction of rotation; a fraction is s/H, the piston's way from its top dead centre over the stroke. Pressures (Pa)
-are gauge pressures and push the piston towards the crank when positive.
+direction of rotation; a fraction is s/H, the piston's distance from its top dead centre over the stroke. Pressures
+(Pa) are gauge pressures and push the piston towards the crank when positive.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ DEAD_CENTRES = (0.0, math.pi, 2 * math.pi, 3 * math.pi)
 """Cycle angles at which the strokes begin if the guide passes through the crank's centre."""
 
 AT_DEAD_CENTRE = 1e-9
-"""An angle this near below a dead centre (rad) is rounding of the dead centre itself."""
+"""An angle less than this (rad) below a dead centre counts as the dead centre itself."""
 
 HALVINGS = 60
 """A stroke halved so often is below the spacing of floats there."""
@@ -74,7 +74,7 @@ class Tabled:
 class Bracket:
     """Adjacent nodes of a table on both sides of the places `at`, with their pressures (Pa); all arrays have shape [N].
 
-    `kind` is the kind of quantity of the nodes: the "ratio" s/H, the "angle" of the cycle, or a "length", the way.
+    `kind` is the kind of quantity of the nodes: the "ratio" s/H, the "angle" of the cycle, or a "length", the travel.
     In a table of loads the pressures are sizes of the load (N or N·m).
     """
 
@@ -87,7 +87,10 @@ class Bracket:
 
     @classmethod
     def among(cls, kind: str, at: Floats, nodes: Sequence[float], pressures: Floats) -> Bracket:
-        """Return the bracket of each place `at` [N] among nodes [K] with their pressures at each position [N, K]."""
+        """Return the bracket of each place `at` [N] among rising nodes [K], with the pressures at each position [N, K].
+
+        Places outside the nodes get the first or last pair.
+        """
         index = np.clip(np.searchsorted(nodes, at, side="right") - 1, 0, len(nodes) - 2)
         each, places = np.arange(len(at)), np.asarray(nodes)
         return cls(
@@ -108,7 +111,7 @@ class Bracket:
         return np.asarray((self.pressure_before != self.pressure_after) & ~at_node)
 
     def in_first(self, turn: float) -> Bracket:
-        """Return the same places less the whole turns that lie before them."""
+        """Return the bracket shifted by whole turns, each `turn` (rad), so that its nodes `before` are in the first."""
         before = turn * np.floor(self.before / turn)
         return replace(self, at=self.at - before, before=self.before - before, after=self.after - before)
 
@@ -137,26 +140,26 @@ class StrokeIndicator:
 
     @property
     def rows(self) -> tuple[tuple[float, ...], ...]:
-        """The four rows in the order of `STROKES`."""
+        """The four rows of pressures (Pa), each [K], in the order of `STROKES`."""
         return self.intake, self.compression, self.expansion, self.exhaust
 
     def tabled(self, turns: int = 2) -> Tabled:
-        """Return the table as it was given for so many turns, two strokes each."""
+        """Return the table as it was given for the first `turns` turns, two strokes each."""
         return Tabled(Fraction(Symbol("s"), Symbol("H")), "ratio", self.fractions, self.rows[: 2 * turns])
 
     def bracket(self, cycle_angle: Floats, fraction: Floats, dead_centres: ArrayLike = DEAD_CENTRES) -> Bracket:
-        """Return the nodes of the stroke's row on both sides of the piston at cycle angles [N] and fractions [N]."""
+        """Return the nodes of the stroke's row around the piston at cycle angles [N] (rad) and fractions [N]."""
         rows = np.asarray(self.rows)[stroke_at(cycle_angle, dead_centres)]
         return Bracket.among("ratio", fraction, self.fractions, rows)
 
     def branches(
         self, fraction_of: Callable[[Floats], Floats], dead_centres: ArrayLike = DEAD_CENTRES
     ) -> tuple[Branch, ...]:
-        """Return each stroke's line over s/H."""
+        """Return each stroke's line over s/H; `fraction_of` and `dead_centres` are ignored here."""
         return tuple((self.fractions, row) for row in self.rows)
 
     def pressure(self, cycle_angle: ArrayLike, fraction: ArrayLike, dead_centres: ArrayLike = DEAD_CENTRES) -> Floats:
-        """Return the pressure (Pa) [N] at cycle angles [N], with the piston at fractions [N] of its stroke."""
+        """Return the pressure (Pa) [N] at cycle angles [N] (rad), with the piston at fractions [N] of its stroke."""
         stroke = stroke_at(cycle_angle, dead_centres)
         by_row = np.stack([np.interp(np.asarray(fraction), self.fractions, row) for row in self.rows])
         return np.asarray(np.choose(stroke, by_row), dtype=np.float64)
@@ -206,24 +209,24 @@ class AngleIndicator:
 
     @property
     def rows(self) -> tuple[tuple[float, ...], ...]:
-        """The one row of pressures."""
+        """The only row of pressures (Pa) [K]."""
         return (self.pressures,)
 
     def tabled(self, turns: int = 2) -> Tabled:
-        """Return the table as it was given for so many turns."""
+        """Return the table as it was given for the first `turns` turns."""
         count = sum(angle <= turns * 2 * math.pi * (1 + 1e-15) for angle in self.angles)
         return Tabled(Symbol("φ"), "angle", self.angles[:count], (self.pressures[:count],))
 
     def bracket(self, cycle_angle: Floats, fraction: Floats, dead_centres: ArrayLike = DEAD_CENTRES) -> Bracket:
-        """Return the nodes on both sides of the cycle angles [N]."""
+        """Return the nodes on both sides of the cycle angles [N] (rad); `fraction` is ignored here."""
         rows = np.tile(self.pressures, (len(cycle_angle), 1))
         return Bracket.among("angle", np.mod(cycle_angle, CYCLE), self.angles, rows)
 
     def branches(
         self, fraction_of: Callable[[Floats], Floats], dead_centres: ArrayLike = DEAD_CENTRES
     ) -> tuple[Branch, ...]:
-        """Return each stroke's line over s/H, carried over by the piston's motion: `fraction_of` gives s/H at cycle
-        angles.
+        """Return each stroke's line over s/H, from the piston's motion: `fraction_of` gives s/H [K] at cycle angles [K]
+        (rad).
         """
         corners = []
         for start, end in pairwise((*np.asarray(dead_centres), CYCLE)):
@@ -236,7 +239,7 @@ class AngleIndicator:
     def pressure(
         self, cycle_angle: ArrayLike, fraction: ArrayLike = 0.0, dead_centres: ArrayLike = DEAD_CENTRES
     ) -> Floats:
-        """Return the pressure (Pa) [N] at cycle angles [N]; `fraction` is ignored here."""
+        """Return the pressure (Pa) [N] at cycle angles [N] (rad); `fraction` is ignored here."""
         return np.interp(_within(cycle_angle), self.angles, self.pressures)
 
     def breaks(
@@ -263,7 +266,7 @@ IndicatorTable = StrokeIndicator | AngleIndicator
 def indicated_work(
     indicator: IndicatorTable, area: float, stroke: float, fraction_rate: Callable[[Floats], Floats]
 ) -> float:
-    """Return the indicated work of one cylinder per cycle (J) for either form.
+    """Return the indicated work of one cylinder per cycle (J) for either form; `area` in m², `stroke` in m.
 
     `fraction_rate` gives d(s/H)/dφ (1/rad) at cycle angles [N]; the form by stroke does not need it.
     """
@@ -273,7 +276,7 @@ def indicated_work(
 
 
 def crossings(rise: Callable[[Floats], Floats], low: Floats, high: Floats) -> Floats:
-    """Return the zero of a function that is negative at `low` and positive at `high`, for every pair [N].
+    """Return the zeros [N] (rad) of a function that is negative at `low` [N] and positive at `high` [N].
 
     Ridders' method: with f_m at the middle, x = m − (m − low) f_m/√(f_m² − f_low f_high) lies between
     both ends, and its error falls with the square of the step before.

@@ -26,7 +26,7 @@ would be wrong in the sixth digit, so they are nan.
 """
 
 TOUCHING = 1e-13
-"""A square root of minus this, relative, is a flat position met exactly, not an unreachable one."""
+"""A square that is negative by less than this, relative, counts as 0: a dead point, not an unreachable position."""
 
 COINCIDENT = 1e-9
 """Points nearer than this, relative to their distance from the origin, give no direction."""
@@ -39,18 +39,18 @@ RODS: Mapping[DyadKind, int] = {"RRR": 2, "RRP": 1, "RPR": 0, "PRP": 0, "RPP": 0
 
 
 def unit(angle: Floats | float) -> Complexes:
-    """Return the unit vector e^{iθ} at `angle` (rad)."""
+    """Return the unit vector e^{iθ} at `angle` (rad), in its shape."""
     return np.asarray(np.exp(1j * np.asarray(angle, dtype=np.float64)), dtype=np.complex128)
 
 
 def cross(a: Complexes | complex, b: Complexes | complex) -> Floats:
-    """Return a × b = aₓb_y − a_y bₓ [N], the component along z."""
+    """Return the component a × b = aₓb_y − a_y bₓ along z, in the product of their units; arrays of any shape."""
     a, b = np.asarray(a), np.asarray(b)
     return np.asarray(a.real * b.imag - a.imag * b.real, dtype=np.float64)
 
 
 def dot(a: Complexes | complex, b: Complexes | complex) -> Floats:
-    """Return the scalar product a · b = aₓbₓ + a_y b_y [N]."""
+    """Return the scalar product a · b = aₓbₓ + a_y b_y, in the product of their units; arrays of any shape."""
     a, b = np.asarray(a), np.asarray(b)
     return np.asarray(a.real * b.real + a.imag * b.imag, dtype=np.float64)
 
@@ -86,7 +86,7 @@ class PointMotion:
 
 @dataclass(frozen=True, slots=True)
 class SlideMotion:
-    """Relative motion in a prismatic joint: s (m) along the unit vector `direction`, ṡ and s̈."""
+    """Relative motion in a prismatic joint: s (m) along the unit vector `direction`, ṡ (m/s) and s̈ (m/s²), each [N]."""
 
     s: Floats
     v: Floats
@@ -96,7 +96,7 @@ class SlideMotion:
 
 @dataclass(frozen=True, slots=True)
 class Rail:
-    """A guide as it moves: its point `at`, its direction, and the link that carries it."""
+    """A guide as it moves: its point `at`, its unit `direction` [N], and the motion of the link that carries it."""
 
     link: int
     at: PointMotion
@@ -128,7 +128,7 @@ def carried(base: PointMotion, link: LinkMotion, p: Complexes) -> PointMotion:
 
 
 def assemble(dyad: Dyad, start: End, end: End, sign: Floats) -> Assembled:
-    """Return the group on its two ends; `sign` [N] is its orientation.
+    """Return the motion of a group on its two ends; `sign` [N] is its orientation, +1 or −1.
 
     Raises `TypeError` when an end is a guide where the kind has a revolute joint, or the reverse, and
     `ValueError` for a rod without length.
@@ -247,7 +247,7 @@ def _rpp(dyad: Dyad, p: PointMotion, rail: Rail) -> Assembled:
 __all__ = ["LinkMotion", "Motion", "PointMotion", "SlideMotion", "solve_motion"]
 
 SUBSTEP = np.radians(2.0)
-"""Largest step of a crank between two positions, so that angles unwrap the way the links really turn."""
+"""Largest step (rad) of a crank between two positions, so that link angles continue in the sense of rotation."""
 SUBSTEPS_OF_A_SLIDE = 180
 
 Places = NDArray[np.int64] | slice
@@ -281,11 +281,11 @@ class Motion:
 
 
 def solve_motion(linkage: Linkage, driver: ArrayLike, rate: ArrayLike, acceleration: ArrayLike = 0.0) -> Motion:
-    """Return the motion at driver coordinates `driver` [N], passed through in this order, with q̇ = `rate`, q̈ =
-    `acceleration`.
+    """Return the motion at the driver's coordinates `driver` [N] (rad, or m of a slide), passed through in this order.
 
-    Both are one number or one a position [N].  Between positions far apart the solver takes substeps, so that link
-    angles are continuous.
+    `rate` (rad/s or m/s) and `acceleration` (rad/s² or m/s²) are one number or one for each position [N].  Between
+    positions far apart the solver takes substeps, so that link angles are continuous.  Positions that cannot be
+    assembled are nan.
     Raises `ValueError` for a moving guide under a sliding driver and `KeyError` for a dyad that hangs
     on a point or link not yet placed.
     """
@@ -298,7 +298,7 @@ def solve_motion(linkage: Linkage, driver: ArrayLike, rate: ArrayLike, accelerat
 
 
 def _along(path: Floats, kept: Places, given: ArrayLike) -> Floats:
-    """Return values given once or per position at every place of the way; a substep takes the value of the place
+    """Return values, given once or per position, at every place of the path; a substep takes the value of the position
     before it.
     """
     values = np.asarray(given, dtype=np.float64)
@@ -308,7 +308,7 @@ def _along(path: Floats, kept: Places, given: ArrayLike) -> Floats:
 
 
 def _path(driver: Floats, turning: bool) -> tuple[Floats, Places]:
-    """Return the driver's way with substeps between far positions, and the places of the positions on it."""
+    """Return the driver's path with substeps between far positions, and the indices of the positions on it."""
     steps = np.abs(np.diff(driver))
     if not steps.size or not np.isfinite(steps).all():
         return driver, slice(None)
@@ -370,7 +370,7 @@ class _State:
         return Rail(end.link, at, turned * unit(end.angle), carrier)
 
     def add(self, dyad: Dyad) -> None:
-        """Assemble one group and note where it cannot be."""
+        """Assemble one group; positions at which that is impossible become unreachable."""
         sign = np.full(self.path.shape, float(dyad.sign))
         group = assemble(dyad, self._end(dyad.start), self._end(dyad.end), sign)
         parts = (group.middle.p, group.middle.a, *(part for link in group.links for part in (link.angle, link.epsilon)))

@@ -1,9 +1,8 @@
-"""Laws of loads: how the size of a force or torque varies over the cycle, and what the report needs to describe it.
+"""Laws of loads: the size of a force or torque over the cycle, and the data with which the report describes it.
 
-Angles are the driver's turn in the direction of rotation. A course counts them from its `top`, the dead centre
-where crank and rod are stretched in one line. A table of one turn is repeated to fill a cycle of two turns. So one
-reader (`machine.gas`) serves four-stroke gas and a working force over two strokes; its values are newtons instead
-of pascals for the latter.
+Angles (rad) are the driver's turn in the direction of rotation. A course (`Stroke`) counts them from its `top`, one of
+its two dead centres. A table of one turn is repeated to fill a cycle of two turns, so that the tables of
+`machine.gas_pressure` serve both the gas of a four-stroke engine (Pa) and a working force over two strokes (N).
 """
 
 from __future__ import annotations
@@ -25,26 +24,26 @@ from reportgen.machine.spring_geometry import Coil
 
 FULL_TURN = 2 * np.pi
 STEPS = 720
-"""Places in a turn, half a degree apart: whether a machine gets there, whether a link turns back."""
+"""Number of samples of a turn, half a degree apart, in a search for reversals and unreachable angles."""
 HALVINGS = 50
 AT_ONCE = 5
-"""Halvings made in one step."""
+"""Number of halvings made in one step."""
 BEFORE_A_TURN = 1e-9
 """Angles (rad) closer than this below the end of the cycle, or below a turning point, belong to the next part."""
 
 EDGE_OF_CUT = 1e-9
-"""A share of the stroke this near to the tool's way in or out is rounding of it."""
+"""A share of the stroke this near to the beginning or end of the cut counts as that place."""
 
 MotionAt = Callable[[Floats], Motion]
-"""The machine's motion at cycle angles [N] that grow from one to the next."""
+"""Function that returns the machine's motion at rising cycle angles [N] (rad)."""
 
 
 @dataclass(frozen=True)
 class Stroke:
-    """The way of slider `link`, whose pin `pin` is joined by `rod` to `crank_pin`.
+    """The travel of the slider `link` between its dead centres; the link `rod` joins its `pin` to `crank_pin`.
 
-    `top` and `bottom` are the pin's places at the dead centres, `top_angle` and `bottom_angle` the
-    driver's turn there, `phase` the slider's own cycle angle at position 1.
+    `top` and `bottom` are the pin's places (m) at the dead centres, `top_angle` and `bottom_angle` the driver's turn
+    (rad) there, `phase` the slider's own cycle angle (rad) at position 1.
     """
 
     link: int
@@ -69,22 +68,22 @@ class Stroke:
 
     @property
     def dead_centres(self) -> Floats:
-        """Its own cycle angles over two turns at which it turns back [4]; the first is 0, the top."""
+        """Its own cycle angles [4] (rad) at which it turns back in two turns; the first is 0, the top."""
         inward_turn = (self.bottom_angle - self.top_angle) % FULL_TURN or np.pi
         return np.array([0.0, inward_turn, FULL_TURN, FULL_TURN + inward_turn])
 
     def fraction(self, motion: Motion) -> Floats:
-        """Return s/H [N]: the pin's way from its top over the stroke."""
+        """Return s/H [N], the pin's distance from its top over the stroke, from 0 to 1."""
         fraction = np.real(np.conj(self.inward) * (motion.points[self.pin].p - self.top)) / self.stroke
         return np.asarray(np.clip(fraction, 0.0, 1.0))
 
     def fraction_rate(self, motion: Motion) -> Floats:
-        """Return d(s/H)/dφ [N] over the driver's turn φ in the direction of rotation."""
+        """Return d(s/H)/dφ [N] (1/rad), where φ is the driver's turn in the direction of rotation."""
         speed = np.real(np.conj(self.inward) * motion.points[self.pin].v)
         return np.asarray(speed / (self.stroke * np.abs(motion.rate)))
 
     def share_at(self, motion_at: MotionAt) -> Callable[[Floats], Floats]:
-        """Return s/H [N] at the slider's own cycle angles [N], in any order."""
+        """Return the function that gives s/H [N] at the slider's own cycle angles [N] (rad), in any order."""
 
         def share(angle: Floats) -> Floats:
             order = np.argsort(angle)
@@ -111,7 +110,7 @@ class Law(ABC):
 
     @abstractmethod
     def value(self, angle: Floats, motion: Motion) -> Floats:
-        """Return the size [N] at cycle angles [N] with the motion there."""
+        """Return the size [N] (N or N·m) at cycle angles [N] (rad) with the motion there."""
 
     @abstractmethod
     def breaks(self, motion_at: MotionAt) -> Iterable[float]:
@@ -134,11 +133,11 @@ class Law(ABC):
 
     @property
     def tabled(self) -> Tabled | None:
-        """The table that it is given by, if it is given by one."""
+        """The table by which it is given; None if it is not given by a table."""
         return None
 
     def bracket(self, angle: Floats, motion: Motion) -> Bracket | None:
-        """Return the nodes of its table on both sides of cycle angles [N]; None if it has no table."""
+        """Return the nodes of its table on both sides of cycle angles [N] (rad); None if it has no table."""
         return None
 
     @property
@@ -148,17 +147,18 @@ class Law(ABC):
 
     @property
     def read_along(self) -> Stroke | None:
-        """The course of the slider by whose way its table is read, if it has one."""
+        """The course of the slider by whose place its table is read; None without such a table."""
         return None
 
     @property
     def coil(self) -> Coil | None:
-        """The spring that exerts it, if one does."""
+        """The spring that exerts it; None if no spring does."""
         return None
 
     def formula(self, q: Calculation, link: int) -> Expression | None:
-        """Return the formula of the size in quantities of the sheet, for the load on `link`; None if it is read or
-        given.
+        """Return the formula of the size in quantities of the calculation, for the load on `link`.
+
+        None if the size is given or read from a table.
         """
         return None
 
@@ -179,14 +179,14 @@ class TableLaw(Law):
         return self.reading(angle, motion)
 
     def reading(self, angle: Floats, motion: Motion) -> Floats:
-        """Return the values of the table [N]."""
+        """Return the values [N] of the table (N or Pa) at cycle angles [N] (rad) with the motion there."""
         course = self.course
         return self.table.pressure(course.phase + angle, course.fraction(motion), course.dead_centres)
 
     def bracket(self, angle: Floats, motion: Motion) -> Bracket:
         course = self.course
         read = self.table.bracket(course.phase + angle, course.fraction(motion), course.dead_centres)
-        # A table of one turn is laid out twice; of its second turn, too, the first is printed.
+        # A table of one turn is repeated; readings of the repetition are printed as those of the given turn.
         return read if read.kind == "ratio" or self.turns > 1 else read.in_first(FULL_TURN)
 
     def breaks(self, motion_at: MotionAt) -> Iterable[float]:
@@ -248,13 +248,13 @@ class ListedLaw(Law):
 
 @dataclass(frozen=True)
 class AngleLaw(ListedLaw):
-    """Over cycle angles (rad) from 0 to the end of the cycle; the last value closes it, or jumps to the first."""
+    """Values over cycle angles (rad) from 0 to the end of the cycle; there the last one is followed by the first."""
 
     def value(self, angle: Floats, motion: Motion) -> Floats:
         return np.asarray(np.interp(self._within(angle), self.nodes, self.values))
 
     def _within(self, angle: Floats) -> Floats:
-        """Return the cycle angles [N] from 0 to the end of the cycle, which a place just before it begins again."""
+        """Return the angles [N] (rad) reduced to the cycle; an angle just below its end counts as 0."""
         return np.maximum(np.mod(angle + BEFORE_A_TURN, self.nodes[-1]) - BEFORE_A_TURN, 0.0)
 
     def bracket(self, angle: Floats, motion: Motion) -> Bracket:
@@ -270,7 +270,7 @@ class AngleLaw(ListedLaw):
 
 @dataclass(frozen=True)
 class TravelLaw(ListedLaw):
-    """Values over the way (m) of a sliding driver from its start; `span` is the whole way, which is not a cycle."""
+    """Values over the travel (m) of a sliding driver from its start; the whole travel `span` (m) is not a cycle."""
 
     span: float
 
@@ -291,9 +291,9 @@ class TravelLaw(ListedLaw):
 
 @dataclass(frozen=True)
 class CuttingLaw(Law):
-    """`force` (N) on the ram while the tool cuts, which it does on the way from the top of the ram's `course`.
+    """The `force` (N) on a ram while the tool cuts: on the stroke of the ram's `course` that begins at the top.
 
-    It runs free over the share `free` of the stroke at each end of that way.
+    The tool runs free over the share `free` of the stroke at each end.
     """
 
     course: Stroke
@@ -302,7 +302,7 @@ class CuttingLaw(Law):
     kind = "cutting"
 
     def value(self, angle: Floats, motion: Motion) -> Floats:
-        """Return the force (N) [N]; at a dead centre that of the stroke which begins there."""
+        """Return the force (N) [N] at cycle angles [N] (rad); a dead centre belongs to the stroke that it begins."""
         turned = np.mod(self.course.phase + angle + BEFORE_A_TURN, FULL_TURN) - BEFORE_A_TURN
         working = turned < self.course.bottom_angle - BEFORE_A_TURN
         share = self.course.fraction(motion)
@@ -369,7 +369,7 @@ class Opposing(Law):
 
 @dataclass(frozen=True)
 class Resistance(Law):
-    """−`size`·sgn(rate) over the way of a sliding driver, which does not come back to its start."""
+    """−`size`·sgn(rate) over the travel of a sliding driver, which does not return to its start."""
 
     size: float
     rate: Callable[[Motion], Floats]
@@ -388,13 +388,18 @@ class Resistance(Law):
 
 
 def by_stroke(fractions: tuple[float, ...], inward: tuple[float, ...], outward: tuple[float, ...]) -> IndicatorTable:
-    """Return forces (N) over s/H from the top: a row for the way in, towards the crank, and one for the way out."""
+    """Return the table of forces (N) over s/H: the row `inward` for the stroke away from the top, `outward` back.
+
+    Raises `ValueError` if a row has another length than the fractions, or these do not rise from 0 to 1.
+    """
     return StrokeIndicator(fractions, inward, outward, inward, outward)
 
 
 def by_angle(angles: tuple[float, ...], values: tuple[float, ...]) -> IndicatorTable:
-    """Return forces (N) over a turn from the top, 0…2π; the table's last value closes the turn or jumps to the
-    first.
+    """Return the table of forces (N) over two turns from one over a turn from the top, at angles 0…2π (rad).
+
+    If its last value differs from the first, the force jumps there.  Raises `ValueError` for unequal lengths, or angles
+    that do not rise from 0 to 2π.
     """
     second = tuple(angle + FULL_TURN for angle in angles)
     if values[0] == values[-1]:
@@ -404,7 +409,11 @@ def by_angle(angles: tuple[float, ...], values: tuple[float, ...]) -> IndicatorT
 
 
 def opposing(size: float, rate: Callable[[Floats], Floats]) -> Opposing:
-    """Return a load of constant size (N or N·m) that opposes a `rate` (m/s or rad/s) over the cycle angle (0…2π)."""
+    """Return a load of constant size (N or N·m) that opposes a rate.
+
+    `rate` returns the rate [N] (m/s or rad/s) at cycle angles [N] (rad) of one turn; the sizes of its values do not
+    matter, only their signs.
+    """
     edges = np.linspace(0.0, FULL_TURN, STEPS + 1) - FULL_TURN / STEPS / np.pi
     signs = np.sign(rate(edges))
     changes = np.flatnonzero(signs[1:] != signs[:-1])
@@ -422,10 +431,10 @@ def opposing(size: float, rate: Callable[[Floats], Floats]) -> Opposing:
 
 
 def halved(low: Floats, high: Floats, before: Callable[[Floats], Flags], times: int) -> tuple[Floats, Floats]:
-    """Halve the intervals [N] from `low` to `high` at least `times` times, each towards the place where `before`
-    becomes False.
+    """Halve the intervals [N] from `low` to `high` at least `times` times, and return the ends [N] of the small ones.
 
-    `before` is called with many places [N, K] together, since the motion at one takes as long as at fifty.
+    Each of them contains the place where `before` becomes False.  `before` is called with many places [N, K] together,
+    since the motion at one takes as long as at fifty.
     """
     shares = np.linspace(0.0, 1.0, 2**AT_ONCE + 1)
     each = np.arange(low.size)

@@ -22,7 +22,10 @@ from reportgen.machine.motion_sense import moving, pace
 
 
 def crank_motion(linkage: Linkage, positions: Positions, start: float, speed: float = 1.0) -> MotionAt:
-    """Return the motion at cycle angles [N] of a linkage whose crank is at the angle `start` in position 1."""
+    """Return the function that gives the motion of a linkage at cycle angles [N] (rad).
+
+    The crank is at the angle `start` (rad) in position 1 and turns at `speed` (rad/s).
+    """
     turn = positions.sign
     return lambda angle: solve_motion(linkage, start + turn * angle, turn * speed)
 
@@ -60,10 +63,11 @@ def turning_points(linkage: Linkage, link: int, motion_at: MotionAt) -> tuple[fl
 
 
 def course(linkage: Linkage, link: int, motion_at: MotionAt, turns: int = 1, top: int = 1) -> Stroke:
-    """Return the way of a slider on the frame; its top is the end farther along the guide.
+    """Return the travel of a slider on the frame between its dead centres; its top is the end farther along the guide.
 
-    Intake starts at the passage number `top` of the top.  Raises `ValueError` for a slider that does not go once to
-    and fro in a turn of the driver; where a file may give one, its checks find it (`catalogue.assembly.to_and_fro`).
+    Intake starts when the slider passes the top for the time number `top`.  Raises `ValueError` for a slider that does
+    not move once to and fro in a turn of the driver; the checks of a file report such a slider before
+    (`catalogue.assembly.to_and_fro`).
     """
     dyad, guide = rails(linkage)[link]
     along = cmath.exp(1j * guide.angle)
@@ -106,7 +110,7 @@ class Piston(Stroke):
 
     @classmethod
     def on(cls, course: Stroke, bore: float, indicator: IndicatorTable) -> Piston:
-        """Return the piston, its bore in m, that is the slider of a course."""
+        """Return the piston with a `bore` (m) whose travel is the `course`."""
         return cls(**vars(course), bore=bore, indicator=indicator)
 
     @property
@@ -121,7 +125,7 @@ class Piston(Stroke):
 
     @property
     def law(self) -> GasLaw:
-        """Pressure times area."""
+        """The law of the gas force: pressure times area."""
         return GasLaw(self, self.indicator, area=self.area)
 
 
@@ -130,7 +134,7 @@ Direction = Callable[[Motion], Complexes]
 
 
 def fixed(direction: complex) -> Direction:
-    """Return the same direction, of length 1, at every position."""
+    """Return the function that gives the same `direction`, of length 1, at every position [N]."""
     return lambda motion: np.full(motion.driver.shape, direction, dtype=np.complex128)
 
 
@@ -145,7 +149,7 @@ class Applied:
     law: Law
 
     def load(self, angle: Floats, motion: Motion) -> Load:
-        """Return the force at cycle angles [N] with the motion there."""
+        """Return the force [N] (N) at cycle angles [N] (rad) with the motion there."""
         force = self.law.value(angle, motion) * self.direction(motion)
         return Load(self.name, self.link, force, motion.points[self.point].p, np.zeros_like(angle))
 
@@ -159,13 +163,13 @@ class Torque:
     law: Law
 
     def load(self, angle: Floats, motion: Motion) -> Load:
-        """Return the couple at cycle angles [N] with the motion there."""
+        """Return the couple [N] (N·m) at cycle angles [N] (rad) with the motion there."""
         nothing = np.zeros(angle.shape, dtype=np.complex128)
         return Load(self.name, self.link, nothing, motion.origins[self.link].p, self.law.value(angle, motion))
 
 
 def gas_forces(pistons: Iterable[Piston]) -> tuple[Applied, ...]:
-    """Return the gas on each piston."""
+    """Return the gas force on each piston, along `inward`."""
     return tuple(Applied(piston.name, piston.link, piston.pin, fixed(piston.inward), piston.law) for piston in pistons)
 
 

@@ -16,19 +16,20 @@ STILL = 1e-12
 
 
 def sense_of(rate: Floats, pace: float) -> Floats:
-    """Return the sign of a rate [N], 0 where it is only rounding beside the mechanism's `pace` in the same unit."""
+    """Return the sign [N] of a rate [N]; 0 where the rate is negligible beside the mechanism's `pace` (same unit)."""
     return np.asarray(np.sign(moving(rate, pace)))
 
 
 def moving(rate: Floats, pace: float) -> Floats:
-    """Return a rate [N] without rounding: 0 where it is negligible beside the mechanism's `pace` in the same unit."""
+    """Return a rate [N] with 0 where it is negligible beside the mechanism's `pace`, in the same unit."""
     return np.asarray(np.where(np.abs(rate) > STILL * pace, rate, 0.0))
 
 
 def pace(motion: Motion, kind: str) -> tuple[float, float]:
-    """Return how fast a mechanism moves and how fast that changes, of links for pins ("R"), of points for guides ("P").
+    """Return the greatest speed of a mechanism and its greatest rate of change.
 
-    The change is at least that by ω² of the fastest link: a mechanism that turns steadily changes its directions.
+    For pins ("R") they are those of links (rad/s, rad/s²), for guides ("P") those of points (m/s, m/s²).  The change is
+    at least the one by ω² of the fastest link: a mechanism that turns steadily changes its directions.
     """
     turning = largest(*(link.omega for link in motion.links.values()))
     if kind == "R":
@@ -38,5 +39,5 @@ def pace(motion: Motion, kind: str) -> tuple[float, float]:
 
 
 def largest(*values: Floats | Complexes) -> float:
-    """Return the greatest size among values that may be nan; 0 if there is no value."""
+    """Return the greatest absolute value of arrays of any shape, in their unit; nan is ignored, 0 without values."""
     return max((float(np.nanmax(np.abs(each), initial=0.0)) for each in values), default=0.0)

@@ -11,18 +11,21 @@ import numpy as np
 from reportgen.base.arrays import Floats
 
 ORDER = 16
+"""Number of places in a part."""
 CONVERGED = 1e-12
+"""A change by halving below this share of ∫ |f| dx ends the halving."""
 AT_ALL = 1e-9
+"""The result is accepted up to this share if halving reaches no smaller one."""
 MOST_PARTS = 4096
+"""Largest number of parts that are halved together."""
 MOST_HALVINGS = 50
 """A part so often halved is below the spacing of floats beside it."""
 
 
 def gauss(low: Floats, high: Floats, order: int = ORDER) -> tuple[Floats, Floats]:
-    """Return the places x [N, order] and weights w of Gauss and Legendre in parts [N]: ∫ f dx = Σ w f(x) in each of
-    them.
+    """Return the Gauss–Legendre places x and weights w [N, order] of the parts from `low` to `high` [N].
 
-    Exact for polynomials of a degree below 2·order.
+    In each part ∫ f dx = Σ w f(x), in the unit of x; exact for polynomials of a degree below 2·order.
     """
     roots, factors = np.polynomial.legendre.leggauss(order)
     half = (high - low)[:, None] / 2
@@ -32,14 +35,17 @@ def gauss(low: Floats, high: Floats, order: int = ORDER) -> tuple[Floats, Floats
 def integrals(
     function: Callable[[Floats], Floats], low: Floats, high: Floats, order: int = ORDER
 ) -> tuple[Floats, Floats]:
-    """Return ∫ f dx and ∫ |f| dx of each part [N], from one call of the function at all places in order."""
+    """Return ∫ f dx and ∫ |f| dx [N] over the parts from `low` to `high` [N].
+
+    The function is called once, with all places in order, and returns their values in the same shape.
+    """
     x, weights = gauss(low, high, order)
     values = np.asarray(function(x.ravel()), dtype=np.float64).reshape(x.shape)
     return np.sum(weights * values, axis=1), np.sum(weights * np.abs(values), axis=1)
 
 
 def accumulated(function: Callable[[Floats], Floats], at: Floats, order: int = ORDER) -> Floats:
-    """Return ∫ f dx from the first place to each [N]; f is smooth between neighbouring places, which rise."""
+    """Return ∫ f dx [N] from the first of the rising places `at` [N] to each; f must be smooth between neighbours."""
     parts, _ = integrals(function, at[:-1], at[1:], order)
     return np.concatenate(([0.0], np.cumsum(parts)))
 

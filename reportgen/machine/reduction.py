@@ -26,8 +26,9 @@ def reduced_inertia(machine: Machine, motion: Motion) -> Floats:
 
 
 def inertia_slope(machine: Machine, motion: Motion) -> Floats:
-    """Return J_r′ = 2 Σ (m v_S·a_S + J ω ε)/|ω₁|³ [N] (kg·m²) over the turn in the sense of rotation, of motion at
-    ε₁ = 0.
+    """Return J_r′ = dJ_r/dφ = 2 Σ (m v_S·a_S + J ω ε)/|ω₁|³ [N] (kg·m²), φ in the sense of rotation.
+
+    The `motion` must be that at ε₁ = 0.
     """
     total = np.zeros_like(motion.driver)
     for body in machine.linkage.inertias:
@@ -47,7 +48,7 @@ def at_unit_speed(machine: Machine, angle: Floats) -> Motion:
 
 
 def reduced(machine: Machine, angle: Floats) -> tuple[Floats, Floats, Floats]:
-    """Return J_r, J_r′ (kg·m²) and M_r (N·m) at cycle angles [N] (rad)."""
+    """Return J_r, J_r′ (kg·m²) and M_r (N·m), each [N], at cycle angles [N] (rad)."""
     motion = at_unit_speed(machine, angle)
     loads = (*weights(machine.linkage, motion), *(load.load(angle, motion) for load in machine.loads))
     torque = reduced_torque(machine, motion, loads)

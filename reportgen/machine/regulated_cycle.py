@@ -9,7 +9,7 @@ from reportgen.base.arrays import Floats
 
 @dataclass(frozen=True)
 class RegulatedCycle:
-    """The regulated cycle over angles φ [N] (rad, in the direction of rotation).
+    """The regulated cycle over angles φ [N] (rad, in the direction of rotation); all its arrays are [N].
 
     `torque` M_r and `constant` M_c (N·m), `inertia` J_r and `moment` J_d (kg·m²), `work` A, `upper` a and
     `lower` b (J), `speed` ω [N] and its bounds `fastest`, `slowest` (rad/s); `high`, `low` are the indices

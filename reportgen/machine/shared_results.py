@@ -28,7 +28,7 @@ class SharedResult(Generic[Result]):
     name: str
 
     def of(self, machine: Machine) -> Result | None:
-        """Return the result of a machine, None if none of its topics provides it."""
+        """Return the result for a machine; None if no topic of the machine provides it."""
         if self.name not in machine.results:
             machine.results[self.name] = self._computed(machine)
         return cast("Result | None", machine.results[self.name])
@@ -43,7 +43,7 @@ class SharedResult(Generic[Result]):
 
 @dataclass(frozen=True)
 class Provision(Generic[Result]):
-    """A result that a topic provides, and the function that computes it of a machine."""
+    """A result that a topic provides, and the function that computes it for a machine."""
 
     result: SharedResult[Result]
     compute: Callable[[Machine], Result | None]

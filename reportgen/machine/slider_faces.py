@@ -26,7 +26,10 @@ class Faces:
     below: float = 0.0
 
     def ends(self, normal: Floats, moment: Floats) -> tuple[Floats, Floats]:
-        """Return N₁, N₂ (N) [N] of the reaction N (N), positive to the left of the guide, with the moment N x (N·m)."""
+        """Return the reactions N₁, N₂ (N) [N] at both ends, for N (N) [N] with the moment N x (N·m) [N].
+
+        N is positive to the left of the guide.
+        """
         width = self.last - self.first
         return (normal * self.last - moment) / width, (moment - normal * self.first) / width
 

@@ -20,10 +20,11 @@ class Anchor:
     place: complex = 0j
 
     def at(self, motion: Motion) -> Complexes | complex:
+        """Return the place (m): [N] of a named point, one number for a place of the frame."""
         return motion.points[self.name].p if self.name else self.place
 
     def on(self, q: Calculation, number: int) -> Ref:
-        """Return the end as it is drawn (m)."""
+        """Return the end's place (m) in the calculation; a place of the frame is entered for spring `number`."""
         if self.name:
             return q[ids.place(self.name)]
         id = ids.spring_anchor(number)
@@ -32,8 +33,9 @@ class Anchor:
 
 @dataclass(frozen=True, slots=True)
 class Coil:
-    """A spring by its number, from one end to the other; a `wound` one is coiled about its first end, a pin of the
-    frame, and acts on the line to its second end.
+    """A spring between two ends, by its number.
+
+    A `wound` spring is coiled about its first end, a pin of the frame, and acts on the line to its second end.
     """
 
     number: int
