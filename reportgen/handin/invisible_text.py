@@ -94,6 +94,7 @@ def looks_of(run: XmlNode, paragraph: XmlNode | None, styles: Styles) -> Iterato
 
 
 def first_of(looks: list[XmlNode], tag: str) -> XmlNode | None:
+    """Return the first property with a tag, None if there is none."""
     return next((found for look in looks if (found := look.child(tag)) is not None), None)
 
 

@@ -211,7 +211,7 @@ def names_several(text: str) -> bool:
 
 
 def begins_with(text: str, label: str | None) -> bool:
-    """Return True if a text that names several positions, but not as a list, begins with one: “Position 14 is as 4.”"""
+    """Return True if a text that does not list positions first names the one with a label: “Position 14 is as 4.”"""
     return labels_in(text)[:1] == [label] and not _SEVERAL.search(text)
 
 

@@ -282,7 +282,7 @@ def _says_unit(cell: TextCell) -> bool:
 
 
 def _quantity(cell: TextCell, gathering: Gathering) -> _Quantity | None:
-    """Return what a cell names: v_B, Velocity v_B (m/s), v_B, m/s."""
+    """Return the quantity that a cell names, as in “v_B”, “Velocity v_B (m/s)” or “v_B, m/s”; None if it names none."""
     text = cell.line.text.strip()
     if rows := gathering.rows_of(text):
         return _Quantity(_asked(rows), "")
