@@ -60,6 +60,7 @@ class DrawnLines:
 
     @property
     def all_texts(self) -> tuple[DrawnText, ...]:
+        """The texts of model space and of all paper sheets (drawing units)."""
         return (*self.texts, *(text for sheet in self.sheets for text in sheet.texts))
 
 

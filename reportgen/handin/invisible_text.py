@@ -36,6 +36,7 @@ class Styles:
 
     @classmethod
     def of(cls, tree: XmlNode) -> Styles:
+        """Return the styles in the tree of a file's part of styles."""
         styles = {style.get("w:styleId"): style for style in tree.children if style.tag == "w:style"}
         run = tree.at("w:docDefaults", "w:rPrDefault", "w:rPr")
         plain = (

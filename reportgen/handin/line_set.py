@@ -85,7 +85,8 @@ class Lines:
 
     @cached_property
     def pairs(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-        """Pairs of lines with a common end: the angle of the first (rad, sorted), that end, and both vectors from it.
+        """Pairs of lines with a common end: the first line's angle (rad, sorted), that end, both vectors from it.
+
         All four arrays are [K]; the end and the vectors are in mm.
         """
         first, second = self.touching

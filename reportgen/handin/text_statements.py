@@ -112,6 +112,7 @@ class StatedValue:
 
     @property
     def withdrawn(self) -> bool:
+        """True if the words after the number withdraw it, or leave open whether it is the value."""
         if not self.unit and not _PROSE.match(self.words):
             return True
         words = _REASON.sub("", self.words)
@@ -120,6 +121,7 @@ class StatedValue:
 
     @property
     def text(self) -> str:
+        """The number and its unit as written."""
         return f"{self.number.strip()} {self.unit}".strip()
 
 

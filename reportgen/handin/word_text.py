@@ -49,6 +49,7 @@ class TextLine:
 
     @property
     def text(self) -> str:
+        """The letters as a string."""
         return "".join(self.letters)
 
     def put(self, text: str, node: XmlNode) -> None:
@@ -59,6 +60,7 @@ class TextLine:
                 self.nodes.append(node)
 
     def extend(self, line: TextLine) -> None:
+        """Append the letters of another line, with their elements."""
         self.letters += line.letters
         self.nodes += line.nodes
 
