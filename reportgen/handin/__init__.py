@@ -28,7 +28,7 @@ _FIGURES = re.compile(r"[1-9]\d*(?:[.,]\d+)?|0?[.,]0*(\d+)")
 
 @dataclass(frozen=True)
 class FileReading:
-    """The reading of one file of a student: by place, the values that were read and the faults of those that were not.
+    """The reading of one file of a student: the values by place, and the faults of entries that cannot be read.
 
     A value is in the row's printed unit and has its location in the file; a length on a drawing is in mm at the
     report's scale, a direction in degrees. `notes` concern the file as a whole: objects that cannot be opened, a

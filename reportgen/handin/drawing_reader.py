@@ -256,7 +256,7 @@ class _Reading:
     def location(self, fit: Fit, number: int, start: complex | None = None, wrong: bool = False) -> DrawnLocation:
         """Return the location of a vector: its start and its right end.
 
-        `start` (mm) is the start as drawn; None stands for the place where it should be.
+        `start` (mm) is the start as drawn; None means the place where it should be.
         """
         unit, a = self.search.unit, complex(fit.at(fit.shape.starts[number])) if start is None else start
         along = fit.scale * complex(fit.shape.ends[number] - fit.shape.starts[number])

@@ -35,7 +35,7 @@ BARB = 0.1
 class DrawnText:
     """A text with its start or, depending on its alignment, its middle, and the height of its letters, in one unit.
 
-    The unit is that of the drawing when a file is read, mm when plans are searched for.
+    They are in drawing units when a file is read, in mm when plans are searched for.
     """
 
     text: str

@@ -98,7 +98,7 @@ def content(path: Path, data: bytes | None, language: Language | None) -> bytes:
 def read_file(
     path: Path, data: bytes, key: Key, language: Language | None, plans: WantedPlans | None = None
 ) -> FileReading:
-    """Return the values of a key's quantities in a file, and for a drawing those of the `plans`.
+    """Return the values of a key's quantities in a file; in a drawing, `plans` are searched for.
 
     Raises `AssignmentError` if the file is rejected.
     """

@@ -105,7 +105,7 @@ def _number(node: XmlNode | None) -> int | None:
 
 
 def _colour(node: XmlNode | None, attribute: str = "w:val") -> Colour | None:
-    """Return an explicit colour; None for that of plain text or of paper."""
+    """Return an explicit colour; None if it is the colour of plain text or of paper."""
     if node is None:
         return None
     theme = "w:themeColor" if attribute == "w:val" else "w:themeFill"

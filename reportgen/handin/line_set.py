@@ -22,8 +22,8 @@ MOST_PAIRS = 400_000
 class Lines:
     """Lines [M, 2] (complex, mm) of a drawing, with ends within ±`error` (mm) of their right places in each direction.
 
-    `parts` are the pieces of each line by the numbers of drawn lines: its own number, or those of a run of pieces. None
-    stands for lines that are all drawn in one piece.
+    `parts` are the pieces of each line by the numbers of drawn lines: its own number, or the numbers of a run of
+    pieces. None means that each line is drawn in one piece.
     """
 
     ends: np.ndarray
@@ -113,8 +113,8 @@ class Lines:
     def run_between(self, starts: np.ndarray, ends: np.ndarray) -> np.ndarray:
         """Return a mask of the pairs of places (mm) that a line approximately connects.
 
-        `starts` and `ends` have one shape, which is also that of the mask. Two places match a line in any direction if
-        both are at most one cell away from its ends.
+        `starts`, `ends` and the mask have the same shape. Two places match a line in any direction if both are at most
+        one cell away from its ends.
         """
         keys = _between(starts, ends, self.cell)
         if not len(self.cells):

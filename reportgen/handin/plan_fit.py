@@ -208,9 +208,9 @@ def _by_vectors(shape: PlanShape, lines: Lines, scale: float) -> tuple[np.ndarra
 def fitted(shape: PlanShape, lines: Lines, scale: float, shift: complex, deviation: float | None = None) -> Fit | None:
     """Return the best fit of a plan near a first guess of scale (a ratio) and shift (mm).
 
-    `deviation` is the standard deviation of an end in each direction (mm), by default that of evenly spread errors,
-    error/√3. None is returned if fewer than two vectors have lines, if all their ends are at one corner, or if the
-    scale is not between 1/`FURTHEST` and `FURTHEST`.
+    `deviation` is the standard deviation of an end in each direction (mm), by default error/√3 of evenly spread errors.
+    None is returned if fewer than two vectors have lines, if all their ends are at one corner, or if the scale is not
+    between 1/`FURTHEST` and `FURTHEST`.
     """
     starts, ends = shape.starts, shape.ends
     sigma = lines.error / np.sqrt(3) if deviation is None else deviation

@@ -249,7 +249,7 @@ def _with_index(symbol: str, running: str, index: str) -> str:
 def _read_cell(
     cell: TextCell, row: KeyRow, position: int, unit: str | None, several: bool, gathering: Gathering
 ) -> None:
-    """Read one cell for a place; `unit` is that of its row, None if it is not understood."""
+    """Read one cell for a place; `unit` is its row's unit, None if it is not understood."""
     line = cell.line
     text = line.text
     if is_blank(text) or not line.nodes:

@@ -53,7 +53,7 @@ class TextLine:
         return "".join(self.letters)
 
     def put(self, text: str, node: XmlNode) -> None:
-        """Append letters in normalised form, without those that have no width."""
+        """Append letters in normalised form, without letters of no width."""
         for letter in text:
             for plain in LETTERS.get(letter, letter):
                 self.letters.append(plain)
