@@ -242,7 +242,7 @@ def _cycle(q: Calculation, analysis: Analysis) -> None:
     )
     mean = q.give("M.mean", _without_dust(summary.mean_torque, size), Symbol(letter, "m"), kind, exact=False)
     (_, least), (_, greatest) = summary.extremes
-    # There is no extreme inside the range of the table.
+    # An extreme is never inside the range of the values in the table.
     for id, index, extreme, of_two, of_all in (
         ("M.least", "min", least, "min", "lowest"),
         ("M.greatest", "max", greatest, "max", "highest"),

@@ -223,7 +223,7 @@ TRIM = 3.5
 def sheets(
     scenes: Sequence[Scene], width: float, height: float, note: Content | None = None, trim: float = TRIM
 ) -> tuple[Scene, ...]:
-    """Return the scenes in true size on as many sheets of at most `width` × `height` mm as they need.
+    """Return the scenes in true size on as many sheets, `width` mm wide and at most `height` mm high, as they need.
 
     Rows are filled in order and spread over the width; each scene's title is below it and `note` (the common scale)
     below all.  `trim` mm of each scene's margin are removed on each side.  A sheet is only as high as its rows; a scene

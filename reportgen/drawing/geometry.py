@@ -195,7 +195,7 @@ class HalfPlane:
 
 
 def region(planes: Sequence[HalfPlane], box: Sequence[complex]) -> list[complex]:
-    """Return the corners of the part of a convex polygon `box` (mm) that lies in all half-planes; empty if none does.
+    """Return the corners of the part of a convex polygon `box` (mm) in all half-planes; empty without such a part.
 
     By the algorithm of Sutherland and Hodgman.
     """

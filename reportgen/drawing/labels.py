@@ -130,7 +130,7 @@ class _Taken:
 
     @property
     def centres(self) -> Complexes:
-        """Return the centres of all placed labels and leaders (mm) [N]."""
+        """Return the centres of the boxes of all placed labels (mm) [N]."""
         return self._centres[: self.count]
 
     @property

@@ -114,33 +114,45 @@ class Ref(_Algebra):
 
 @dataclass(frozen=True, slots=True)
 class Sum(_Algebra):
+    """A sum; a `Negative` term is printed with a minus."""
+
     terms: tuple[Expression, ...]
 
 
 @dataclass(frozen=True, slots=True)
 class Product(_Algebra):
+    """A product of factors, in printed order."""
+
     factors: tuple[Expression, ...]
 
 
 @dataclass(frozen=True, slots=True)
 class Negative(_Algebra):
+    """An expression with a minus before it."""
+
     of: Expression
 
 
 @dataclass(frozen=True, slots=True)
 class Fraction(_Algebra):
+    """A quotient of two expressions."""
+
     top: Expression
     bottom: Expression
 
 
 @dataclass(frozen=True, slots=True)
 class Power(_Algebra):
+    """A base raised to an exponent."""
+
     base: Expression
     exponent: Expression
 
 
 @dataclass(frozen=True, slots=True)
 class Root(_Algebra):
+    """A square root."""
+
     of: Expression
 
 

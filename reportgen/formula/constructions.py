@@ -34,7 +34,7 @@ def real_root(square: Value) -> Value:
 def dot(a: Value, b: Value) -> Value:
     """Return the scalar product a · b = aₓbₓ + a_y b_y of plane vectors, real.
 
-    The shape is that of a and b broadcast together; the unit is the product of their units.
+    a and b broadcast to the shape of the result; its unit is the product of their units.
     """
     return (a.conjugate() * b).real
 
@@ -42,7 +42,7 @@ def dot(a: Value, b: Value) -> Value:
 def cross(a: Value, b: Value) -> Value:
     """Return the component along z of a × b = aₓb_y − a_y bₓ of plane vectors, real.
 
-    The shape is that of a and b broadcast together; the unit is the product of their units.
+    a and b broadcast to the shape of the result; its unit is the product of their units.
     """
     return (a.conjugate() * b).imag
 

@@ -80,28 +80,37 @@ class Written:
 
     @property
     def spaced(self) -> bool:
+        """True if a space separates the number from its unit."""
         return self.unit not in UNSPACED
 
 
 @dataclass(frozen=True, slots=True)
 class MathRow:
+    """Parts side by side."""
+
     parts: tuple[Part, ...]
 
 
 @dataclass(frozen=True, slots=True)
 class Raised:
+    """A base with an exponent."""
+
     base: Part
     exponent: Part
 
 
 @dataclass(frozen=True, slots=True)
 class Quotient:
+    """A fraction with a bar."""
+
     top: Part
     bottom: Part
 
 
 @dataclass(frozen=True, slots=True)
 class Radical:
+    """A square root."""
+
     of: Part
 
 
@@ -128,6 +137,8 @@ class Function:
 
 @dataclass(frozen=True, slots=True)
 class Grid:
+    """The entries of a matrix, by rows."""
+
     rows: tuple[tuple[Part, ...], ...]
 
 
@@ -293,6 +304,7 @@ def is_tall(part: Part) -> bool:
 
 
 def written(number: Number, language: Language) -> Written:
+    """Return a number with the digits and the unit of a language."""
     return Written(write(number.value, number.decimals, language), unit_names(language).get(number.unit))
 
 

@@ -121,12 +121,15 @@ class TextSetter(Setter[str]):
         )
 
     def upright(self, letters: str) -> str:
+        """Return letters in upright type; by default as plain text."""
         return self.text(letters)
 
     def fence(self, fence: Fence) -> str:
+        """Return a group between its delimiters."""
         return self.FENCES[fence.left] % self.part(fence.of)
 
     def mark(self, mark: Parenthesis) -> str:
+        """Return a parenthesis of a sum that continues over several lines."""
         return self.text(mark.of)
 
     @abstractmethod

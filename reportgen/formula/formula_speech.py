@@ -109,6 +109,7 @@ class Speech(Setter[str]):
         return f" {self.letters(match[0], PLAINLY) if said is None else said} "
 
     def number(self, number: Written) -> str:
+        """Return a number in words with its unit; digits are kept as digits."""
         digits = number.digits
         said = f"{self.words['negative']} {digits[1:]}" if digits.startswith(MINUS) else digits
         unit = self.unit(number.unit, digits.removeprefix(MINUS)) if number.unit else ""
@@ -126,6 +127,7 @@ class Speech(Setter[str]):
         return str(self.words["signs"][sign.of])
 
     def power(self, base: str, exponent: Part) -> str:
+        """Return a power in words; `base` is spoken already."""
         match exponent:
             case Written("2" | "3" as digits):
                 return _filled(self.words["squared" if digits == "2" else "cubed"], base=base)
@@ -136,6 +138,7 @@ class Speech(Setter[str]):
         return _filled(pattern, base=base, exponent=self.part(exponent))
 
     def fence(self, fence: Fence) -> str:
+        """Return a group in words, with its parentheses unless its content is one symbol or number."""
         inner, words = self.part(fence.of), self.words
         match fence.left:
             case "":
@@ -151,6 +154,7 @@ class Speech(Setter[str]):
     # --- symbols ----------------------------------------------------------------------------------
 
     def symbol(self, node: Symbol) -> str:
+        """Return a symbol in words, as unambiguous as the report's symbols require."""
         if (said := self._said.get(node)) is None:
             said = self._said[node] = self._symbol(node, PLAINLY)
         return said
@@ -185,6 +189,7 @@ class Speech(Setter[str]):
         return " ".join(said).replace(" ,", ",")
 
     def letter(self, letter: str, detail: int) -> str:
+        """Return a letter by its name; from the level `CAPITALS`, a capital is spoken as one."""
         words = self.words
         plain = unicodedata.normalize("NFD", letter)
         if plain[1:] == DOT:

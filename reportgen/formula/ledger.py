@@ -67,6 +67,7 @@ class PrintedQuantity:
 
     @property
     def number(self) -> Number:
+        """The value as a number of an expression, in the printed unit."""
         return Number(self.value, self.decimals, self.unit)
 
 
@@ -183,6 +184,7 @@ class Ledger:
         return Number(number.printed, usual, number.unit) if carried else number
 
     def symbol(self, id: str) -> Symbol:
+        """Return the symbol of a quantity; raise `KeyError` for an unknown id."""
         return self.families[id].symbol
 
     def chain(self, id: str, position: int | None = None, note: str = "") -> Chain:

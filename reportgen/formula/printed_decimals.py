@@ -78,7 +78,7 @@ def _as_drawn(ledger: Ledger, id: str, measured: Mapping[str, np.ndarray]) -> in
 
 
 def _half_unit(family: Family, decimals: int | None = None) -> float:
-    """Return half a unit (SI) of the last of `decimals`; None stands for the usual decimals of the family's kind."""
+    """Return half a unit (SI) of the last of `decimals`; None means the usual decimals of the family's kind."""
     return 0.5 * 10.0 ** -(family.how.decimals or 0 if decimals is None else decimals) * family.how.scale
 
 

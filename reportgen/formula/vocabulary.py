@@ -190,7 +190,7 @@ def drawn_length(first: str, second: str) -> Symbol:
 
 
 class KeyChapter(StrEnum):
-    """The chapters of a key, in their order, those of topics last; the words have the headings under `parts`."""
+    """The chapters of a key in order, the topics' chapters last; the words have the headings under `parts`."""
 
     data = "data"
     geometry = "geometry"

@@ -1,7 +1,7 @@
 """Read what students submit without an answer sheet: the Word report and the drawing.
 
 A reader returns a `FileReading` of one file; `submission` joins those of one student for marking. An entry of a file
-that cannot be read with certainty is *unread*: it neither earns nor costs points until somebody settles it.
+that cannot be read with certainty is *unread*: it neither earns nor costs points until the lecturer settles it.
 """
 
 from __future__ import annotations
@@ -17,9 +17,9 @@ from reportgen.base.words import as_problem
 from reportgen.marking.marking_data import Answer, Place, ReadOff, Submission
 
 FEWEST_FIGURES = 2
-"""Smallest number of figures that a number counts as written with."""
+"""Smallest number of figures that a written number is taken to have."""
 SAME = 5e-3
-"""Relative difference below which two values of a place count as one, because other roundings or methods give it.
+"""Relative difference up to which two values of a place count as equal, because roundings or methods differ.
 
 Marking tolerates at least this share of a quantity.
 """
@@ -28,10 +28,11 @@ _FIGURES = re.compile(r"[1-9]\d*(?:[.,]\d+)?|0?[.,]0*(\d+)")
 
 @dataclass(frozen=True)
 class FileReading:
-    """The reading of one file of a student: by place, the values that were read and the faults of those that were not.
+    """The reading of one file of a student: the values by place, and the faults of entries that cannot be read.
 
-    A value is in the row's printed unit, and its mark is its location in the file. `notes` concern the file as a whole:
-    objects that cannot be opened, a template that it names.
+    A value is in the row's printed unit and has its location in the file; a length on a drawing is in mm at the
+    report's scale, a direction in degrees. `notes` concern the file as a whole: objects that cannot be opened, a
+    template that it names.
     """
 
     assignment: str
@@ -50,13 +51,13 @@ class FileReading:
 
     @property
     def share(self) -> float:
-        """The share of the file's entries that was read; 1 if there are none."""
+        """The share (0 to 1) of the file's entries that was read; 1 if there are none."""
         count = len(self.values) + len(self.unread)
         return len(self.values) / count if count else 1.0
 
 
 def submission(readings: Sequence[FileReading], language: Language | None) -> Submission:
-    """Return the readings of one student's files as one submission, with faults worded in `language`.
+    """Return the readings of one student's files, at least one, as one submission with faults worded in `language`.
 
     A place with different values in two files is unread. A place that is unread in only one file takes the other's
     value. Written values take precedence over those measured on a drawing, which has another scale.
@@ -96,7 +97,11 @@ def submission(readings: Sequence[FileReading], language: Language | None) -> Su
 
 
 def agree(first: Answer, second: Answer) -> bool:
-    """Return True if two values are equal within their figures (3.214 and 3.2) or the tolerance for another method."""
+    """Return True if two values in one unit are equal within their figures (3.214 and 3.2) or within `SAME`.
+
+    They may differ by half a unit of the last figure of the coarser one, or by the share `SAME` of the larger one,
+    which allows for another method.
+    """
     coarse = min(figures(first.text), figures(second.text))
     size = max(abs(first.value), abs(second.value))
     half_unit = 0.5 * 10 ** (math.floor(math.log10(size)) + 1 - coarse) if size else 0.0
@@ -104,7 +109,7 @@ def agree(first: Answer, second: Answer) -> bool:
 
 
 def figures(text: str) -> int:
-    """Return the number of figures of the first number in a text."""
+    """Return the number of significant figures of the first number in a text, at least `FEWEST_FIGURES`."""
     match = _FIGURES.search(text)
     count = sum(map(str.isdigit, match[1] or match[0])) if match else 0
     return max(count, FEWEST_FIGURES)

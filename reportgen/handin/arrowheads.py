@@ -30,7 +30,7 @@ class Arrowheads:
 
 
 def arrowheads(lines: Lines) -> Arrowheads:
-    """Return the arrowheads of a drawing; a single-sided head remains a line."""
+    """Return the arrowheads among lines [M, 2] (mm); a single-sided head remains a line."""
     count = len(lines.ends)
     strokes, heads = np.zeros(count, dtype=bool), np.zeros(2 * count, dtype=bool)
     line, stroke = lines.touching

@@ -16,9 +16,9 @@ from reportgen.handin.invisible_text import Styles, first_of, looks_of
 from reportgen.handin.word_nodes import XmlNode
 
 EMU = 36_000.0
-"""English metric units in a millimetre."""
+"""English metric units per millimetre."""
 TWIPS = 56.7
-"""Twentieths of a point in a millimetre."""
+"""Twips (twentieths of a point) per millimetre."""
 SMALLEST = (30.0, 8.0)
 """Width and height (mm) below which an object in front is a label or an arrow."""
 LETTERS = 95
@@ -65,7 +65,10 @@ class _Reach:
 
 
 def _reach(anchor: XmlNode) -> _Reach | None:
-    """Return what an opaque object in front of the text covers, from the left margin; None for any other."""
+    """Return the area that an opaque object in front of the text covers; None for any other object.
+
+    The object must begin at most `NEAR` (mm) from the left margin.
+    """
     parts = {one.tag.rpartition(":")[2]: one for one in anchor.children}
     down, across, extent = parts.get("positionV"), parts.get("positionH"), parts.get("extent")
     if anchor.get("behindDoc") in ON or "wrapNone" not in parts or not _is_opaque(anchor):
@@ -80,7 +83,7 @@ def _reach(anchor: XmlNode) -> _Reach | None:
 
 
 def _offset(position: XmlNode, aligned: float) -> float:
-    """Return an offset (mm); `aligned` if the position is given as a word."""
+    """Return an offset (mm), or `aligned` (mm) if the position is given as a word."""
     offset = next((one for one in position.children if one.tag.endswith(":posOffset")), None)
     return aligned if offset is None else _millimetres(offset.text)
 

@@ -27,9 +27,10 @@ AT_FAULT = frozenset({Verdict.wrong, Verdict.implausible})
 
 
 def wanted_plans(case: Case, key: Key, worlds: Sequence[Values] = ()) -> WantedPlans | None:
-    """Return the plans of an assignment for all cells of its key, also with a student's own values (SI); None if none.
+    """Return the plans of an assignment for all cells of its key; None if it has no plans.
 
-    For a coursework, these are the plans of its machine, whose ids have no prefix.
+    They have the case's values, and a student's own values `worlds` (SI, [1] or [N] over the positions, by id). For a
+    coursework, these are the plans of its machine, whose ids have no prefix.
     """
     machines = [part for part in (case, *case.parts.values()) if isinstance(part, MachineAnalysis)]
     if not machines:
@@ -64,7 +65,10 @@ def names(path: Path, data: bytes, known: Collection[str]) -> Collection[str]:
 
 
 def marked(path: Path, data: bytes, reading: FileReading, marking: Marking, policy: Policy) -> tuple[str, bytes]:
-    """Return the drawing with the right vector and a comment wherever one is wrong."""
+    """Return the name and the content of the drawing with the right vector and a comment wherever a vector is wrong.
+
+    Without permission to show answers, only comments are written. Raises `RefusedError` if the drawing is damaged.
+    """
     words = words_of(marking.key)
     said: dict[DrawnLocation, list[str]] = {}
     for cell in marking.cells:

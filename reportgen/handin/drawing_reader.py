@@ -1,6 +1,7 @@
-"""Read a drawing: find its plans, and measure lengths and directions of their vectors at the scale of each.
+"""Read a drawing: find its plans, and measure lengths and directions of their vectors at the scale of each plan.
 
-Plans of the key are searched for first, then plans of the student's own values among the remaining lines.
+Plans of the key are searched for first, then plans of the student's own values among the remaining lines. Coordinates
+are complex: in drawing units in a file, in mm while plans are searched for.
 """
 
 from __future__ import annotations
@@ -34,12 +35,12 @@ OFF = PAPER_ERROR * MM
 MOST_LINES = 20_000
 """Largest number of lines in which plans are searched for."""
 USUAL = (1.0, 10.0, 1000.0, 25.4)
-"""Units (mm) that people draw in, whatever the file says."""
+"""Common drawing units (mm), which are tried if the unit that the file names gives no plans."""
 
 
 @dataclass(frozen=True)
 class DrawnLocation(Location):
-    """The start of a vector in a drawing, in drawing units of `unit` mm, and its right end.
+    """The start of a vector in a drawing (`at`) and its right end (`right`), both in drawing units of `unit` mm.
 
     `wrong` is True if the vector does not end there.
     """
@@ -56,13 +57,16 @@ class DrawnLocation(Location):
 
     @property
     def place(self) -> tuple[str, int, int, int]:
-        """Sort key: a drawing is read from top to bottom."""
+        """Sort key, in whole drawing units: a drawing is read from top to bottom."""
         return (self.file, 0, round(-self.at.imag), round(self.at.real))
 
 
 @dataclass(frozen=True)
 class WantedPlans:
-    """The plans of an assignment that are searched for in a drawing, from the key's values and from a student's own."""
+    """The plans of an assignment that are searched for in a drawing.
+
+    `known` are the key's values and `worlds` a student's own ones (SI, [1] or [N] over the positions, by id).
+    """
 
     key: Key
     sketches: Sequence[PlanSketch]
@@ -72,9 +76,11 @@ class WantedPlans:
     """The words for “position”, plain and in lower case."""
 
     def shapes(self, values: Values) -> list[PlanShape]:
+        """Return the plans at all positions, from SI values by id, [1] or [N] over the positions."""
         return [shape for sketch in self.sketches for shape in sketch.shapes(values)]
 
     def labels(self, texts: Sequence[DrawnText]) -> Labels:
+        """Return the labels among texts, whose places and heights are in mm."""
         names = {label.casefold(): k for k, label in enumerate(self.key.labels, start=1)}
         return Labels(tuple(texts), self.words, names)
 
@@ -82,7 +88,8 @@ class WantedPlans:
 def read_drawing(drawn: DrawnLines, file: str, wanted: WantedPlans) -> FileReading:
     """Return the reading of the wanted plans in a drawing, in model space and on its paper sheets.
 
-    Raises `RefusedError` if it has more lines than any drawing of plans.
+    The drawing is in its own units. Lengths read are in mm at the report's scale, directions in degrees. Raises
+    `RefusedError` if it has more lines than any drawing of plans.
     """
     spaces = (drawn, *drawn.sheets)
     if sum(len(space.ends) for space in spaces) > MOST_LINES:
@@ -153,7 +160,7 @@ class _Search:
 
 
 def _with_own(plans: FoundPlans, shapes: Sequence[PlanShape], lines: Lines, labels: Labels) -> FoundPlans:
-    """Return the same with plans of own values in place of those that are missing or incomplete.
+    """Return the plans found, with plans of a student's own values in place of missing or incomplete ones.
 
     They are searched for among the lines that no complete plan uses.
     """
@@ -175,7 +182,7 @@ def _with_own(plans: FoundPlans, shapes: Sequence[PlanShape], lines: Lines, labe
     return FoundPlans(fits, sures, tuple(doubtful), max(plans.deviation, own.deviation))
 
 
-# --- what the vectors say -------------------------------------------------------------------------
+# --- values of the vectors ------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
@@ -237,7 +244,7 @@ class _Reading:
         return (complex(second), complex(first)) if fit.turned[number] else (complex(first), complex(second))
 
     def doubts(self, fit: Fit, number: int) -> dict[Place, Fault]:
-        """Return faults for a vector that is not read; none if it is too short or optional."""
+        """Return the faults of a vector that is not read; none if it is too short or optional."""
         vector = fit.shape.vectors[number]
         length = fit.scale * abs(fit.shape.ends[number] - fit.shape.starts[number])
         here = fit.lines[number] >= 0
@@ -247,19 +254,22 @@ class _Reading:
         return {place: fault for name in (vector.length, vector.direction) if (place := self.place(name, fit))}
 
     def location(self, fit: Fit, number: int, start: complex | None = None, wrong: bool = False) -> DrawnLocation:
-        """Return the start of a vector, as drawn or as it should be, with its right end."""
+        """Return the location of a vector: its start and its right end.
+
+        `start` (mm) is the start as drawn; None means the place where it should be.
+        """
         unit, a = self.search.unit, complex(fit.at(fit.shape.starts[number])) if start is None else start
         along = fit.scale * complex(fit.shape.ends[number] - fit.shape.starts[number])
         return DrawnLocation(self.file, at=a / unit, right=(a + along) / unit, unit=unit, wrong=wrong, space=self.space)
 
 
 def _length(fit: Fit, number: int, start: complex, end: complex) -> tuple[float, float, float]:
-    """Return a vector's length (mm) at the report's scale, its largest error, and the plan's length."""
+    """Return a vector's length (mm at the report's scale), its largest error and the plan's length, in that unit."""
     return abs(end - start) / fit.scale, 2 * float(fit.reach[number]) / fit.scale, abs(_vector(fit, number))
 
 
 def _direction(fit: Fit, number: int, start: complex, end: complex) -> tuple[float, float, float]:
-    """Return a vector's direction (°) from the x axis, its largest error, and the plan's direction."""
+    """Return a vector's direction from the x axis, its largest error and the plan's direction, all in degrees."""
     off = min(2 * float(fit.reach[number]) / abs(end - start), math.pi)
     return _angle(end - start), math.degrees(off), _angle(_vector(fit, number))
 
@@ -270,4 +280,5 @@ def _vector(fit: Fit, number: int) -> complex:
 
 
 def _angle(vector: complex) -> float:
+    """Return a vector's direction from the x axis, in [0°, 360°)."""
     return math.degrees(cmath.phase(vector)) % 360

@@ -1,7 +1,7 @@
 """Write corrections into a DXF drawing: a new layer with the right vectors in red and lines of text.
 
-The new lines are inserted into the file's text, so that every byte of the student's stays as it is. Only the number
-from which the file counts its next objects increases.
+The new lines are inserted into the file's text, so that every byte of the student's drawing is preserved. Only the
+number from which the file counts its next objects increases.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ FONT = "arial.ttf"
 HEIGHT, LINE, HEAD = 3.5, 5.5, 4.0
 """The height of letters, the distance of lines of text, and the length of an arrowhead (mm)."""
 SLIM = math.radians(10.0)
-"""The angle of a stroke of an arrowhead with its line."""
+"""The angle of a stroke of an arrowhead with its line (rad)."""
 MODEL = b"*MODEL_SPACE"
 """The block of model space."""
 _HANDLES = frozenset({5, 105})
@@ -34,7 +34,7 @@ _LINKS = frozenset({102, 330, 360, 1000, 1001, 1002, 1003, 1005, 1070, 1071, 104
 
 @dataclass(frozen=True, slots=True)
 class RedVector:
-    """The right vector from the start of the student's (drawing units), and the lines of text at its middle.
+    """The right vector from the start of the student's vector (drawing units), and the lines of text at its middle.
 
     Without an end, only the text is written.
     """
@@ -47,7 +47,7 @@ class RedVector:
 
 
 def with_corrections(data: bytes, vectors: Sequence[RedVector], millimetre: float) -> bytes:
-    """Return the drawing with the vectors on their layer; `millimetre` is the length of one in its units.
+    """Return the drawing with the vectors on their own layer; `millimetre` is the length of 1 mm in drawing units.
 
     Raises `RefusedError` if the file is damaged.
     """
@@ -69,7 +69,7 @@ def with_corrections(data: bytes, vectors: Sequence[RedVector], millimetre: floa
 
 @dataclass
 class _Table:
-    """The table of layers or of text styles: its record that every file has, and its end."""
+    """The table of layers or of text styles: the record that every file has, and the byte where the table ends."""
 
     name: bytes
     first: bytes

@@ -1,6 +1,6 @@
 """Lines and texts of a DXF drawing in its own units; blocks are expanded after their content is counted.
 
-An affine map of the plane is a z + b z̄ + c, with complex a, b, c.
+Points are complex numbers x + jy in drawing units. An affine map of the plane is a z + b z̄ + c, with complex a, b, c.
 """
 
 from __future__ import annotations
@@ -26,14 +26,17 @@ DEEPEST = 32
 STRAIGHT = 1e-3
 """Largest angle (rad) between segments of a polyline that count as one line."""
 Line = tuple[complex, complex]
-
+"""The two ends of a line (drawing units)."""
 BARB = 0.1
 """Length of the strokes of an arrowhead that an entity draws itself, as a share of its line."""
 
 
 @dataclass(frozen=True, slots=True)
 class DrawnText:
-    """A text with its start or, depending on its alignment, its middle, and the height of its letters."""
+    """A text with its start or, depending on its alignment, its middle, and the height of its letters, in one unit.
+
+    They are in drawing units when a file is read, in mm when plans are searched for.
+    """
 
     text: str
     at: complex
@@ -44,8 +47,8 @@ class DrawnText:
 class DrawnLines:
     """All straight lines [M, 2] in the model space of a drawing and its texts, in its own units.
 
-    `unit` is the one that the file names (mm). `notes` report ignored content. `sheets` are the contents of paper
-    sheets, each with the name of its block as `space`.
+    `unit` is the drawing unit that the file names (mm), None if it names no known one. `notes` report ignored content.
+    `sheets` are the contents of paper sheets, each with the name of its block as `space`.
     """
 
     ends: np.ndarray
@@ -57,11 +60,15 @@ class DrawnLines:
 
     @property
     def all_texts(self) -> tuple[DrawnText, ...]:
+        """The texts of model space and of all paper sheets (drawing units)."""
         return (*self.texts, *(text for sheet in self.sheets for text in sheet.texts))
 
 
 def read_lines(data: bytes, file: str) -> DrawnLines:
-    """Return the lines and texts of a DXF; raise `RefusedError`."""
+    """Return the lines and texts of a DXF in drawing units.
+
+    Raises `RefusedError` if the file is not a DXF, is damaged or too large, or nests its blocks too deeply.
+    """
     contents = read_entities(data, file)
     encoding = encoding_of(contents.header)
     unfolding = _Unfolding(contents, encoding, file)
@@ -102,7 +109,7 @@ def encoding_of(header: Mapping[bytes, bytes]) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Affine:
-    """The map z → a z + b z̄ + c."""
+    """The map z → a z + b z̄ + c of points of any shape (drawing units); a and b are dimensionless."""
 
     a: complex = 1.0
     b: complex = 0.0
@@ -118,7 +125,7 @@ MIRROR = Affine(0.0, -1.0)
 
 @dataclass(frozen=True, slots=True)
 class Insertion:
-    """An inserted block: its name, and the maps of its copies."""
+    """An inserted block: its name, and a map to the drawing for each of its copies."""
 
     name: bytes
     maps: tuple[Affine, ...]
@@ -126,7 +133,7 @@ class Insertion:
 
 @dataclass
 class Pieces:
-    """The content of a block or of model space: lines [M, 2], texts, inserted blocks."""
+    """The content of a block or of model space: lines [M, 2] (drawing units), texts, inserted blocks."""
 
     lines: np.ndarray
     texts: list[DrawnText] = field(default_factory=list)
@@ -151,7 +158,10 @@ class _Unfolding:
         return _pieces(seen, self.encoding)
 
     def check(self, several: Iterable[Pieces]) -> None:
-        """Check the size before expanding: a file of a few kB may have millions of lines in nested blocks."""
+        """Check the size before expanding: a file of a few kB may have millions of lines in nested blocks.
+
+        Raises `RefusedError` if there are more than `MOST` lines and texts.
+        """
         if sum(self.count(pieces, ()) for pieces in several) > MOST:
             raise RefusedError("drawing-elements", Location(self.file), most=f"{MOST}")
 
@@ -171,6 +181,7 @@ class _Unfolding:
         return total
 
     def block(self, name: bytes) -> Pieces | None:
+        """Return the content of a block relative to its base point; None if it is unknown or refers to another file."""
         block = self.contents.blocks.get(name)
         if block is None or block.external:
             return None
@@ -180,7 +191,7 @@ class _Unfolding:
         return self.pieces[name]
 
     def unfolded(self, pieces: Pieces, within: tuple[bytes, ...] = ()) -> Pieces:
-        """Return the same with all inserted blocks expanded."""
+        """Return the lines and texts of some content with all inserted blocks expanded."""
         lines, texts = [pieces.lines], list(pieces.texts)
         for insertion in pieces.insertions:
             name = insertion.name
@@ -212,7 +223,7 @@ def _after(outer: Affine, inner: Affine) -> Affine:
 
 
 def _pieces(entities: list[Entity], encoding: str) -> Pieces:
-    """Return what entities draw; the vertices of a polyline follow it."""
+    """Return the lines, texts and insertions of entities; the vertices of a polyline follow it."""
     texts: list[DrawnText] = []
     insertions: list[Insertion] = []
     lines: list[Line] = []
@@ -352,7 +363,7 @@ def _head(back: complex, tip: complex, width: float, whole: bool = False) -> lis
 
 
 def _seen(entity: Entity, lines: list[Line]) -> list[Line]:
-    """Return lines of an entity's own plane as they are seen."""
+    """Return lines of an entity's own plane as they are seen from above."""
     return [(-a.conjugate(), -b.conjugate()) for a, b in lines] if _plane(entity) is MIRROR else lines
 
 

@@ -45,7 +45,10 @@ class Entity:
     line: int
 
     def get(self, code: int, otherwise: float = 0.0) -> float:
-        """Return the first number with a code."""
+        """Return the first number with a code, in the unit of the code: drawing units, degrees or none.
+
+        Returns `otherwise` if there is none.
+        """
         return next((float(value) for tag, value in self.tags if tag == code), otherwise)
 
     def whole(self, code: int) -> int:
@@ -53,13 +56,13 @@ class Entity:
         return int(self.get(code))
 
     def text(self, code: int) -> bytes:
-        """Return the first text with a code."""
+        """Return the first text with a code, b"" if there is none."""
         return next((value for tag, value in self.tags if tag == code), b"")
 
 
 @dataclass
 class Block:
-    """A block: its base point and its entities; an `external` one refers to another file."""
+    """A block: its base point (drawing units) and its entities; an `external` one refers to another file."""
 
     base: complex = 0j
     external: bool = False
@@ -190,7 +193,10 @@ Refuse = Callable[..., RefusedError]
 
 
 def pairs(data: bytes, refuse: Refuse) -> Iterator[tuple[int, bytes, int, int]]:
-    """Yield codes and values, the line of each code and its byte, up to the EOF mark or the end of the file."""
+    """Yield codes and values, the line of each code and its byte, up to the EOF mark or the end of the file.
+
+    Raises the error that `refuse` makes if a code is not a whole number.
+    """
     lines, line, offset = io.BytesIO(data), 1, 0
     for code_line in lines:
         value = lines.readline()
@@ -220,7 +226,7 @@ def _is_number(value: bytes) -> bool:
 
 
 def _of_block(contents: Entities, block: Block, code: int, value: bytes) -> None:
-    """Store what a pair says about the block that begins with it."""
+    """Store the data of a pair in the header of a block."""
     if code == 2:
         contents.blocks.setdefault(value.upper(), block)
     elif code == 70:

@@ -24,7 +24,7 @@ SHOWN = 60
 
 @dataclass(slots=True)
 class Gathering:
-    """The values and the doubts of one file for a key."""
+    """The values and the doubts of one file for a key; values are in the printed units of their rows."""
 
     key: Key
     file: str
@@ -37,14 +37,15 @@ class Gathering:
     """Places with two different values, which count as unread."""
     positions: dict[str, Mapping[str, int]] = field(default_factory=dict)
     fixed: frozenset[Place] = frozenset()
-    """Places filled by blanks of a frame."""
+    """Places filled by the blanks of a blank report."""
     notes: list[Fault] = field(default_factory=list)
 
     def rows_of(self, symbol: str) -> tuple[KeyRow, ...]:
+        """Return the rows that a symbol may refer to."""
         return self.symbols.rows_of(symbol)
 
     def position(self, row: KeyRow, label: str | None) -> int | None:
-        """Return the position of a row by its label; 0 for a row with a single value; None if unknown."""
+        """Return the position (from 1) of a row by its label; 0 for a row with a single value; None if unknown."""
         if row.single:
             return 0
         owner = self.key.owner(row.id)
@@ -62,14 +63,18 @@ class Gathering:
     def doubt(
         self, row: KeyRow, position: int | None, code: str, location: WordLocation, text: str, **more: str
     ) -> None:
-        """Record an unread entry for a row, at a position or at any (None)."""
+        """Record an unread entry for a row, at a position or, if None, at all its positions."""
         for k in row.positions:
             if position is None or k == position:
                 quoted = _tidy(text)
                 self.doubts.setdefault((row.id, k), Fault(code, location, {"text": quoted, **more}))
 
     def give(self, row: KeyRow, position: int, value: float, location: WordLocation, text: str) -> None:
-        """Record a value of a place; if the place already has a different one, it becomes unread."""
+        """Record a value, in the printed unit of its row, at a position (0 for a row with a single value).
+
+        If the place already has a value that does not agree, it becomes unread. Values at positions that the row does
+        not ask for, and at places filled by blanks, are ignored.
+        """
         place, answer = (row.id, position), Answer(value, _tidy(text), location)
         if position not in row.positions or place in self.clashes or place in self.fixed:
             return
@@ -99,7 +104,10 @@ class Gathering:
         words: str,
         barred: bool = False,
     ) -> None:
-        """Read a number for a place, with the sense given by the words beside it."""
+        """Read a number with its unit for a place, with the sense given by the words beside it.
+
+        The value is converted to the printed unit of the row; a number that cannot be read is recorded as a doubt.
+        """
         text = f"{number.strip()} {unit}".strip()
         try:
             value = read_value(number, unit, row, self.marks)
@@ -114,9 +122,9 @@ class Gathering:
             self.give(row, position, signed, location, text)
 
     def _signed(self, row: KeyRow, position: int, value: float, words: str, barred: bool) -> float | None:
-        """Return a value with its sign; a rotation has the sense given beside it, and without one only its size counts.
+        """Return a value with its sign, or None if two senses are given or if a signed quantity is given as a size.
 
-        Return None if two senses are given, or if a signed quantity is given as a size.
+        A rotation has the sense given beside it; without one, only its size counts.
         """
         # “Anti-clockwise” contains “clockwise”.
         turns = bool(CLOCKWISE.search(ANTICLOCKWISE.sub(" ", words))), bool(ANTICLOCKWISE.search(words))
@@ -130,6 +138,7 @@ class Gathering:
         return None if barred and is_signed(row) else value
 
     def note(self, code: str, location: Location, **arguments: str) -> None:
+        """Record a fault of the file as a whole."""
         self.notes.append(Fault(code, location, arguments))
 
     def reading(self) -> FileReading:
@@ -144,7 +153,10 @@ class Gathering:
 
 
 def _in_first_turn(row: KeyRow, position: int) -> int:
-    """Map a position of the second turn to the first, for a quantity that repeats and is asked for in one turn only."""
+    """Return the position of the first turn that corresponds to one of the second.
+
+    This applies to a quantity that repeats and is asked for in one turn only; any other position is returned unchanged.
+    """
     turn = len(row.values) // 2
     if position in row.positions or position - turn not in row.positions or len(row.values) % 2:
         return position

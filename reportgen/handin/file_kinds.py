@@ -83,7 +83,10 @@ def not_read(path: Path) -> Fault | None:
 
 
 def content(path: Path, data: bytes | None, language: Language | None) -> bytes:
-    """Return the bytes of a file, up to the size limit and one more; raise `AssignmentError` if it cannot be read."""
+    """Return the bytes of a file, up to the size limit and one more.
+
+    Given `data` are returned unchanged. Raises `AssignmentError` if the file cannot be read.
+    """
     if data is not None:
         return data
     try:
@@ -95,7 +98,7 @@ def content(path: Path, data: bytes | None, language: Language | None) -> bytes:
 def read_file(
     path: Path, data: bytes, key: Key, language: Language | None, plans: WantedPlans | None = None
 ) -> FileReading:
-    """Return what a file says about the quantities of a key, and a drawing about its plans.
+    """Return the values of a key's quantities in a file; in a drawing, `plans` are searched for.
 
     Raises `AssignmentError` if the file is rejected.
     """

@@ -36,6 +36,7 @@ class Styles:
 
     @classmethod
     def of(cls, tree: XmlNode) -> Styles:
+        """Return the styles in the tree of a file's part of styles."""
         styles = {style.get("w:styleId"): style for style in tree.children if style.tag == "w:style"}
         run = tree.at("w:docDefaults", "w:rPrDefault", "w:rPr")
         plain = (
@@ -94,6 +95,7 @@ def looks_of(run: XmlNode, paragraph: XmlNode | None, styles: Styles) -> Iterato
 
 
 def first_of(looks: list[XmlNode], tag: str) -> XmlNode | None:
+    """Return the first property with a tag, None if there is none."""
     return next((found for look in looks if (found := look.child(tag)) is not None), None)
 
 
@@ -103,7 +105,7 @@ def _number(node: XmlNode | None) -> int | None:
 
 
 def _colour(node: XmlNode | None, attribute: str = "w:val") -> Colour | None:
-    """Return an explicit colour; None for that of plain text or of paper."""
+    """Return an explicit colour; None if it is the colour of plain text or of paper."""
     if node is None:
         return None
     theme = "w:themeColor" if attribute == "w:val" else "w:themeFill"

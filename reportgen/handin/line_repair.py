@@ -16,7 +16,7 @@ from reportgen.handin.arrowheads import arrowheads
 from reportgen.handin.line_set import Lines, close_pairs
 
 COVERED = 0.1
-"""Largest distance (mm) between the ends of two lines that count as one."""
+"""Largest distance (mm) between the ends of two lines that count as one line."""
 EXACT = 0.02
 """Largest distance (mm) of pieces from their common line; pieces drawn separately are less exact."""
 GAP = 3.0
@@ -26,7 +26,7 @@ MOST_PIECES = 4
 
 
 def distinct(ends: np.ndarray) -> np.ndarray:
-    """Return the lines [M, 2] (mm) without those that an earlier one covers."""
+    """Return the lines [M, 2] (mm) without those that an earlier line covers, in either direction."""
     if not len(ends):
         return ends
     middle = ends.sum(axis=1) / 2
@@ -44,7 +44,7 @@ def distinct(ends: np.ndarray) -> np.ndarray:
 
 @dataclass(frozen=True, slots=True)
 class _Run:
-    """Pieces in sequence: the first and the last end, and the inner ends as (piece, end)."""
+    """Pieces in sequence: the first and the last end (mm), and the inner ends as (piece, end)."""
 
     first: complex
     last: complex
@@ -53,7 +53,7 @@ class _Run:
 
 
 def meant(lines: Lines) -> tuple[Lines, np.ndarray]:
-    """Return the possible intended lines, and a mask of their ends [M, 2] that have an arrowhead.
+    """Return the possible intended lines [M, 2] (mm), and a mask of their ends [M, 2] that have an arrowhead.
 
     These are the lines as drawn, without the strokes of arrowheads, and each run of pieces as a further line. No run
     crosses an arrowhead, and none repeats a drawn line.
@@ -109,7 +109,7 @@ def _runs(lines: Lines) -> Iterator[_Run]:
 
 
 def _in_line(piece: np.ndarray, end: int, beside: np.ndarray, its_end: int) -> bool:
-    """Return True if a line continues another one at its end, over a gap of limited width."""
+    """Return True if a line [2] (mm) continues another one at its end, over a gap of limited width."""
     start, last = complex(piece[1 - end]), complex(beside[1 - its_end])
     whole = last - start
     if not whole:
@@ -124,6 +124,7 @@ def _in_line(piece: np.ndarray, end: int, beside: np.ndarray, its_end: int) -> b
 
 
 def _are_straight(lines: Lines, first: complex, last: complex, inner: tuple[tuple[int, int], ...]) -> bool:
+    """Return True if all inner ends are on the line from `first` to `last` (mm)."""
     span = last - first
     if not span:
         return False
@@ -131,9 +132,9 @@ def _are_straight(lines: Lines, first: complex, last: complex, inner: tuple[tupl
 
 
 def goes_on(lines: Lines, start: complex, end: complex) -> bool:
-    """Return True if a line in the same direction begins after the `end` of another one.
+    """Return True if a line in the same direction begins at or after the `end` of the line from `start` (mm).
 
-    The two may then be pieces of one line.
+    It begins at most the length of that line after it; the two may then be pieces of one line.
     """
     direction = (end - start) / abs(end - start)
     along = (lines.ends - end) / direction

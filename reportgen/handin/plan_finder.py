@@ -1,8 +1,8 @@
 """Decide which placement of a plan is certain, and which line of it is which vector.
 
 The evidence for a fit is a logarithm of odds. An unrelated figure has an end at a third corner only by chance: one of
-its lines would have to end within ±2.5 σ in place of anywhere in the figure, once in each direction. A plan is accepted
-if the odds are `BEYOND_DOUBT` against chance and against every other plan at its place.
+its lines would have to end within ±2.5 σ instead of anywhere in the figure, once in each direction. A plan is accepted
+if the odds are `BY_CHANCE` against chance and `BEYOND_DOUBT` against every other plan at its place.
 """
 
 from __future__ import annotations
@@ -41,7 +41,10 @@ UNLABELLED = Labels(())
 
 @dataclass(frozen=True)
 class FoundPlans:
-    """The plans found with certainty, those that share a place with others, and the deviation of drawn ends (mm)."""
+    """The plans found with certainty, groups of fits that share a place, and the deviation of drawn ends (mm).
+
+    The `deviation` is the standard deviation in each direction.
+    """
 
     plans: tuple[Fit, ...]
     sure: tuple[np.ndarray, ...]
@@ -51,7 +54,11 @@ class FoundPlans:
 
 
 def find(shapes: Sequence[PlanShape], lines: Lines, labels: Labels = UNLABELLED) -> FoundPlans:
-    """Return the plans among the lines."""
+    """Return the plans among the lines (mm), with masks [E] of their certain vectors and the deviation of ends (mm).
+
+    All plans of a kind are expected at one scale: after a first search, the deviation and the common scales are
+    determined from the clear plans, and the search is repeated with them.
+    """
     every = [fit for shape in shapes for fit in fits(shape, lines)]
     judge = _Judge(lines, len(shapes), lines.error / np.sqrt(3), {}, labels)
     clear, _ = judge.decided(every)
@@ -108,12 +115,15 @@ def _deviation(plans: Sequence[Fit], lines: Lines) -> float:
 
 
 def _drawn_to(fit: Fit) -> float:
-    """Return the scale of a plan relative to the report's; for forces, whose scale varies, the scale itself."""
+    """Return the scale of a plan relative to the report's (a ratio); for forces, whose scale varies, the scale itself.
+
+    The scale of forces is in SI units per mm of the drawing.
+    """
     return fit.scale if fit.shape.is_of_motion else fit.shape.unit / fit.scale
 
 
 def _common_scales(plans: Sequence[Fit], judge: _Judge) -> dict[str, float]:
-    """Return the scale that most plans of a kind share, by kind."""
+    """Return the scale that most plans of a kind share, as `_drawn_to` gives it, by kind."""
     scales: dict[str, float] = {}
     for kind in {fit.shape.scale for fit in plans}:
         own = [fit for fit in plans if fit.shape.scale == kind]
@@ -138,7 +148,7 @@ class _Judge:
     labels: Labels
 
     def for_it(self, fit: Fit) -> float:
-        """Return the evidence for a fit (logarithm of odds), before the correction for chance."""
+        """Return the evidence for a fit (logarithm of odds), before it is corrected for chance."""
         corners, square = fit.corners_met(2 * self.lines.reach)
         closing = len(fit.explained) - (len(corners) - 1)
         of_scale = self._of_scale(fit)
@@ -168,14 +178,14 @@ class _Judge:
         return first[long] % count, second[long] % count
 
     def by_chance(self, taken: Collection[int], left: int) -> float:
-        """Return the logarithm of the number of possible placements: free pairs of meeting lines, times plans left."""
+        """Return the logarithm of the number of possible placements: free pairs of meeting lines times plans left."""
         free = np.zeros(len(self.lines.ends), dtype=bool)
         free[self.lines.without(taken)] = True
         first, second = self._long
         return float(np.log(max((free[first] & free[second]).sum() * left, 1)))
 
     def decided(self, every: Sequence[Fit]) -> tuple[list[Fit], list[tuple[Fit, ...]]]:
-        """Return the certain fits, the best first, and the groups of fits at places that several plans fit.
+        """Return the certain fits, the best first, and the groups of fits at places where several plans fit.
 
         Each certain fit leaves fewer lines and plans, so the threshold against chance becomes lower.
         """
@@ -224,10 +234,11 @@ class _Judge:
 
 
 def _of_corners(corners: np.ndarray, width: float, scaled: bool) -> float:
-    """Return the evidence that lines end within a `width` (mm) of these corners, in each direction, against chance.
+    """Return the evidence that lines end at these corners [n] (mm), within a `width` (mm) in each direction.
 
-    An end may lie anywhere around the nearest corner, within their distance. The first corner determines the place, the
-    farthest one the scale. Corners on one line are not a figure: further corners on it count only at the common scale.
+    It is a logarithm of odds against chance. An end may lie anywhere around the nearest corner, within their distance.
+    The first corner determines the place, the farthest one the scale. Corners on one line are not a figure: further
+    corners on it count only at the common scale (`scaled`).
     """
     if len(corners) < FEWEST_CORNERS:
         return 0.0

@@ -1,8 +1,10 @@
 """Find a plan of known shape among the lines of a drawing by its corners, and fit it by least squares.
 
-A plan may be drawn at any place and to any scale, but not turned: a corner z of the report's figure lies at f z + t,
-with a real f > 0. For each two vectors that share a corner, all pairs of lines that share an end are tried. The
-resulting f and t are tested at all other corners, and fitted to all lines there.
+A plan may be drawn at any place and to any scale, but not turned: a corner z (mm) of the report's figure lies at f z +
+t (mm) in the drawing, with a real f > 0. For each two vectors that share a corner, all pairs of lines that share an end
+are tried. The resulting f and t are tested at all other corners, and fitted to all lines there.
+
+Shapes of arrays: E vectors of a plan, M lines of the drawing, K lines found. Points are complex.
 """
 
 from __future__ import annotations
@@ -29,7 +31,7 @@ MOST_TRIED = 15
 """Largest number of placements of a plan that are fitted, those with most lines first."""
 ROUNDS = 4
 LONG = 10.0
-"""Length in errors of an end (5 mm) below which a line hardly has a direction, and a vector has no arrowhead."""
+"""Length in errors of an end (5 mm) below which a line has hardly any direction, and a vector has no arrowhead."""
 REACH = float(np.sqrt(6))
 """Largest distance of an end from its place, in deviations: √3 in each direction for evenly spread errors."""
 SEEN = 6.0
@@ -38,10 +40,11 @@ SEEN = 6.0
 
 @dataclass(frozen=True, eq=False)
 class Fit:
-    """A plan found among lines: corners z at `scale` z + `shift`; the line of each vector by number, −1 for none.
+    """A plan found among lines: corners z at `scale` z + `shift` (mm), and the line of each vector.
 
-    `turned` lines begin where their vector ends. `rest` [2 K] are the ends of the K lines found, vector starts first,
-    minus their places (mm). `size` is the extent of the lines found (mm).
+    `scale` is the ratio of lengths in the drawing to those in the report's figure. `lines` [E] are numbers, −1 for a
+    vector without a line; `turned` [E] is True if the line begins where its vector ends. `rest` [2 K] are the ends of
+    the K lines found, vector starts first, minus their places (mm). `size` is the extent of the lines found (mm).
     """
 
     shape: PlanShape
@@ -60,7 +63,7 @@ class Fit:
 
     @property
     def present(self) -> np.ndarray:
-        """The numbers of the vectors that have a line."""
+        """The numbers [K] of the vectors that have a line."""
         return np.flatnonzero(self.lines >= 0)
 
     @cached_property
@@ -70,7 +73,7 @@ class Fit:
 
     @property
     def square(self) -> float:
-        """The sum of the squared distances of all ends from their places (mm²)."""
+        """The sum of the squared distances (mm²) of all ends from their places."""
         return float((np.abs(self.rest) ** 2).sum())
 
     def missing(self, least: float) -> int:
@@ -80,15 +83,15 @@ class Fit:
         return int((drawn & (self.lines < 0) & (lengths > least)).sum())
 
     def at(self, corners: np.ndarray) -> np.ndarray:
-        """Return the places of corners of the report's figure in the drawing (mm)."""
+        """Return the places in the drawing (mm) of corners of the report's figure (mm, any shape)."""
         return self.scale * corners + self.shift
 
     def corners_met(self, apart: float) -> tuple[np.ndarray, float]:
-        """Return the corners [n] (mm) of the lines, merging those closer than `apart` (mm), and their squared error.
+        """Return the corners [n] of the lines (mm, relative to `shift`), and their squared error (mm²).
 
-        The second value (mm²) is the sum over the corners of the squared mean distance of their ends, weighted with the
-        number of ends. The distances of the ends of one corner from each other are evidence neither for nor against
-        this plan.
+        Corners closer than `apart` (mm) are merged. The squared error is the sum over the corners of the squared mean
+        distance of their ends, weighted with the number of ends. The distances of the ends of one corner from each
+        other are evidence neither for nor against this plan.
         """
         shape, present = self.shape, self.present
         met = [shape.vectors[number].start for number in present] + [shape.vectors[number].end for number in present]
@@ -106,12 +109,19 @@ class Fit:
         return np.array(kept), float((count * np.abs(means) ** 2).sum())
 
     def scale_error(self, deviation: float) -> float:
-        """Return the standard deviation of the scale if every end has that `deviation` (mm) in each direction."""
+        """Return the standard deviation of the scale (a ratio) if every end has a `deviation` (mm) in each direction.
+
+        It is σ/√Σ|z − z̄|² over the fitted corners z, infinite if they are all at one place.
+        """
         return float(deviation / np.sqrt(self.off_centre)) if self.off_centre > 0 else np.inf
 
 
 def fits(shape: PlanShape, lines: Lines, scales: Sequence[float] = ()) -> list[Fit]:
-    """Return all placements in which a plan fits some of the lines, at any scale or near the given ones, each once."""
+    """Return all placements in which a plan fits some of the lines, each once.
+
+    `scales` are ratios of lengths in the drawing to those in the report's figure, near which the plan is searched for;
+    without them any scale from 1/`FURTHEST` to `FURTHEST` is tried. At most `MOST_TRIED` placements are fitted.
+    """
     tried = [_by_corners(shape, lines)] if not scales else [_by_vectors(shape, lines, scale) for scale in scales]
     scale, shift = (np.concatenate(part) for part in zip(*tried, strict=True))
     if not len(scale):
@@ -138,7 +148,7 @@ def fits(shape: PlanShape, lines: Lines, scales: Sequence[float] = ()) -> list[F
 
 
 def _by_corners(shape: PlanShape, lines: Lines) -> tuple[np.ndarray, np.ndarray]:
-    """Return scales and shifts of a plan from all pairs of lines that meet as two of its vectors do."""
+    """Return scales [P] and shifts [P] (mm) of a plan from all pairs of lines that meet as two of its vectors do."""
     angle, at, along, beside = lines.pairs
     scales, shifts = [np.zeros(0)], [np.zeros(0, dtype=complex)]
     off = 2 * lines.reach
@@ -158,7 +168,7 @@ def _by_corners(shape: PlanShape, lines: Lines) -> tuple[np.ndarray, np.ndarray]
 
 
 def _meeting(shape: PlanShape) -> Iterator[tuple[complex, complex, complex]]:
-    """Yield each corner where two vectors meet, and both from it, the longer one first; collinear ones too."""
+    """Yield each corner where two different vectors meet, and both vectors from it, the longer one first (mm)."""
     touching: dict[int, list[complex]] = {}
     for vector in shape.vectors:
         start, end = complex(shape.corners[vector.start]), complex(shape.corners[vector.end])
@@ -173,7 +183,7 @@ def _meeting(shape: PlanShape) -> Iterator[tuple[complex, complex, complex]]:
 
 
 def _window(angle: np.ndarray, middle: float, turn: float) -> Iterator[tuple[int, int]]:
-    """Yield the ranges of sorted angles within ±`turn` of one, around the circle."""
+    """Yield the index ranges of sorted angles (rad) within ±`turn` of `middle`, around the circle."""
     for whole in (-2 * np.pi, 0.0, 2 * np.pi):
         low, high = np.searchsorted(angle, (middle - turn + whole, middle + turn + whole))
         if high > low:
@@ -181,7 +191,10 @@ def _window(angle: np.ndarray, middle: float, turn: float) -> Iterator[tuple[int
 
 
 def _by_vectors(shape: PlanShape, lines: Lines, scale: float) -> tuple[np.ndarray, np.ndarray]:
-    """Return shifts of a plan of known scale from every line with the length and direction of one of its vectors."""
+    """Return scales [P] and shifts [P] (mm) of a plan of known scale.
+
+    The shifts follow from every line with the length and direction of one of the plan's vectors.
+    """
     starts, ways = shape.starts, scale * (shape.ends - shape.starts)
     shifts = []
     for sense, start in ((1, lines.ends[:, 0]), (-1, lines.ends[:, 1])):
@@ -193,9 +206,11 @@ def _by_vectors(shape: PlanShape, lines: Lines, scale: float) -> tuple[np.ndarra
 
 
 def fitted(shape: PlanShape, lines: Lines, scale: float, shift: complex, deviation: float | None = None) -> Fit | None:
-    """Return the best fit of a plan near a first guess of scale and shift; None if fewer than two vectors have lines.
+    """Return the best fit of a plan near a first guess of scale (a ratio) and shift (mm).
 
-    `deviation` is that of an end in each direction (mm); by default, that of evenly spread errors.
+    `deviation` is the standard deviation of an end in each direction (mm), by default error/√3 of evenly spread errors.
+    None is returned if fewer than two vectors have lines, if all their ends are at one corner, or if the scale is not
+    between 1/`FURTHEST` and `FURTHEST`.
     """
     starts, ends = shape.starts, shape.ends
     sigma = lines.error / np.sqrt(3) if deviation is None else deviation
@@ -244,10 +259,9 @@ def fitted(shape: PlanShape, lines: Lines, scale: float, shift: complex, deviati
 
 
 def off_place(some: np.ndarray, a: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return the distances of some lines [M, 2] from vectors from a to b [E].
+    """Return the distances of some lines [M, 2] (mm) from the vectors from a [E] to b [E] (mm), in three arrays [E, M].
 
-    These are the distance of the farther end (mm) [E, M], True if the line is reversed, and the sum of both squares
-    (mm²).
+    These are the distance of the farther end (mm), True if the line is reversed, and the sum of both squares (mm²).
     """
     starts, ends = [np.abs(some[:, n] - a[:, None]) for n in (0, 1)], [np.abs(some[:, n] - b[:, None]) for n in (0, 1)]
     straight, opposite = np.maximum(starts[0], ends[1]), np.maximum(starts[1], ends[0])
@@ -259,7 +273,7 @@ def off_place(some: np.ndarray, a: np.ndarray, b: np.ndarray) -> tuple[np.ndarra
 def _with_own_pieces(squares: np.ndarray, lines: Lines, some: np.ndarray) -> np.ndarray:
     """Return the line of each vector [E] like `_each_its_own`; pieces that are vectors themselves do not form a run.
 
-    `some` [M] are the numbers of the lines.
+    `squares` [E, M] are the misfits (mm²) and are changed; `some` [M] are the numbers of the lines.
     """
     line = _each_its_own(squares)
     if not lines.in_runs[some].any():
@@ -279,9 +293,10 @@ def _with_own_pieces(squares: np.ndarray, lines: Lines, some: np.ndarray) -> np.
 
 
 def _each_its_own(squares: np.ndarray) -> np.ndarray:
-    """Return the line of each vector [E], −1 for none, from the misfits [E, M]: the best first, no line twice.
+    """Return the line of each vector [E], −1 for none, from the misfits [E, M] (mm²).
 
-    A vector left without a line may share that of another: both are one line on paper if there is no other.
+    The best pairs are assigned first, and no line twice. A vector left without a line may share that of another: both
+    are one line on paper if there is no further line.
     """
     best = np.where(np.isfinite(squares.min(axis=1)), squares.argmin(axis=1), -1)
     kept = best[best >= 0]
@@ -298,7 +313,7 @@ def _each_its_own(squares: np.ndarray) -> np.ndarray:
 
 
 def _ends_of(some: np.ndarray, turned: np.ndarray) -> np.ndarray:
-    """Return the ends [2 K] of lines [K, 2], first those where their vectors start."""
+    """Return the ends [2 K] (mm) of lines [K, 2], first those where their vectors start."""
     return np.concatenate((np.where(turned, some[:, 1], some[:, 0]), np.where(turned, some[:, 0], some[:, 1])))
 
 
@@ -323,10 +338,11 @@ Beside = Callable[[int, int], bool]
 def named(fit: Fit, lines: Lines, deviation: float, odds: float, beside: Beside) -> np.ndarray:
     """Return a mask [E] of the vectors of a fit whose line certainly belongs to them and to no other vector.
 
-    A fragment of a longer line belongs to the vector only if the plan has vectors for all pieces of that line. `odds`
-    (logarithm) is required against every other line at its place, and against every other vector at the place of its
-    line. A name written beside this line and not beside the other is enough too. Vectors whose ends are closer than the
-    error of a drawn point are one line on paper, which is both.
+    A fragment of a longer line belongs to the vector only if the plan has vectors for all pieces of that line. The
+    `odds` (logarithm) are required against every other line at its place, and against every other vector at the place
+    of its line, for the standard `deviation` (mm) of an end in each direction. A name written beside this line and not
+    beside the other is enough, too. Vectors whose ends are closer than the error of a drawn point are one line on
+    paper, which is both.
     """
     a, b = fit.at(fit.shape.starts), fit.at(fit.shape.ends)
     near = _around(lines, fit.at(fit.shape.corners))
@@ -365,7 +381,7 @@ def _off_place_of(a: np.ndarray, b: np.ndarray, first: int, second: int) -> floa
 
 
 def _around(lines: Lines, places: np.ndarray) -> np.ndarray:
-    """Return the numbers of the lines that lie entirely around some places."""
+    """Return the numbers [K] of the lines that lie entirely around some places (mm)."""
     room = lines.cell
     low = complex(places.real.min() - room, places.imag.min() - room)
     high = complex(places.real.max() + room, places.imag.max() + room)

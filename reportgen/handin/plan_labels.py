@@ -44,7 +44,7 @@ def spoken(text: str) -> str:
 
 @dataclass(frozen=True)
 class Labels:
-    """The texts of a drawing, in mm; `words` are those for “position” and `labels` the positions by label."""
+    """The texts of a drawing, in mm; `words` are words for “position”, and `labels` gives the positions by label."""
 
     texts: tuple[DrawnText, ...]
     words: frozenset[str] = frozenset()
@@ -52,16 +52,17 @@ class Labels:
 
     @cached_property
     def places(self) -> np.ndarray:
-        """The middle of each text [T]; a letter is about two thirds of its height wide."""
+        """The middle of each text [T] (complex, mm); the width of a letter is about two thirds of its height."""
         return np.array([one.at + one.height * complex(len(one.text) / 3, 0.5) for one in self.texts], dtype=complex)
 
     @cached_property
     def heights(self) -> np.ndarray:
+        """The height of the letters of each text [T] (mm)."""
         return np.array([one.height for one in self.texts])
 
     @cached_property
     def by_text(self) -> Mapping[str, np.ndarray]:
-        """The numbers of the texts by their content."""
+        """The numbers [K] of the texts with the same `plain` content, by that content."""
         said: dict[str, list[int]] = {}
         for number, text in enumerate(self.texts):
             said.setdefault(plain(text.text), []).append(number)
@@ -84,7 +85,11 @@ class Labels:
         return titles
 
     def beside(self, names: Sequence[str], start: complex, end: complex) -> bool:
-        """Return True if one of some names is written beside a line, or beside a point if both ends are the same."""
+        """Return True if one of some names is written beside the line from `start` to `end` (mm), or beside a point.
+
+        A point is a line with equal ends. The distance of the text's middle may be `BESIDE` times the height of its
+        letters.
+        """
         for name in names:
             for number in self.by_text.get(name, ()):
                 along, to = end - start, self.places[number] - start
@@ -94,7 +99,10 @@ class Labels:
         return False
 
     def speak_for(self, fit: Fit) -> float:
-        """Return the evidence of the letters at corners and vectors for a fit (logarithm of odds)."""
+        """Return the evidence of the letters at corners and vectors for a fit, `LETTER` for each that is labelled.
+
+        It is a logarithm of odds, a pure number; 0 for a drawing without texts.
+        """
         if not len(self.texts):
             return 0.0
         shape = fit.shape
@@ -107,9 +115,10 @@ class Labels:
         return LETTER * count
 
     def owned(self, fits: Sequence[Fit], ends: np.ndarray) -> dict[int, set[int]]:
-        """Return the positions written beside the lines of each fit, by the number of the fit.
+        """Return the positions written beside the lines of each fit, by the index of the fit.
 
-        A title belongs to the nearest fit, and to all fits that share lines with it.
+        The lines are `ends` [M, 2] (mm). A title belongs to the nearest fit, and to all fits that share lines with it;
+        beyond `ROOM` (mm) it belongs to none.
         """
         boxes = [_box(ends[list(fit.explained)]) for fit in fits]
         owned: dict[int, set[int]] = {}
@@ -137,10 +146,12 @@ def names_of(shape: PlanShape, number: int) -> list[str]:
 
 
 def _box(ends: np.ndarray) -> tuple[complex, complex]:
+    """Return the lower left and the upper right corner of the box around some points (mm)."""
     return complex(ends.real.min(), ends.imag.min()), complex(ends.real.max(), ends.imag.max())
 
 
 def _distance(box: tuple[complex, complex], place: complex) -> float:
+    """Return the distance (mm) of a place from a box, 0 inside."""
     low, high = box
     x = max(low.real - place.real, 0.0, place.real - high.real)
     y = max(low.imag - place.imag, 0.0, place.imag - high.imag)

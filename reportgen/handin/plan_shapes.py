@@ -41,9 +41,9 @@ class ShapeVector:
 
 @dataclass(frozen=True, eq=False)
 class PlanShape:
-    """A plan at a position: corners [n] (mm at the report's scale) and vectors, none of which is a point.
+    """A plan at a position: corners [n] (complex, mm at the report's scale) and E vectors, none of which is a point.
 
-    `scale` is the id of μ, `unit` the value of a millimetre (SI); `letters` are those of its corners.
+    `scale` is the id of μ, `unit` the value of a millimetre (SI); `letters` are the labels of each corner.
     """
 
     scale: str
@@ -61,12 +61,12 @@ class PlanShape:
 
     @property
     def starts(self) -> np.ndarray:
-        """The starts of its vectors [E]."""
+        """The starts of its vectors [E] (mm)."""
         return self.corners[[vector.start for vector in self.vectors]]
 
     @property
     def ends(self) -> np.ndarray:
-        """The ends of its vectors [E]."""
+        """The ends of its vectors [E] (mm)."""
         return self.corners[[vector.end for vector in self.vectors]]
 
 
@@ -92,7 +92,11 @@ class PlanSketch:
     letters: Mapping[str, tuple[str, ...]]
 
     def shapes(self, values: Values) -> Iterator[PlanShape]:
-        """Yield the plan at each position, from values by their ids."""
+        """Yield the plan at each position, from SI values by id, [1] or at least [count] over the positions.
+
+        Corners are in mm, vectors up to `NOTHING` (mm) are left out. A position is skipped if a corner is not finite,
+        the scale is not positive or no vector is left. Raises `KeyError` if a corner or the scale has no value.
+        """
         ends = dict.fromkeys(corner for vector in self.vectors for corner in (vector.start, vector.end))
         index = {id: number for number, id in enumerate(ends)}
         places = MM * np.array([self._over(np.zeros(1) if id == POLE else values[id]) for id in ends])
@@ -110,7 +114,7 @@ class PlanSketch:
                 yield PlanShape(self.scale, k + 1, float(units[k]), at, vectors, letters)
 
     def _over(self, values: np.ndarray) -> np.ndarray:
-        """Return values at the positions [count]."""
+        """Return values, [1] or longer, at the positions [count]."""
         return np.broadcast_to(values, (self.count,)) if values.size == 1 else values[: self.count]
 
 

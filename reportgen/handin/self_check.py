@@ -59,10 +59,10 @@ def refuse(files: Sequence[Path], language: Language) -> None:
 
 
 def compare(case: Case, papers: Case, files: Sequence[Path], hint: bool = False) -> tuple[tuple[str, ...], bool]:
-    """Return lines that say where a sheet, or a report and drawings, departs from the assignment; True if it agrees.
+    """Return lines that list the differences of a sheet, or of a report and drawings, from the assignment.
 
-    An unread entry does not count as a disagreement, and is reported. Raises `AssignmentError` if a file cannot be
-    read.
+    The second value is True if they agree. An unread entry does not count as a difference, and is reported. Raises
+    `AssignmentError` if a file cannot be read.
     """
     sheets = [path for path in files if path.suffix.lower() not in OWN | NOT_READ]
     if sheets:
@@ -89,7 +89,10 @@ def reading(key: Key, own: Submission, target: Path) -> bytes:
 
 
 def summary(own: Submission, language: Language | None) -> str:
-    """Return the share of a student's own files that was read and the number of open values; "" for a sheet."""
+    """Return a sentence with the share (%) of a student's own files that was read and the number of open values.
+
+    Returns "" for a sheet.
+    """
     if not own.own_files:
         return ""
     said = word("graded_read", language, read=f"{100 * own.share_read:.0f}")

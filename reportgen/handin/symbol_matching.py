@@ -101,7 +101,7 @@ class Symbols:
         for spelled, letter in _SPELLED.items():
             if text.startswith(spelled) and (rows := self.every.get(letter + text.removeprefix(spelled))):
                 return rows
-        # A single letter is too little: r of a machine's structure is not R.
+        # A single letter must match exactly: r of a machine's structure is not R.
         for loose, known in zip(_LOOSER, self._loose if len(text) > 1 else (), strict=False):
             if fitting := known.get(loose(text)):
                 return self.every[fitting[0]] if len(fitting) == 1 else ()
@@ -109,7 +109,7 @@ class Symbols:
 
     @cached_property
     def _loose(self) -> tuple[dict[str, list[str]], ...]:
-        """The symbols by their looser letters, for each way of loosening."""
+        """The symbols by their looser letters, for each of the functions `_LOOSER`."""
         ways: tuple[dict[str, list[str]], ...] = tuple({} for _ in _LOOSER)
         for loose, known in zip(_LOOSER, ways, strict=True):
             for text in self.every:

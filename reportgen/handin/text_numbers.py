@@ -65,7 +65,10 @@ def marks_of(texts: Iterable[str], language: Language) -> Marks:
 
 
 def read_value(number: str, unit: str, row: KeyRow, marks: Marks) -> float:
-    """Return a number of a text in the row's unit; raise `QuantityFault`, for a doubtful one `product`."""
+    """Return a number of a text in the row's printed unit; without a unit, the number counts as given in it.
+
+    Raises `QuantityFault` for a number or unit that cannot be read, with the code `product` for a doubtful number.
+    """
     text = number.strip()
     if _PRODUCT.search(text) or (_THOUSANDS.fullmatch(text) and _is_doubtful(text, marks)):
         raise QuantityFault("product", text=text)
@@ -78,7 +81,7 @@ def read_value(number: str, unit: str, row: KeyRow, marks: Marks) -> float:
 
 
 def _is_doubtful(text: str, marks: Marks) -> bool:
-    """Return True if three figures after a mark may be thousands; not in 0,125, nor if the mark is the decimal mark."""
+    """Return True if three figures after a mark may be thousands: not in 0,125, nor after the text's decimal mark."""
     whole = re.match(r"[-+–]?\s*(\d+)([.,])", text)
     assert whole is not None
     return not whole[1].startswith("0") and (marks.mixed or whole[2] != marks.decimal)

@@ -112,6 +112,7 @@ class StatedValue:
 
     @property
     def withdrawn(self) -> bool:
+        """True if the words after the number withdraw it, or leave open whether it is the value."""
         if not self.unit and not _PROSE.match(self.words):
             return True
         words = _REASON.sub("", self.words)
@@ -120,6 +121,7 @@ class StatedValue:
 
     @property
     def text(self) -> str:
+        """The number and its unit as written."""
         return f"{self.number.strip()} {self.unit}".strip()
 
 
@@ -211,7 +213,7 @@ def names_several(text: str) -> bool:
 
 
 def begins_with(text: str, label: str | None) -> bool:
-    """Return True if a text that names several positions, but not as a list, begins with one: “Position 14 is as 4.”"""
+    """Return True if a text that does not list positions first names the one with a label: “Position 14 is as 4.”"""
     return labels_in(text)[:1] == [label] and not _SEVERAL.search(text)
 
 

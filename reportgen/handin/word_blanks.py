@@ -1,4 +1,4 @@
-"""Read the blanks of a filled-in frame, by their tags or else by the bookmarks around them."""
+"""Read the blanks of a filled-in blank report, by their tags or else by the bookmarks around them."""
 
 from __future__ import annotations
 

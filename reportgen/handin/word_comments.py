@@ -37,7 +37,7 @@ class MarginNote:
 
 @dataclass(frozen=True, slots=True)
 class _Change:
-    """Bytes that replace those of a part from `start` to `end`."""
+    """Bytes that replace the bytes of a part from `start` to `end`."""
 
     start: int
     end: int

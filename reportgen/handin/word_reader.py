@@ -32,7 +32,7 @@ class _Hand:
 
 
 def read_report(blocks: Sequence[WordBlock], key: Key, file: str, tree: XmlNode | None = None) -> FileReading:
-    """Return what a report says about the quantities of a key; its `tree` is searched for blanks of a frame."""
+    """Return the values of a key's quantities in a report; its `tree` is searched for the blanks of a blank report."""
     marks = marks_of((line.text for line in lines_of(blocks)), key.language)
     gathering = Gathering(key, file, marks, Symbols(key, key.rows))
     if tree is not None:
@@ -81,7 +81,7 @@ class _Reader:
             self.statement_line(block, self.hand.label)
             self.opened_by(text)
 
-    # --- the position in hand ---------------------------------------------------------------------
+    # --- the current position ---------------------------------------------------------------------
 
     def heading(self, line: TextLine) -> None:
         labels = said.labels_in(line.text)
@@ -219,7 +219,7 @@ class _Reader:
         if at_end and not value.unit:
             self.open = row, label
 
-    # --- equations that nothing opens --------------------------------------------------------------
+    # --- equations that cannot be opened -----------------------------------------------------------
 
     def count_objects(self, line: TextLine, label: str | None) -> None:
         count = line.text.count(OBJECT)

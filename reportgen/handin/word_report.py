@@ -25,7 +25,7 @@ MARKED = "marked.docx"
 
 @word_faults()
 def read(path: Path, data: bytes, key: Key, plans: object = None) -> FileReading:
-    """Return what a report says about the quantities that a key asks for; raise `RefusedError`."""
+    """Return the values of a key's quantities in a report; raise `RefusedError` if the file is rejected."""
     file = open_word(path, data)
     reading = read_report(file.blocks, key, str(path), file.tree)
     notes = (*file.notes, *reading.notes)

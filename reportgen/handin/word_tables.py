@@ -249,7 +249,7 @@ def _with_index(symbol: str, running: str, index: str) -> str:
 def _read_cell(
     cell: TextCell, row: KeyRow, position: int, unit: str | None, several: bool, gathering: Gathering
 ) -> None:
-    """Read one cell for a place; `unit` is that of its row, None if it is not understood."""
+    """Read one cell for a place; `unit` is its row's unit, None if it is not understood."""
     line = cell.line
     text = line.text
     if is_blank(text) or not line.nodes:
@@ -282,7 +282,7 @@ def _says_unit(cell: TextCell) -> bool:
 
 
 def _quantity(cell: TextCell, gathering: Gathering) -> _Quantity | None:
-    """Return what a cell names: v_B, Velocity v_B (m/s), v_B, m/s."""
+    """Return the quantity that a cell names, as in “v_B”, “Velocity v_B (m/s)” or “v_B, m/s”; None if it names none."""
     text = cell.line.text.strip()
     if rows := gathering.rows_of(text):
         return _Quantity(_asked(rows), "")

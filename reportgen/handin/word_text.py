@@ -49,16 +49,18 @@ class TextLine:
 
     @property
     def text(self) -> str:
+        """The letters as a string."""
         return "".join(self.letters)
 
     def put(self, text: str, node: XmlNode) -> None:
-        """Append letters in normalised form, without those that have no width."""
+        """Append letters in normalised form, without letters of no width."""
         for letter in text:
             for plain in LETTERS.get(letter, letter):
                 self.letters.append(plain)
                 self.nodes.append(node)
 
     def extend(self, line: TextLine) -> None:
+        """Append the letters of another line, with their elements."""
         self.letters += line.letters
         self.nodes += line.nodes
 

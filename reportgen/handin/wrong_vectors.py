@@ -21,7 +21,10 @@ from reportgen.handin.plan_labels import Labels, names_of
 
 @dataclass(frozen=True, eq=False)
 class WrongVector:
-    """A vector of a plan, by its number, drawn from its right start to a wrong end: its line as drawn (mm)."""
+    """A vector of a plan, by its number, drawn from its right start to a wrong end.
+
+    `line` is the number of its line, `start` and `end` are the ends as drawn (mm).
+    """
 
     plan: Fit
     vector: int
@@ -31,7 +34,10 @@ class WrongVector:
 
 
 def wrong_vectors(plans: FoundPlans, lines: Lines, heads: np.ndarray, labels: Labels) -> tuple[WrongVector, ...]:
-    """Return the wrong vectors of the plans found; `heads` [M, 2] is True for ends with an arrowhead."""
+    """Return the wrong vectors of the plans found among the lines (mm), with the places of their ends as drawn (mm).
+
+    `heads` [M, 2] is True for the ends of lines with an arrowhead.
+    """
     used = {line for plan in plans.plans for line in plan.used}
     used |= {line for several in plans.doubtful for fit in several for line in fit.used}
     search = _Search(lines, heads, labels, lines.without(used))
@@ -78,10 +84,10 @@ class _Search:
                     yield WrongVector(plan, vector, line.number, line.start, line.end)
 
     def _from(self, place: complex, reach: float) -> list[_Begun]:
-        """Return the free lines that begin at a place, in the direction of their arrowhead or else from there.
+        """Return the free lines that begin within `reach` (mm) of a place, as vectors from there.
 
-        A piece of a longer line, or a line without an arrowhead that continues after a gap, need not begin or end at
-        the ends of a vector.
+        A line with an arrowhead begins at its other end. A piece of a longer line, or a line without an arrowhead that
+        continues after a gap, need not begin or end at the ends of a vector, and is left out.
         """
         begun = []
         for number in self.free:
@@ -128,7 +134,7 @@ class _Search:
 
 @dataclass(frozen=True, slots=True)
 class _Begun:
-    """A line as a vector from its start, and True if it has an arrowhead at its end."""
+    """A line as a vector from its start (mm), and True if it has an arrowhead at its end."""
 
     number: int
     start: complex

@@ -66,7 +66,7 @@ def course(linkage: Linkage, link: int, motion_at: MotionAt, turns: int = 1, top
     """Return the travel of a slider on the frame between its dead centres; its top is the end farther along the guide.
 
     Intake starts when the slider passes the top for the time number `top`.  Raises `ValueError` for a slider that does
-    not move once to and fro in a turn of the driver; the checks of a file report such a slider before
+    not move once to and fro in a turn of the driver; the checks of a file report such a slider earlier
     (`catalogue.assembly.to_and_fro`).
     """
     dyad, guide = rails(linkage)[link]
