@@ -43,7 +43,7 @@ class SolvedEngine(DesignCase):
         return sheet
 
     @property
-    def sheet(self) -> Calculation:
+    def calculation(self) -> Calculation:
         return self.entered.q
 
     @property

@@ -40,7 +40,7 @@ class SolvedRotor(DesignCase):
         return self.masses if self.given.has_couple else ()
 
     @cached_property
-    def sheet(self) -> Calculation:
+    def calculation(self) -> Calculation:
         return RotorCalculation(self.given).written()
 
     @property

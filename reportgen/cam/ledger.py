@@ -93,7 +93,7 @@ class CamSolution:
         return tuple(self.motion.intervals[number] for number in self.motion.of(self.φ))
 
     @cached_property
-    def sheet(self) -> Calculation:
+    def calculation(self) -> Calculation:
         q = CamCalculation(self)
         q.enter_given()
         q.enter_motion()
@@ -115,9 +115,9 @@ class CamSolution:
         """Return the values read off the diagrams with another stroke (m, rad); the same with the lengths found
         anew.
         """
-        key, own = "h" if self.cam.translating else "psi_max", self.sheet.families
+        key, own = "h" if self.cam.translating else "psi_max", self.calculation.families
         try:
-            changed = CamSolution(self.given.model_copy(update={key: Given(stroke, stroke)})).sheet.families
+            changed = CamSolution(self.given.model_copy(update={key: Given(stroke, stroke)})).calculation.families
         except NoCamError:
             return ()
         read = {
@@ -138,7 +138,7 @@ class CamSolution:
     def _changed(self) -> Mapping[str, list[tuple[str, Expression]]]:
         """Return the mistaken definitions that students often use, by id."""
         definitions: dict[str, list[tuple[str, Expression]]] = {}
-        families = self.sheet.families
+        families = self.calculation.families
 
         def also(name: str, among: Iterable[tuple[str, Expression]]) -> None:
             for id, definition in among:

@@ -59,7 +59,7 @@ class Cam:
         return {"cam.e": self.e, "cam.a": self.a, "cam.l": self.arm, "cam.r0": self.r0, "cam.roller": self.roller}
 
     @cached_property
-    def sheet(self) -> Calculation:
+    def calculation(self) -> Calculation:
         """Return the formulas of the report at one angle, which trace the cam."""
         q = Calculation()
         enter_lengths(q, self.kind, self.lengths)
@@ -73,12 +73,12 @@ class Cam:
     @property
     def s0(self) -> float:
         """Return s₀ (m), the height of the lowest position of a translating follower with a tip."""
-        return self.sheet.si("cam.s0")
+        return self.calculation.si("cam.s0")
 
     @property
     def psi0(self) -> float:
         """Return ψ₀ (rad), the angle between arm or face and line of centres at the start."""
-        return self.sheet.si("cam.psi0")
+        return self.calculation.si("cam.psi0")
 
     def profile_at(self, φ: Floats, of: Numbers | None = None) -> CamProfile:
         """Return the cam at angles [N] (rad); `of` [N] forces the interval of the motion at each."""
@@ -174,7 +174,7 @@ class CamProfile:
     def _of(self, *wanted: str) -> list[Floats]:
         """Return quantities [N] (SI) of the cam's calculation, by their ids."""
         motion = zip(self.cam.kind.moved, (self.s, self.ds, self.dds), strict=True)
-        evaluated = model(self.cam.sheet, wanted, **{"cam.phi": self.φ, **dict(motion)})
+        evaluated = model(self.cam.calculation, wanted, **{"cam.phi": self.φ, **dict(motion)})
         return [np.broadcast_to(evaluated[id], self.φ.shape) for id in wanted]
 
     @cached_property

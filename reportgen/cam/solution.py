@@ -23,8 +23,8 @@ class SolvedCam(DesignCase):
         return CamSolution(given)
 
     @property
-    def sheet(self) -> Calculation:
-        return self.solution.sheet
+    def calculation(self) -> Calculation:
+        return self.solution.calculation
 
     @property
     def speed(self) -> float | None:

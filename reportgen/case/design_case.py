@@ -54,12 +54,12 @@ class DesignCase(LoadedAssignment):
 
     @property
     @abstractmethod
-    def sheet(self) -> Calculation:
+    def calculation(self) -> Calculation:
         """The calculation: every quantity with its formula."""
 
     @cached_property
     def ledger(self) -> Ledger:
-        sheet = self.sheet
+        sheet = self.calculation
         made = Ledger(sheet.families, sheet.positions, units=self.unit_names, same=self.SAME, lines=sheet.lines)
         return made.in_language(self.words["symbols"])
 
@@ -70,7 +70,7 @@ class DesignCase(LoadedAssignment):
     @property
     def count(self) -> int:
         """Number of its positions."""
-        return self.sheet.positions
+        return self.calculation.positions
 
     @property
     def worked(self) -> tuple[int, ...]:

@@ -142,7 +142,7 @@ def driven(
         turn=positions.sign,
         speed=given.speed,
         acceleration=given.acceleration,
-        sheet=q,
+        calculation=q,
         closed_formulas=ClosedFormulas(formulas, compared, equations or {}),
         topics=topics.subjects,
         beside=tuple(load.name for load in topics.loads),

@@ -99,7 +99,7 @@ def machine(assignment: Assignment) -> Machine:
         count=len(places) or positions.count,
         turns=given.turns if crank else 1,
         span=span,
-        sheet=Calculation(),
+        calculation=Calculation(),
         outline=(),
         paths=given.paths,
         places=places,
@@ -116,7 +116,7 @@ def machine(assignment: Assignment) -> Machine:
     loops = ClosedLoops(linkage, turn, fixed_points, accelerates=float(np.sign(built.acceleration)))
     return replace(
         built,
-        sheet=q,
+        calculation=q,
         topics=topics.subjects,
         beside=tuple(load.name for load in topics.loads),
         closed_formulas=ClosedFormulas(loops.write, tuple(loops.compared), loops.equations),

@@ -84,7 +84,7 @@ def enter_plans(
         q.give("s.1", machine.angles(analysis.cycle_angle), exact=False)
     else:
         q.give("phi.1", machine.angles(analysis.cycle_angle))
-    q.extend(machine.sheet)
+    q.extend(machine.calculation)
     sense = -1 if machine.acceleration < 0 else 1
     enter_kinematics(q, machine.linkage, machine.turn, worked, sense, scaled)
     with q.within(KeyChapter.formulas):

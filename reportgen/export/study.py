@@ -82,7 +82,7 @@ class Study:
         machine = getattr(catalogue.module(self._sound[0].kind), "machine", None)
         if machine is None or self._sound[0].parts:
             return {}
-        sheets = [machine(one).sheet.families for one in self._sound]
+        sheets = [machine(one).calculation.families for one in self._sound]
         wanted = [id for id, family in self._base.ledger.families.items() if family.definition is None]
         return {
             id: np.array([sheet[id].values for sheet in sheets])

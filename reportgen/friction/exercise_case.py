@@ -76,7 +76,7 @@ class FrictionCase(DesignCase):
         return getattr(self.assignment.parameters, self.TASK.name)
 
     @cached_property
-    def sheet(self) -> Calculation:
+    def calculation(self) -> Calculation:
         return self.TASK.calculate(self.given)
 
     @property
@@ -109,7 +109,7 @@ class FrictionCase(DesignCase):
 
     @cached_property
     def misconceptions(self) -> Misconceptions:
-        return Misconceptions(changed=exercise_mistakes.changed(self.TASK.name, self.sheet))
+        return Misconceptions(changed=exercise_mistakes.changed(self.TASK.name, self.calculation))
 
     def plates(self, sets: Collection[str] = (), every: bool = False) -> Mapping[str, Sequence[DrawingPlate]]:
         """Return its scheme and its force plans; `sets` is ignored, since there is only one."""

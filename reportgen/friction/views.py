@@ -94,7 +94,7 @@ def data(report: ReportContext) -> Inlines:
     at = dict.fromkeys(str(each.point) if each.kind == "pin" else str(each.link) for each in joints)
     names = (friction_ids.coefficient, friction_ids.pin_radius, friction_ids.circle)
     given = (name(place) for place in at for name in names)
-    quantities = [template_equations.quantity(report, id) for id in given if id in report.machine.sheet]
+    quantities = [template_equations.quantity(report, id) for id in given if id in report.machine.calculation]
     return tuple(inline for n, carried in enumerate(quantities) for inline in (*((Text("; "),) if n else ()), *carried))
 
 

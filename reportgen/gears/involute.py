@@ -18,7 +18,7 @@ from reportgen.base.arrays import Complexes, Floats
 from reportgen.formula.array_evaluation import model
 from reportgen.formula.constructions import Value
 from reportgen.gears import gears_ids
-from reportgen.gears.pair_formulas import Rack, pair_sheet
+from reportgen.gears.pair_formulas import Rack, pair_calculation
 
 CHORD = 1e-6
 """Largest distance of a profile's polyline from it (m)."""
@@ -45,7 +45,7 @@ class Wheel:
 
     def _of(self, *wanted: str, d_a: Value) -> list[Value]:
         """Return quantities of a wheel (SI) by the formulas of a pair, with tips turned to the diameter `d_a` (m)."""
-        sheet = pair_sheet(self.rack, self.m, (self.z, self.z))
+        sheet = pair_calculation(self.rack, self.m, (self.z, self.z))
         names = [gears_ids.of_wheel(one, 1) for one in wanted]
         values = model(sheet, names, **{gears_ids.of_wheel("x", 1): self.x, gears_ids.of_wheel("d_a", 1): d_a})
         return [values[name] for name in names]

@@ -404,7 +404,9 @@ def sliding(case: SolvedPair, area: Area | None = None) -> Plotted:
     g, start, end = float(pair["g"]), float(pair["rho_p"][0]), float(pair["rho_a"][0])
     ρ1 = np.unique(np.concatenate((np.linspace(0, g, 801)[1:-1], [start, end])))
     along = model(
-        case.sheet, [gears_ids.of_wheel("lambda", wheel) for wheel in WHEELS], **{gears_ids.of_wheel("rho", 1): ρ1}
+        case.calculation,
+        [gears_ids.of_wheel("lambda", wheel) for wheel in WHEELS],
+        **{gears_ids.of_wheel("rho", 1): ρ1},
     )
     curves = []
     for wheel, λ in zip(WHEELS, along.values(), strict=True):

@@ -1,7 +1,7 @@
 """Formulas of a pair of external spur gears (ISO 21771), each written once.
 
 The report of a pair prints a `Calculation` of them (`PairFormulas`). To choose shifts, draw their region and place
-teeth, `pair_sheet` returns such a calculation, and `model` (`formula.array_evaluation`) evaluates it over arrays.
+teeth, `pair_calculation` returns such a calculation, and `model` (`formula.array_evaluation`) evaluates it over arrays.
 """
 
 from __future__ import annotations
@@ -158,7 +158,7 @@ class PairFormulas:
 
 
 @lru_cache(maxsize=32)
-def pair_sheet(rack: Rack, m: float, teeth: tuple[int, int]) -> Calculation:
+def pair_calculation(rack: Rack, m: float, teeth: tuple[int, int]) -> Calculation:
     """Return a calculation of a pair of module m (in metres), for `model(sheet, …)` to evaluate with any shifts."""
     made = PairFormulas(Calculation(), m, follows=False)
     made.enter_data(rack, teeth)

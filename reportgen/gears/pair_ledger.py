@@ -48,7 +48,7 @@ class SolvedPair(DesignCase):
         return self.chosen.pair
 
     @cached_property
-    def sheet(self) -> Calculation:
+    def calculation(self) -> Calculation:
         return PairCalculation(self.chosen).q
 
     @property
@@ -58,7 +58,7 @@ class SolvedPair(DesignCase):
 
     @cached_property
     def misconceptions(self) -> Misconceptions:
-        return Misconceptions(changed=_changed(self.sheet), ways=_ways(self.chosen.follows))
+        return Misconceptions(changed=_changed(self.calculation), ways=_ways(self.chosen.follows))
 
 
 class PairCalculation(PairFormulas):

@@ -19,7 +19,7 @@ from reportgen.formula.calculation import Calculation
 from reportgen.formula.constructions import Value
 from reportgen.gears import gears_ids
 from reportgen.gears.involute import Wheel, crossing
-from reportgen.gears.pair_formulas import WHEELS, Rack, pair_sheet, sum_of_shifts
+from reportgen.gears.pair_formulas import WHEELS, Rack, pair_calculation, sum_of_shifts
 
 HUNDREDTH = 0.01
 """Shifts are chosen in hundredths of the module."""
@@ -90,12 +90,12 @@ class GearPair:
     def _known(self) -> dict[str, Value]:
         """Return the values computed so far, by id; initially those on which nearly all others depend."""
         shifts = {gears_ids.of_wheel("x", wheel): x for wheel, x in zip(WHEELS, self.x, strict=True)}
-        return shifts | model(self.sheet, COMMON, **shifts)
+        return shifts | model(self.calculation, COMMON, **shifts)
 
     @property
-    def sheet(self) -> Calculation:
+    def calculation(self) -> Calculation:
         """Return the formulas of its report with given shifts."""
-        return pair_sheet(self.rack, self.m, self.teeth)
+        return pair_calculation(self.rack, self.m, self.teeth)
 
     def __getitem__(self, quantity: str) -> Floats:
         """Return a quantity of the report by its name there (SI): [...] of the pair, [2, ...] of its wheels.
@@ -106,7 +106,7 @@ class GearPair:
 
     def at(self, quantity: str, **at: float) -> Floats:
         """Return a quantity (SI) [...] or [2, ...], with some values replaced by `at`."""
-        sheet, of_pair = self.sheet, f"gears.{quantity}"
+        sheet, of_pair = self.calculation, f"gears.{quantity}"
         wanted = (
             (of_pair,) if of_pair in sheet.families else tuple(gears_ids.of_wheel(quantity, wheel) for wheel in WHEELS)
         )

@@ -68,7 +68,7 @@ class SolvedTrain(DesignCase):
         return self.choice.chosen
 
     @cached_property
-    def sheet(self) -> Calculation:
+    def calculation(self) -> Calculation:
         return TrainCalculation(self.given).written()
 
     @property

@@ -297,7 +297,7 @@ class Machine:
     speed: float
     count: int
     turns: int
-    sheet: Calculation
+    calculation: Calculation
     outline: tuple[str, ...]
     closed_formulas: ClosedFormulas = ClosedFormulas()
     applied: tuple[Applied, ...] = ()
@@ -396,7 +396,7 @@ class Machine:
         """The crank's drawn length (m on paper) where the file or the kind sets it, else 0."""
         driver = self.linkage.driver
         id = ids.drawn(driver.centre, driver.pin) if isinstance(driver, Crank) else ""
-        return self.sheet.si(id) if id in self.sheet else 0.0
+        return self.calculation.si(id) if id in self.calculation else 0.0
 
     def position(self, number: int) -> Position:
         """Return a position by its number from 1."""

@@ -146,7 +146,7 @@ def _as_typed(report: ReportContext, id: str) -> Inlines:
         ends = [part for part in (definition.top, definition.bottom) if isinstance(part, Number)]
         if len(ends) == 2:
             return Value(ends[0]), Text("/"), Value(ends[1])
-    typed = report.machine.sheet.typed.get(id)
+    typed = report.machine.calculation.typed.get(id)
     number = report.ledger.number(id)
     if typed is None or typed.unit not in (*PRINTED, *OTHER):
         return (Value(number),)

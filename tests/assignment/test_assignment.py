@@ -94,7 +94,7 @@ def test_sample_holds_the_published_data() -> None:
     assert engine.report.date == datetime.date(2011, 3, 24)
     assert (engine.worked_positions, engine.cycle_positions) == ((4,), 16)
     # Printed: L = 0.171 m, ω1 = 230.38 rad/s; half of the last printed digit.
-    sheet = engine_twin.machine(engine).sheet
+    sheet = engine_twin.machine(engine).calculation
     assert sheet.si("L") == pytest.approx(0.171, abs=0.0005)
     assert p.speed == pytest.approx(230.38, abs=0.005)
     assert sheet.si("m.4") == sheet.si("m.2") == 20 / 9.81

@@ -38,7 +38,7 @@ def machine(path: Path) -> tuple[Machine, Engine]:
     """
     assignment = api.load(path)
     built: Machine = catalogue.module(assignment.kind).machine(assignment)
-    given, table, q = assignment.parameters, built.pistons[0].indicator, built.sheet
+    given, table, q = assignment.parameters, built.pistons[0].indicator, built.calculation
     if not isinstance(table, StrokeIndicator):
         raise TypeError("the closed form reads an indicator diagram by stroke")
     cylinders = tuple(

@@ -128,7 +128,7 @@ def test_no_pair_of_hundredths_slides_less() -> None:
 
 def test_a_pair_has_its_numbers_from_the_formulas_of_its_report() -> None:
     """No quantity of the sheet is worked out a second time by the pair or by a wheel, but the shifts that they have."""
-    names = {id.split(".")[1] for id in pair(10, (12, 28), 0.5, 0.5).sheet.families}
+    names = {id.split(".")[1] for id in pair(10, (12, 28), 0.5, 0.5).calculation.families}
     assert {"alpha_w", "d_a", "rho_p", "lambda"} <= names
     fields = {"x", "z", "m"}
     assert not (names - fields) & ({*dir(GearPair)} | {*dir(Wheel)})

@@ -177,11 +177,11 @@ def api_mean(machine: Machine) -> float:
 def with_unevenness(machine: Machine, delta: float) -> Machine:
     """The machine of an assignment that asks for the flywheel of δ."""
     sheet = Calculation()
-    for family in machine.sheet.families.values():
+    for family in machine.calculation.families.values():
         if family.id != "unevenness":
             sheet.enter(family)
     sheet.give("unevenness", delta, "δ", "ratio")
-    return replace(machine, topics={**machine.topics, "flywheel": delta}, sheet=sheet)
+    return replace(machine, topics={**machine.topics, "flywheel": delta}, calculation=sheet)
 
 
 def test_the_report_prints_what_was_found(machine: Machine) -> None:

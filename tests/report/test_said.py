@@ -36,7 +36,7 @@ def test_formulas_and_data_are_written_as_one_writes_them(name: str, language: A
     report, text = page(name, language)
     assert re.search(r"\+ \(−1\)|[^\d]1·δ", text) is None
     if "unevenness" in report.ledger and report.has_forces:
-        typed = report.machine.sheet.families["unevenness"].definition
+        typed = report.machine.calculation.families["unevenness"].definition
         assert typed is None or re.search(r"(vượt quá|within|cho phép,|fluctuation,) 1/\d+", text)
     assert text.count("(CAD)") == 1
 

@@ -128,7 +128,7 @@ def test_synthesis_finds_the_links_again(
         text = text.replace(old, new)
     path = tmp_path / "swing.yaml"
     path.write_text(text, encoding="utf-8")
-    sheet = api.analyse(api.load(path)).machine.sheet
+    sheet = api.analyse(api.load(path)).machine.calculation
     # K is typed to twelve places, and θ, a difference of nearly equal angles, loses two of them.
     assert sheet.si("l.BA") == pytest.approx(crank / 1e3, rel=1e-7)
     assert sheet.si("l.AC") == pytest.approx(coupler / 1e3, rel=1e-7)
