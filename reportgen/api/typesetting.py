@@ -26,7 +26,11 @@ SUFFIX: Mapping[Engine, str] = {"typst": ".typ", "latex": ".tex"}
 def reading_ahead(
     assignment: Assignment, engine: Engine, letter: Letter | None
 ) -> AbstractContextManager[Ahead | None]:
-    """Return the typesetter if it can read ahead while the report is computed; not with a school's templates."""
+    """Return a context that starts LaTeX on the beginning of a report's source while the report is computed.
+
+    Pass the result of the context to `typeset` as `ahead`. It is None for typst, for a school's templates, and without
+    a `letter`.
+    """
     if engine != "latex" or letter is None or assignment.school is not None:
         return nullcontext()
     from reportgen.writers import latex, pdflatex
@@ -41,9 +45,11 @@ def typeset(
     standards: Standards = STANDARDS,
     ahead: Ahead | None = None,
 ) -> tuple[str, bytes]:
-    """Return the source of a document in a letter, and its PDF; raise `TypesetterError`.
+    """Return the typst or LaTeX source of a document, by the `engine`, and its PDF.
 
-    A PDF by typst conforms to the `standards`; LaTeX may have read the beginning of the source `ahead`.
+    `letter` is the font and size of the text; None selects the default. A PDF by typst conforms to the `standards`,
+    which LaTeX ignores. `ahead` is the LaTeX process of `reading_ahead`, or None. Raises `TypesetterError`, also if
+    LaTeX cannot set the language of the document.
     """
     from reportgen.document.layout import Letter
 
@@ -69,7 +75,7 @@ def typeset_sheet(
     phrases: Mapping[str, str],
     standards: Standards = STANDARDS,
 ) -> bytes:
-    """Return the PDF of a drawing sheet of an assignment, with a text alternative in `phrases`.
+    """Return the PDF of a drawing sheet of an assignment, by typst, with a text alternative in `phrases`.
 
     Raises `TypesetterError`.
     """

@@ -1,4 +1,9 @@
-"""Ids of the balancing of machines, which begin with `balance`, with their vocabulary."""
+"""Ids of the quantities that balancing enters in the ledger, which all begin with `balance`, and their vocabulary.
+
+An id with parameters is a `Name`: `component("x")` is the id `balance.F.x`. `ROWS` maps each id to its symbol, the kind
+of its quantity and its chapter. This module only declares them; `ledger.py` and
+`orders_ledger.py` enter the quantities.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Balancing on the drawing sheets, as a separate set."""
+"""The drawing sheets of balancing, a separate set: `HOOKS` registers their plates, and no other module calls them."""
 
 from __future__ import annotations
 
@@ -11,7 +11,11 @@ from reportgen.sheets.topic_plates import PlateHooks
 
 
 def _balancing(sources: Sources) -> Iterator[Drawn]:
-    """Yield the hodographs of the force on the frame, and its curve as seen from the crank."""
+    """Yield the hodograph of the force on the frame, and the figures of the requested counterweights.
+
+    With a rule for the crank, its curve as seen from the crank follows; with counterweights that are not zero, their
+    scheme; with both, the hodograph without and with the counterweight.
+    """
     small = sources.small
     turn = balanced_in(small.analysis)
     yield Drawn("hodograph", "curves", views.hodograph(small).scenes)
@@ -24,6 +28,7 @@ def _balancing(sources: Sources) -> Iterator[Drawn]:
 
 
 def _balancing_table(sources: Sources) -> Iterator[Drawn]:
+    """Yield the table of the force on the frame at each position, with the values that counterweights change."""
     yield from table_of(sources, "balancing", (views.shaking_lines, views.balanced_table), cycle=True)
 
 

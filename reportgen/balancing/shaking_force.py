@@ -353,7 +353,11 @@ class BalancedTurn:
 
 
 def counterweight(machine: Machine, curve: CrankCurve, rule: CounterweightRule, share: float) -> complex:
-    """Return U (kg·m) of the counterweight on the crank by a rule, in the crank's frame."""
+    """Return U (kg·m) of the counterweight on the crank by a rule, in the crank's frame.
+
+    "rms" gives the least mean square of F, "max" its least maximum. "rotating" balances the masses that turn with the
+    crank; "share" balances these and a `share` of the reciprocating masses. The other rules ignore `share`.
+    """
     match rule:
         case "rms":
             return -curve.mean

@@ -43,7 +43,10 @@ def _turn(report: ReportContext) -> BalancedTurn:
 @view("link", "parts", "lines")
 @dataclass(frozen=True, slots=True)
 class ShakenLink:
-    """A link whose inertia shakes the frame: ids of its force's components, and of arms and moment."""
+    """A link whose inertia shakes the frame.
+
+    `parts` are the ids of the components of its force; `lines` those of the arms of the force and of its moment.
+    """
 
     link: int
     parts: list[str]
@@ -53,9 +56,10 @@ class ShakenLink:
 @view("name", "lines", "masses")
 @dataclass(frozen=True, slots=True)
 class BalancingRule:
-    """A rule for the counterweight on the crank: ids of the inputs of U, of U and its angle.
+    """A rule for the counterweight on the crank: "rms", "max", "rotating" or "share".
 
-    `masses` are those of the rods at their pins, if the rule is the first that uses them.
+    `lines` are the ids of the inputs of U, of U and of its angle. `masses` are the ids of the point masses of rods at
+    their pins, if the rule is the first that uses them.
     """
 
     name: str
@@ -210,8 +214,11 @@ def _compared(report: ReportContext, name: str, pair: Sequence[str]) -> Sequence
 
 
 def residuals(report: ReportContext) -> dict[str, float]:
-    """Return, as shares, the difference of F from the inertia reactions on the frame, and the remaining force of a
-    four-bar.
+    """Return how far the two checks of balancing are from zero, as shares without a unit.
+
+    `balance` is the largest difference of F from the inertia reactions on the frame, as a share of the sum of the
+    links' largest inertia forces. `rest`, only of a four-bar whose force is balanced by its links, is the remaining
+    force as a share of the force before balancing.
     """
     analysis, turn = report.analysis, balanced_in(report.analysis)
     linkage, motion = analysis.machine.linkage, analysis.motion
@@ -248,7 +255,7 @@ def hodograph(report: ReportContext) -> FigureScenes:
 
 
 def balanced_hodograph(report: ReportContext) -> FigureScenes:
-    """Draw the hodographs of F without and with the applied counterweight."""
+    """Draw the hodographs of F without and with the applied counterweight, which must be one on the crank."""
     force, crank, marks, names = _of_turn(report)
     (weight,) = _turn(report).weights
     left = force + weight.product * report.machine.speed**2 * crank

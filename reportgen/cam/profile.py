@@ -81,7 +81,11 @@ class Cam:
         return self.calculation.si("cam.psi0")
 
     def profile_at(self, φ: Floats, of: Numbers | None = None) -> CamProfile:
-        """Return the cam at angles [N] (rad); `of` [N] forces the interval of the motion at each."""
+        """Return the cam at angles φ [N] (rad).
+
+        `of` [N] are the indices, from 0, of the motion's interval at each angle; None finds them. At a corner, where
+        two intervals meet, the index selects one side.
+        """
         return CamProfile(self, φ, *self.motion(φ, of))
 
     def lifting(self, s: Floats) -> Complexes:

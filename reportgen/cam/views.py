@@ -1,4 +1,7 @@
-"""`CamPage`: names for the templates of a cam's report and task: tables, worked lines, figures."""
+"""The names that the templates of a cam's report and task may use: tables, worked lines, figures.
+
+`CamPage.names` collects them from the page's properties. The base class `DesignPage` describes the other methods.
+"""
 
 from __future__ import annotations
 
@@ -81,13 +84,16 @@ class CamPage(DesignPage[SolvedCam]):
         return judged(self.case.solution.cam)
 
     def has(self, section: str) -> bool:
+        """Return False for "cam-limits" and "cam-pressure" if the cam does not need them, True for other sections."""
         cam, least = self.case.solution.cam, self.case.solution.designed.least
         return {"cam-limits": least is not None or cam.flat, "cam-pressure": not cam.flat}.get(section, True)
 
     def asked(self, asked: AskedFor) -> dict[str, Any]:
+        """Return the further name `asked` of the task: the positions that its questions ask for, as a list in words."""
         return {"asked": listed(map(Text, asked.positions))}
 
     def names(self) -> dict[str, Any]:
+        """Return the names that the templates may use, each with its value or function."""
         case, cam, given = self.case, self.case.solution.cam, self.case.solution.given
         designed = case.solution.designed
         exceeded, undercut = self.exceeded, self.undercut
@@ -301,10 +307,12 @@ class CamPage(DesignPage[SolvedCam]):
 
     @property
     def exceeded(self) -> tuple[str, ...]:
+        """Return the keys of the phases in which the pressure angle exceeds its limit."""
         return tuple(phase for phase, _, _ in exceeded(self.case.solution.designed))
 
     @property
     def undercut(self) -> Inlines:
+        """Return the cam angles (degrees) at which the profile is undercut, as a list; empty if there are none."""
         angles = self.case.solution.cam.undercut
         return listed(Value(Number(math.degrees(angle), 1, "°")) for angle in angles)
 
@@ -330,6 +338,7 @@ class CamPage(DesignPage[SolvedCam]):
 
     @property
     def checks(self) -> Table:
+        """Return the table of the requirements: name, limit, actual value, and yes or no."""
         words = self.words["checks"]
         rows = [
             (
@@ -347,6 +356,7 @@ class CamPage(DesignPage[SolvedCam]):
     # --- figures
 
     def scenes(self, name: str) -> Iterator[Scene]:
+        """Yield the drawing of a figure by its name, for example "law" or "profile"; nothing for an unknown name."""
         match name:
             case "law":
                 yield law_diagrams(self.case)

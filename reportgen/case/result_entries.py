@@ -1,4 +1,7 @@
-"""Results of a case for `solve`: entries for each position, and entries for all of them, by name."""
+"""Results of a machine for the command `solve`: a dictionary for each position, and one for the whole machine.
+
+All values are in SI; points and forces are complex numbers x + iy.
+"""
 
 from __future__ import annotations
 
@@ -24,7 +27,7 @@ class ResultEntries:
 
 
 def entries_of(analysis: Analysis) -> ResultEntries:
-    """Return the entries of a machine with those of its topics."""
+    """Return the entries of a machine; without loads, only its kinematics, else also forces and the topics' results."""
     signs = {f"{dyad.links[0]}{dyad.links[1]}": dyad.sign for dyad in analysis.machine.linkage.dyads}
     topics = tuple(RESULTS.among(analysis.machine.topics)) if analysis.loads else ()
     positions = [_position(analysis, k) for k in range(len(analysis.cycle_angle))]
@@ -93,6 +96,7 @@ def _applied(analysis: Analysis, k: int) -> Entries:
 
 
 def load_entries(loads: tuple[Load, ...], k: int) -> Entries:
+    """Return force (N), point of application (m) and couple (N·m) of each load at the position of index `k`."""
     return {load.name: {"force": load.force[k], "point": load.point[k], "couple": load.couple[k]} for load in loads}
 
 

@@ -64,7 +64,11 @@ def _of_a_crank(draft: Draft, given: file.Parameters) -> Iterator[Finding]:
 
 @dataclass
 class _Placed:
-    """The points and links placed so far while the groups are read in their order."""
+    """The points and links placed so far while the groups are read in their order.
+
+    `passing` are points of a slotted link under a pin, on which nothing may be placed. `coming` are all points that the
+    file declares, to tell a point that is used too early from one that does not exist.
+    """
 
     points: set[str] = field(default_factory=set)
     links: set[int] = field(default_factory=lambda: {GROUND, DRIVER})
@@ -72,11 +76,13 @@ class _Placed:
     coming: frozenset[str] = frozenset()
 
     def enter(self, name: str, where: Where) -> Iterator[Finding]:
+        """Place a point; yield a fault if its name is taken."""
         if name in self.points:
             yield Finding("point-taken", where, {"text": name})
         self.points.add(name)
 
     def need(self, name: str, where: Where) -> Iterator[Finding]:
+        """Yield a fault unless a point is placed and something may be placed on it."""
         if name in self.passing:
             yield Finding("hangs-on-slide", where, {"text": name})
         elif name not in self.points:
@@ -84,6 +90,7 @@ class _Placed:
             yield Finding(code, where, {"text": name, "known": ", ".join(sorted(self.points)) or "–"})
 
     def carrier(self, link: int, where: Where) -> Iterator[Finding]:
+        """Yield a fault unless the link that carries a guide is placed."""
         if link not in self.links:
             yield Finding("link-not-placed", where, {"text": str(link), "known": listed(self.links)})
 

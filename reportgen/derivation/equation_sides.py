@@ -37,9 +37,9 @@ def image(name: str) -> str:
 class Side:
     """One side of a group's vector equation: the motion of a `point` as that of its `base` plus the relative motion.
 
-    Either both are points of `link`, and the point turns about the base, or it slides over the base along the direction
-    with the id `along`.  `still` is True if the base is fixed to the ground; `shown` is the name of the base in the
-    symbols of vectors: B2 for the pin B as a point of block 2.
+    Either both are points of `link`, and the point turns about the base; then `along` is empty. Or the point slides
+    over the base along the direction with the id `along`; then `link` is 0. `still` is True if the base is fixed to the
+    ground; `shown` is the name of the base in the symbols of vectors: B2 for the pin B as a point of block 2.
     """
 
     point: str

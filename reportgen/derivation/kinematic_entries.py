@@ -75,7 +75,10 @@ class PlacedLink:
 
 @dataclass
 class Kinematics:
-    """Calculation `q`, linkage and placed links while a linkage is entered link by link."""
+    """Calculation `q`, linkage and placed links while a linkage is entered link by link.
+
+    `turn` is +1 for a crank that turns anticlockwise or a slide that moves along its guide's direction, else −1.
+    """
 
     q: Calculation
     scheme: Scheme
@@ -276,8 +279,9 @@ def crank(
 ) -> Kinematics:
     """Place the driving crank: v_A = ω₁ l, aⁿ_A = ω₁² l, aᵗ_A = ε₁ l.
 
-    `scales` are SI per metre of paper and default to μ_v = ω₁ μ_l, μ_a = ω₁² μ_l, at which pa and πn are the drawn
-    crank; without `eps.1`, πn is πa′.
+    `turn` and `sense` are ±1 as in `Kinematics`. `scales` by "v" and "a" are SI per metre of paper; they default to
+    μ_v = ω₁ μ_l, μ_a = ω₁² μ_l, at which pa and πn are the drawn crank; without `eps.1`, πn is πa′. `phi.1`,
+    `omega.1` and the crank's centre must have been entered.
     """
     centre, pin = driver.centre, driver.pin
     k = Kinematics(q, scheme, turn, natural_sizes(q, scheme.linkage), sense)
@@ -355,8 +359,8 @@ def slide(
 ) -> Kinematics:
     """Place the driving slide: the pin moves along its guide with v_A, and a_A if given.
 
-    `scales` are μ_v, μ_a (SI per metre of paper); without them the plans are a trial. The driver's coordinate `s.1` and
-    the size of its speed, `v.` and the pin's name, must have been entered.
+    `scales` by "v" and "a" are μ_v, μ_a (SI per metre of paper); without them the plans are a trial. The driver's
+    coordinate `s.1` and the size of its speed, `v.` and the pin's name, must have been entered.
     """
     pin, size = driver.pin, longest(scheme.linkage)
     k = Kinematics(q, scheme, turn, natural_sizes(q, scheme.linkage), sense)

@@ -61,7 +61,11 @@ class LineBreak:
 
 @dataclass(frozen=True, slots=True)
 class Blank:
-    """A place to fill in, with the `name` of the value and a shorter name `called` for systems with limited names."""
+    """A place to fill in.
+
+    `name` is the name of the value, `called` a shorter one for systems with limited names, and `title` the title of the
+    field in a Word document.
+    """
 
     name: str
     called: str

@@ -1,4 +1,8 @@
-"""Build tables from their cells: in columns side by side, free ones, and folded ones if they are long and wide."""
+"""Build a `Table` from contents: columns beside row titles, rows of any contents, or long and wide tables in parts.
+
+A content is a text, a symbol or formula, a number with its unit, an inline, or a tuple of these. Captions may contain
+the markup of `Prose.inlines`.
+"""
 
 from __future__ import annotations
 
@@ -46,10 +50,12 @@ def side_by_side(
     together: int = 1,
     widths: Sequence[float] = (),
 ) -> tuple[Table, ...]:
-    """Return columns beside a column of titles, in several tables if there are more than `most` columns.
+    """Return columns beside a column of row titles, in several tables if there are more than `most` columns.
 
-    The first `heads` rows are the head of each table. Each table keeps `together` columns that belong together. The key
-    names the first table, `key.2` the second. The columns of a single table may have their own `widths` (mm).
+    `titles` are the contents of the `first` column from top to bottom, and each of the `columns` has as many contents.
+    The first `heads` rows, with their titles, are the head of each table. Groups of `together` columns are not divided
+    between tables. The key names the first table, `key.2` the second. Columns are at most `widest` (mm) wide; those of
+    a single table may have their own `widths` (mm). Raises `ValueError` for a column of another length.
     """
     count = max(-(-len(columns) // most), 1)
     size = together * -(-len(columns) // (together * count))
@@ -79,7 +85,10 @@ def list_table(
     rows: Iterable[Sequence[object]],
     widths: Sequence[float],
 ) -> Table:
-    """Return a free table: cells are texts, symbols, numbers or inlines; widths in mm; columns of words flush left."""
+    """Return a table of rows under one `head`; `widths` (mm) are those of the columns.
+
+    A column that has a text of `LONG_WORDS` characters or more is set flush left, others are centred.
+    """
     body = [tuple(row) for row in rows]
     words = [any(_is_wordy(row[i]) for row in body) for i in range(len(widths))]
     return Table(
@@ -101,7 +110,10 @@ def exact(value: float) -> Cell:
 
 
 def folded(prose: Prose, key: str, caption: str, columns: Sequence[tuple[Expression, Sequence[float]]]) -> Table:
-    """Return columns of numbers, each with its head, folded into three or four sets side by side."""
+    """Return columns of numbers, each a pair of head and values, folded into three or four sets side by side.
+
+    The rows run down the first set, then down the next. Columns of different lengths end with the shortest.
+    """
     head = tuple(cell(shown) for shown, _ in columns)
     sets = [tuple(map(exact, row)) for row in zip(*(values for _, values in columns), strict=False)]
     beside = 3 if len(columns) > 2 else 4
@@ -117,7 +129,7 @@ def folded(prose: Prose, key: str, caption: str, columns: Sequence[tuple[Express
 def in_blocks(
     prose: Prose, key: str, caption: str, head: tuple[Cell, ...], rows: Sequence[tuple[Cell, ...]], first: float
 ) -> Table:
-    """Return a wide table; more than 13 columns are set in blocks of at most 12 values, one below the other.
+    """Return a wide table; if rows have more than 12 values, blocks of at most 12 are set one below the other.
 
     `first` is the width (mm) of the first column, which is repeated in each block.
     """

@@ -51,7 +51,11 @@ class UnknownSignError(TemplateSyntaxError):
 
 
 class Dialect(Environment):
-    """Jinja with the language of templates, in the order in which it works: judge, rewrite, run."""
+    """Jinja with the language of templates: it checks each parsed template, rewrites its operations, and compiles it.
+
+    `filters` extend those of the language; `options` are those of `jinja2.Environment`. A template can be rendered only
+    while the context variable `held` contains its `Values`.
+    """
 
     sandboxed = True  # calls go by way of `call`
     intercepted_binops: frozenset[str] = frozenset()
@@ -327,7 +331,10 @@ FILTERS: Mapping[str, Callable[..., Any]] = {
 
 
 def numbers(*ends: int) -> tuple[int, ...]:
-    """Return the whole numbers of a range; raise `TooMuchError` for too many."""
+    """Return the whole numbers of a range with the arguments of Python's `range`: `numbers(1, 4)` is (1, 2, 3).
+
+    Raises `TooMuchError` for more than `MOST_ITEMS`.
+    """
     numbers = range(*map(int, ends))
     if len(numbers) > MOST_ITEMS:
         raise TooMuchError

@@ -189,7 +189,7 @@ def scheme(linkage: Linkage, motion: Motion, index: int, scale: float, looks: Lo
 def groups(
     linkage: Linkage, motion: Motion, index: int, scale: float, looks: Looks, titles: Sequence[str] = ()
 ) -> tuple[Scene, ...]:
-    """Draw the driver with the ground, then each Assur group alone, at `scale` mm per m; a scene and a title each."""
+    """Return scenes of the driver with the ground and of each Assur group, at `scale` mm per m, each with its title."""
     bones = skeleton(linkage, motion, index, scale)
     parts = [mechanism(bones, (GROUND, DRIVER), looks) + driver_marks(linkage, motion, bones)]
     parts += [mechanism(bones, dyad.links, looks) for dyad in linkage.dyads]
@@ -329,7 +329,7 @@ def ground_guides(bones: Skeleton, looks: Looks) -> tuple[Item, ...]:
 
 
 def driver_marks(linkage: Linkage, motion: Motion, bones: Skeleton) -> Canvas:
-    """Draw the circle of a crank's pin and the arrow of ω1; an empty draft for a sliding driver."""
+    """Draw the circle of a crank's pin and the arrow of ω1; return an empty canvas for a sliding driver."""
     driver = linkage.driver
     if not isinstance(driver, Crank):
         return Canvas()
@@ -339,7 +339,7 @@ def driver_marks(linkage: Linkage, motion: Motion, bones: Skeleton) -> Canvas:
 
 
 def driver_arrow(linkage: Linkage, motion: Motion, bones: Skeleton) -> Canvas:
-    """Draw the arrow of ω1 about a crank's centre; an empty draft for a sliding driver."""
+    """Draw the arrow of ω1 about a crank's centre; return an empty canvas for a sliding driver."""
     driver = linkage.driver
     if not isinstance(driver, Crank):
         return Canvas()

@@ -42,7 +42,11 @@ TWO = Number(2.0)
 
 
 def derivative(leg: LoopVector, leader: int, order: int) -> Iterator[LoopVector]:
-    """Yield the contributions of a leg to the derivative of a chain."""
+    """Yield the contributions of a leg to the first or second derivative of a chain (`order` 1 or 2).
+
+    `leader` is the number of the body that the leg turns with. A leg with the leader `GROUND` keeps its direction; it
+    contributes only the rate of its travel.
+    """
     still, turn = replace(leg, slide=None), Turn(leader)
     ahead = replace(still, quarters=leg.quarters + 1)
     if leader != GROUND:
@@ -64,7 +68,11 @@ def derivative(leg: LoopVector, leader: int, order: int) -> Iterator[LoopVector]
 
 @dataclass
 class RateFormulas:
-    """Formulas of the rates and vectors of a system, as its steps print them."""
+    """Formulas of the rates and vectors of a system, as its steps print them.
+
+    `linked` has the positions of the system's points as functions of its coordinates. A rate is printed as its ledger
+    quantity with its sense, or by its bare symbol (`by_symbol`) in a general equation.
+    """
 
     derivation: Derivation
     linked: Linked
@@ -103,6 +111,7 @@ class RateFormulas:
         return ids.POINT_RATE[RATES[rate.order]](rate.of)
 
     def symbol(self, rate: CoordinateRate) -> Symbol:
+        """Return the symbol of a rate, whether it is known or not: ω or ε of a body, v or a of a travel or a point."""
         match rate.of:
             case Turn(body):
                 return Symbol("ω" if rate.order == VELOCITY else "ε", self.linked.letter(body))
@@ -119,6 +128,7 @@ class RateFormulas:
         return signed(value, self.derivation.q[id])
 
     def product(self, rates: Sequence[CoordinateRate], by_symbol: bool = False) -> Expression:
+        """Return the product of rates, two equal ones as a square; 1 for no rates."""
         if len(rates) == 2 and rates[0] == rates[1]:
             return square(self.symbol(rates[0]) if by_symbol else self.expression(rates[0]))
         return times(*(self.symbol(rate) if by_symbol else self.expression(rate) for rate in rates)) if rates else ONE

@@ -33,7 +33,11 @@ COORDINATES = ("x", "y")
 @view()
 @dataclass(frozen=True)
 class StepView:
-    """A step as templates read it."""
+    """A step as templates read it.
+
+    `sense` is the sense of the body's angular velocity or acceleration in words; `way` is the direction of the point's
+    velocity or acceleration in words. `lines` and `equation` have one element, or none if there is nothing to print.
+    """
 
     kind: str
     of_accelerations: bool
@@ -97,7 +101,7 @@ class FurtherView:
 
 @dataclass(frozen=True)
 class Solution:
-    """A solution of an exercise, step by step."""
+    """A solution of an exercise, step by step: `worked` is one of the solutions of the `case`."""
 
     case: SolvedExercise
     worked: Worked

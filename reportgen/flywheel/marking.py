@@ -1,4 +1,7 @@
-"""Error of a flywheel by the trapezoid rule over the positions, compared with the whole curve."""
+"""Error of a flywheel by the trapezoid rule over the positions, compared with the whole curve.
+
+Marking calls these hooks to widen the tolerances of values that a student can only integrate from position to position.
+"""
 
 from __future__ import annotations
 
@@ -11,8 +14,9 @@ from reportgen.marking.topic_marking import MarkHooks
 
 
 def errors_of_positions(ledger: Ledger) -> Mapping[str, np.ndarray]:
-    """Return the errors (SI) [N] of the flywheel's quantities, by id, that the trapezoid rule over the positions
-    causes.
+    """Return the absolute errors (SI) that the trapezoid rule over the positions causes, by id.
+
+    The ids are A.excess [N], J.d [1] and, if the ledger has it, omega.of [N]. Without a flywheel the result is empty.
     """
     if "J.d" not in ledger:
         return {}
@@ -36,7 +40,7 @@ def errors_of_positions(ledger: Ledger) -> Mapping[str, np.ndarray]:
 
 
 def integral_of(ledger: Ledger, id: str) -> str:
-    """Return "A.excess" for the regulated speed, which is computed from it; any other id unchanged."""
+    """Return "A.excess" for the regulated speed "omega.of", which is computed from it; any other id unchanged."""
     return "A.excess" if id == "omega.of" else id
 
 

@@ -1,4 +1,7 @@
-"""The flywheel in a report: the values that templates of its chapter name, its table and its figures."""
+"""The flywheel in a report: the values that templates of its chapter name, its table and its figures.
+
+`HOOKS`, at the end of the module, registers them.
+"""
 
 from __future__ import annotations
 
@@ -132,6 +135,9 @@ def speed_limits(report: ReportContext) -> list[str]:
 def cycle_table(report: ReportContext, key: str, caption: str, head: Sequence[str]) -> tuple[Table | Paragraph, ...]:
     """Return a table of reduced torque and excess work; also reduced inertia if links have mass, and speed if
     there is a flywheel.
+
+    The caption is completed with words for the last two. `head` is ignored: the symbols of the quantities are the
+    column heads.
     """
     words = report.words["tables"]["flywheel"]
     inertia = words["inertia"] if report.has_reduced_inertia else ""

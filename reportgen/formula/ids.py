@@ -290,7 +290,7 @@ def joint(acting: int, acted_on: int) -> str:
 
 
 def linked(joint: str) -> tuple[str, str]:
-    """Return the two links of a joint's digits, the acting one first: 12 gives 1 and 2."""
+    """Return the two links of a joint's digits, the acting one first: 12 gives "1" and "2", 1,12 gives "1" and "12"."""
     acting, acted_on = joint.split(",") if "," in joint else tuple(joint)
     return acting, acted_on
 

@@ -29,8 +29,9 @@ DETAIL = 26.0
 
 @dataclass(frozen=True, slots=True)
 class FaceForce:
-    """The force of a guide (N) on an end of a slider's face: `across` the guide, and `along` it against the sliding;
-    its place (m).
+    """The force of a guide (N) on an end of a slider's face: `across` the guide, and `along` it against the sliding.
+
+    `number` is that of the end, 1 or 2; `at` is its place (m).
     """
 
     number: int
@@ -40,7 +41,7 @@ class FaceForce:
 
 
 def face_forces(report: ReportContext, joint: Joint, k: int) -> tuple[FaceForce, ...]:
-    """Return the face forces on the joint's second link at position `k`; () if it does not tilt."""
+    """Return the two face forces on the joint's second link at position `k` (from 1); () if it does not tilt."""
     friction, solved, link = friction_of(report.machine), with_friction(report.analysis), joint.links[1]
     if friction is None or solved is None or joint.kind != "P" or link not in friction.faces:
         return ()
@@ -60,7 +61,7 @@ def face_forces(report: ReportContext, joint: Joint, k: int) -> tuple[FaceForce,
 
 
 def tilting(report: ReportContext, k: int) -> list[str]:
-    """Return the wide sliders with friction that tilt at position `k`, so that both of their ends are in contact."""
+    """Return the link numbers, as text, of the wide sliders with friction that tilt at position `k`."""
     friction = friction_of(report.machine)
     assert friction is not None, "the chapter is there where joints rub"
     return [str(joint.links[1]) for joint in friction.joints(report.machine.linkage) if face_forces(report, joint, k)]
@@ -77,8 +78,9 @@ def any_tilts(report: ReportContext) -> bool:
 
 @dataclass(frozen=True, slots=True)
 class Leaning:
-    """A force of a guide with its components across and along it (N), its place (mm), and its name or those of all
-    three.
+    """A force of a guide with its components across and along it (N), and its place (mm).
+
+    `names` has the symbols of the normal force, the friction and the whole force, or of the whole force alone.
     """
 
     across: complex

@@ -80,7 +80,8 @@ class Statement:
     """A symbol and the text up to the next one.
 
     `lead` is the text before it from the end of the previous clause, `front` that from the last “=”. `text` is the text
-    after it, from index `at`. `doubt` is True if it runs into another statement.
+    after the symbol, from index `at` of the line. `barred` is True for a magnitude, |v_B|. `doubt` is True if the
+    statement may be part of another one, or the next one part of it.
     """
 
     symbol: str

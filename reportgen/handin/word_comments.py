@@ -29,7 +29,10 @@ _MOMENT = (1980, 1, 1, 0, 0, 0)
 
 @dataclass(frozen=True, slots=True)
 class MarginNote:
-    """A text for the margin, at the element with a number; None for the head of the report."""
+    """A text for the margin, at the element of the main text with this `XmlNode.number`.
+
+    Without an element, the comment is at the head of the report.
+    """
 
     text: str
     element: int | None = None
@@ -45,7 +48,11 @@ class _Change:
 
 
 def with_comments(file: WordFile, remarks: Sequence[MarginNote]) -> bytes:
-    """Return the file with a comment for each remark, deterministically; raise `RefusedError`."""
+    """Return the file with a comment for each remark; the same input gives the same bytes.
+
+    A remark is omitted if its element cannot have a comment. Raises `RefusedError` if a part that
+    it changes is not valid XML, and `KeyError` for an unknown element.
+    """
     package = file.package
     namespace = _STRICT if _STRICT.encode() in file.content[:20_000] else _WORD
     name = file.related("comments")

@@ -134,6 +134,8 @@ def _legend(words: Mapping[str, Any], unread: bool) -> WorksheetData:
 def feedback_document(marking: Marking, title: str, policy: Policy | None = None) -> Document:
     """Return the feedback on one submission, in the language of its assignment; `title` is the machine's name.
 
+    The `policy` (default `Policy()`) has the deduction for lateness, and whether answers are shown.
+
     It contains no data of other students.
     """
     key, words = marking.key, words_of(marking.key)

@@ -28,7 +28,8 @@ BLANKS = 10
 def comment(marking: Marking, policy: Policy) -> Iterator[str]:
     """Yield the lines: mark, lateness, first mistakes by name, points by chapter, the instructor's corrections.
 
-    The lines give no answers.
+    They also list the values not read and the quantities left blank. Long lists of mistakes and of values are cut
+    (`FIRSTS`, `BLANKS`). The lines give no answers.
     """
     return (plain((Text(line),), marking.key.language) for line in _lines(marking, policy))
 

@@ -261,7 +261,7 @@ class TorqueSigns:
 
 
 def balance_course(report: ReportContext) -> TorqueSigns:
-    """Return the senses of the balancing torque or force at all positions."""
+    """Return the senses of the balancing torque or force, as printed, at all positions."""
     with_motion = report.machine.turn if not report.machine.span else np.sign(report.machine.speed)
     values = printed_values(report, "M.eq", report.all_positions) * with_motion
     mean = float(report.ledger.number("M.mean").value) * with_motion if report.cyclic else 0.0
@@ -283,7 +283,7 @@ def balance_senses(report: ReportContext) -> list[Inlines]:
 
 
 def balance_gaps(report: ReportContext, *positions: Position) -> list[Peak]:
-    """Return the peak of the difference between both methods for the balancing torque; [] if they agree.
+    """Return the peak of the difference between the balancing torques of both methods; [] if they agree as printed.
 
     Without `positions` it covers the whole table.
     """
@@ -314,7 +314,7 @@ class Remark:
 
 @dataclass(frozen=True, slots=True)
 class Subject:
-    """Subject of remarks: ids, over one turn or the whole cycle, with or without a remark on zeros.
+    """Subject of remarks, one of `SUBJECTS`: ids, over one turn or the whole cycle, with or without a remark on zeros.
 
     `why` selects the peaks for which the phrases give a reason.
     """
@@ -345,7 +345,7 @@ SUBJECTS = {
 
 
 def remarks(report: ReportContext, *subjects: str) -> list[Remark]:
-    """Return remarks on the quantities of some subjects; equal ones are joined, zero ones left out."""
+    """Return remarks on the quantities of some `SUBJECTS`, by key; equal ones are joined, zero ones left out."""
     return [_remark(report, name, one) for name in subjects for one in _peaks_of(report, SUBJECTS[name])]
 
 

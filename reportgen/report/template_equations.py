@@ -236,14 +236,18 @@ def through_pin(report: ReportContext, contact: Contact, position: int) -> Equat
 
 
 def line(report: ReportContext, id: str, position: int | None = None, note: str = "", key: str = "") -> Equation:
-    """Return one worked line: symbol = formula = numbers = result."""
+    """Return one worked line: symbol = formula = numbers = result; `note` and `key` as for `lines`."""
     return lines(report, [id], position, note, key)
 
 
 def lines(
     report: ReportContext, quantities: Sequence[str], position: int | None = None, note: str = "", key: str = ""
 ) -> Equation:
-    """Return several worked lines, aligned."""
+    """Return several worked lines, aligned, at a position, or without one for constants.
+
+    `note` follows each line; without it, a line whose result is zero gives its reason there. The `key` numbers the
+    equation, so that text can refer to it.
+    """
     return Equation(tuple(_worked(report, id, position, note) for id in quantities), key)
 
 

@@ -48,13 +48,17 @@ from reportgen.writers.word_sections import CONTENTS_LEVEL, COVER, broken, paged
 from reportgen.writers.word_styles import BULLETS, LIST_INDENT, merged, numbering, properties, settings, styles
 
 Pictures = Callable[[Sequence[Scene]], Sequence[tuple[bytes, bytes]]]
-"""Returns scenes as PNG and SVG."""
+"""Function that returns a pair of bytes, PNG and SVG, for each scene."""
 
 
 def write(
     document: tree.Document, pictures: Pictures, letter: layout.Letter | None = None, own: Own | None = None
 ) -> bytes:
-    """Return the file of a document, byte for byte the same in every run; a school's `own` parts take precedence."""
+    """Return the .docx file of a document, byte for byte the same in every run.
+
+    `pictures` draws all scenes at once. `letter` is the font of running text; the default is that of the language. A
+    school's `own` styles, header, footer and margins replace the usual ones.
+    """
     usual_look = setting_of(document.language)
     letter, own = letter or layout.Letter(usual_look.word.font, usual_look.word.size), own or Own()
     usual = styles(letter.font, letter.size, document.language, document.close, A4.room)
