@@ -82,7 +82,7 @@ def test_a_scheduler_that_goes_keeps_what_is_done(tmp_path: Path) -> None:
             running.close()
             yield from results
 
-        with pytest.raises(ClusterError, match="gone"):
+        with pytest.raises(ClusterError, match="was lost"):
             batch.run(pool=with_an_end)
     before = batch.students("done")
     assert before

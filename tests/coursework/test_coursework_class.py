@@ -245,7 +245,7 @@ def test_a_class_of_twelve(tmp_path: Path) -> None:
     assert set(flags) <= {0, 4}
     assert 4 in flags
     assert {id.partition(".")[0] for flag in flags[4] for id, _ in flag.places} == {"cam"}
-    assert {flag.other for flag in flags[4]} == {keys[0].id}
+    assert {flag.classmate for flag in flags[4]} == {keys[0].id}
     for number, agrees in ((0, True), (5, False), (6, False)):
         told, found = compare(open_case(files[number].path), handed / f"{keys[number].id}.xlsx", hint=True)
         assert found == agrees
