@@ -19,7 +19,7 @@ from reportgen.base.errors import TemplateError
 from reportgen.base.template_access import MEMBERS
 from reportgen.cases import opened
 from reportgen.document.template_language import FILTERS
-from reportgen.document.template_rendering import GLOBALS, Prose, _told
+from reportgen.document.template_rendering import GLOBALS, Prose, _reason
 from reportgen.document.template_values import PLAIN, FunctionToken, Token, Values, held
 from tests.lanes import matrix
 
@@ -137,7 +137,7 @@ def told_by(values: Values, function: FunctionToken, arguments: tuple[Any, ...])
     try:
         return " ".join(texts(values.own(values.call(function, arguments, {}))))
     except Exception as error:
-        return _told(error, ())
+        return _reason(error, ())
 
 
 def texts(of: Any) -> Iterator[str]:
