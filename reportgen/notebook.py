@@ -290,6 +290,13 @@ class ShownFigure:
     language: Language
     moving: MovingFigure | None = None
 
+    def __repr__(self) -> str:
+        suffix = "gif" if self.moving is not None else "svg"
+        scene = self.scene
+        return (
+            f'<figure {self.name}, {scene.width:.0f} × {scene.height:.0f} mm; save it: .save("{self.name}.{suffix}")>'
+        )
+
     @property
     def scene(self) -> Scene:
         """The drawings on one sheet, in rows as in the report."""
@@ -329,6 +336,10 @@ class ResultTable:
 
     columns: tuple[str, ...]
     rows: tuple[tuple[Any, ...], ...]
+
+    def __repr__(self) -> str:
+        size = f"{len(self.rows)} rows × {len(self.columns)} columns"
+        return f"<table of results, {size}; save it: .to_dataframe().to_csv(…)>"
 
     def __getitem__(self, column: str) -> np.ndarray:
         """Return a column of numbers, nan for missing ones; raise `KeyError`."""

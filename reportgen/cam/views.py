@@ -356,7 +356,10 @@ class CamPage(DesignPage[SolvedCam]):
     # --- figures
 
     def scenes(self, name: str) -> Iterator[Scene]:
-        """Yield the drawing of a figure by its name, for example "law" or "profile"; nothing for an unknown name."""
+        """Yield the drawing of a figure by its name, for example "law" or "profile".
+
+        Raises `KeyError` for an unknown name.
+        """
         match name:
             case "law":
                 yield law_diagrams(self.case)
@@ -372,6 +375,8 @@ class CamPage(DesignPage[SolvedCam]):
                 yield inversion(self.case, "cam")
             case "curvature":
                 yield curvature_chart(self.case).scene
+            case _:
+                raise KeyError(name)
 
 
 def _id(key: str) -> str:

@@ -8,7 +8,7 @@ from __future__ import annotations
 import errno
 import os
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import ExitStack, closing, contextmanager
+from contextlib import ExitStack, closing, contextmanager, suppress
 from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
@@ -326,18 +326,24 @@ def _pool(order: Order, students: int) -> Pool:
 
 @contextmanager
 def locked(out: Path, language: Language | None) -> Iterator[None]:
-    """Make the folder and lock it against other batches, without leaving a trace.
+    """Make the folder and lock it against other batches, without leaving a trace; a new folder that stays empty goes.
 
     Raises `OutputError` if another batch uses it, or if the folder cannot be made.
     """
-    with ExitStack() as lock:
-        with reported():
-            out.mkdir(parents=True, exist_ok=True)
-            try:
-                lock.enter_context(held(out))
-            except BlockingIOError as error:
-                raise OutputError(word("out_in_use", language, out=out)) from error
-        yield
+    new = [folder for folder in (out, *out.parents) if not folder.exists()]
+    try:
+        with ExitStack() as lock:
+            with reported():
+                out.mkdir(parents=True, exist_ok=True)
+                try:
+                    lock.enter_context(held(out))
+                except BlockingIOError as error:
+                    raise OutputError(word("out_in_use", language, out=out)) from error
+            yield
+    finally:
+        with suppress(OSError):  # not empty
+            for folder in new:
+                folder.rmdir()
 
 
 def _put(job: Job, outcome: Outcome, out: Path, earlier: ManifestEntry | None) -> Outcome:

@@ -244,17 +244,25 @@ def put_gradebook(
     return written, problems
 
 
-def summary(graded: Graded, language: Language | None) -> Iterator[str]:
-    """Yield a line for each marked student, and the numbers of missing and rejected submissions."""
+def student_lines(graded: Graded, language: Language | None) -> Mapping[Path, str]:
+    """Return the line of each student whose work was read, by the student's folder below the results."""
+    lines: dict[Path, str] = {}
     for marking in graded.markings:
         points, out_of = f"{marking.points:g}", f"{marking.out_of:g}"
         who, firsts = person(marking.key), len(marking.first_errors)
         line = word("graded", language, id=who, points=points, out_of=out_of, firsts=firsts)
-        yield line + summary_of_reading(marking.submission, language) + _open(marking, language)
+        line += summary_of_reading(marking.submission, language) + _open(marking, language)
+        lines[_folder(marking.key)] = line
     for student in graded.unsettled:
         assert student.unsettled is not None
         state = "graded_unrecognised" if student.unsettled.is_unrecognised else "graded_unsettled"
-        yield word(state, language, id=person(student.key)) + summary_of_reading(student.unsettled, language)
+        line = word(state, language, id=person(student.key)) + summary_of_reading(student.unsettled, language)
+        lines[_folder(student.key)] = line
+    return lines
+
+
+def without_marks(graded: Graded, language: Language | None) -> Iterator[str]:
+    """Yield the numbers of missing and rejected submissions."""
     if graded.missing:
         yield counted("graded_missing", language, len(graded.missing))
     if graded.refused:

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain
 from pathlib import Path
-from statistics import median
+from statistics import fmean, median
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
@@ -47,9 +47,14 @@ _HERE = Location("")
 
 MOST_TIMES = 2.0
 """Factor from the median beyond which a count is an outlier."""
-MOST_DEVIATIONS = 3.0
-"""Number of median absolute deviations from the median beyond which a size is an outlier …"""
-LEAST_SHARE = 0.1
+MOST_DEVIATIONS = 3.5
+"""Number of robust standard deviations from the median beyond which a size is an outlier …
+
+Source: B. Iglewicz, D. C. Hoaglin, How to Detect and Handle Outliers, 1993.
+"""
+OF_MEDIAN, OF_MEAN = 1.4826, 1.2533
+"""Standard deviation of a normal distribution divided by its median and by its mean absolute deviation."""
+LEAST_SHARE = 0.25
 """… if it also exceeds this share of the median: a class of nearly equal variants has no outlier."""
 
 ONE_PROCESS = 200
@@ -358,13 +363,17 @@ def compare(efforts: Sequence[Effort]) -> list[Spread]:
 
 
 def _outliers(name: str, values: Sequence[float | None], middle: float) -> tuple[int, ...]:
-    """Return the indices of outliers: counts by a factor, sizes by median absolute deviations."""
+    """Return the indices of outliers: counts by a factor, sizes by the median absolute deviation.
+
+    If most variants have the median, so that deviation is zero, the mean absolute deviation replaces it.
+    """
     known = {k: value for k, value in enumerate(values) if value is not None}
     if name == "worked":
         least, most = middle / MOST_TIMES, middle * MOST_TIMES
         return tuple(k for k, value in known.items() if value and not least <= value <= most)
-    deviation = median(abs(value - middle) for value in known.values())
-    limit = max(MOST_DEVIATIONS * deviation, LEAST_SHARE * abs(middle))
+    deviations = [abs(value - middle) for value in known.values()]
+    spread = OF_MEDIAN * median(deviations) or OF_MEAN * fmean(deviations)
+    limit = max(MOST_DEVIATIONS * spread, LEAST_SHARE * abs(middle))
     return tuple(k for k, value in known.items() if abs(value - middle) > limit)
 
 

@@ -281,14 +281,20 @@ def grade(
             submissions, assignments, rules, lang, roster, corrections=judged, gradebook=table, out=out
         )
         problems = list(graded.problems)
+        lines = dict(class_outputs.student_lines(graded, lang))
         for path in class_outputs.put(graded, rules, out, engine, lang, standards, problems=problems):
-            print(path, flush=True)
+            # One line a student, as soon as the student's files are written.
+            line = str(path) if path.parent == out else lines.pop(path.parent.relative_to(out), None)
+            if line is not None:
+                print(line, flush=True)
+        print(*lines.values(), sep="\n", end="\n" * bool(lines))
         if one_pdf:
             print(*class_outputs.put_one_pdf(graded, out), sep="\n", flush=True)
         if table is not None:
             written, unknown = class_outputs.put_gradebook(graded, table, rules, out, lang)
             print(written, flush=True)
             problems += unknown
-        print(*class_outputs.summary(graded, lang), sep="\n")
+        for line in class_outputs.without_marks(graded, lang):
+            print(line)
         print(*problems, sep="\n", end="\n" * bool(problems), file=sys.stderr)
         raise typer.Exit(AT_FAULT if any(one.level == "error" for one in problems) else 0)

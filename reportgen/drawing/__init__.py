@@ -128,7 +128,7 @@ class Scene:
 
     width: float
     height: float
-    items: tuple[Item, ...] = field(default=())
+    items: tuple[Item, ...] = field(default=(), repr=False)
     title: str = ""
     """A short plain title printed below one of several scenes of a figure, e.g. "a)"."""
     margin: float = 0.0

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -61,7 +61,7 @@ class Diagram:
     axes of a hodograph have one scale.  On paper y = 0 is within the range, unless `zero` is False.
     """
 
-    curves: tuple[PlottedCurve, ...]
+    curves: tuple[PlottedCurve, ...] = field(repr=False)
     x: Content = ""
     y: Content = ""
     turn: bool = True

@@ -213,7 +213,8 @@ class TrainPage(DesignPage[SolvedTrain]):
     # --- figures
 
     def scenes(self, name: str) -> Iterable[Scene]:
-        return (scheme_views(self.case) if name == "scheme" else velocity_triangles(self.case),)
+        drawings = {"scheme": scheme_views, "triangles": velocity_triangles}
+        return (drawings[name](self.case),)
 
 
 def said(what: Any) -> Inlines:

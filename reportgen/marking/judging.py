@@ -308,10 +308,8 @@ def compare(case: Case, sheet: Path, hint: bool = False) -> tuple[tuple[str, ...
 
 def compared(scheme: MarkingScheme, submission: Submission, hint: bool = False) -> tuple[tuple[str, ...], bool]:
     """Return the same as `compare` for a submission that has been read; every row of the sheet counts as requested."""
-    # A quantity without a row on the sheet is not missing, nor is a scale.
-    filled = {id for id, _ in (*submission.values, *submission.problems)}
-    rows = {id for id in submission.rows if id in filled or scheme.key.row(id).role is not Role.scale}
-    scheme = replace(scheme, key=Ask(()).of(scheme.key, rows))
+    # A quantity without a row on the sheet is not missing.
+    scheme = replace(scheme, key=Ask(()).of(scheme.key, submission.rows))
     marking = mark(scheme, submission)
     # A blank value does not disagree, nor does one that follows from a right one.
     agrees = not (marking.submission.problems or any(cell.verdict is Verdict.wrong for cell in marking.cells))
@@ -334,8 +332,11 @@ def _lines(scheme: MarkingScheme, marking: Marking, hint: bool, agrees: bool) ->
         yield words["later"].format(count=later)
     if counted[Verdict.follows] and marking.first_errors:
         yield words["follows"].format(count=counted[Verdict.follows])
-    if counted[Verdict.blank]:
-        yield words["blank"].format(count=counted[Verdict.blank])
+    # A scale may be left empty.
+    empty = (marking.key.row(cell.id) for cell in marking.cells if cell.verdict is Verdict.blank)
+    blank = sum(row.role is not Role.scale for row in empty)
+    if blank:
+        yield words["blank"].format(count=blank)
     if agrees:
         yield words["agrees"].format(count=counted[Verdict.right] + counted[Verdict.follows])
 

@@ -11,6 +11,7 @@ import pytest
 
 from reportgen import document as tree
 from reportgen.base.units import Language
+from reportgen.case.design_case import DesignCase
 from reportgen.cases import open_case
 from reportgen.formula import Chain, Number, Symbol, walk
 from reportgen.formula.evaluation import evaluate
@@ -103,3 +104,11 @@ def test_the_words_of_both_languages_name_the_same() -> None:
         for language in ("vi", "en"):
             rows = key_of(open_case(file, language)).rows  # type: ignore[arg-type]
             assert [row.id for row in rows if not row.what] == [], (file.stem, language)
+
+
+@pytest.mark.parametrize("name", ["cam/roller-01", "gears/pair-least-shift", "gears/train-single", "rotor/disc"])
+def test_a_design_has_no_figure_of_an_unknown_name(name: str) -> None:
+    case = open_case(built.ROOT / "assignments" / f"{name}.yaml", "en")
+    assert isinstance(case, DesignCase)
+    with pytest.raises(KeyError):
+        list(case.PAGE(case).scenes("profil"))

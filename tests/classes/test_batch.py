@@ -232,6 +232,18 @@ def test_one_batch_at_a_time_writes_to_a_folder(tmp_path: Path) -> None:
     assert batch.run().exit_code == 0
 
 
+@pytest.mark.parametrize("given", ["nowhere", "nowhere.yaml"])
+def test_a_missing_folder_or_spec_leaves_no_empty_folder(given: str, tmp_path: Path) -> None:
+    roster = tmp_path / "roster.csv"
+    roster.write_text("id\nK1\n", encoding="utf-8")
+    order = Order(roster=roster, out=tmp_path / "new" / "out")
+    missing = tmp_path / given
+    order = replace(order, spec=missing) if missing.suffix else replace(order, assignments=missing)
+    with pytest.raises(AssignmentError):
+        run_batch(order, io.StringIO())
+    assert [path.name for path in tmp_path.iterdir()] == ["roster.csv"]
+
+
 def test_names_of_students_are_in_no_event(tmp_path: Path) -> None:
     batch = Batch(tmp_path, {"K1": "wrong: Nguyễn Văn A", "K2": "seconds: 0"})
     batch.run()

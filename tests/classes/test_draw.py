@@ -134,4 +134,7 @@ def test_what_is_out_of_proportion() -> None:
     odd = [Effort(1300, 104.0, 30.3, 0.5, 10), Effort(600, 1000.0, 30.0, 0.5, 10)]
     outliers = {spread.name: spread.outliers for spread in compare([*usual, *odd])}
     assert outliers == {"worked": (8,), "largest": (9,), "speed": (), "positive": (), "zeros": ()}
+    # A value that half of the class has is not an outlier, however narrow the class is.
+    halves = compare([Effort(749, 190.0, 30.0, share, 126) for share in (0.5, 0.75) for _ in range(30)])
+    assert [spread.outliers for spread in halves] == [()] * 5
     assert [spread.name for spread in compare([Effort(5, None, 1.0, None, 0)])] == ["worked", "speed", "zeros"]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import signal
 import subprocess
 import sys
@@ -15,9 +16,12 @@ import typer
 
 from reportgen.base.kinds import kinds
 from reportgen.base.units import Language
+from reportgen.cases import open_case
 from reportgen.cli.common import ending
+from reportgen.marking.toleranced_key import Ask, key_of
 from tests.commands import ROOT, process, reportgen
 from tests.lanes import matrix, proof
+from tests.marking.filled import filled
 
 SAMPLE = ROOT / "assignments" / "engine-twin-05.yaml"
 
@@ -208,6 +212,19 @@ def test_kinds_gives_a_line_each() -> None:
 
 def test_schema_is_json() -> None:
     assert "oneOf" in json.loads(reportgen("schema").stdout)
+
+
+def test_grade_gives_a_line_each(tmp_path: Path) -> None:
+    """The line of a student, then the files for the whole class; the student's own files are not listed."""
+    file = ROOT / "assignments" / "friction" / "wedge.yaml"
+    (tmp_path / "wedge.yaml").write_bytes(file.read_bytes())
+    (tmp_path / "wedge.xlsx").write_bytes(filled(Ask().of(key_of(open_case(file, "en")))))
+    done = reportgen("grade", "wedge.xlsx", "--assignments", ".", "--lang", "en", "--out", "marked", cwd=tmp_path)
+    assert (done.returncode, done.stderr) == (0, "")
+    line, *files = done.stdout.splitlines()
+    assert re.fullmatch(r"wedge: (\d+) of \1 points, first errors: 0", line)
+    assert files == [f"marked/{name}" for name in ("grades.csv", "questions.csv", "class.pdf")]
+    assert (tmp_path / "marked" / "wedge" / "feedback.pdf").exists()
 
 
 def solved(*arguments: object) -> dict[str, Any]:

@@ -72,6 +72,15 @@ def test_a_number_is_in_si_units_a_text_in_its_own(shaper: Model) -> None:
     assert shaper["P5"].max() == 1000.0
 
 
+def test_figures_and_tables_print_on_one_line(shaper: Model) -> None:
+    """The arrays and the drawing itself are not printed; the line says how to save them."""
+    figure, table = repr(shaper.figure("scheme")), repr(shaper.table())
+    assert re.fullmatch(r'<figure scheme, \d+ × \d+ mm; save it: \.save\("scheme\.svg"\)>', figure)
+    assert re.fullmatch(r"<table of results, 12 rows × \d+ columns; save it: .*>", table)
+    for value in (shaper.figure("scheme").scene, shaper.diagram("v.E")):
+        assert len(repr(value)) < 500
+
+
 # --- quantities -----------------------------------------------------------------------------------------
 
 

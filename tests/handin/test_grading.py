@@ -147,7 +147,7 @@ def test_a_class_hands_in_reports_and_sheets_together(assignments: Path, key: Ke
     assert {f"{id}/marked.docx" for id in STUDENTS} <= files
     assert {f"{id}/{NAME}" for id in ("K01", "K02")} <= files
     assert f"K03/{NAME}" not in files
-    said = list(class_outputs.summary(graded, "en"))
+    said = [*class_outputs.student_lines(graded, "en").values(), *class_outputs.without_marks(graded, "en")]
     assert said[0].startswith("K01 Nguyễn Văn An: ")
     assert said[0].endswith(f"values to decide: 1 ({NAME})")
 
@@ -213,7 +213,7 @@ def test_where_too_little_is_read_there_is_no_mark(assignments: Path, key: Key, 
     made = dict(class_outputs.files_of(graded, RULES, "typst", "en"))
     assert list(map(str, made)) == ["K01/feedback.txt", f"K01/{NAME}", "grades.csv", "class.pdf"]
     assert "This is no mark of 0" not in made[Path("grades.csv")].decode("utf-8-sig")
-    assert "no mark" in "".join(class_outputs.summary(graded, "en"))
+    assert "no mark" in "".join(class_outputs.student_lines(graded, "en").values())
     # A policy may take less.
     policy = tmp_path / "policy.yaml"
     policy.write_text("least_read: 40 %\nguard: false\n", encoding="utf-8")
@@ -237,7 +237,7 @@ def test_a_report_of_pictures_only_has_no_mark(assignments: Path, key: Key, tmp_
         assert "0" in made[Path("K01/feedback.txt")].decode().splitlines()[0]
         rows = made[Path("grades.csv")].decode("utf-8-sig").splitlines()
         assert "handed in, but no mark: nothing was recognised" in rows[1]
-        said = next(iter(class_outputs.summary(graded, "en")))
+        said = next(iter(class_outputs.student_lines(graded, "en").values()))
         assert said.startswith("K01 Nguyễn Văn An: no mark: nothing was recognised")
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
@@ -20,6 +21,7 @@ from reportgen.marking.marking_policy import read_policy
 from reportgen.marking.toleranced_key import Ask, key_of
 from reportgen.workbook import write_xlsx
 from tests.lanes import matrix
+from tests.marking.filled import filled
 from tests.marking.students import ASSIGNMENTS
 
 FILE = ASSIGNMENTS / "slider-crank-02.yaml"
@@ -87,6 +89,20 @@ def test_the_student_gets_data_alone_whatever_the_instructor_wrote_beside_them(t
     assert len(mine.parts) == 2
     for (_, page), (_, other) in zip(theirs.pages, mine.pages, strict=True):
         assert [f"{row.id} {row.values}" for row in page.rows] == [f"{row.id} {row.values}" for row in other.rows]
+
+
+def test_a_scale_that_may_be_left_empty_is_not_missing(tmp_path: Path) -> None:
+    """The force plan of one position is drawn, with its scale; the reactions of the other one are left to do."""
+    own, sheet = tmp_path / "two.yaml", tmp_path / "sheet.xlsx"
+    text = FILE.read_text(encoding="utf-8")
+    own.write_text(text.replace("worked_positions: [2]", "worked_positions: [1, 2]", 1), encoding="utf-8")
+    key = Ask().on_paper(key_of(open_case(own, "en")))
+    scale = key.row("mu.R23")
+    assert scale.positions == (1, 2)
+    one_scale = replace(key, rows=tuple(replace(row, positions=(1,)) if row is scale else row for row in key.rows))
+    sheet.write_bytes(filled(one_scale))
+    lines, agrees = compare(open_case(own, "en"), sheet)
+    assert (agrees, len(lines)) == (True, 1), lines
 
 
 def test_an_instructor_may_keep_the_self_check_back(tmp_path: Path) -> None:
