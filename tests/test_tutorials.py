@@ -62,12 +62,13 @@ def test_the_vietnamese_first_report_names_the_words_of_the_form() -> None:
         assert re.search(rf"\b{re.escape(labels[name])}", words), name
 
 
-def test_the_cells_of_the_notebook_print_what_the_page_shows(tmp_path: Path) -> None:
+@pytest.mark.parametrize("page", ["notebook-study.md", "notebook-study.vi.md"])
+def test_the_cells_of_the_notebook_print_what_the_page_shows(page: str, tmp_path: Path) -> None:
     """The formula of the last step agrees with the study; both figures are saved."""
     matplotlib.use("agg")
     sample = catalogue.sample("slider-crank", "en")
     (tmp_path / "slider-crank.yaml").write_text(sample, encoding="utf-8")
-    done = cells("docs/tutorials/notebook-study.md", tmp_path)
+    done = cells(f"docs/tutorials/{page}", tmp_path)
     assert [cell.printed for cell in done if not (cell.shown == cell.printed or agrees(cell.shown, cell.printed))] == []
     assert [cell.value is not None for cell in done].count(True) == 1
     assert sum(map(bool, (cell.shown for cell in done))) == 5
