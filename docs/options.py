@@ -34,7 +34,7 @@ that all commands share.
         "file": "options.vi.md",
         "top": """# Các tùy chọn của lệnh
 
-Trang này gom nội dung mà `reportgen LỆNH -h` in ra. Trang [các lệnh](commands.md) nói về mã thoát, các định dạng và
+Trang này gom nội dung mà `reportgen LỆNH -h` in ra. Trang [các lệnh](commands.vi.md) nói về mã kết thúc, các định dạng và
 những quy tắc chung của mọi lệnh.
 """,
         "head": "| đối số, tùy chọn | ý nghĩa |",
@@ -65,7 +65,9 @@ def section(name: str, command: Any, language: Language) -> str:
     lines = [f"| {as_code(names)} | {as_cell(text)} |" for names, text in rows if "--help" not in names]
     about = "\n\n".join(translated(paragraph) for paragraph in (command.help or "").split("\n\n"))
     file = FOLDER / f"{OTHERS}.md" if name not in PAGES else next(FOLDER.parent.rglob(f"{PAGES[name]}.md"))
-    more = texts["more"].format(title=file.stem, file=Path(os.path.relpath(file, FOLDER)).as_posix())
+    translation = file.with_suffix(".vi.md")
+    target = translation if language == "vi" and translation.exists() else file
+    more = texts["more"].format(title=file.stem, file=Path(os.path.relpath(target, FOLDER)).as_posix())
     return "\n".join((f"## `{name}`", "", about, "", texts["head"], "| --- | --- |", *lines, "", f"{more}.", ""))
 
 

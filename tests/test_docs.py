@@ -62,11 +62,12 @@ def test_a_release_has_at_most_eight_lines_about_what_users_can_do() -> None:
         assert all(re.match(r"- \*\*[A-Z][^*]+:\*\* ", line) for line in lines)
 
 
-def test_every_command_is_explained_and_leads_to_its_options() -> None:
-    rows = text_of("docs/reference/commands.md").splitlines()
+@pytest.mark.parametrize("suffix", [".md", ".vi.md"])
+def test_every_command_is_explained_and_leads_to_its_options(suffix: str) -> None:
+    rows = text_of(f"docs/reference/commands{suffix}").splitlines()
     for name in vars(typer.main.get_command(app))["commands"]:
         (row,) = [row for row in rows if re.match(rf"\| \[`reportgen {name}\b", row)]
-        assert f"](options.md#{name})" in row
+        assert f"](options{suffix}#{name})" in row
 
 
 def test_every_machine_is_shown_and_all_its_keys_are_explained() -> None:

@@ -76,6 +76,8 @@ def test_documentation_has_every_format_with_what_it_needs() -> None:
     assert listed == [
         (COMMANDS.get(row.product, row.product), row.name, ", ".join(row.needs) or "–") for row in FORMATS
     ]
+    translated = (ROOT / "docs" / "reference" / "commands.vi.md").read_text(encoding="utf-8")
+    assert [row[:2] for row in listed] == re.findall(r"^\| `(\w+)` \| `([\w-]+)` \| .* \|$", translated, re.MULTILINE)
     options = (ROOT / "docs" / "reference" / "options.md").read_text(encoding="utf-8")
     sections = dict(re.findall(r"^## `(\w+)`\n(.*?)(?=^## |\Z)", options, re.MULTILINE | re.DOTALL))
     for product in dict.fromkeys(row.product for row in FORMATS):
