@@ -34,8 +34,8 @@ that all commands share.
         "file": "options.vi.md",
         "top": """# Các tùy chọn của lệnh
 
-Trang này gom nội dung mà `reportgen LỆNH -h` in ra. Trang [các lệnh](commands.vi.md) nói về mã kết thúc, các định dạng và
-những quy tắc chung của mọi lệnh.
+Trang này gom nội dung mà `reportgen LỆNH -h` in ra. Trang [các lệnh](commands.vi.md) nói về mã kết thúc, các định dạng
+và những quy tắc chung của mọi lệnh.
 """,
         "head": "| đối số, tùy chọn | ý nghĩa |",
         "more": "Đọc thêm: [{title}]({file})",
