@@ -73,6 +73,25 @@ def assess(
     return (None if faults else replace(assignment, parts=tuple(members))), faults
 
 
+def unchecked(source: Source, path: Path, kinds: Collection[str], find: Callable[[str], Kind]) -> Assignment | None:
+    """Return the assignment of nodes without its parts and without the checks of several values.
+
+    Return None if the kind is unknown or a single value is faulty.
+    """
+    top, faults = _top(source)
+    raw: dict[str, Any] = {} if top is None else plain(top)
+    name = raw.get("kind")
+    if faults or not isinstance(name, str) or name not in kinds:
+        return None
+    kind = find(name)
+    findings, draft = _sections(raw, kind)
+    if findings:
+        return None
+    values = {"positions": Positions(), "drawing": Drawing(), "indicator": None, **draft.sections}
+    values.pop(PARTS, ())
+    return Assignment(kind.name, **values, source=path, id=path.stem, turns=kind.turns, names=kind.labels)
+
+
 def name_faults(path: Path) -> Iterator[Fault]:
     """Yield faults unless a file's name, without its ending, is a valid folder name on any system and lies below."""
     stem = path.stem

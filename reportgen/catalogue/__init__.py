@@ -31,7 +31,7 @@ from reportgen.assignment import parts, reading
 from reportgen.assignment.common import Assignment, Extended, Kind, Part, named_worked
 from reportgen.assignment.fields import UNIT_KEY
 from reportgen.assignment.schema import alternatives_to, choices_of, file_schema, places, schema_of
-from reportgen.base.errors import AssignmentError, Fault, Finding, Level, Problem, TemplateError
+from reportgen.base.errors import AssignmentError, Fault, Finding, Level, Problem, ReportgenError, TemplateError
 from reportgen.base.field_words import also, choice_words, field_words, remarked
 from reportgen.base.kinds import SAMPLE, kinds
 from reportgen.base.template_folders import MACHINES, samples, told_in
@@ -45,6 +45,7 @@ from reportgen.base.yaml_values import put, text_of
 from reportgen.catalogue import assembly_checks, declared_loads
 from reportgen.catalogue.parameters import Driven
 from reportgen.catalogue.topic_sections import TopicParameters, sections_of, topic_checks, with_topics
+from reportgen.machine import Linkage
 from reportgen.machine.analysis import Machine
 from reportgen.machine.load_laws import FULL_TURN, STEPS
 
@@ -97,6 +98,21 @@ def understood(source: Source, path: Path) -> tuple[Assignment | None, list[Faul
     nodes.
     """
     return reading.assess(source, path, kinds(), kind)
+
+
+def linkage_of(source: Source, path: Path) -> Linkage | None:
+    """Return the linkage of nodes that may fail the checks; None if a value is faulty or no machine has these values.
+
+    Parameters with a property `linkage` give it at once; of another kind the whole machine is made.
+    """
+    assignment = reading.unchecked(source, path, kinds(), kind)
+    if assignment is None:
+        return None
+    try:
+        linkage: Linkage | None = getattr(assignment.parameters, "linkage", None)
+        return linkage or module(assignment.kind).machine(assignment).linkage
+    except (ReportgenError, ArithmeticError, ValueError, LookupError, np.linalg.LinAlgError):
+        return None
 
 
 def _misplaced(assignment: Assignment, machine: Machine) -> Iterator[Finding]:

@@ -148,6 +148,12 @@ def at_instants(linkage: Linkage, places: Floats, turning: bool) -> Iterator[Fin
                 break
 
 
+def goes_through(linkage: Linkage, driven: DriverTravel = WHOLE_TURN) -> bool:
+    """Return True if the driver carries all groups through its whole travel, without dead points."""
+    nowhere = {dyad.links: Member("", ()) for dyad in linkage.dyads}
+    return next(findings(linkage, nowhere, driven), None) is None
+
+
 def turns(linkage: Linkage) -> bool:
     """Return True if the crank carries all groups through a whole turn."""
     return bool(solve_motion(linkage, np.linspace(0.0, FULL_TURN, STEPS + 1), 1.0).reachable.all())

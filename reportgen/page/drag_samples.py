@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -53,8 +54,8 @@ class Resident:
         solid = (item.items if isinstance(item, MovingBody | Still) else () for item in pane.items)
         return list(map(self.painter.items, solid))
 
-    def sampled(self, assignment: Assignment) -> bytes:
-        """Return the changes caused by another assignment: JSON, then samples.
+    def sampled(self, assignment: Assignment, **more: Any) -> bytes:
+        """Return the changes caused by another assignment: JSON with `more` in it, then samples.
 
         The JSON has `bodies` of other shape by place, `runs`, and the number `of` the machine that changes. A run is
         the place of a sample among all and the number of samples from it on. The length of the JSON precedes it in four
@@ -81,6 +82,7 @@ class Resident:
         reshaped = {place: body for place, body in self._by_place(panes[0], bodies) if body != before[place]}
         runs = self._runs(values)
         changes = {"of": self.number, "bodies": reshaped, "runs": [(run.start, run.stop - run.start) for run in runs]}
+        changes |= more
         head = json.dumps(changes, ensure_ascii=False, separators=(",", ":")).encode()
         head += b" " * (-len(head) % 4)
         return b"".join((len(head).to_bytes(4, "little"), head, *(values[run].tobytes() for run in runs)))

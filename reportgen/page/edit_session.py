@@ -15,11 +15,9 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from reportgen import catalogue
 from reportgen.assignment import parts
-from reportgen.base.errors import Fault, Location, Problem, ReportgenError, Where
+from reportgen.base.errors import Fault, Location, Problem, Where
 from reportgen.base.files import contents, renew_file
 from reportgen.base.kinds import kinds, titles
 from reportgen.base.template_folders import REFERENCE
@@ -39,7 +37,7 @@ from reportgen.base.yaml_source import (
     read_text,
     text_in,
 )
-from reportgen.base.yaml_values import at, put
+from reportgen.base.yaml_values import at
 from reportgen.page import html
 from reportgen.page.background_builds import Maker
 from reportgen.page.controlled_parts import owners
@@ -47,6 +45,7 @@ from reportgen.page.drag_samples import Resident
 from reportgen.page.form_fields import Form, written_at
 from reportgen.page.html import Live
 from reportgen.page.live_view import PART, LiveSession, empty_document
+from reportgen.page.pulls import Asked, Pulls, asked_place
 from reportgen.page.typed_values import only_meaning, same_quantity, value_node
 
 PART_KEYS = "kind", "parameters"
@@ -58,9 +57,8 @@ REST = 0.3
 PATIENCE = 10.0
 """Longest delay (s) of work that can wait."""
 HERE = Location("")
-SCRIPTS = "live.js", "drafts.js", "redraw.js", "tables.js", "edit.js", "owned.js"
-STYLES = "live.css", "edit.css"
-Asked = Mapping[str, Any]
+SCRIPTS = "live.js", "drafts.js", "redraw.js", "tables.js", "edit.js", "owned.js", "pull.js"
+STYLES = "live.css", "edit.css", "pull.css"
 
 
 @dataclass(frozen=True)
@@ -115,6 +113,8 @@ class EditSession(LiveSession):
     _forming: threading.Lock = field(default_factory=threading.Lock)
     _drawn: float = 0.0
     """When a value was drawn last (s)."""
+    _read: tuple[str, Node | None] | None = None
+    """The text of the file and its nodes, as they were read last."""
     _opening: threading.Lock = field(default_factory=threading.Lock)
     _parts: dict[Path, tuple[int, EditSession | None]] = field(default_factory=dict)
     """The files of parts by the numbers under which they are served, which stay when parts are moved."""
@@ -122,6 +122,7 @@ class EditSession(LiveSession):
     def __post_init__(self) -> None:
         super().__post_init__()
         self.maker = Maker(self.products, lambda making: self._publish(making=making))
+        self.pulls = Pulls(self.path, self._resident_machine, self._nodes)
 
     def close(self) -> None:
         self.maker.close()
@@ -147,11 +148,16 @@ class EditSession(LiveSession):
 
     @property
     def answers(self) -> Mapping[str, Callable[[], Mapping[str, Any]]]:
-        return {**super().answers, "form.json": self.numbered_form, "owners.json": self.owners}
+        return {
+            **super().answers,
+            "form.json": self.numbered_form,
+            "owners.json": self.owners,
+            "grips.json": self.grips,
+        }
 
     @property
     def takes(self) -> Mapping[str, Callable[[Asked], Mapping[str, Any] | bytes]]:
-        return {"edit.json": self.edit, "drag.json": self.drag, "make.json": self.make}
+        return {"edit.json": self.edit, "drag.json": self.drag, "pull.json": self.pull, "make.json": self.make}
 
     def below(self, name: str) -> EditSession | None:
         """Return the open form of a part's file by its number: a file that the text names now, in its folder or below.
@@ -250,9 +256,7 @@ class EditSession(LiveSession):
         number = self.revision.moving
         with self.changed:
             self.changed.wait_for(lambda: self._is_over(number) or not self.revision.busy, PATIENCE)
-        with self.lock:
-            text = text_in(self.path)
-        top = None if isinstance(text, Fault) else read_own(text).top
+        top = self._nodes()
         if resident is None or not isinstance(top, MappingNode):
             return {"fields": [], "ground": {}}
         machine, scale = resident.samples.machine, resident.samples.scale
@@ -290,7 +294,7 @@ class EditSession(LiveSession):
         If the change cannot be made, `refused` says why, and the file stays as it was. Raise `KeyError`, `TypeError` or
         `ValueError` for a request that no page of this program makes.
         """
-        operation, where = str(asked["op"]), _place(asked.get("where", []))
+        operation, where = str(asked["op"]), asked_place(asked.get("where", []))
         said: dict[str, Any] = {}
         with self.lock:
             try:
@@ -305,22 +309,17 @@ class EditSession(LiveSession):
         self.touched.set()
         return {**self.numbered_form(), **said}
 
-    def _change(self, operation: str, where: Where, asked: Asked) -> str:
-        """Make a change and return the text that the file then has at its place."""
-        if not where:
-            raise ValueError("the whole file is no value")
+    def _change(self, operation: str, where: Where, asked: Asked) -> str | list[str]:
+        """Make a change and return the text that the file then has at its place; a list if several values are set.
+
+        Several values are written all or none.
+        """
         before = self._bytes()
-        text = self._decoded(before)
-        if "was" in asked and operation in ("set", "instead"):
-            self._same(text, where, str(asked["was"]), str(asked["value"]))
-        if operation == "instead" and not asked.get("value"):
-            asked = {**asked, "value": same_quantity(text, where, str(asked["key"]))}
-        try:
-            changed = _changed(text, operation, where, asked)
-            while operation == "set" and (meant := self._meant(changed, where)):
-                changed = with_value(text, where, Scalar(meant, HERE))
-        except EditError as error:
-            raise RefusedChangeError(error.key, **error.arguments) from error
+        text = changed = self._decoded(before)
+        changes = asked["changes"] if operation == "set all" else [asked]
+        places = [asked_place(each["where"]) for each in changes] if operation == "set all" else [where]
+        for place, each in zip(places, changes, strict=True):
+            changed = self._altered(changed, "set" if operation == "set all" else operation, place, each)
         # Only a long text can exceed the limits of a file, for which no form could be made.
         if len(changed) > MOST_TOKENS and read_text(changed).faults:
             raise RefusedChangeError("too_large")
@@ -332,7 +331,24 @@ class EditSession(LiveSession):
                 raise RefusedChangeError("no_letter", codec=codec) from error
             self._write(Change(before, after, str(asked.get("typing", ""))))
             self.undone.clear()
-        return written_at(at(read_text(changed).top, where))
+        written = [written_at(at(read_text(changed).top, place)) for place in places]
+        return written if operation == "set all" else written[0]
+
+    def _altered(self, text: str, operation: str, where: Where, asked: Asked) -> str:
+        """Return the text of the file with one change."""
+        if not where:
+            raise ValueError("the whole file is no value")
+        if "was" in asked and operation in ("set", "instead"):
+            self._same(text, where, str(asked["was"]), str(asked["value"]))
+        if operation == "instead" and not asked.get("value"):
+            asked = {**asked, "value": same_quantity(text, where, str(asked["key"]))}
+        try:
+            changed = _changed(text, operation, where, asked)
+            while operation == "set" and (meant := self._meant(changed, where)):
+                changed = with_value(text, where, Scalar(meant, HERE))
+        except EditError as error:
+            raise RefusedChangeError(error.key, **error.arguments) from error
+        return changed
 
     def _meant(self, text: str, where: Where) -> str:
         """Return how the program writes the value typed at a place if it is faulty but can mean only one thing."""
@@ -364,25 +380,31 @@ class EditSession(LiveSession):
         The samples are four-byte numbers. Return no bytes if no machine has that value. For a kind that is not a
         machine the answer is empty, and the page is renewed when the value is released.
         """
-        where, self._drawn = _place(asked["where"]), time.monotonic()
+        self._drawn = time.monotonic()
         with self.dragging:
-            resident = self._resident_machine()
-            if resident is None:
-                return {}
-            with self.lock:
-                text = text_in(self.path)
-            top = None if isinstance(text, Fault) else read_own(text).top
-            old = at(top, where)
-            if not isinstance(old, Scalar) or top is None:
-                return b""
-            changed = put(top, where, replace(old, text=str(asked["value"]), null=False))
-            assignment, faults = catalogue.understood(Source(str(self.path), top=changed), self.path)
-            if assignment is None or faults:
-                return b""
-            try:
-                return resident.sampled(assignment)
-            except (ReportgenError, ArithmeticError, ValueError, np.linalg.LinAlgError):
-                return b""
+            return self.pulls.drag(asked)
+
+    def pull(self, asked: Asked) -> Mapping[str, Any] | bytes:
+        """Return the samples of everything that moves with a point that is pulled; see `Pulls.pull`."""
+        self._drawn = time.monotonic()
+        with self.dragging:
+            return self.pulls.pull(asked)
+
+    def grips(self) -> Mapping[str, Any]:
+        """Return what can be pulled on the machine; see `Pulls.grips`."""
+        with self.dragging:
+            self._resident_machine()
+        return self.pulls.grips()
+
+    def _nodes(self) -> Node | None:
+        """Return the nodes of the file as it is, None if it cannot be read."""
+        with self.lock:
+            text = text_in(self.path)
+        if isinstance(text, Fault):
+            return None
+        if self._read is None or self._read[0] != text:
+            self._read = text, read_own(text).top
+        return self._read[1]
 
     # --- the file
 
@@ -420,12 +442,6 @@ class EditSession(LiveSession):
 
 
 # --- operations on the text -----------------------------------------------------------------------------
-
-
-def _place(steps: Any) -> Where:
-    if not isinstance(steps, list) or any(type(step) not in (str, int) for step in steps):
-        raise TypeError("a place is a list of keys and numbers")
-    return tuple(steps)
 
 
 def _changed(text: str, operation: str, where: Where, asked: Asked) -> str:

@@ -85,6 +85,7 @@ const fields = (() => {
       if (parted) (field.closest(".box") || field).after(note(key, parted));
     }
     next.querySelectorAll("input[data-unit], input[data-number]").forEach(slider);
+    document.dispatchEvent(new CustomEvent("forming", { detail: next }));
     next.querySelector("#refused").textContent = told;
     next.querySelector("#saved").textContent = status();
     const active = document.activeElement, lost = form.contains(active) && active.closest(".field")?.dataset.key;
@@ -152,7 +153,7 @@ const fields = (() => {
       if (!body) continue;
       const answer = await asked(body), said = answer || { refused: words.lost_edit };
       lost = !answer;
-      if (answer) receive(answer, !answer.refused && body.op !== "set");
+      if (answer) receive(answer, !answer.refused && body.op !== "set" && body.op !== "set all");
       done?.(said);
       const key = JSON.stringify(body.where);
       // Beside a field that shows both values there is no more to say.
@@ -201,19 +202,25 @@ const fields = (() => {
     pause = setTimeout(() => commit(field), PAUSE);
   };
 
-  // While a slider is drawn, only what moves follows: the newest value is asked for when the last one is there.
-  let wanted = null, asking = false;
-  const drag = async (input) => {
-    wanted = { where: place(input), value: input.value };
+  // While a slider is drawn or a point is pulled, only what moves follows: the newest value is asked for when the last
+  // one is there.
+  let wanted = null, asking = false, turn = 0;
+  const ask = async (name, body, took = () => {}) => {
+    wanted = { name, body, took, of: turn };
     if (asking) return;
     asking = true;
     while (wanted) {
-      const body = wanted;
+      const { name, body, took, of } = wanted;
       wanted = null;
       try {
-        const answer = await post("drag.json", body);
-        if (answer.headers.get("Content-Type") === "application/json") continue;
+        const answer = await post(name, body);
+        if (answer.headers.get("Content-Type") === "application/json") {
+          const said = await answer.json();
+          if (of === turn) took(said);
+          continue;
+        }
         const samples = answer.ok ? await answer.arrayBuffer() : null, known = samples && samples.byteLength > 0;
+        if (of !== turn) continue;
         document.body.classList.toggle("stale", !known);
         if (!known) continue;
         const length = new DataView(samples).getUint32(0, true);
@@ -221,10 +228,34 @@ const fields = (() => {
         // Changes of another machine than the page shows are no changes of that; its own come with the next value.
         if (String(changes.of) !== document.body.dataset.moving) continue;
         extended.get(machine?.root)?.feed(new Float32Array(samples, 4 + length), changes);
-        document.body.dataset.drawn = body.value;
+        took(changes);
+        document.body.dataset.drawn = body.value ?? "";
       } catch { /* the server tells of itself */ }
     }
     asking = false;
+  };
+  const drag = (input) => ask("drag.json", { where: place(input), value: input.value });
+  // The machine is again as the file has it, and what is asked for comes to nothing.
+  const takeBack = (keys) => {
+    wanted = null;
+    turn += 1;
+    keys.forEach(drafts.drop);
+    extended.get(machine.root).feed(new Float32Array(0), { bodies: {}, runs: [] });
+    show();
+  };
+  // What belongs together is written, and undone, as one change.
+  const commitAll = (list) => {
+    const entries = list.map((field) => [field, drafts.commit(field.dataset.w)]).filter(([, entry]) => entry);
+    let sent = [];
+    if (entries.length) push({
+      make: () => {
+        sent = entries.map(([field, entry]) => [field, drafts.send(field.dataset.w, entry)]).filter(([, change]) => change);
+        const changes = sent.map(([field, change]) => ({ where: place(field), ...change, ...("list" in field.dataset ? { list: true } : {}) }));
+        return changes.length && { op: "set all", typing: changes[0].typing, changes };
+      },
+      done: ({ refused, written: there }) => sent.forEach(([{ dataset }], index) => (
+        refused ? drafts.unwritten(dataset.w) : drafts.written(dataset.w, there[index]))),
+    });
   };
 
   // --- what is done
@@ -404,5 +435,5 @@ const fields = (() => {
     document.body.classList.add("kept");
   }
   push(...drafts.due().map(setting));
-  return { byPlace };
+  return { byPlace, type, ask, takeBack, commitAll };
 })();

@@ -10,7 +10,8 @@
       let taken = 0;
       for (const [place, number] of runs) values.set(samples.subarray(taken, taken += number), place);
       shown = {};
-      const items = drawing.parts[0].element.querySelector("svg").children;
+      // What stands beneath the machine is not its own.
+      const items = [...drawing.parts[0].element.querySelector("svg").children].filter((one) => !one.matches(".beneath"));
       const next = new Map(Object.entries(bodies).map(([place, body]) => [items[place], body]));
       for (const [item, body] of reshaped) if (!next.has(item)) { item.innerHTML = body; reshaped.delete(item); }
       for (const [item, body] of next) {
@@ -19,6 +20,7 @@
       }
       if (!state.playing) draw();
     },
+    spots: () => animation.spots.map(({ name }) => name),
     spotAt: (name) => {
       const spot = animation.spots.find((one) => one.name === name);
       return spot && [value(spot.at), -value(spot.at + 1)];

@@ -6,7 +6,10 @@
   const report = document.getElementById("report");
   const shown = { report: given.report, language: document.documentElement.lang };
   // What is told of a machine is of the one with this number.
-  const showing = (moving) => { document.body.dataset.moving = shown.moving = moving; };
+  const showing = (moving) => {
+    document.body.dataset.moving = shown.moving = moving;
+    document.dispatchEvent(new Event("showing"));
+  };
   showing(given.moving);
   const looks = { moving: new CSSStyleSheet(), report: new CSSStyleSheet() };
   const moves = typeof panels === "undefined" ? [] : panels;

@@ -1,0 +1,285 @@
+"""Values of a file that place a point of the machine, and new values for a point that is pulled elsewhere: `Pull`.
+
+No kind names its values here. A value is varied a little, and the numbers of the linkage that follow show which pin,
+fixed point or point of a link it places. The values that place no other joint are preferred.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Collection, Iterator, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from reportgen import catalogue
+from reportgen.assignment.fields import RANGE_KEY, UNIT_KEY
+from reportgen.assignment.schema import file_schema, places
+from reportgen.base.errors import Where
+from reportgen.base.units import NUMBER
+from reportgen.base.yaml_source import MappingNode, Node, Scalar, SequenceNode, Source
+from reportgen.base.yaml_values import put
+from reportgen.machine import Linkage, joints
+from reportgen.machine.kinematics import solve_motion
+from reportgen.page.linkage_numbers import Course, numbers, placed, rebuilt
+
+SHARE, STEP = 0.02, 0.5
+"""Share by which a value is varied; a value of 0 is varied by `STEP` in its own unit."""
+FAR = 8.0
+"""Number of variations beyond which the linkage is made from the file anew."""
+COARSE, FINEST, FEWEST = 100, 4, 20
+"""Whole numbers from here on have steps of 5; figures of the finest steps; least number of steps in a value."""
+ALONG = 0.1
+"""Sine of the angle between the ways of a point below which two values move it along one line."""
+ROUNDS, CLOSE = 12, 1e-6
+"""Largest number of improvements, and the distance (share of the linkage's size) at which a point has arrived."""
+MOST_VALUES = 120
+"""Largest number of values of a file that are examined."""
+_TYPED = re.compile(rf"\s*({NUMBER}\s*/\s*)?({NUMBER})(.*)", re.DOTALL)
+
+
+@dataclass(frozen=True)
+class TypedNumber:
+    """A number as typed; of a ratio such as 1/3.6 the lower one, after `over`."""
+
+    over: str
+    number: float
+    decimals: int
+    """Decimals of the steps: those typed, but more for a value of few steps, and not more than four figures."""
+    unit: str
+
+    @classmethod
+    def of(cls, text: str) -> TypedNumber | None:
+        """Return the number of a text; None for other texts and for numbers with an exponent."""
+        typed = _TYPED.fullmatch(text)
+        if typed is None or "e" in typed[2].lower():
+            return None
+        number, decimals = float(typed[2]), len(typed[2].partition(".")[2])
+        if number:
+            size = -math.floor(math.log10(abs(number)))
+            decimals = min(decimals, max(size + FINEST - 1, 0))
+            while abs(number) < FEWEST * 10.0**-decimals:
+                decimals += 1
+        return cls(typed[1] or "", number, decimals, typed[3])
+
+    @property
+    def step(self) -> float:
+        """The step of the arrow keys: a unit of the last digit, and five of a large whole number."""
+        large = abs(self.number) >= COARSE and not self.decimals
+        return float(10.0**-self.decimals * (5 if large else 1))
+
+    def text(self, number: float) -> str:
+        """Return another number in the same form."""
+        return f"{self.over}{number:.{self.decimals}f}{self.unit}"
+
+    def stepped(self, number: float, low: float, high: float) -> float:
+        """Return the number of whole steps within bounds that is nearest to a number."""
+        whole = round(number / self.step) * self.step
+        inward = whole + self.step * ((whole < low) - (whole > high))
+        return min(max(inward, low), high)
+
+
+@dataclass(frozen=True)
+class PlacingValue:
+    """A value of a file, the `points` that it places, and how the numbers of the linkage follow it."""
+
+    where: Where
+    typed: TypedNumber
+    points: frozenset[str]
+    course: Course
+    low: float
+    high: float
+
+
+def placing_values(
+    source: Source, path: Path, only: Sequence[Where] = ()
+) -> tuple[Linkage | None, tuple[PlacingValue, ...]]:
+    """Return the linkage of a file and the values of its parameters that place points, in the order of the file.
+
+    With `only`, other values are not examined, and the order is that of `only`. The linkage is None if the file gives
+    none.
+    """
+    top, linkage = source.top, catalogue.linkage_of(source, path)
+    if linkage is None or not isinstance(top, MappingNode):
+        return None, ()
+    data = top.find("parameters")
+    leaves = list(_leaves(data[1], ("parameters",)))[:MOST_VALUES] if data else []
+    if only:
+        nodes = dict(leaves)
+        leaves = [(where, nodes[where]) for where in only if where in nodes]
+    return linkage, tuple(value for leaf in leaves if (value := _placing(source, path, linkage, *leaf)))
+
+
+def _leaves(node: Node, where: Where) -> Iterator[tuple[Where, Scalar]]:
+    match node:
+        case Scalar(null=False):
+            yield where, node
+        case SequenceNode(items):
+            for index, item in enumerate(items):
+                yield from _leaves(item, (*where, index))
+        case MappingNode(entries):
+            for key, value in entries:
+                yield from _leaves(value, (*where, key.text))
+
+
+def _placing(source: Source, path: Path, linkage: Linkage, where: Where, scalar: Scalar) -> PlacingValue | None:
+    typed = TypedNumber.of(scalar.text)
+    if typed is None:
+        return None
+    step, here = abs(typed.number) * SHARE or STEP, numbers(linkage)
+    varied: list[np.ndarray | None] = []
+    for sense in (1, -1):
+        text = f"{typed.over}{typed.number + sense * step:.12g}{typed.unit}"
+        changed = replace(source, top=put(source.top, where, replace(scalar, text=text)) if source.top else None)
+        made = catalogue.linkage_of(changed, path)
+        new = None if made is None else numbers(made)
+        varied.append(None if new is None or new.size != here.size else new - here)
+        if varied[0] is not None and not Course(step, varied[0], varied[0], here).moves.any():
+            return None
+    after, before = varied
+    # At an edge of what is possible there are values on one side only.
+    if after is None:
+        if before is None:
+            return None
+        after = -before
+    course = Course(step, -after if before is None else before, after, here)
+    followed = {point for point, moves in zip(placed(linkage), course.moves, strict=True) if moves}
+    pins = followed & {joint.point for joint in joints(linkage)}
+    if not followed:
+        return None
+    return PlacingValue(where, typed, frozenset(pins or followed), course, *_bounds(source, where, typed))
+
+
+def _bounds(source: Source, where: Where, typed: TypedNumber) -> tuple[float, float]:
+    """Return the bounds of the key at a place in the unit that is typed; infinite if that is another unit."""
+    kind = source.top.find("kind") if isinstance(source.top, MappingNode) else None
+    assert kind is not None, "a linkage has a kind"
+    assert isinstance(kind[1], Scalar), "a kind is a name"
+    schema = file_schema(catalogue.kind(kind[1].text))
+    for about in places(schema, schema, where):
+        if about.get(UNIT_KEY, "") == typed.unit.strip():
+            limits = about.get(RANGE_KEY, about)
+            low = limits.get("minimum", limits.get("exclusiveMinimum", -np.inf))
+            high = limits.get("maximum", limits.get("exclusiveMaximum", np.inf))
+            return (-np.inf, np.inf) if typed.over else (float(low), float(high))
+    return -np.inf, np.inf
+
+
+@dataclass(frozen=True)
+class Pull:
+    """A point that is pulled at one coordinate of the driver (rad, or m of a slide), and the values that follow.
+
+    `start` are the numbers of the values, in their own units, for which the linkage was made.
+    """
+
+    linkage: Linkage
+    point: str
+    driver: float
+    values: tuple[PlacingValue, ...]
+
+    @classmethod
+    def of(
+        cls, linkage: Linkage, known: Collection[PlacingValue], point: str, driver: float, locked: Collection[Where]
+    ) -> Pull:
+        """Return the pull of a point by one or two values that are not locked: those that place fewest other joints.
+
+        It has no values if none can move the point at this place of the driver.
+        """
+        free = [value for value in known if point in value.points and value.where not in locked]
+        for count in sorted({len(value.points) for value in free}):
+            alike = tuple(value for value in free if len(value.points) == count)
+            ways = cls(linkage, point, driver, alike).ways(np.zeros(len(alike)))
+            greatest = float(np.nanmax(np.abs(ways) * [value.course.step for value in alike], initial=0.0))
+            moving = [
+                (value, along)
+                for value, along in zip(alike, ways, strict=True)
+                if abs(along) * value.course.step > ALONG**2 * greatest > 0
+            ]
+            if moving:
+                first = moving[0]
+                across = [(value, along) for value, along in moving[1:] if _sine(first[1], along) > ALONG]
+                return cls(linkage, point, driver, tuple(value for value, _ in (first, *across[:1])))
+        return cls(linkage, point, driver, ())
+
+    def made(self, offsets: np.ndarray) -> Linkage:
+        """Return the linkage whose values differ by so much [values]."""
+        total = self.here.copy()
+        for value, by in zip(self.values, offsets.tolist(), strict=True):
+            total += value.course.change(by)
+        return rebuilt(self.linkage, total)
+
+    @property
+    def here(self) -> np.ndarray:
+        return numbers(self.linkage)
+
+    def at(self, offsets: np.ndarray) -> complex:
+        """Return the place of the point (m) for such values [values]; nan if the linkage does not assemble there."""
+        return place_of(self.made(offsets), self.point, self.driver)
+
+    def ways(self, offsets: np.ndarray) -> np.ndarray:
+        """Return how far the point goes (m) for a unit of each value [values]."""
+        here, ways = self.at(offsets), []
+        for index, value in enumerate(self.values):
+            by = np.zeros(len(self.values))
+            by[index] = value.course.step * SHARE
+            ways.append((self.at(offsets + by) - here) / by[index])
+        return np.array(ways, dtype=np.complex128)
+
+    def to(self, target: complex, guess: np.ndarray) -> np.ndarray:
+        """Return the differences of the values [values] that bring the point to a place (m), or as near as they can."""
+        offsets, size = guess, max(float(np.abs(self.here).max()), CLOSE)
+        here = self.at(offsets)
+        if not np.isfinite(here):
+            offsets = np.zeros(len(self.values))
+            here = self.at(offsets)
+        for _ in range(ROUNDS):
+            ways = self.ways(offsets)
+            if not np.isfinite(ways).all():
+                break
+            equations = np.array([ways.real, ways.imag])
+            missing = np.array([(target - here).real, (target - here).imag])
+            step = np.linalg.lstsq(equations, missing, rcond=ALONG**2)[0]
+            better = None
+            for _ in range(ROUNDS):
+                there = self.at(offsets + step)
+                if abs(there - target) < abs(here - target):
+                    better = there
+                    break
+                step = step / 2
+            if better is None:
+                break
+            arrived = abs(better - here) < CLOSE * size
+            offsets, here = offsets + step, better
+            if arrived:
+                break
+        return offsets
+
+    def texts(self, offsets: np.ndarray) -> list[tuple[Where, str]]:
+        """Return the values as they are typed, in whole steps within their bounds; unchanged ones as they were."""
+        numbers = (self.rounded(offsets) + [value.typed.number for value in self.values]).tolist()
+        return [(value.where, value.typed.text(number)) for value, number in zip(self.values, numbers, strict=True)]
+
+    def rounded(self, offsets: np.ndarray) -> np.ndarray:
+        """Return the differences [values] of numbers in whole steps within their bounds."""
+        rounded = [
+            value.typed.stepped(value.typed.number + by, value.low, value.high) - value.typed.number
+            if abs(by) >= value.typed.step / 2
+            else 0.0
+            for value, by in zip(self.values, offsets.tolist(), strict=True)
+        ]
+        return np.array(rounded)
+
+
+def place_of(linkage: Linkage, point: str, driver: float) -> complex:
+    """Return the place (m) of a point at a coordinate of the driver; nan if the linkage does not assemble there."""
+    try:
+        return complex(solve_motion(linkage, driver, 1.0).points[point].p[0])
+    except ValueError:
+        return complex(np.nan, np.nan)
+
+
+def _sine(first: complex, second: complex) -> float:
+    """Return |sin| of the angle between two directions."""
+    return abs((first.conjugate() * second).imag) / (abs(first) * abs(second))

@@ -1,0 +1,183 @@
+"""Points that are pulled on the machine of a form: which there are, the values that follow, and the machine with them.
+
+Nothing is written. The page puts the values into their fields, and sends them as one change when the point is released.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from reportgen import catalogue
+from reportgen.base.errors import ReportgenError, Where
+from reportgen.base.yaml_source import Node, Scalar, SequenceNode, Source
+from reportgen.base.yaml_values import at, put
+from reportgen.machine import Crank, Linkage
+from reportgen.machine.analysis import Machine
+from reportgen.page.drag_samples import Resident
+from reportgen.page.form_fields import written_at
+from reportgen.page.pulled_values import FAR, PlacingValue, Pull, placing_values
+
+Asked = Mapping[str, Any]
+PlacedBy = tuple[Linkage | None, tuple[PlacingValue, ...]]
+
+
+@dataclass
+class PulledPoint:
+    """A point while it is pulled: the values that follow, and the last differences that gave a machine."""
+
+    pull: Pull
+    offsets: np.ndarray
+
+
+@dataclass
+class Pulls:
+    """Answers of a form about points that are pulled on the machine of the file at `path`.
+
+    `resident` returns the machine that the page shows, `read` the nodes of the file.
+    """
+
+    path: Path
+    resident: Callable[[], Resident | None]
+    read: Callable[[], Node | None]
+    known_of: tuple[Node | None, PlacedBy] | None = None
+    pulled: tuple[object, PulledPoint] | None = None
+    lock: threading.Lock = field(default_factory=threading.Lock)
+
+    def grips(self) -> Mapping[str, Any]:
+        """Return the places of the values of each point that can be pulled, and the driver that a handle turns.
+
+        Points of the frame are in mm of the drawing. The driver has the sense in which its angle grows with the cycle,
+        +1 anticlockwise.
+        """
+        resident = self.resident()
+        if resident is None:
+            return {}
+        machine, scale = resident.samples.machine, resident.samples.scale
+        _, values = self._known(self.read())
+        points: dict[str, list[list[str | int]]] = {}
+        for value in values:
+            for point in value.points:
+                points.setdefault(point, []).append(list(value.where))
+        driver = machine.linkage.driver
+        ground = {name: [p.real * scale, -p.imag * scale] for name, p in machine.linkage.ground.items()}
+        turning = {"centre": driver.centre} if isinstance(driver, Crank) else {}
+        return {
+            "points": points,
+            "ground": ground,
+            "driver": {**turning, "pin": driver.pin, "turn": machine.turn, "instants": machine.instants},
+        }
+
+    def _known(self, top: Node | None) -> PlacedBy:
+        """Return the linkage of the file and the values that place its points, found once for each content."""
+        with self.lock:
+            if self.known_of is None or self.known_of[0] != top:
+                self.known_of = top, placing_values(self._source(top), self.path)
+            return self.known_of[1]
+
+    def _source(self, top: Node | None) -> Source:
+        return Source(str(self.path), top=top)
+
+    def drag(self, asked: Asked) -> Mapping[str, Any] | bytes:
+        """Return the samples of everything that moves with another value at a place; see `EditSession.drag`."""
+        resident, where, top = self.resident(), asked_place(asked["where"]), self.read()
+        if resident is None:
+            return {}
+        old = at(top, where)
+        if not isinstance(old, Scalar) or top is None:
+            return b""
+        return self._sampled(resident, put(top, where, replace(old, text=str(asked["value"]), null=False)))
+
+    def _sampled(self, resident: Resident, changed: Node, **more: Any) -> bytes:
+        """Return the samples of the machine of other nodes; no bytes if no machine has these values."""
+        assignment, faults = catalogue.understood(self._source(changed), self.path)
+        if assignment is None or faults:
+            return b""
+        try:
+            return resident.sampled(assignment, **more)
+        except (ReportgenError, ArithmeticError, ValueError, np.linalg.LinAlgError):
+            return b""
+
+    def pull(self, asked: Asked) -> Mapping[str, Any] | bytes:
+        """Return the machine whose point is as near as possible to a place, as `drag` does, with the `values` for it.
+
+        The values are in whole steps of their fields and within their bounds. Where no machine has them, the answer has
+        no values. It is empty for a kind that is not a machine.
+        """
+        resident = self.resident()
+        if resident is None:
+            return {}
+        top = self.read()
+        grabbed = self.grabbed(asked, resident.samples.machine, top)
+        if grabbed is None or top is None:
+            return {"values": []}
+        x, y = (float(number) for number in asked["to"])
+        target = complex(x, -y) / resident.samples.scale
+        offsets = grabbed.pull.to(target, grabbed.offsets)
+        texts = grabbed.pull.texts(offsets)
+        changed: Node = top
+        for where, text in texts:
+            old = at(top, where)
+            assert isinstance(old, Scalar), "a value that places a point is a number"
+            changed = put(changed, where, replace(old, text=text))
+        place = grabbed.pull.at(grabbed.pull.rounded(offsets)) * resident.samples.scale
+        answer = {"values": _of_fields(changed, texts), "at": [place.real, -place.imag]}
+        samples = self._sampled(resident, changed, **answer) if np.isfinite(place) else b""
+        if samples:
+            grabbed.offsets = offsets
+            self._recentre(grabbed, changed)
+        return samples or {"values": []}
+
+    def grabbed(self, asked: Asked, machine: Machine, top: Node | None) -> PulledPoint | None:
+        """Return the point that a page pulls; None if no value that is not locked moves it."""
+        point, locked = str(asked["point"]), [asked_place(where) for where in asked.get("locked", ())]
+        key = asked["grab"], point, float(asked["angle"]), tuple(locked)
+        if self.pulled is not None and self.pulled[0] == key:
+            return self.pulled[1] if self.pulled[1].pull.values else None
+        linkage, values = self._known(top)
+        if linkage is None:
+            return None
+        pull = Pull.of(linkage, values, point, _coordinate(machine, float(asked["angle"])), locked)
+        self.pulled = key, PulledPoint(pull, np.zeros(len(pull.values)))
+        return self.pulled[1] if pull.values else None
+
+    def _recentre(self, grabbed: PulledPoint, changed: Node) -> None:
+        """Find anew how the linkage follows the values when they are far from where that was found."""
+        pull = grabbed.pull
+        steps = np.array([value.course.step for value in pull.values])
+        if (np.abs(grabbed.offsets) < FAR * steps).all():
+            return
+        linkage, values = placing_values(self._source(changed), self.path, [value.where for value in pull.values])
+        if linkage is None or len(values) != len(pull.values):
+            return
+        # The numbers are typed in whole steps; what was asked for lies between them.
+        moved = [value.typed.number + by for value, by in zip(pull.values, grabbed.offsets.tolist(), strict=True)]
+        grabbed.pull = replace(pull, linkage=linkage, values=values)
+        grabbed.offsets = np.array([to - value.typed.number for value, to in zip(values, moved, strict=True)])
+
+
+def _coordinate(machine: Machine, degrees: float) -> float:
+    """Return the driver's coordinate (rad, or m of a slide) at a cycle angle of the page (degrees)."""
+    angle = np.radians(degrees)
+    if machine.instants:
+        count = machine.cycle_angles.size
+        angle = machine.cycle_angles[round(float(degrees) / 360 * count) % count]
+    return float(machine.angles(np.asarray(angle)))
+
+
+def _of_fields(top: Node, texts: list[tuple[Where, str]]) -> list[tuple[Where, str]]:
+    """Return values by the places of the fields that show them: a list of values has one field."""
+    places = [where[:-1] if isinstance(at(top, where[:-1]), SequenceNode) else where for where, _ in texts]
+    return [(place, written_at(at(top, place))) for place in dict.fromkeys(places)]
+
+
+def asked_place(steps: Any) -> Where:
+    """Return a place that a request names; raise `TypeError` for anything else."""
+    if not isinstance(steps, list) or any(type(step) not in (str, int) for step in steps):
+        raise TypeError("a place is a list of keys and numbers")
+    return tuple(steps)

@@ -1,0 +1,195 @@
+"use strict";
+// Points of the machine are pulled with the pointer: the fields that place them follow, and are written when the point is
+// released.  Esc, a second finger and a lost pointer take back.  Which points there are, and their values, is asked of
+// the program.
+const pulls = (() => {
+  const panel = typeof panels === "undefined" ? undefined : panels[0];
+  if (!panel) return undefined;
+  const SLACK = 3, NEAR = 4, FINGER = 24;
+  const form = document.getElementById("fields"), words = JSON.parse(document.getElementById("live").textContent).words;
+  let grips = { points: {}, ground: {} }, asked = "", held = null, count = 0;
+
+  const svg = () => panel.root.querySelector('[data-stage="machine"] svg');
+  const at = (name) => extended.get(panel.root).spotAt(name) || grips.ground[name];
+  const toDrawing = ({ clientX, clientY }) => {
+    const { x, y } = new DOMPoint(clientX, clientY).matrixTransform(svg().getScreenCTM().inverse());
+    return [x, y];
+  };
+  const fieldOf = (where) => {
+    const place = [...where];
+    while (place.length && !fields.byPlace(place)) place.pop();
+    return fields.byPlace(place);
+  };
+  const element = (name, attributes) => {
+    const made = document.createElementNS("http://www.w3.org/2000/svg", name);
+    for (const [key, text] of Object.entries(attributes)) made.setAttribute(key, text);
+    return made;
+  };
+
+  // --- which points there are
+
+  // Fixed points have nothing else that a pointer meets.
+  const mark = () => {
+    const drawing = svg(), names = extended.get(panel.root).spots();
+    drawing.querySelectorAll(".fixed-grip").forEach((one) => one.remove());
+    drawing.querySelectorAll(".spot").forEach((spot) => {
+      const name = names[spot.dataset.spot];
+      spot.classList.toggle("grip", name in grips.points);
+    });
+    for (const [name, [cx, cy]] of Object.entries(grips.ground || {})) {
+      if (name in grips.points) drawing.append(element("circle", { class: "fixed-grip grip", cx, cy, r: NEAR }));
+    }
+    document.dispatchEvent(new CustomEvent("gripped", { detail: grips }));
+  };
+  const learn = async () => {
+    const of = document.body.dataset.moving;
+    if (asked === of) return;
+    asked = of;
+    const found = await (await fetch("grips.json", { cache: "no-store" })).json();
+    if (asked !== of) return;
+    grips = { points: {}, ground: {}, ...found };
+    mark();
+  };
+
+  // --- the ring about a point, and the values that follow it
+
+  const ring = (place) => {
+    let circle = svg().querySelector(".pull-ring");
+    if (!circle && place) svg().append(circle = element("circle", { class: "pull-ring", r: 3.4 }));
+    if (!place) { circle?.remove(); return; }
+    circle.setAttribute("cx", place[0]);
+    circle.setAttribute("cy", place[1]);
+  };
+  const say = (text) => {
+    let output = panel.root.querySelector(".pull-values");
+    if (!text) { output?.remove(); return; }
+    if (!output) {
+      output = Object.assign(document.createElement("output"), { className: "pull-values" });
+      output.setAttribute("aria-live", "off");
+      svg().parentElement.append(output);
+    }
+    output.textContent = text;
+  };
+  const named = (field) => field.closest(".field").querySelector("label").textContent.trim();
+
+  // The nearest point under a pointer; a finger covers more than a mouse.
+  const under = (event) => {
+    const [x, y] = toDrawing(event), { a } = svg().getScreenCTM();
+    const reach = event.pointerType === "touch" ? Math.max(NEAR, FINGER / a) : NEAR;
+    let best = null, least = reach;
+    for (const name of Object.keys(grips.points)) {
+      const place = at(name), off = place ? Math.hypot(x - place[0], y - place[1]) : Infinity;
+      if (off < least) { best = name; least = off; }
+    }
+    return best;
+  };
+
+  // --- a pull, from the pointer's press to its release
+
+  const press = (event) => {
+    if (held || event.button || !svg()?.contains(event.target) || event.target.closest(".handle")) return;
+    const name = under(event);
+    if (!name) return;
+    const playing = panel.playing();
+    if (playing) panel.pause();
+    const [x, y] = toDrawing(event), place = at(name);
+    held = { name, playing, id: event.pointerId, from: [event.clientX, event.clientY], off: [place[0] - x, place[1] - y], moved: false, fields: new Set() };
+    ring(place);
+  };
+  const begin = () => {
+    held.moved = true;
+    count += 1;
+    held.body = { grab: count, point: held.name, angle: panel.angle(), locked: typeof locks === "undefined" ? [] : locks.places() };
+    drafts.begin();
+    panel.root.setPointerCapture(held.id);
+    document.body.classList.add("pulling");
+    document.dispatchEvent(new CustomEvent("pull", { detail: held.body }));
+  };
+  const move = (event) => {
+    if (!held) {
+      const name = event.pointerType !== "touch" && svg()?.contains(event.target) && !panel.playing() ? under(event) : null;
+      if (svg()) ring(name && at(name));
+      return;
+    }
+    if (event.pointerId !== held.id) return;
+    if (!held.moved && Math.hypot(event.clientX - held.from[0], event.clientY - held.from[1]) < SLACK) return;
+    if (!held.moved) begin();
+    const [x, y] = toDrawing(event), mine = held;
+    fields.ask("pull.json", { ...mine.body, to: [x + mine.off[0], y + mine.off[1]] }, ({ values, at: place }) => {
+      if (held !== mine) return;
+      if (place) ring(place);
+      document.body.classList.toggle("pull-stopped", !place);
+      for (const [where, text] of values) {
+        const field = fieldOf(where);
+        if (!field || field.value === text) continue;
+        fields.type(field, text);
+        mine.fields.add(field);
+        field.closest(".field").classList.add("pulled");
+        const bar = field.closest(".field").querySelector("input[type=range]");
+        if (bar) bar.value = parseFloat(text.split("/").pop());
+      }
+      say([...mine.fields].map((field) => `${named(field)}: ${field.value}`).join(" · ") || (place ? "" : words.pull_none));
+    });
+  };
+  const end = () => {
+    const { moved, playing } = held;
+    ring(null);
+    say("");
+    form.querySelectorAll(".pulled").forEach((one) => one.classList.remove("pulled"));
+    document.body.classList.remove("pulling", "pull-stopped");
+    held = null;
+    if (moved) document.dispatchEvent(new CustomEvent("pull", { detail: null }));
+    if (!moved && playing) panel.play();
+  };
+  const cancel = () => {
+    const { fields: changed, moved } = held;
+    end();
+    if (moved) fields.takeBack([...changed].map((field) => field.dataset.w));
+  };
+  // What is clicked on leads to its field; what was pulled has led to it, and a finger that takes back presses nothing.
+  const noClick = () => {
+    const stop = (click) => { click.stopPropagation(); click.preventDefault(); };
+    addEventListener("click", stop, true);
+    setTimeout(() => removeEventListener("click", stop, true));
+  };
+  const release = (event) => {
+    if (!held || event.pointerId !== held.id) return;
+    const { fields: changed, moved, name } = held;
+    end();
+    if (!moved) {
+      if (event.pointerType === "touch") svg().querySelectorAll(".spot")[extended.get(panel.root).spots().indexOf(name)]?.dispatchEvent(new MouseEvent("click"));
+      return;
+    }
+    noClick();
+    fields.commitAll([...changed]);
+  };
+  // A finger that comes down beside a point pulls it, and does not move the page.
+  panel.root.addEventListener("touchstart", (event) => {
+    const [touch] = event.changedTouches;
+    if (svg()?.contains(touch.target) && under({ clientX: touch.clientX, clientY: touch.clientY, pointerType: "touch" })) event.preventDefault();
+  }, { passive: false });
+  panel.root.addEventListener("pointerdown", press);
+  panel.root.addEventListener("pointermove", move);
+  addEventListener("pointerdown", (event) => {
+    if (!held?.moved || event.pointerId === held.id) return;
+    cancel();
+    event.stopPropagation();
+    addEventListener("pointerup", ({ pointerId }) => { if (pointerId === event.pointerId) noClick(); }, { once: true });
+  }, true);
+  addEventListener("pointerup", release);
+  addEventListener("pointercancel", (event) => { if (held && event.pointerId === held.id) cancel(); });
+  addEventListener("keydown", (event) => {
+    if (event.key !== "Escape" || !held) return;
+    event.preventDefault();
+    event.stopPropagation();
+    cancel();
+  }, true);
+  document.addEventListener("showing", () => {
+    if (asked === document.body.dataset.moving) return;
+    if (held) cancel();
+    mark();
+    learn();
+  });
+  learn();
+  return { at, svg, toDrawing, element, held: () => held !== null };
+})();
