@@ -55,6 +55,7 @@ fuzz: $(VENV)/.developing
 	$(BIN)/python -W ignore -m tests.fuzz 10000 $(shell date +%Y%m%d)
 
 pictures: $(VENV)/.developing
+	$(BIN)/python docs/schemes.py
 	$(BIN)/python docs/pictures.py
 	$(BIN)/python docs/keys.py
 	$(BIN)/python docs/options.py

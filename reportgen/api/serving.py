@@ -39,7 +39,7 @@ def edit(path: Path, products: Products, language: Language | None = None, brows
 
 
 def choose(
-    begins: Callable[[str], Path], products: Products, language: Language | None = None, browser: bool = True
+    begins: Callable[[str, str], Path], products: Products, language: Language | None = None, browser: bool = True
 ) -> None:
-    """Show the kinds in a browser; `begins` creates a file of the chosen kind, which is then edited."""
+    """Show the kinds in a browser; `begins` creates a file of a kind or a copy of its sample, which is then edited."""
     served.choose(begins, opener(), language, products, browser=browser)

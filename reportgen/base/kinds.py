@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
 
-from reportgen.base.template_folders import MACHINES, REFERENCE, kind_file, told_in
+from reportgen.base.template_folders import MACHINES, REFERENCE, kind_file, templates, told_in
 from reportgen.base.units import Language
 from reportgen.base.words import load_words
 
@@ -24,7 +24,8 @@ def kinds() -> Mapping[str, str]:
     package = Path(__file__).parents[1]
     modules = sorted(package.glob("*/*.py"), key=lambda path: path.parent.name == "catalogue")
     named = {path.stem.replace("_", "-"): f"{package.name}.{path.parent.name}.{path.stem}" for path in modules}
-    return {kind: named[kind] for kind in sorted(named) if kind_file(REFERENCE, kind).is_file()}
+    root = templates()
+    return {kind: named[kind] for kind in sorted(named) if kind_file(REFERENCE, kind, root).is_file()}
 
 
 def title(name: str, language: Language) -> str:

@@ -49,6 +49,8 @@ from reportgen.machine import Linkage
 from reportgen.machine.analysis import Machine
 from reportgen.machine.load_laws import FULL_TURN, STEPS
 
+_KIND = re.compile(r"(?m)^kind: (\S+)$")
+
 
 def module(kind: str) -> ModuleType:
     """Return the module of a kind; raises `KeyError` for an unknown kind."""
@@ -231,10 +233,18 @@ def _doubts(assignment: Assignment) -> Iterator[Finding]:
 
 def examples(name: str) -> dict[str, Path]:
     """Return the examples of a kind that come with the program, by the stems of their files."""
-    heads = {path: path.read_text(encoding="utf-8") for path in sorted(samples().rglob("*.yaml"))}
-    of_kind = re.compile(rf"^kind: {name}$", re.MULTILINE)
-    # A spec, which has a salt, is one for a class.
-    return {path.stem: path for path, text in heads.items() if of_kind.search(text) and "\nsalt:" not in text}
+    return all_examples().get(name, {})
+
+
+def all_examples() -> dict[str, dict[str, Path]]:
+    """Return the examples of every kind, by the stems of their files."""
+    listed: dict[str, dict[str, Path]] = {}
+    for path in sorted(samples().rglob("*.yaml")):
+        text = path.read_text(encoding="utf-8")
+        # A spec, which has a salt, is one for a class.
+        if (of_kind := _KIND.search(text)) and "\nsalt:" not in text:
+            listed.setdefault(of_kind[1], {})[path.stem] = path
+    return listed
 
 
 def example(path: Path, language: Language | None = None) -> str:

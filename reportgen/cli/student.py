@@ -171,11 +171,11 @@ def edit(
     from reportgen.api import serving
     from reportgen.base.kinds import kinds
 
-    def begin(kind: str) -> Path:
-        """Return a new file of a kind: the one that was named, or the first free name."""
+    def begin(kind: str, sample: str) -> Path:
+        """Return a new file of a kind, or a copy of its sample: the file that was named, or the first free name."""
         names = (Path(f"{kind}{f'-{number}' if number else ''}.yaml") for number in itertools.count())
         file = output or next(name for name in names if not os.path.lexists(name))
-        _begin(kind, file, lang)
+        _begin(kind, file, lang, sample)
         return file
 
     def products(file: Path) -> dict[str, tuple[str, ...]]:
@@ -197,14 +197,15 @@ def edit(
         serving.edit(file, products, lang, browser=not no_open)
 
 
-def _begin(kind: str, file: Path, lang: Language | None) -> None:
-    """Write the sample file of a kind, never over an existing one."""
+def _begin(kind: str, file: Path, lang: Language | None, sample: str = "") -> None:
+    """Write the first file of a kind, or a copy of its sample, never over an existing one."""
     from reportgen import api
     from reportgen.base.words import spoken
 
     if os.path.lexists(file):
         refuse([Fault("already-there", Location(str(file)))], file, lang)
-    write(file, api.sample(kind, lang or spoken()))
+    language = lang or spoken()
+    write(file, api.example(api.examples(kind)[sample], language) if sample else api.sample(kind, language))
 
 
 def _products(file: Path, out: Path, lang: Language | None) -> dict[str, tuple[str, ...]]:

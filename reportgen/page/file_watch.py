@@ -108,16 +108,18 @@ def edited(
 
 
 def choose(
-    begins: Callable[[str], Path],
+    begins: Callable[[str, str], Path],
     opens: Opener,
     language: Language | None = None,
     products: Products = no_products,
     browser: bool = True,
     stream: TextIO = sys.stdout,
 ) -> None:
-    """Serve a page on which a kind is chosen, whose file is then edited; `begins` makes the file of a kind."""
-    chooser = Chooser(partial(opens, Path(), language), language, begins=begins, example=opens)
+    """Serve a page on which a kind is chosen, whose file is then edited; `begins` makes it of a kind and a sample."""
+    chooser = Chooser(partial(opens, Path(), language), language, begins=begins)
     with _served(chooser, 0) as server:
+        # Made while the browser starts.
+        threading.Thread(target=chooser.page, daemon=True).start()
         _announce(server, browser, stream)
         with suppress(KeyboardInterrupt):
             while not chooser.chosen.wait(HEARING):

@@ -73,6 +73,8 @@ class Live:
     styles: Sequence[str] = ("live.css",)
     form: str = ""
     """The elements of a form beside the animation; the page contains them unchanged."""
+    rules: str = ""
+    """Further rules of the style sheet, for what the form shows."""
 
 
 def report(document: tree.Document) -> WrittenReport:
@@ -123,7 +125,7 @@ def write(
         styles.insert(1, f":root{{--serif:{','.join(map(quoted, fonts))},serif;text-autospace:normal}}")
     rules = {"moving": rules_of(panels), "report": written.rules}
     # Rules that change while the page is read are the script's to put in.
-    styles += [] if live else rules.values()
+    styles += [live.rules] if live else rules.values()
     scripts = [read(name) for name in (*SCRIPTS, *moving_scripts)]
     if live and live.form:
         scripts = [EXTENDED, *(script.replace(GIVES, f"{minified(FEED)}{GIVES}") for script in scripts)]

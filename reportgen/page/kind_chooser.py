@@ -1,80 +1,82 @@
-"""The page on which a user chooses a kind, with a picture of each, before there is a file to edit."""
+"""The page on which a user chooses a kind or one of its samples, before there is a file to edit."""
 
 from __future__ import annotations
 
 import threading
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from functools import partial
 from pathlib import Path
 from typing import Any
 
 from reportgen import catalogue
-from reportgen.base.kinds import kinds, titles
-from reportgen.base.units import Language
-from reportgen.case import Case
-from reportgen.document import Figure
+from reportgen.base.errors import ReportgenError
+from reportgen.base.kinds import kinds
 from reportgen.page import html
 from reportgen.page.html import Live
+from reportgen.page.kind_cards import cards
 from reportgen.page.live_view import LiveSession, empty_document
-from reportgen.page.svg_elements import Painter, Pens
 
 READY = 60.0
 """Seconds that the page waits for the form of the file that it has begun."""
+WHOLE = ""
+"""Name of the sample if the file begins with everything to fill in."""
 
 
 @dataclass
 class Chooser(LiveSession):
     """The session of the page that offers the kinds.
 
-    `begins` makes the file of a kind, `example` opens the example whose figure is shown.
+    `begins` makes the file of a kind, as a copy of the sample with a name, or `WHOLE`.
     """
 
-    begins: Callable[[str], Path] = Path
-    example: Callable[[Path, Language], Case] | None = None
+    begins: Callable[[str, str], Path] = field(default=lambda kind, sample: Path())
     chosen: threading.Event = field(default_factory=threading.Event)
     ready: threading.Event = field(default_factory=threading.Event)
     path: Path = Path()
+    _choosing: threading.Lock = field(default_factory=threading.Lock)
 
     def page(self) -> str:
         now = self.revision
-        words = now.words["edit"]
-        form = html.template("choose.html.j2").render(words=words, kinds=titles(now.language))
-        live = Live({**now.words["live"], **words}, 0, 0, ("choose.js",), ("live.css", "choose.css"), form)
+        words, offered = now.words["edit"], cards(now.language)
+        groups = [(title, offered[group]) for group, title in words["groups"].items() if group in offered]
+        form = html.template("choose.html.j2").render(words=words, groups=groups)
+        schemes = [card.scheme for members in offered.values() for card in members if card.scheme is not None]
+        live = Live(
+            {**now.words["live"], **words},
+            moving=0,
+            report=0,
+            scripts=("choose.js",),
+            styles=("live.css", "choose.css"),
+            form=form,
+            rules="\n".join(scheme.rules for scheme in schemes),
+        )
         return html.write(empty_document(now), now.words["page"], (), live)
 
     @property
     def answers(self) -> Mapping[str, Callable[[], Mapping[str, Any]]]:
-        return {f"scheme-{kind}.json": partial(self.scheme, kind) for kind in kinds()}
+        return {}
 
     @property
     def takes(self) -> Mapping[str, Callable[[Mapping[str, Any]], Mapping[str, Any] | bytes]]:
         return {"begin.json": self.begin}
 
-    def scheme(self, kind: str) -> Mapping[str, Any]:
-        """Return the first figure of an example of a kind, as elements with the rules of their pens."""
-        files = catalogue.examples(kind).values()
-        if self.example is None or not files:
-            return {}
-        language = self.revision.language
-        file = min(files, key=lambda path: path.stat().st_size)
-        document = self.example(file, language).document()
-        figure = next((block for block in document.blocks if isinstance(block, Figure)), None)
-        if figure is None:
-            return {}
-        pens = Pens(f"{kind}-")
-        drawing = Painter(language, pens).scene(figure.scenes[0], titles(language)[kind])
-        return {"body": drawing, "rules": pens.rules()}
-
     def begin(self, asked: Mapping[str, Any]) -> Mapping[str, Any]:
         """Begin the file of a kind, wait until its form is ready, and return `begun`: False after `READY` seconds.
 
-        Raise `KeyError` for an unknown kind.
+        If the file cannot be written, `refused` says why, and another may be chosen. Raise `KeyError` for an unknown
+        kind or sample.
         """
-        kind = str(asked["kind"])
+        kind, sample = str(asked["kind"]), str(asked.get("sample", WHOLE))
         if kind not in kinds():
             raise KeyError(kind)
-        if not self.chosen.is_set():
-            self.path = self.begins(kind)
-            self.chosen.set()
+        if sample != WHOLE and sample not in catalogue.examples(kind):
+            raise KeyError(sample)
+        with self._choosing:
+            if not self.chosen.is_set():
+                try:
+                    self.path = self.begins(kind, sample)
+                except (ReportgenError, OSError) as error:
+                    reason = self._in_words(error)
+                    return {"begun": False, "refused": self.revision.words["edit"]["not_begun"].format(reason=reason)}
+                self.chosen.set()
         return {"begun": self.ready.wait(READY)}

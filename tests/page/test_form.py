@@ -353,26 +353,18 @@ def test_a_kind_is_chosen_and_its_file_begun(tmp_path: Path) -> None:
     """The page names every kind; a kind that is chosen has its file, the second choice is no other one."""
     begun: list[str] = []
 
-    def begins(kind: str) -> Path:
-        begun.append(kind)
+    def begins(kind: str, sample: str) -> Path:
+        begun.append(kind + sample)
         return tmp_path / f"{kind}.yaml"
 
     chooser = Chooser(lambda: open_case(tmp_path), "en", begins=begins)
     assert set(re.findall(r'data-kind="([^"]*)"', chooser.page())) == set(kinds())
-    assert {f"scheme-{kind}.json" for kind in kinds()} == chooser.answers.keys()
     chooser.ready.set()
     with pytest.raises(KeyError):
         chooser.begin({"kind": "../shaper"})
     for _ in range(2):
         assert chooser.begin({"kind": "shaper"}) == {"begun": True}
     assert (begun, chooser.path) == (["shaper"], tmp_path / "shaper.yaml")
-
-
-def test_a_kind_shows_its_scheme(tmp_path: Path) -> None:
-    chooser = Chooser(lambda: open_case(tmp_path), "en", example=open_case)
-    scheme = chooser.scheme("four-bar")
-    assert scheme["body"].startswith("<svg")
-    assert ".four-bar-" in scheme["rules"]
 
 
 # --- what is served -----------------------------------------------------------------------------------

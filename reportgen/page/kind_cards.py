@@ -1,0 +1,108 @@
+"""The cards on which a user chooses a kind: name, uses, scheme, samples, and the words by which it is found.
+
+The scheme of a kind is a file of the templates, `frames/schemes/KIND.svg`, which `docs/schemes.py` draws.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from reportgen import catalogue
+from reportgen.base.kinds import kinds
+from reportgen.base.template_folders import DEFAULT_LANGUAGE, MACHINES, REFERENCE, templates, told_in
+from reportgen.base.units import Language
+from reportgen.base.words import load_words
+
+REST = "others"
+"""Group of the kinds whose words name no group."""
+_SCHEME = re.compile(r'<svg [^>]*viewBox="([^"]*)">\s*<style>(.*?)</style>\s*(.*?)\s*</svg>', re.DOTALL)
+_REMARK = re.compile(r"# (.*(?:\n# .*)*)")
+_SENTENCE = re.compile(r".*?(?=[;.](?:\s|$)|$)")
+_NEEDS_FILES = re.compile(r"(?m)^\s*-?\s*file: ")
+
+
+@dataclass(frozen=True)
+class CardDrawing:
+    """The drawing of a kind: its box, the style sheet's rules of its pens, its elements."""
+
+    box: str
+    rules: str
+    elements: str
+
+
+@dataclass(frozen=True)
+class Sample:
+    """An example of a kind with the first sentence of its remark, which is in English."""
+
+    name: str
+    remark: str
+
+
+@dataclass(frozen=True)
+class Card:
+    """A kind as the page offers it; `terms` are the words by which the kind is found."""
+
+    kind: str
+    title: str
+    uses: str
+    scheme: CardDrawing | None
+    samples: tuple[Sample, ...]
+    terms: str
+
+
+def scheme_file(kind: str) -> Path:
+    """Return the file with the scheme of a kind, whether it exists or not."""
+    return templates() / "frames" / "schemes" / f"{kind}.svg"
+
+
+def scheme(kind: str) -> CardDrawing | None:
+    """Return the scheme of a kind; None if nobody has drawn it."""
+    file = scheme_file(kind)
+    parts = _SCHEME.match(file.read_text(encoding="utf-8")) if file.is_file() else None
+    return CardDrawing(*parts.groups()) if parts else None
+
+
+@cache
+def samples_of() -> Mapping[str, tuple[Sample, ...]]:
+    """Return the samples of each kind that need no other file, in the order of their names."""
+    return {
+        kind: tuple(
+            Sample(name, _first_sentence(text))
+            for name, path in examples.items()
+            if not _NEEDS_FILES.search(text := path.read_text(encoding="utf-8"))
+        )
+        for kind, examples in catalogue.all_examples().items()
+    }
+
+
+def _first_sentence(text: str) -> str:
+    """Return the first sentence of the remark at the top of a file; empty if there is none."""
+    remark = _REMARK.match(text)
+    sentence = _SENTENCE.match(remark[1].replace("\n# ", " ")) if remark else None
+    return sentence[0] if sentence else ""
+
+
+@cache
+def cards(language: Language) -> Mapping[str, tuple[Card, ...]]:
+    """Return the cards of all kinds by the keys of their groups, in a language."""
+    grouped: dict[str, list[Card]] = {}
+    for kind in kinds():
+        words = _words(kind, language)
+        card = Card(kind, words["title"], words.get("uses", ""), scheme(kind), samples_of().get(kind, ()), _terms(kind))
+        grouped.setdefault(words.get("group", REST), []).append(card)
+    return {group: tuple(members) for group, members in grouped.items()}
+
+
+def _words(kind: str, language: Language) -> Mapping[str, Any]:
+    return load_words((told_in(language, f"{MACHINES}/{kind}.md"),))
+
+
+def _terms(kind: str) -> str:
+    """Return the name and the uses of a kind in Vietnamese and in English."""
+    spoken = (_words(kind, language) for language in (DEFAULT_LANGUAGE, REFERENCE))
+    return " ".join(f"{words['title']} {words.get('uses', '')}" for words in spoken)
