@@ -17,11 +17,16 @@ import numpy as np
 from reportgen import catalogue
 from reportgen.assignment import Assignment
 from reportgen.assignment.common import Drawing
+from reportgen.base.topics import topics
+from reportgen.base.translation_coverage import is_topic_whole
 from reportgen.base.units import Language
 from reportgen.case import AskedFor, Case, DriverMotion, MachineAnalysis, Misconceptions
 from reportgen.case.answer_key import Span
+from reportgen.case.missing_chapters import MissingChapter, heading_of
 from reportgen.case.quantity_wording import positive_sense
 from reportgen.case.shafts import Shaft
+from reportgen.catalogue.optional_chapters import lacking
+from reportgen.catalogue.topic_sections import section_of
 from reportgen.derivation.topic_ledger import LEDGER
 from reportgen.document import Block, Document, Paragraph, Strong, Text
 from reportgen.formula import Symbol, ids, vocabulary
@@ -193,6 +198,18 @@ class MachineCase(MachineAnalysis):
         from reportgen.report.composing import compose
 
         return self.bounded(compose)
+
+    @property
+    def missing_chapters(self) -> Sequence[MissingChapter]:
+        machine, language = self.analysis.machine, self.assignment.language
+        listing = () if self.assignment.report.listing else (("listing", ((("report", "listing"),),)),)
+        rows = dict([*lacking(machine, self.assignment.parameters), *listing])
+        untold = {topic: section_of(topic).chapter for topic in topics() if not is_topic_whole(language, topic)}
+        return [
+            MissingChapter(heading_of(section, self.places), rows[section])
+            for section in self._report.parts(*rows)
+            if section not in untold.values()
+        ]
 
     def question(self, asked: AskedFor) -> tuple[Sequence[Block], Sequence[Block]]:
         from reportgen.report.template_names import names

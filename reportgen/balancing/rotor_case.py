@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -41,14 +41,11 @@ class RotorPage(PlacesPage[SolvedRotor]):
     )
     SHORT = frozenset({"rotor-compared"})
 
-    def has(self, section: str) -> bool:
-        given = self.case.given
-        asked = {
-            "rotor-moments-plan": self.case.two_planes,
-            "rotor-bearings": given.bearings is not None,
-            "rotor-grade": given.grade is not None,
-        }
-        return asked.get(section, True)
+    SWITCHES: ClassVar = {
+        "rotor-moments-plan": ("planes.B",),
+        "rotor-bearings": ("bearings",),
+        "rotor-grade": ("grade",),
+    }
 
     def names(self) -> dict[str, Any]:
         case, written = self.case, self.case.printed

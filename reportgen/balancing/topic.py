@@ -13,7 +13,7 @@ from reportgen.balancing import balance_ids
 from reportgen.balancing.counterweights import Balancing, CounterweightRule, crank_rods, four_bar
 from reportgen.base.errors import Finding
 from reportgen.catalogue.declared_loads import Link, listed
-from reportgen.catalogue.topic_sections import Opening, TopicData, TopicParameters, TopicSection
+from reportgen.catalogue.topic_sections import Opening, TopicData, TopicParameters, TopicSection, of_whole_turns
 from reportgen.machine import DRIVER, Crank
 from reportgen.machine.analysis import Machine
 
@@ -130,6 +130,8 @@ HOOKS = TopicSection(
     annotation=BalancingTask | None,
     order=40,
     chapter="balancing/chapter",
+    of_masses=True,
+    fits=of_whole_turns,
     enter=enter,
     faults=faults,
     not_in_short=frozenset(("balancing/hodograph",)),

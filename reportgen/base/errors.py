@@ -82,6 +82,17 @@ class Fault:
         return tuple(dict.fromkeys(self.arguments[name] for name in ("fixed", "other") if name in self.arguments))
 
     @property
+    def missing(self) -> tuple[Where, ...]:
+        """Places of the keys, each of which would remedy a missing key; () for any other fault."""
+        if self.code == "needs-besides":
+            return ((*self.where[:-1], self.arguments["other"]),)
+        if self.code != "missing-key":
+            return ()
+        keys = self.arguments["key"].split(" | ")
+        table = self.where[:-1] if self.where and self.where[-1] in keys else self.where
+        return tuple((*table, key) for key in keys)
+
+    @property
     def wordless(self) -> str:
         """Text used if the messages themselves cannot be read."""
         return f"{self.code} {self.arguments.get('reason', '')}".rstrip()
@@ -101,8 +112,8 @@ class Finding:
 class Problem:
     """One fault of an input file: `FILE:LINE:COLUMN: error[code]: message` and an optional hint.
 
-    A valid file may have warnings, and notes on how it was understood. `advice` is the label of a hint; `where` and
-    `remedies` are those of its fault.
+    A valid file may have warnings, and notes on how it was understood. `advice` is the label of a hint; `where`,
+    `remedies` and `missing` are those of its fault.
     """
 
     code: str
@@ -113,6 +124,7 @@ class Problem:
     advice: str = "hint"
     where: Where = field(default=(), compare=False)
     remedies: tuple[str, ...] = field(default=(), compare=False)
+    missing: tuple[Where, ...] = field(default=(), compare=False)
 
     def in_file(self, file: str) -> Problem:
         """Return the same problem, its file named as `file`."""

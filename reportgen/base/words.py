@@ -349,7 +349,7 @@ def as_problem(fault: Fault, language: Language | None, level: Level = "error") 
     advice = hint.format_map(arguments) if hint else None
     called = str(table["words"]["hint"])
     problem = Problem(fault.code, message, fault.location, advice, level, called)
-    return replace(problem, where=fault.where, remedies=fault.remedies)
+    return replace(problem, where=fault.where, remedies=fault.remedies, missing=fault.missing)
 
 
 def as_error(faults: Iterable[Fault], language: Language | None) -> AssignmentError:

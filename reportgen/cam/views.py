@@ -9,7 +9,7 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, ClassVar
 
 from reportgen.base.template_access import view
 from reportgen.base.units import MM
@@ -78,6 +78,7 @@ class CamPage(DesignPage[SolvedCam]):
         *("cam-profile", "cam-curvature", "cam-checks", "cam-conclusion"),
     )
     SHORT = frozenset({"cam-diagrams", "cam-curvature"})
+    SWITCHES: ClassVar = {"cam-limits": ("limits",)}
 
     @cached_property
     def judged(self) -> Judged:
@@ -85,8 +86,8 @@ class CamPage(DesignPage[SolvedCam]):
 
     def has(self, section: str) -> bool:
         """Return False for "cam-limits" and "cam-pressure" if the cam does not need them, True for other sections."""
-        cam, least = self.case.solution.cam, self.case.solution.designed.least
-        return {"cam-limits": least is not None or cam.flat, "cam-pressure": not cam.flat}.get(section, True)
+        flat = self.case.solution.cam.flat
+        return {"cam-limits": flat or super().has(section), "cam-pressure": not flat}.get(section, True)
 
     def asked(self, asked: AskedFor) -> dict[str, Any]:
         """Return the further name `asked` of the task: the positions that its questions ask for, as a list in words."""

@@ -31,6 +31,7 @@ from reportgen.formula.rounded_ledger import printed
 if TYPE_CHECKING:
     import numpy as np
 
+    from reportgen.case.missing_chapters import MissingChapter
     from reportgen.case.shafts import Shaft
     from reportgen.derivation import PlannedLedger
     from reportgen.derivation.load_entries import Polygon
@@ -213,6 +214,11 @@ class Case(ABC):
 
     def summary(self) -> Sequence[Block]:
         """Return its main results for the summary of a coursework; () if it has none."""
+        return ()
+
+    @property
+    def missing_chapters(self) -> Sequence[MissingChapter]:
+        """Chapters that its report would have if the file gave more; in order."""
         return ()
 
     @property

@@ -8,12 +8,13 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, reduce
 from typing import Any, ClassVar, Generic, TypeVar
 
 from reportgen.case import AskedFor, LoadedAssignment
 from reportgen.case.answer_key import Span
 from reportgen.case.finished_document import finished
+from reportgen.case.missing_chapters import MissingChapter, heading_of
 from reportgen.case.quantity_wording import positive_sense
 from reportgen.document import (
     Block,
@@ -87,6 +88,10 @@ class DesignCase(LoadedAssignment):
     def document(self) -> Document:
         return self.bounded(self.PAGE.report)
 
+    @property
+    def missing_chapters(self) -> Sequence[MissingChapter]:
+        return self.PAGE(self).missing
+
     def summary(self) -> Sequence[Block]:
         return self.bounded(self.PAGE.summary)
 
@@ -129,9 +134,29 @@ class DesignPage(ABC, Generic[Designed]):
     def full(self) -> bool:
         return self.case.assignment.report.extent == "full"
 
+    SWITCHES: ClassVar[Mapping[str, tuple[str, ...]]] = {}
+    """Paths of parameters, any of which brings a section; all other sections are always there."""
+
     def has(self, section: str) -> bool:
         """Return True if this design has a section."""
-        return True
+        return section not in self.SWITCHES or any(map(self._gives, self.SWITCHES[section]))
+
+    def _gives(self, path: str) -> bool:
+        """Return True if the file gives a parameter."""
+        return reduce(getattr, path.split("."), self.case.assignment.parameters) not in (None, ())
+
+    @property
+    def missing(self) -> list[MissingChapter]:
+        """The sections that the file could still bring."""
+        absent = (section for section in self.SWITCHES if not self.has(section))
+        return [
+            MissingChapter(
+                heading_of(section, self.case.places),
+                (tuple(("parameters", *path.split(".")) for path in self.SWITCHES[section]),),
+            )
+            for section in absent
+            if self.full or section not in self.SHORT
+        ]
 
     @abstractmethod
     def names(self) -> dict[str, Any]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
 from reportgen.assignment.common import Assignment
@@ -125,12 +126,12 @@ def driven(
     if words.load == "cycle" and not acts:
         words = replace(words, load="no-gas")
     beside = bool(rows) and (acts or words.load == "no-gas")
+    outlined = partial(outline, curves=not positions.at, further=beside, words=words)
     fields: dict[str, Any] = {
         "count": positions.number,
         "turns": turns,
-        "outline": outline(
-            bool(linkage.inertias), loads.act, topics.subjects, curves=not positions.at, further=beside, words=words
-        ),
+        "outline": outlined(bool(linkage.inertias), loads.act, topics.subjects),
+        "outlined": outlined,
     }
     if positions.at:
         own |= {"instants": True, "count": positions.number, "places": positions.instants(turns)}

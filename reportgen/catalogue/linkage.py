@@ -9,6 +9,7 @@ from __future__ import annotations
 import cmath
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -113,6 +114,7 @@ def machine(assignment: Assignment) -> Machine:
     q.set_out("lengths", *(ids.length(arm) for arm in arms(given)))
     q.set_out("loads", *acting)
     fixed_points = {name: q.coordinates(name) for name in linkage.ground}
+    outlined = partial(outline, curves=not positions.at, words=KindSections(driver="crank" if crank else "slide"))
     loops = ClosedLoops(linkage, turn, fixed_points, accelerates=float(np.sign(built.acceleration)))
     return replace(
         built,
@@ -123,13 +125,8 @@ def machine(assignment: Assignment) -> Machine:
         applied=loads.applied,
         torques=loads.torques,
         idle=loads.idle,
-        outline=outline(
-            bool(linkage.inertias),
-            loads.act,
-            topics.subjects,
-            curves=not positions.at,
-            words=KindSections(driver="crank" if crank else "slide"),
-        ),
+        outline=outlined(bool(linkage.inertias), loads.act, topics.subjects),
+        outlined=outlined,
         facts=facts(given, tuple(load.name for load in declared), acting),
     )
 

@@ -327,6 +327,7 @@ class Parameters(UnderGravity):
 
     acceleration_key: ClassVar[tuple[str, ...]] = ("parameters", "driver", "epsilon1")
     load_keys: ClassVar[tuple[str, ...]] = ("masses", "loads")
+    mass_keys: ClassVar[tuple[str, ...]] = ("masses",)
 
     @property
     def slides(self) -> bool:

@@ -88,7 +88,9 @@ class Driven(UnderGravity):
         of_masses, of_moments, of_shares = (tuple(sorted({DRIVER, *links})) for links in (masses, moments, shares))
         cls.links = {"G": of_masses, "m": of_masses, "J": of_moments, "s": of_shares}
         cls.required = tuple(required)
-        cls.load_keys = (*(f"{letter}{link}" for letter in "GmJ" for link in cls.links[letter]), *loads, "loads")
+        cls.mass_keys = tuple(f"{letter}{link}" for letter in "GmJ" for link in cls.links[letter])
+        cls.moment_keys = tuple(f"J{link}" for link in cls.links["J"])
+        cls.load_keys = (*cls.mass_keys, *loads, "loads")
         # A field of pydantic is an annotation with a default; here both are made without a class body.
         for letter, numbers in cls.links.items():
             for number in numbers:

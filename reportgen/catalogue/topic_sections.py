@@ -38,6 +38,10 @@ class TopicParameters(Part):
     """The place of the driver's acceleration in the file."""
     load_keys: ClassVar[tuple[str, ...]] = ()
     """The parameters that give a mass or a load."""
+    mass_keys: ClassVar[tuple[str, ...]] = ()
+    """Those of them that give a mass or a moment of inertia."""
+    moment_keys: ClassVar[tuple[str, ...]] = ()
+    """Those of them that give a moment of inertia alone."""
     topic_names: ClassVar[tuple[str, ...]] = ()
     """The topics whose sections have been added."""
 
@@ -110,6 +114,15 @@ def _no_warnings(machine: Machine) -> Iterator[Finding]:
     yield from ()
 
 
+def _always(machine: Machine) -> bool:
+    return True
+
+
+def of_whole_turns(machine: Machine) -> bool:
+    """Return True if a crank makes whole turns at a speed that is constant in the mean."""
+    return machine.cyclic and not machine.span
+
+
 def _no_checks(parameters: type[TopicParameters]) -> tuple[Check, ...]:
     return ()
 
@@ -133,6 +146,10 @@ class TopicSection:
     """Parts of the chapter that a report of single instants leaves out."""
     acts: bool = False
     """True if it loads the machine."""
+    of_masses: bool = False
+    """True if it needs a mass; a load alone is not enough."""
+    fits: Callable[[Machine], bool] = _always
+    """Returns False for a machine that cannot have the topic, whatever the file gives."""
     uses: tuple[SharedResult[object], ...] = ()
     """Results of other topics that it uses if a machine has them."""
     checks: Callable[[type[TopicParameters]], tuple[Check, ...]] = _no_checks

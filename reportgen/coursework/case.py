@@ -12,9 +12,10 @@ from typing import Any, Self
 
 import numpy as np
 
-from reportgen.assignment.common import AssignedPart, Assignment, TakenDatum
+from reportgen.assignment.common import PARTS, AssignedPart, Assignment, TakenDatum
 from reportgen.case import Case, CaseOfParts, DriverMotion, Misconceptions
 from reportgen.case.answer_key import Key, PartOfKey, Span, capitalised
+from reportgen.case.missing_chapters import MissingChapter
 from reportgen.case.quantity_wording import phrase
 from reportgen.case.result_entries import ResultEntries
 from reportgen.case.shafts import Shaft
@@ -221,6 +222,17 @@ class Coursework(CaseOfParts):
     def documents(self) -> Mapping[str, Document]:
         """The separate reports of the machine and the parts."""
         return {member.name: member.document for member in (self.first, *self.members)}
+
+    @property
+    def missing_chapters(self) -> Sequence[MissingChapter]:
+        """Those of the machine, and of the parts that are in the same file."""
+        of_parts = [
+            chapter.below((PARTS, index), member.title)
+            for index, member in enumerate(self.members)
+            if member.assigned.source == self.assignment.source
+            for chapter in member.case.missing_chapters
+        ]
+        return [*self.machine.missing_chapters, *of_parts]
 
     # --- papers
 

@@ -66,6 +66,7 @@ HOOKS = TopicSection(
     order=20,
     chapter="faces",
     place="groups",
+    fits=lambda machine: bool(carriers(machine.linkage)),
     enter=enter,
     faults=faults,
 )

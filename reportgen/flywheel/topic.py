@@ -16,6 +16,7 @@ from reportgen.catalogue.topic_sections import (
     TopicData,
     TopicParameters,
     TopicSection,
+    of_whole_turns,
     on_whole_turns,
     sections_of,
 )
@@ -64,6 +65,7 @@ HOOKS = TopicSection(
     uses=(LOST_TORQUE,),
     checks=checks,
     enter_speed=enter_speed,
+    fits=of_whole_turns,
     enter=enter,
     not_in_short=frozenset(("flywheel-work", "flywheel-speed", "flywheel-table", "comments/flywheel")),
 )

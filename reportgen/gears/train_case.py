@@ -6,7 +6,7 @@ import math
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -45,10 +45,7 @@ class TrainPage(DesignPage[SolvedTrain]):
     )
     SHORT = frozenset({"train-triangles"})
 
-    def has(self, section: str) -> bool:
-        given = self.case.given
-        rows, losses = bool(given.before or given.behind), given.efficiency is not None
-        return {"train-total": rows, "train-efficiency": losses}.get(section, True)
+    SWITCHES: ClassVar = {"train-total": ("before", "behind"), "train-efficiency": ("efficiency",)}
 
     def names(self) -> dict[str, Any]:
         case, given, choice = self.case, self.case.given, self.case.choice

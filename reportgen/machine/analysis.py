@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property, partial
 from string import ascii_lowercase
@@ -334,6 +334,8 @@ class Machine:
     """Sections that the task of the kind requires, so that a short report has them, too."""
     facts: Mapping[str, Any] = field(default_factory=dict)
     """Values besides quantities that the templates of its kind may name."""
+    outlined: Callable[[bool, bool, Collection[str]], tuple[str, ...]] | None = None
+    """Function that returns its outline with or without masses, with or without loads, with other topics."""
 
     def topic(self, name: str, of: type[Subject]) -> Subject | None:
         """Return the subject of a topic, None if the machine does not have the topic."""

@@ -26,7 +26,14 @@ from reportgen.assignment.fields import (
 )
 from reportgen.base.errors import Finding
 from reportgen.base.units import Given
-from reportgen.catalogue.topic_sections import Opening, TopicData, TopicParameters, TopicSection, on_whole_turns
+from reportgen.catalogue.topic_sections import (
+    Opening,
+    TopicData,
+    TopicParameters,
+    TopicSection,
+    of_whole_turns,
+    on_whole_turns,
+)
 from reportgen.formula import Symbol
 from reportgen.machine.analysis import Machine
 from reportgen.machine.shared_results import LOST_TORQUE, REGULATED_CYCLE
@@ -303,6 +310,7 @@ HOOKS = TopicSection(
     chapter="true-motion",
     uses=(LOST_TORQUE, REGULATED_CYCLE),
     checks=lambda parameters: (*on_whole_turns("motion")(parameters), check),
+    fits=of_whole_turns,
     enter=enter,
     failures=failures,
     warnings=warnings,

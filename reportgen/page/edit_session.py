@@ -11,7 +11,6 @@ import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from errno import errorcode
-from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -20,16 +19,14 @@ from reportgen.assignment import parts
 from reportgen.base.errors import Fault, Location, Problem, Where
 from reportgen.base.files import contents, renew_file
 from reportgen.base.kinds import kinds, titles
-from reportgen.base.template_folders import REFERENCE
 from reportgen.base.units import Language
-from reportgen.base.yaml_edit import EditError, exchanged, with_key, with_value, without
+from reportgen.base.yaml_edit import EditError, with_value
 from reportgen.base.yaml_source import (
     LARGEST,
     MOST_TOKENS,
     MappingNode,
     Node,
     Scalar,
-    SequenceNode,
     Source,
     decoded,
     encoding_of,
@@ -45,11 +42,11 @@ from reportgen.page.drag_samples import Resident
 from reportgen.page.form_fields import Form, written_at
 from reportgen.page.html import Live
 from reportgen.page.live_view import PART, LiveSession, empty_document
+from reportgen.page.missing_values import MissingPanel
 from reportgen.page.pulls import Asked, Pulls, asked_place
-from reportgen.page.typed_values import only_meaning, same_quantity, value_node
+from reportgen.page.text_changes import changed_text, part_kinds
+from reportgen.page.typed_values import only_meaning, same_quantity
 
-PART_KEYS = "kind", "parameters"
-"""Keys with which a new part begins."""
 MOST_STEPS = 500
 """Largest number of changes that can be undone."""
 REST = 0.3
@@ -57,7 +54,7 @@ REST = 0.3
 PATIENCE = 10.0
 """Longest delay (s) of work that can wait."""
 HERE = Location("")
-SCRIPTS = "live.js", "drafts.js", "redraw.js", "tables.js", "edit.js", "owned.js", "pull.js"
+SCRIPTS = "live.js", "drafts.js", "redraw.js", "tables.js", "edit.js", "owned.js", "pull.js", "missing.js"
 STYLES = "live.css", "edit.css", "pull.css"
 
 
@@ -110,6 +107,7 @@ class EditSession(LiveSession):
     """The machine as it moves, by the number of its revision."""
     _form: tuple[object, str, int] = None, "", 0
     """Input of the form written last, the form, and how many others there were before."""
+    _missing: MissingPanel = field(default_factory=MissingPanel)
     _forming: threading.Lock = field(default_factory=threading.Lock)
     _drawn: float = 0.0
     """When a value was drawn last (s)."""
@@ -213,7 +211,7 @@ class EditSession(LiveSession):
         source = Source(str(self.path), faults=(text,)) if isinstance(text, Fault) else read_text(text, str(self.path))
         given = catalogue.with_taken(source, self.path, self.whole)
         problems, pages = catalogue.problems_of(given, self.path, language), self._pages(source)
-        inputs = given, tuple(problems), language, undo, redo, tuple(pages.items())
+        inputs = given, tuple(problems), language, undo, redo, tuple(pages.items()), self.revision.case
         # The page that made a change requests the form again when it receives the news.
         if self._form[0] == inputs:
             return self._form[1]
@@ -241,6 +239,7 @@ class EditSession(LiveSession):
             folder=self.path.parent,
             whole=self.whole and self.whole.name,
             kind_titles=titles(language),
+            missing=self._missing.rows(self.revision.case, problems, form, source),
         )
         self._form = inputs, written, self._form[2] + 1
         return written
@@ -343,7 +342,7 @@ class EditSession(LiveSession):
         if operation == "instead" and not asked.get("value"):
             asked = {**asked, "value": same_quantity(text, where, str(asked["key"]))}
         try:
-            changed = _changed(text, operation, where, asked)
+            changed = changed_text(text, operation, where, asked)
             while operation == "set" and (meant := self._meant(changed, where)):
                 changed = with_value(text, where, Scalar(meant, HERE))
         except EditError as error:
@@ -439,47 +438,6 @@ class EditSession(LiveSession):
             renew_file(self.path, content)
         except OSError as error:
             raise RefusedChangeError("unwritten", error) from error
-
-
-# --- operations on the text -----------------------------------------------------------------------------
-
-
-def _changed(text: str, operation: str, where: Where, asked: Asked) -> str:
-    """Return the text with a change; raise `EditError`, `KeyError` or `ValueError`."""
-    match operation:
-        case "set":
-            return with_value(text, where, value_node(text, where, str(asked["value"]), bool(asked.get("list"))))
-        case "remove":
-            return without(text, where)
-        case "instead":
-            return with_key(text, where, str(asked["key"]), Scalar(str(asked["value"]), HERE, null=not asked["value"]))
-        case "add":
-            listed = at(read_text(text).top, where)
-            count = len(listed.items) if isinstance(listed, SequenceNode) else 0
-            if listed is None or (isinstance(listed, Scalar) and listed.null):
-                return with_value(text, where, SequenceNode((_item(asked),), HERE))
-            return with_value(text, (*where, count), _item(asked))
-        case "move":
-            return exchanged(text, where, int(asked["first"]))
-    raise ValueError(operation)
-
-
-def _item(asked: Asked) -> Node:
-    """Return a new item of a list: a part with the first data of its kind, else an empty table."""
-    if "kind" not in asked:
-        return MappingNode((), HERE)
-    kind = str(asked["kind"])
-    if kind not in part_kinds():
-        raise ValueError(kind)
-    top = read_own(catalogue.sample(kind, REFERENCE)).top
-    assert isinstance(top, MappingNode), "a file to begin with is in order"
-    return replace(top, entries=tuple(entry for entry in top.entries if entry[0].text in PART_KEYS))
-
-
-@cache
-def part_kinds() -> tuple[str, ...]:
-    """Return the kinds that can be a part of a coursework."""
-    return tuple(kind for kind in kinds() if catalogue.kind(kind).part)
 
 
 def _by_place(problems: list[Problem], source: Source) -> dict[Where, list[Problem]]:

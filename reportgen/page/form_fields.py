@@ -69,6 +69,8 @@ class FieldGroup:
     there: bool = True
     of_list: bool = False
     can_grow: bool = False
+    names: str = ""
+    """Form of the values in a table whose keys are names that the user chooses: "table" or "value"."""
     required: bool = False
     file: str = ""
     """Separate file of a part."""
@@ -252,7 +254,11 @@ class Form:
                 made.append(FieldGroup(entry.where, key.text, entries=entry.entries, of_list=True))
             elif isinstance(entry, FieldLine):
                 made.append(_called(entry, key.text))
-        return FieldGroup(where, words.label, words.remark, tuple(made), there=isinstance(node, MappingNode))
+        form = (
+            "table" if any("properties" in one for name in names for one in alternatives(name, self.root)) else "value"
+        )
+        there = isinstance(node, MappingNode)
+        return FieldGroup(where, words.label, words.remark, tuple(made), there=there, names=form)
 
     def _items(self, where: Where, path: str, lists: Sequence[Schema], node: Node | None) -> FieldGroup:
         words = self._words(path)
