@@ -1,0 +1,68 @@
+"""Start the server of a class, and make a new class: what the command `serve` calls."""
+
+from __future__ import annotations
+
+import logging
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import uvicorn
+
+from reportgen.base.units import Language
+from reportgen.server.app import application
+from reportgen.server.class_folder import ClassFolder
+from reportgen.server.links import DESK
+from reportgen.server.site import Site
+
+
+def make_class(path: Path, spec: Path, roster: Path, policy: Path | None, language: Language | None) -> list[str]:
+    """Make the folder of a new class and draw its variants; return remarks."""
+    from reportgen.server import work
+
+    folder = ClassFolder(path)
+    folder.begin(spec, roster, policy, language)
+    return work.draw(folder)
+
+
+def open_site(path: Path, base_url: str) -> Site:
+    """Return a class with everybody of its roster known."""
+    site = Site(ClassFolder(path), base_url.rstrip("/"))
+    known = site.store.everybody()
+    if DESK not in known:
+        site.links.add(DESK, "instructor", DESK, "")
+    for student in site.folder.students(site.language):
+        row, name = known.get(student.folder), student.card.get("name", "")
+        if row is None or row.name != name:
+            site.links.add(student.folder, "student", student.id, name, row.drawn if row else "1")
+    return site
+
+
+def links(site: Site) -> Iterator[tuple[str, str, str, str]]:
+    """Yield id, name, personal link and code of everybody, the instructor first."""
+    people = site.store.people()
+    for folder in sorted(people, key=lambda folder: (folder != DESK, folder)):
+        row = people[folder]
+        yield row.id, row.name, f"{site.base_url}/in/{site.links.token(folder)}", site.links.code(folder)
+
+
+def run(site: Site, host: str, port: int) -> None:
+    """Serve a class until the program is interrupted."""
+    handler = logging.StreamHandler(sys.stderr)
+    handler.setFormatter(logging.Formatter("%(asctime)s %(levelname)s %(message)s"))
+    logging.getLogger("reportgen.server").addHandler(handler)
+    logging.getLogger("reportgen.server").setLevel(logging.INFO)
+    config = uvicorn.Config(
+        application(site),
+        host=host,
+        port=port,
+        access_log=False,
+        server_header=False,
+        log_level="warning",
+        timeout_keep_alive=20,
+        limit_concurrency=1000,
+        h11_max_incomplete_event_size=32_768,
+        proxy_headers=True,
+        forwarded_allow_ips="127.0.0.1",
+    )
+    uvicorn.Server(config).run()

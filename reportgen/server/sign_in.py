@@ -1,0 +1,95 @@
+"""Sign-in by a personal link, or by id and code."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from sqlalchemy import Row
+from starlette.concurrency import run_in_threadpool
+from starlette.requests import Request
+from starlette.responses import RedirectResponse, Response
+
+from reportgen.base.template_folders import languages
+from reportgen.server import pages
+from reportgen.server.guards import Refusal
+from reportgen.server.links import SESSION
+from reportgen.server.site import COOKIE, LANGUAGE, Site
+
+HOME = {"student": "/me", "instructor": "/desk"}
+LONGEST = 200
+"""Longest id, code or link that is looked at."""
+
+
+async def start(request: Request) -> Response:
+    """The page to sign in on, or that of somebody who has."""
+    site: Site = request.app.state.site
+    cookie = request.cookies.get(COOKIE, "")
+    person = await run_in_threadpool(site.links.of_cookie, cookie) if cookie else None
+    return RedirectResponse(HOME[person.role], 303) if person else site.page(request, "sign_in", None, failed=False)
+
+
+async def by_link(request: Request) -> Response:
+    site: Site = request.app.state.site
+    site.attempts.count(_address(request))
+    token = request.path_params["token"]
+    row = await run_in_threadpool(site.links.of_token, token) if len(token) <= LONGEST else None
+    return await _signed_in(request, site, row)
+
+
+async def by_code(request: Request) -> Response:
+    site: Site = request.app.state.site
+    site.attempts.count(_address(request))
+    form = await request.form(max_files=0, max_fields=5)
+    id, code = form.get("id"), form.get("code")
+    if not isinstance(id, str) or not isinstance(code, str) or len(id) > LONGEST or len(code) > LONGEST:
+        raise Refusal("malformed")
+    site.guesses.count(id.casefold())
+    return await _signed_in(request, site, await run_in_threadpool(site.links.of_code, id, code))
+
+
+async def _signed_in(request: Request, site: Site, row: Row[Any] | None) -> Response:
+    if row is None:
+        return site.page(request, "sign_in", None, 403, failed=True)
+    cookie = await run_in_threadpool(site.links.sign_in, row)
+    answer = RedirectResponse(HOME[row.role], 303)
+    age = int(SESSION.total_seconds())
+    answer.set_cookie(COOKIE, cookie, age, path="/", secure=site.secure, httponly=True, samesite="strict")
+    return answer
+
+
+async def sign_out(request: Request) -> Response:
+    site: Site = request.app.state.site
+    form = await request.form(max_files=0, max_fields=5)
+    cookie = request.cookies.get(COOKIE, "")
+    person = await run_in_threadpool(site.links.of_cookie, cookie) if cookie else None
+    if person is not None:
+        site.check_token(request, person, form)
+        await run_in_threadpool(site.links.sign_out, person)
+    answer = RedirectResponse("/", 303)
+    answer.delete_cookie(COOKIE, path="/")
+    return answer
+
+
+async def language(request: Request) -> Response:
+    form = await request.form(max_files=0, max_fields=5)
+    chosen = form.get("language")
+    if chosen not in languages():
+        raise Refusal("malformed")
+    back = form.get("back")
+    # Only a path of this server: no address leads elsewhere.
+    place = back if isinstance(back, str) and back.startswith("/") and not back.startswith(("//", "/\\")) else "/"
+    answer = RedirectResponse(place, 303)
+    answer.set_cookie(LANGUAGE, str(chosen), 400 * 86400, path="/", httponly=True, samesite="strict")
+    return answer
+
+
+async def static(request: Request) -> Response:
+    content = pages.static(request.path_params["name"])
+    if content is None:
+        raise Refusal("unknown")
+    headers = {"Cache-Control": "public, max-age=31536000, immutable"} if request.url.query else {}
+    return Response(content[0], media_type=content[1], headers=headers)
+
+
+def _address(request: Request) -> str:
+    return request.client.host if request.client else "-"
