@@ -30,7 +30,10 @@ async def table(request: Request, site: Site, person: Person) -> Response:
 async def hand_in(request: Request, site: Site, person: Person) -> Response:
     """The page of one student's hand-in."""
     student = _student(request, site)
-    about = {"id": student.id, "name": student.name, "folder": student.folder}
+    table = await run_in_threadpool(desk_work.table, site)
+    about = next((row for row in table["students"] if row["folder"] == student.folder), None)
+    if about is None:
+        raise Refusal("unknown")
     return site.page(request, "hand_in", person, student=about, sheet=await _sheet(site, student.folder))
 
 

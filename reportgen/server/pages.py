@@ -61,10 +61,14 @@ def _folder() -> Path:
 def _environment() -> Environment:
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
-    return Environment(
+    from reportgen.server.page_filters import add_filters
+
+    environment = Environment(
         loader=FileSystemLoader(_folder()),
         autoescape=True,
         trim_blocks=True,
         lstrip_blocks=True,
         undefined=StrictUndefined,
     )
+    add_filters(environment)
+    return environment
