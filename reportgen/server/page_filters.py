@@ -45,6 +45,3 @@ def _symbol(text: str) -> tuple[str, str, str]:
     rest, _, above = text.partition("^")
     letter, _, below = rest.partition("_")
     return letter, below, above
-
-
-
