@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Annotated
@@ -15,11 +16,11 @@ NEEDED = ("starlette", "uvicorn", "multipart", "itsdangerous", "sqlalchemy", "al
 
 
 def serve(
-    folder: Annotated[Path, typer.Argument(metavar="CLASS", help="Folder of the class.")],
+    folder: Annotated[Path, typer.Argument(metavar="CLASS", help="Folder of the class.", show_default=False)],
     roster: Annotated[
-        Path | None, typer.Argument(metavar="[ROSTER]", help="The class list of a new class.", show_default=False)
+        Path | None, typer.Argument(metavar="ROSTER", help="The class list of a new class.", show_default=False)
     ] = None,
-    init: Annotated[bool, typer.Option("--init", help="Make a new class, and print its links.")] = False,
+    init: Annotated[bool, typer.Option("--init", help="Make a new class, and print the instructor's link.")] = False,
     spec: Annotated[
         Path | None,
         typer.Option("--spec", metavar="SPEC", help="Assignment file with choices of a new class.", show_default=False),
@@ -44,19 +45,23 @@ def serve(
     if any(find_spec(name) is None for name in NEEDED):
         complain(say("serve_lacks", lang))
         raise typer.Exit(SYSTEM)
-    from reportgen.server import serving
+    from reportgen.server import backups, serving
+    from reportgen.server.class_folder import ClassFolder
 
     address = base_url or f"http://{host}:{port}"
     with ending(lang):
+        if backup is not None:
+            print(backups.back_up(ClassFolder(folder), backup))
+            return
+        if forget:
+            typer.confirm(say("serve_forget", lang, folder=folder), abort=True)
+            print(*backups.forget(ClassFolder(folder)), sep="\n")
+            return
         if init:
             if spec is None or roster is None:
                 raise typer.BadParameter(say("serve_init", lang))
             remarks = serving.make_class(folder, spec, roster, policy, lang)
-            print(*remarks, sep="\n", end="\n" * bool(remarks))
-            site = serving.open_site(folder, address)
-            for id, name, link, code in serving.links(site):
-                print(id, name, link, code, sep="\t")
+            print(*remarks, sep="\n", end="\n" * bool(remarks), file=sys.stderr)
+            print(serving.desk_link(folder, address))
             return
-        site = serving.open_site(folder, address)
-        print(next(iter(serving.links(site)))[2], flush=True)
-        serving.run(site, host, port)
+        serving.run(folder, address, host, port, lambda link: print(link, flush=True))

@@ -3,25 +3,30 @@
 Pages are HTML from `templates/frames/server/NAME.html.j2`, everything else is JSON or a file. Each template knows
 `language`, `languages` (pairs of code and name), `words` (`server` in `words.yaml`; `language_name` is the language's
 own name, `errors` has a sentence for each code of `guards.STATUS`), `static("name.css")` (an address), `csrf` and
-`person` (`role`, `id`, `name`, `folder`; None on `sign_in`). No page has inline scripts or styles. Each POST needs the token that the
-page shows as `csrf`, as the header `X-CSRF-Token` or as the form field `csrf`. Times are ISO 8601 with the offset of
+`person` (`role`, `id`, `name`, `folder`; None on `sign_in`, `enter`, `refused`). No page has inline scripts or styles.
+Each POST needs the token that the page shows as `csrf`, as the header `X-CSRF-Token` or as the form field `csrf`.
+Times are ISO 8601 with the offset of
 the machine (`2026-11-20T23:59:00+07:00`). `PLACE` is `{"id": "v.B", "position": 2}`; the position of a single value
 is 0. A refusal is `{"error": CODE, "message": TEXT}` with the status: 400 malformed, 401 signed out, 403 forbidden or
-without token, 404 unknown, 409 closed or used up, 413 too large, 429 too often, 500 failed, 507 no room on the disk.
+without token, 404 unknown, 409 closed, used up, redrawn, 413 too large, 429 too often, 500 failed, 507 no room on the
+disk; who opens a page sees `sign_in` (401) or the page `refused` with `code` and `message`.
 Only 413, 429, 500, 507 and a lost connection are worth sending again, with the same `client`: a text of 8 to 64
 letters, digits, - and _ that the browser invents for each cell, upload, check and hand-in; it is stored once.
 
 Sign-in
   GET  /                     page `sign_in`; signed in: 303 to /me or /desk
-  GET  /in/{token}           a personal link: sets the cookie, 303 to /me or /desk; else page `sign_in` with `failed`
-  POST /in                   form `id`, `code`: the same (this POST needs no `csrf`)
+  GET  /in/{token}           a personal link: sets the cookie, page `enter` with `home` (/me or /desk), which leads
+                             there by <meta http-equiv="refresh">, since no browser sends a strict cookie along a
+                             redirect that began on another site; a wrong link: page `sign_in` with `failed`
+  POST /in                   form `id`, `code`: sets the cookie, 303 to /me or /desk (this POST needs no `csrf`)
   POST /out                  form `csrf`: ends the session, 303 to /
   POST /language             form `language`, `back` (path of the page): sets the cookie, 303 to `back`
   GET  /static/{name}        style sheets and scripts
 
 A student
   GET  /me                   page `student`: `student`, `sheet`, `state` (as the two below), `tasks` (names of files)
-  GET  /me/sheet             {"sections": [{"name": "velocity", "title": TEXT, "part": TEXT, "rows": [ROW]}],
+  GET  /me/sheet             {"variant": "1", "sections": [{"name": "velocity", "title": TEXT, "part": TEXT,
+                             "rows": [ROW]}],
                               "positions": [{"position": 1, "label": "1"}]}
                              ROW: {"id", "symbol": TEXT, "what": TEXT, "unit": TEXT,
                                    "cells": [{"position", "label", "given": TEXT or null, "open": true}]}
@@ -30,8 +35,10 @@ A student
                               "filled", "asked", "handed_in": TIME or null, "changed": true (cells are newer),
                               "uploads": [RECEIPT], "uploads_left": K or null, "checks_left": K or null,
                               "checks_from": TIME or null, "hints": true, "self_report": false, "queue": K}
-  POST /me/cells             {"cells": [{"client", "id", "position", "text"}]}, at most 200 → {"saved": [{"client",
-                             "id", "position", "at", "revision"}], "refused": [{"client", "error", "message"}]}
+  POST /me/cells             {"variant", "cells": [{"client", "id", "position", "text"}]} (at most 200) → {"saved":
+                             [{"client", "id", "position", "at", "revision"}],
+                             "refused": [{"client", "error", "message"}]}
+                             409 redrawn: the sheet is of an earlier variant, load the page again
   POST /me/check             {"client", "id", "position"} or {"client", "section"} or {"client"} for all →
                              {"cells": [{"id", "position", "verdict": "right" | "wrong" | "unread" | "empty",
                               "message": TEXT}], "lines": [TEXT], "checks_left"}
@@ -83,11 +90,12 @@ from contextlib import asynccontextmanager
 
 from starlette.applications import Starlette
 from starlette.requests import Request
+from starlette.responses import Response
 from starlette.routing import Route
-from starlette.types import Scope
 
-from reportgen.server import downloads, handed, instructor, pages, sign_in, student
+from reportgen.server import downloads, handed, instructor, sign_in, student
 from reportgen.server.guards import Guard, Refusal
+from reportgen.server.site import Route as Reached
 from reportgen.server.site import Site, by
 
 STUDENT = "/desk/students/{folder}"
@@ -96,8 +104,8 @@ STUDENT = "/desk/students/{folder}"
 def routes() -> list[Route]:
     """Return all routes."""
 
-    def of(role: str, path: str, route: object, method: str = "GET") -> Route:
-        return Route(path, by(role, route), methods=[method])  # type: ignore[arg-type]
+    def of(role: str, path: str, route: Reached, method: str = "GET", form: bool = False) -> Route:
+        return Route(path, by(role, route, form), methods=[method])
 
     return [
         Route("/", sign_in.start),
@@ -111,7 +119,7 @@ def routes() -> list[Route]:
         of("student", "/me/state", student.state),
         of("student", "/me/cells", student.cells, "POST"),
         of("student", "/me/check", student.check, "POST"),
-        of("student", "/me/uploads", student.upload, "POST"),
+        of("student", "/me/uploads", student.upload, "POST", form=True),
         of("student", "/me/uploads/{number:int}", student.one_upload),
         of("student", "/me/uploads/{number:int}/file", student.uploaded_file),
         of("student", "/me/hand-in", student.hand_in, "POST"),
@@ -134,7 +142,7 @@ def routes() -> list[Route]:
         of("instructor", "/desk/mark", instructor.mark, "POST"),
         of("instructor", "/desk/release", instructor.release, "POST"),
         of("instructor", "/desk/backup", downloads.backup, "POST"),
-        of("instructor", "/desk/gradebook", downloads.gradebook, "POST"),
+        of("instructor", "/desk/gradebook", downloads.gradebook, "POST", form=True),
         of("instructor", "/desk/notices", downloads.notices),
         of("instructor", "/desk/download/{name}", downloads.download),
     ]
@@ -151,13 +159,10 @@ def application(site: Site) -> Starlette:
         site.queue.close()
         site.database.close()
 
-    async def missing(request: Request, error: Exception) -> None:
+    async def missing(request: Request, error: Exception) -> Response:
         raise Refusal("unknown")
-
-    def explain(scope: Scope, code: str) -> str:
-        return pages.explained(site.language_of(Request(scope)), code)
 
     app = Starlette(routes=routes(), lifespan=living, exception_handlers={404: missing, 405: missing})
     app.state.site = site
-    app.add_middleware(Guard, hosts=site.hosts, explain=explain)
+    app.add_middleware(Guard, hosts=site.hosts, explain=site.explain)
     return app

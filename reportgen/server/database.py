@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import datetime
 import os
-import sqlite3
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -108,13 +107,6 @@ class Database:
                     statement.on_conflict_do_update(index_elements=["name"], set_={"value": row["value"]})
                 )
             self.clock.stored(now)
-
-    def copy(self, target: Path) -> None:
-        """Write a copy of the database as it is now, while it is in use."""
-        with sqlite3.connect(self.path) as source, sqlite3.connect(target) as copied:
-            source.backup(copied)
-        source.close()
-        copied.close()
 
     def close(self) -> None:
         self.engine.dispose()

@@ -34,7 +34,7 @@ def table(site: Site) -> dict[str, Any]:
         if person is None:
             continue
         own, mark = figures.get(student.folder, {}), marks.get(student.folder, {})
-        sheet = site.folder.sheet(student.folder)
+        sheet = site.sheet(student.folder)
         rows.append(
             {
                 "folder": student.folder,
@@ -144,11 +144,8 @@ def add_correction(site: Site, row: Mapping[str, str]) -> None:
 async def mark_class(site: Site) -> None:
     """Mark the class as `grade` does, and store the marks."""
     try:
+        await handed.lay_out_all(site)
         people = await run_in_threadpool(site.store.people)
-        for folder, row in people.items():
-            if row.role == "student":
-                await handed.lay_out(site, folder)
-        await run_in_threadpool(handed.put_handed_roster, site)
         made = await site.queue.run(work_calls.grade, site.folder, kind="class")
         folders = {folder.casefold(): folder for folder in people}
         marks = {

@@ -1,6 +1,6 @@
 """What stands before every route: the host, sizes, times and rates of requests, headers of answers, errors in one line.
 
-A refusal is an `Refusal`; nothing of an unexpected error reaches the browser but its being one.
+A refusal is a `Refusal`; nothing of an unexpected error reaches the browser but its being one.
 """
 
 from __future__ import annotations
@@ -17,7 +17,8 @@ from typing import Any
 
 from sqlalchemy.exc import OperationalError
 from starlette.datastructures import Headers, MutableHeaders
-from starlette.responses import JSONResponse, Response
+from starlette.requests import Request
+from starlette.responses import Response
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 LOGGER = logging.getLogger("reportgen.server")
@@ -45,6 +46,7 @@ STATUS = {
     "forbidden": 403,
     "unknown": 404,
     "closed": 409,
+    "redrawn": 409,
     "used_up": 409,
     "too_early": 409,
     "not_released": 409,
@@ -72,16 +74,20 @@ class Rates:
     seconds: float
     _times: OrderedDict[str, deque[float]] = field(default_factory=OrderedDict)
 
-    def count(self, who: str) -> None:
-        """Count once more; raise `Refusal` for too often."""
+    def check(self, who: str) -> None:
+        """Raise `Refusal` if somebody was counted too often."""
+        times = self._times.get(who, deque())
         now = time.monotonic()
-        times = self._times.setdefault(who, deque())
-        self._times.move_to_end(who)
         while times and times[0] < now - self.seconds:
             times.popleft()
         if len(times) >= self.most:
             raise Refusal("too_often")
-        times.append(now)
+
+    def count(self, who: str) -> None:
+        """Count once more; raise `Refusal` for too often."""
+        self.check(who)
+        self._times.setdefault(who, deque()).append(time.monotonic())
+        self._times.move_to_end(who)
         while len(self._times) > 10_000:
             self._times.popitem(last=False)
 
@@ -89,7 +95,7 @@ class Rates:
 class Guard:
     """The middleware around all routes."""
 
-    def __init__(self, app: ASGIApp, hosts: frozenset[str], explain: Callable[[Scope, str], str]) -> None:
+    def __init__(self, app: ASGIApp, hosts: frozenset[str], explain: Callable[[Request, Refusal], Response]) -> None:
         self.app, self.hosts, self.explain = app, hosts, explain
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
@@ -127,8 +133,7 @@ class Guard:
         return Refusal("failed")
 
     def _answer(self, scope: Scope, refusal: Refusal) -> Response:
-        message = self.explain(scope, refusal.code)
-        answer = JSONResponse({"error": refusal.code, "message": message, **refusal.more}, refusal.status)
+        answer = self.explain(Request(scope), refusal)
         if refusal.status in (413, 400):
             # What was not read would be taken for the next request.
             answer.headers["Connection"] = "close"
@@ -187,7 +192,7 @@ def _named(scope: Scope) -> str:
     return f"{scope['method']} {path or '-'}"
 
 
-async def json_of(request: Any) -> dict[str, Any]:
+async def json_of(request: Request) -> dict[str, Any]:
     """Return the object that a request sends."""
     if request.headers.get("content-type", "").partition(";")[0].strip() != "application/json":
         raise Refusal("malformed")

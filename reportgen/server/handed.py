@@ -94,6 +94,15 @@ async def lay_out(site: Site, folder: str) -> None:
         await run_in_threadpool(_put, site, folder, content, when)
 
 
+async def lay_out_all(site: Site) -> None:
+    """Write the files of all students, and the times of their hand-ins."""
+    people = await run_in_threadpool(site.store.people)
+    for folder, row in people.items():
+        if row.role == "student":
+            await lay_out(site, folder)
+    await run_in_threadpool(put_handed_roster, site)
+
+
 def counted_cells(store: Store, drawn: str, folder: str) -> tuple[dict[tuple[str, int], str], str]:
     """Return the cells that count, with their time: those handed in, or without any hand-in those saved."""
     handin = store.handin(folder, drawn)

@@ -15,7 +15,7 @@ from reportgen.server import desk_work, handed, work_calls
 from reportgen.server.guards import Refusal, json_of
 from reportgen.server.links import DESK, Person
 from reportgen.server.site import Site
-from reportgen.server.student import receipt, sent_upload, sheet_of
+from reportgen.server.student import sent_upload, sheet_of
 
 
 async def page(request: Request, site: Site, person: Person) -> Response:
@@ -83,7 +83,7 @@ async def add(request: Request, site: Site, person: Person) -> Response:
             entry = await run_in_threadpool(site.folder.add, card, site.language)
             await site.queue.run(work_calls.draw, site.folder, kind="class")
         except ReportgenError as error:
-            raise _with_lines(error) from None
+            raise with_lines(error) from None
         await run_in_threadpool(site.links.add, entry.folder, "student", entry.id, entry.card.get("name", ""), "1")
     await _note(site, "add", entry.folder)
     rows = (await run_in_threadpool(desk_work.table, site))["students"]
@@ -118,7 +118,7 @@ async def redraw(request: Request, site: Site, person: Person) -> Response:
         try:
             await site.queue.run(work_calls.draw, site.folder, [student.id], kind="class")
         except ReportgenError as error:
-            raise _with_lines(error) from None
+            raise with_lines(error) from None
         drawn = str(int(student.drawn or "0") + 1)
         await run_in_threadpool(site.store.change_person, student.folder, {"drawn": drawn})
     await handed.lay_out(site, student.folder)
@@ -145,7 +145,7 @@ async def drop(request: Request, site: Site, person: Person) -> Response:
         try:
             await site.queue.run(work_calls.draw, site.folder, [], [student.id], kind="class")
         except ReportgenError as error:
-            raise _with_lines(error) from None
+            raise with_lines(error) from None
         await run_in_threadpool(site.store.change_person, student.folder, {"dropped": True})
     await _note(site, "drop", student.folder)
     return JSONResponse({"folder": student.folder})
@@ -156,9 +156,8 @@ async def link(request: Request, site: Site, person: Person) -> Response:
     if content.get("renew") is True:
         await run_in_threadpool(site.links.renew, student.folder)
         await _note(site, "renew", student.folder)
-    token = await run_in_threadpool(site.links.token, student.folder)
     code = await run_in_threadpool(site.links.code, student.folder)
-    return JSONResponse({"link": f"{site.base_url}/in/{token}", "code": code})
+    return JSONResponse({"link": await run_in_threadpool(site.link, student.folder), "code": code})
 
 
 async def correct(request: Request, site: Site, person: Person) -> Response:
@@ -191,11 +190,7 @@ async def _note(site: Site, what: str, folder: str, detail: str = "") -> None:
     await run_in_threadpool(site.store.note, DESK, what, folder, detail)
 
 
-def _with_lines(error: ReportgenError) -> Refusal:
+def with_lines(error: ReportgenError) -> Refusal:
+    """Return the refusal of something that the class folder does not allow, with its problems."""
     problems = error.problems if isinstance(error, AssignmentError) else [error]
     return Refusal("malformed", lines=[getattr(problem, "message", str(problem)) for problem in problems])
-
-
-def receipts(site: Site, folder: str) -> list[dict[str, Any]]:
-    """Return the receipts of a student's uploads."""
-    return [receipt(site, row) for row in site.store.uploads(folder)]

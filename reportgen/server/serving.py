@@ -4,15 +4,19 @@ from __future__ import annotations
 
 import logging
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable
 from pathlib import Path
 
 import uvicorn
 
+from reportgen.base.errors import Fault, Location
+from reportgen.base.files import held
 from reportgen.base.units import Language
+from reportgen.base.words import as_error
 from reportgen.server.app import application
 from reportgen.server.class_folder import ClassFolder
 from reportgen.server.links import DESK
+from reportgen.server.protocol import TimedProtocol
 from reportgen.server.site import Site
 
 
@@ -33,21 +37,39 @@ def open_site(path: Path, base_url: str) -> Site:
         site.links.add(DESK, "instructor", DESK, "")
     for student in site.folder.students(site.language):
         row, name = known.get(student.folder), student.card.get("name", "")
-        if row is None or row.name != name:
+        if row is None or (row.name != name and not row.dropped):
             site.links.add(student.folder, "student", student.id, name, row.drawn if row else "1")
     return site
 
 
-def links(site: Site) -> Iterator[tuple[str, str, str, str]]:
-    """Yield id, name, personal link and code of everybody, the instructor first."""
-    people = site.store.people()
-    for folder in sorted(people, key=lambda folder: (folder != DESK, folder)):
-        row = people[folder]
-        yield row.id, row.name, f"{site.base_url}/in/{site.links.token(folder)}", site.links.code(folder)
+def desk_link(path: Path, base_url: str) -> str:
+    """Return the instructor's link of a class."""
+    site = open_site(path, base_url)
+    try:
+        return site.link(DESK)
+    finally:
+        site.database.close()
 
 
-def run(site: Site, host: str, port: int) -> None:
-    """Serve a class until the program is interrupted."""
+def run(path: Path, base_url: str, host: str, port: int, tell: Callable[[str], None]) -> None:
+    """Serve a class until the program is interrupted; `tell` gets the instructor's link.
+
+    Raises `AssignmentError` if the class is served already, and for faults of its files.
+    """
+    folder = ClassFolder(path)
+    if not folder.spec.exists():
+        raise as_error([Fault("serve-no-class", Location(str(path)))], None)
+    folder.server.mkdir(parents=True, exist_ok=True, mode=0o700)
+    try:
+        with held(folder.server):
+            site = open_site(path, base_url)
+            tell(site.link(DESK))
+            _serve(site, host, port)
+    except BlockingIOError:
+        raise as_error([Fault("serve-running", Location(str(path)))], None) from None
+
+
+def _serve(site: Site, host: str, port: int) -> None:
     handler = logging.StreamHandler(sys.stderr)
     handler.setFormatter(logging.Formatter("%(asctime)s %(levelname)s %(message)s"))
     logging.getLogger("reportgen.server").addHandler(handler)
@@ -59,6 +81,7 @@ def run(site: Site, host: str, port: int) -> None:
         access_log=False,
         server_header=False,
         log_level="warning",
+        http=TimedProtocol,
         timeout_keep_alive=20,
         limit_concurrency=1000,
         h11_max_incomplete_event_size=32_768,

@@ -10,6 +10,7 @@ from starlette.requests import Request
 from starlette.responses import RedirectResponse, Response
 
 from reportgen.base.template_folders import languages
+from reportgen.classes.roster import comparable
 from reportgen.server import pages
 from reportgen.server.guards import Refusal
 from reportgen.server.links import SESSION
@@ -30,28 +31,36 @@ async def start(request: Request) -> Response:
 
 async def by_link(request: Request) -> Response:
     site: Site = request.app.state.site
-    site.attempts.count(_address(request))
     token = request.path_params["token"]
     row = await run_in_threadpool(site.links.of_token, token) if len(token) <= LONGEST else None
-    return await _signed_in(request, site, row)
+    if row is None:
+        return _wrong(request, site)
+    # The browser sends the cookie only if the next page is opened from here; a redirect still comes from elsewhere.
+    return await _signed_in(site, row, site.page(request, "enter", None, home=HOME[row.role]))
 
 
 async def by_code(request: Request) -> Response:
     site: Site = request.app.state.site
-    site.attempts.count(_address(request))
     form = await request.form(max_files=0, max_fields=5)
     id, code = form.get("id"), form.get("code")
     if not isinstance(id, str) or not isinstance(code, str) or len(id) > LONGEST or len(code) > LONGEST:
         raise Refusal("malformed")
-    site.guesses.count(id.casefold())
-    return await _signed_in(request, site, await run_in_threadpool(site.links.of_code, id, code))
-
-
-async def _signed_in(request: Request, site: Site, row: Row[Any] | None) -> Response:
+    who = comparable(id.strip())
+    site.guesses.check(who)
+    row = await run_in_threadpool(site.links.of_code, id, code)
     if row is None:
-        return site.page(request, "sign_in", None, 403, failed=True)
+        site.guesses.count(who)
+        return _wrong(request, site)
+    return await _signed_in(site, row, RedirectResponse(HOME[row.role], 303))
+
+
+def _wrong(request: Request, site: Site) -> Response:
+    site.attempts.count(request.client.host if request.client else "-")
+    return site.page(request, "sign_in", None, 403, failed=True)
+
+
+async def _signed_in(site: Site, row: Row[Any], answer: Response) -> Response:
     cookie = await run_in_threadpool(site.links.sign_in, row)
-    answer = RedirectResponse(HOME[row.role], 303)
     age = int(SESSION.total_seconds())
     answer.set_cookie(COOKIE, cookie, age, path="/", secure=site.secure, httponly=True, samesite="strict")
     return answer
@@ -89,7 +98,3 @@ async def static(request: Request) -> Response:
         raise Refusal("unknown")
     headers = {"Cache-Control": "public, max-age=31536000, immutable"} if request.url.query else {}
     return Response(content[0], media_type=content[1], headers=headers)
-
-
-def _address(request: Request) -> str:
-    return request.client.host if request.client else "-"

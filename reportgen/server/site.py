@@ -15,8 +15,9 @@ from urllib.parse import urlsplit
 from starlette.concurrency import run_in_threadpool
 from starlette.datastructures import FormData
 from starlette.requests import Request
-from starlette.responses import HTMLResponse, Response
+from starlette.responses import HTMLResponse, JSONResponse, Response
 
+from reportgen.base.errors import ReportgenError
 from reportgen.base.template_folders import languages
 from reportgen.base.units import Language
 from reportgen.marking.marking_policy import Browser
@@ -47,10 +48,10 @@ class Site:
         self.store = Store(self.database)
         self.links = Links(self.database, self.folder.server)
         self.queue = MarkingQueue(self.language)
-        self.attempts = Rates(10, 60)
-        """Attempts to sign in, for each address."""
+        self.attempts = Rates(60, 60)
+        """Links and codes that were wrong, for each address; a whole class may have one."""
         self.guesses = Rates(20, 3600)
-        """Attempts to sign in with one id."""
+        """Wrong codes for one id."""
         self.requests = Rates(600, 60)
         """Messages of one session."""
         self.files = Rates(30, 60)
@@ -59,6 +60,8 @@ class Site:
         self.laying, self.changing = asyncio.Lock(), asyncio.Lock()
         """Held while the files of a student are written, and while variants or the roster change."""
         self.log = LOGGER
+        self._policy: tuple[tuple[int, int], Browser] | None = None
+        self._sheets: dict[str, tuple[tuple[int, ...], dict[str, Any]]] = {}
 
     @cached_property
     def language(self) -> Language:
@@ -80,7 +83,35 @@ class Site:
 
     @property
     def browser(self) -> Browser:
-        return self.folder.policy().browser
+        """What students may do; the policy is read again when its file has changed."""
+        file = self.folder.policy_file
+        if file is None:
+            return Browser()
+        stat = file.stat()
+        changed = stat.st_mtime_ns, stat.st_size
+        if self._policy is None or self._policy[0] != changed:
+            try:
+                self._policy = changed, self.folder.policy().browser
+            except ReportgenError as error:
+                # A mistake in the file must not stop the class: the rules stay as they were.
+                self.log.error("%s", error)
+                self._policy = changed, self._policy[1] if self._policy else Browser()
+        return self._policy[1]
+
+    def sheet(self, folder: str) -> dict[str, Any] | None:
+        """Return the answer sheet of a student; None if it is not made yet."""
+        try:
+            files = (self.folder.assignment(folder), self.folder.sheets / f"{folder}.json", self.folder.policy_file)
+            changed = tuple(file.stat().st_mtime_ns for file in files if file is not None)
+        except OSError:
+            return None
+        known = self._sheets.get(folder)
+        if known is None or known[0] != changed:
+            made = self.folder.sheet(folder)
+            if made is None:
+                return None
+            self._sheets[folder] = known = changed, made
+        return known[1]
 
     def window(self, person: Person) -> Window:
         """Return until when a student may work: the own deadline, or that of the class."""
@@ -88,6 +119,10 @@ class Site:
             return Window(datetime.datetime.fromisoformat(person.closes))
         closes = self.browser.closes
         return Window(None if closes is None else closes.astimezone())
+
+    def link(self, folder: str) -> str:
+        """Return a personal link."""
+        return f"{self.base_url}/in/{self.links.token(folder)}"
 
     def drawn(self, folder: str) -> str:
         """Return the name of a student's present variant."""
@@ -97,6 +132,17 @@ class Site:
     @property
     def released(self) -> bool:
         return self.store.setting("released") == "yes"
+
+    def explain(self, request: Request, refusal: Refusal) -> Response:
+        """Return the answer to a refused request: a page for somebody who opens one, else JSON."""
+        language = self.language_of(request)
+        message = pages.explained(language, refusal.code)
+        wants_page = request.method == "GET" and "text/html" in request.headers.get("accept", "")
+        if wants_page and refusal.code == "signed_out":
+            return self.page(request, "sign_in", None, refusal.status, failed=False)
+        if wants_page:
+            return self.page(request, "refused", None, refusal.status, code=refusal.code, message=message)
+        return JSONResponse({"error": refusal.code, "message": message, **refusal.more}, refusal.status)
 
     # --- who asks
 
@@ -134,14 +180,16 @@ class Site:
 Route = Callable[[Request, Site, Person], Awaitable[Response]]
 
 
-def by(role: str, route: Route) -> Callable[[Request], Awaitable[Response]]:
-    """Return a route that only people of a role reach; a POST must carry the token of the session."""
+def by(role: str, route: Route, form: bool = False) -> Callable[[Request], Awaitable[Response]]:
+    """Return a route that only people of a role reach; a POST must carry the token of the session.
+
+    A route that takes a `form` looks for the token in it.
+    """
 
     async def reached(request: Request) -> Response:
         site: Site = request.app.state.site
         person = await site.person(request, role)
-        multipart = request.headers.get("content-type", "").startswith("multipart/form-data")
-        if request.method == "POST" and not multipart:
+        if request.method == "POST" and not form:
             site.check_token(request, person)
         return await route(request, site, person)
 

@@ -7,6 +7,7 @@ import json
 from collections.abc import Sequence
 from functools import partial
 from typing import Any
+from urllib.parse import quote
 
 from sqlalchemy import Row
 from starlette.concurrency import run_in_threadpool
@@ -14,9 +15,9 @@ from starlette.datastructures import UploadFile
 from starlette.requests import Request
 from starlette.responses import JSONResponse, Response
 
-from reportgen.server import handed
+from reportgen.server import handed, pages, work_calls
 from reportgen.server.class_folder import safe_name
-from reportgen.server.guards import LARGE, Refusal
+from reportgen.server.guards import LARGE, Refusal, json_of
 from reportgen.server.links import Person
 from reportgen.server.site import Site, client_of
 from reportgen.server.store import ClosedError, Entry, UsedUpError
@@ -24,6 +25,8 @@ from reportgen.server.store import ClosedError, Entry, UsedUpError
 MOST_CELLS = 200
 LONGEST = 60
 """Characters of a cell."""
+MOST_UPLOADS = 100
+"""Uploads of a student where the policy does not say."""
 TASKS = ("task.pdf", "answers.xlsx", "assignment.yaml", "machine.html")
 TYPES = {
     ".pdf": "application/pdf",
@@ -58,10 +61,9 @@ async def sheet(request: Request, site: Site, person: Person) -> Response:
 
 async def sheet_of(site: Site, folder: str) -> dict[str, Any]:
     """Return the answer sheet of a student, made now if it is not there."""
-    from reportgen.server import work_calls
-
-    made = await run_in_threadpool(site.folder.sheet, folder)
-    return made or await site.queue.run(work_calls.make_sheet, site.folder, folder)
+    known = await run_in_threadpool(site.sheet, folder)
+    made: dict[str, Any] = known if known else await site.queue.run(work_calls.make_sheet, site.folder, folder)
+    return {"variant": await run_in_threadpool(site.drawn, folder), **made}
 
 
 async def state(request: Request, site: Site, person: Person) -> Response:
@@ -116,9 +118,8 @@ def receipt(site: Site, row: Row[Any]) -> dict[str, Any]:
 
 
 async def cells(request: Request, site: Site, person: Person) -> Response:
-    from reportgen.server.guards import json_of
-
     content = await json_of(request)
+    _same_variant(content, person)
     sent = content.get("cells")
     if not isinstance(sent, list) or not 0 < len(sent) <= MOST_CELLS:
         raise Refusal("malformed")
@@ -139,7 +140,15 @@ async def cells(request: Request, site: Site, person: Person) -> Response:
         }
         for one in saved
     ]
-    return JSONResponse({"saved": made, "refused": refused})
+    language = site.language_of(request)
+    explained = [{**one, "message": pages.explained(language, one["error"])} for one in refused]
+    return JSONResponse({"saved": made, "refused": explained})
+
+
+def _same_variant(content: dict[str, Any], person: Person) -> None:
+    """Raise `Refusal` if a page still shows the sheet of an earlier variant."""
+    if content.get("variant", person.drawn) != person.drawn:
+        raise Refusal("redrawn")
 
 
 def open_places(sheet: dict[str, Any]) -> frozenset[tuple[str, int]]:
@@ -164,10 +173,8 @@ def _entry(one: Any, places: frozenset[tuple[str, int]], refused: list[dict[str,
 
 
 async def check(request: Request, site: Site, person: Person) -> Response:
-    from reportgen.server import work_calls
-    from reportgen.server.guards import json_of
-
     content = await json_of(request)
+    _same_variant(content, person)
     client, policy = client_of(content), site.browser
     asked = {name: content[name] for name in ("id", "position", "section") if content.get(name) is not None}
     if not all(isinstance(value, int if name == "position" else str) for name, value in asked.items()):
@@ -215,9 +222,12 @@ def _stored(site: Site, person: Person, client: str, name: str, content: bytes) 
     sha256 = hashlib.sha256(content).hexdigest()
     try:
         site.window(person).check(site.database.clock.now())
+        most = MOST_UPLOADS if site.browser.uploads is None else site.browser.uploads
+        if len(site.store.uploads(person.folder)) > most:
+            raise UsedUpError
         site.folder.add_upload(content, sha256)
         about = {"drawn": person.drawn, "name": name, "size": len(content), "sha256": sha256}
-        return site.store.add_upload(person.folder, client, about, site.window(person), site.browser.uploads)
+        return site.store.add_upload(person.folder, client, about, site.window(person), most)
     except ClosedError:
         raise Refusal("closed") from None
     except UsedUpError:
@@ -236,7 +246,10 @@ async def uploaded_file(request: Request, site: Site, person: Person) -> Respons
 def sent_upload(site: Site, row: Row[Any]) -> Response:
     """Return an uploaded file, to be saved: a browser never shows it as a page."""
     content = (site.folder.uploads / row.sha256).read_bytes()
-    return download(content, row.name, "application/octet-stream")
+    answer = sent(content, row.name, attached=True)
+    # Whatever its name says, nothing in a browser opens it.
+    answer.headers["Content-Type"] = "application/octet-stream"
+    return answer
 
 
 async def _own_upload(request: Request, site: Site, person: Person) -> Row[Any]:
@@ -248,9 +261,9 @@ async def _own_upload(request: Request, site: Site, person: Person) -> Row[Any]:
 
 
 async def hand_in(request: Request, site: Site, person: Person) -> Response:
-    from reportgen.server.guards import json_of
-
-    client = client_of(await json_of(request))
+    content = await json_of(request)
+    _same_variant(content, person)
+    client = client_of(content)
     sheet = await sheet_of(site, person.folder)
     try:
         row = await run_in_threadpool(handed.hand_in, site, person, client)
@@ -264,8 +277,6 @@ async def hand_in(request: Request, site: Site, person: Person) -> Response:
 
 
 async def own_file(request: Request, site: Site, person: Person) -> Response:
-    from reportgen.server import work_calls
-
     name = request.path_params["name"]
     if name not in TASKS and not (name == "report.pdf" and site.browser.self_report):
         raise Refusal("unknown")
@@ -275,20 +286,18 @@ async def own_file(request: Request, site: Site, person: Person) -> Response:
         content = await site.queue.run(work_calls.filled_sheet, site.folder, person.folder, present)
     else:
         content = await site.queue.run(work_calls.make_file, site.folder, person.folder, name, kind="files")
-    return download(content, name)
+    return sent(content, name)
 
 
-def download(content: bytes, name: str, kind: str = "") -> Response:
+def sent(content: bytes, name: str, attached: bool = False) -> Response:
     """Return a file; all but PDF and the moving machine are saved, not shown."""
-    from urllib.parse import quote
-
     suffix = "." + name.rpartition(".")[2].lower()
-    shown = not kind and suffix in (".pdf", ".html")
+    shown = not attached and suffix in (".pdf", ".html")
     how = "inline" if shown else "attachment"
     headers = {"Content-Disposition": f"{how}; filename*=UTF-8''{quote(name, safe='')}"}
     if suffix == ".html" and shown:
         headers |= {"Content-Security-Policy": MOVING_POLICY, "X-Frame-Options": "SAMEORIGIN"}
-    return Response(content, media_type=kind or TYPES.get(suffix, "application/octet-stream"), headers=headers)
+    return Response(content, media_type=TYPES.get(suffix, "application/octet-stream"), headers=headers)
 
 
 async def result(request: Request, site: Site, person: Person) -> Response:
@@ -308,4 +317,4 @@ async def result_file(request: Request, site: Site, person: Person) -> Response:
     mark = (await run_in_threadpool(site.store.marks)).get(person.folder)
     if mark is None or name not in mark.get("files", []):
         raise Refusal("unknown")
-    return download((site.folder.marked / person.folder / name).read_bytes(), name)
+    return sent((site.folder.marked / person.folder / name).read_bytes(), name)

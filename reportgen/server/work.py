@@ -6,6 +6,7 @@ The process of the pages loads none of this, so that saving a cell never waits f
 from __future__ import annotations
 
 import io
+import tempfile
 from collections import OrderedDict
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -15,6 +16,7 @@ from typing import Any
 
 from reportgen import api
 from reportgen.assignment.student_copy import handed_out
+from reportgen.base import units
 from reportgen.base.errors import AssignmentError, Problem, ReportgenError
 from reportgen.base.files import contents, put_file
 from reportgen.base.template_folders import search_path
@@ -24,10 +26,10 @@ from reportgen.cases import open_case
 from reportgen.classes import class_marking, class_outputs
 from reportgen.classes.batch_run import Order, run_batch
 from reportgen.classes.corrections import read_corrections
+from reportgen.classes.gradebooks import read_gradebook
 from reportgen.classes.one_pdf import bind_products
 from reportgen.classes.platforms import Handed
 from reportgen.classes.reading_sheets import read_own, read_sheets
-from reportgen.classes.roster import RosterEntry
 from reportgen.classes.variants import make_variants
 from reportgen.document import plain
 from reportgen.handin import file_kinds, submission
@@ -49,7 +51,7 @@ from reportgen.marking.marking_data import Marking, Verdict
 from reportgen.marking.marking_policy import Policy
 from reportgen.marking.marking_scheme import MarkingScheme, marking_scheme
 from reportgen.marking.summary_comment import comment
-from reportgen.marking.toleranced_key import shown_number, symbol_text, words_of
+from reportgen.marking.toleranced_key import symbol_text, words_of
 from reportgen.server.class_folder import ClassFolder
 from reportgen.server.moving_machine import moving_machine
 from reportgen.workbook import Book, Entry, read, write_xlsx
@@ -95,9 +97,10 @@ def opened(folder: ClassFolder, student: str) -> Opened:
 def make_sheet(folder: ClassFolder, student: str) -> dict[str, Any]:
     """Write the answer sheet of a student for the browser, without any answer, and return it."""
     key = opened(folder, student).key
-    sections = []
+    sections: list[dict[str, Any]] = []
     for title, part in key.pages:
-        titles, cells = words_of(part)["parts"], open_cells(part)
+        titles: Mapping[str, Any] = words_of(part)["parts"]
+        cells = open_cells(part)
         for chapter, rows in groupby(sheet_rows(part), lambda row: row.part):
             made = [_row(part, row, cells.get(row.id, frozenset())) for row in rows]
             sections.append({"name": str(chapter), "title": str(titles[chapter]), "part": title, "rows": made})
@@ -120,7 +123,8 @@ def _row(key: Key, row: KeyRow, cells: frozenset[int]) -> dict[str, Any]:
     for k in places:
         given = given_entry(row, k)
         if k in cells or given is not None:
-            text = None if given is None else str(given.value)
+            value = None if given is None else given.value
+            text = units.write(value, row.decimals, key.language) if isinstance(value, float) else value
             made.append({"position": k, "label": key.label(k, row.id), "given": text, "open": k in cells})
     what = plain(row.described, key.language)
     return {"id": row.id, "symbol": symbol_text(row, key), "what": what, "unit": row.unit, "cells": made}
@@ -207,11 +211,11 @@ def read_upload(folder: ClassFolder, student: str, file: Path) -> tuple[str, int
         own = submission([reading], language)
         remarks = [problem.message for problem in (*own.unread.values(), *own.notes)]
         return ("kept" if own.is_unrecognised else "read"), len(own.values), remarks
-    (_, pages), *_ = read_sheets([handed], language)
-    if isinstance(pages, list):
-        return "refused", 0, [problem.message for problem in pages]
+    (_, sheets), *_ = read_sheets([handed], language)
+    if isinstance(sheets, list):
+        return "refused", 0, [problem.message for problem in sheets]
     try:
-        sheet = read_submission(file, key, language, pages)
+        sheet = read_submission(file, key, language, sheets)
     except AssignmentError as error:
         return "refused", 0, [problem.message for problem in error.problems]
     remarks = [f"{problem.location}: {problem.message}" for problem in (*sheet.problems.values(), *sheet.notes)]
@@ -247,7 +251,7 @@ def fix(folder: ClassFolder, student: str, text: str) -> list[str]:
     return []
 
 
-def make_products(folder: ClassFolder, product: str, out: Path, students: Sequence[RosterEntry]) -> list[str]:
+def make_products(folder: ClassFolder, product: str, out: Path) -> list[str]:
     """Make a product of the class, as `batch` does, and bind it into one PDF; return what went wrong."""
     policy = folder.policy()
     order = Order(
@@ -306,6 +310,10 @@ def _marked(marking: Marking, policy: Policy, names: Mapping[str, str]) -> dict[
         "out_of": round(marking.out_of, 6),
         "lines": list(comment(marking, policy)),
         "warnings": [str(names[warning]) for warning in marking.warnings],
+        "notices": [
+            {"kind": str(names[flag.kind]), "classmate": flag.classmate, "count": len(flag.places)}
+            for flag in marking.flags
+        ],
         "cells": [
             [cell.id, cell.position, str(cell.verdict), round(cell.points, 9), round(cell.worth, 9)]
             for cell in marking.cells
@@ -317,8 +325,30 @@ def key_values(folder: ClassFolder, student: str) -> list[tuple[str, int, str]]:
     """Return the right values of a student's cells, for the instructor."""
     key = opened(folder, student).key
     return [
-        (row.id, k, shown_number(row, float(row.printed[row.at(k)])).printed)
+        (row.id, k, units.write(float(row.printed[row.at(k)]), row.decimals, key.language))
         for row in key.asked
         for k in row.positions
         if row.printed[row.at(k)] == row.printed[row.at(k)]
     ]
+
+
+def fill_gradebook(folder: ClassFolder, name: str, content: bytes, column: str) -> bytes:
+    """Return the table of a learning platform with the marks of the class; raise `AssignmentError` for another file."""
+    language, policy = folder.language, folder.policy()
+    with tempfile.TemporaryDirectory() as place:
+        file = Path(place, name)
+        file.write_bytes(content)
+        table = read_gradebook(file, column, language)
+        corrections = read_corrections(folder.corrections, language) if folder.corrections.exists() else ()
+        graded = class_marking.grade(
+            [folder.handed],
+            folder.variants,
+            policy,
+            None,
+            folder.handed_roster,
+            corrections,
+            gradebook=table,
+            out=folder.marked,
+        )
+        written, _ = class_outputs.put_gradebook(graded, table, policy, Path(place, "filled"), language)
+        return written.read_bytes()
