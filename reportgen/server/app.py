@@ -14,7 +14,7 @@ Only 413, 429, 500, 507 and a lost connection are worth sending again, with the 
 letters, digits, - and _ that the browser invents for each cell, upload, check and hand-in; it is stored once.
 
 Sign-in
-  GET  /                     page `sign_in`; signed in: 303 to /me or /desk
+  GET  /                     page `sign_in` (`failed`, `number` as typed); signed in: 303 to /me or /desk
   GET  /in/{token}           a personal link: sets the cookie, page `enter` with `home` (/me or /desk), which leads
                              there by <meta http-equiv="refresh">, since no browser sends a strict cookie along a
                              redirect that began on another site; a wrong link: page `sign_in` with `failed`
@@ -153,6 +153,7 @@ def application(site: Site) -> Starlette:
 
     @asynccontextmanager
     async def living(_: Starlette) -> AsyncIterator[None]:
+        site.queue.warm()
         for row in site.store.uploads(state="queued"):
             handed.read_soon(site, row)
         yield

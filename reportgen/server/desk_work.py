@@ -95,8 +95,9 @@ def beside_key(site: Site, folder: str, sheet: Mapping[str, Any], keys: Sequence
 
     uploads = [receipt(site, row) for row in site.store.uploads(folder)]
     own = [row for row in corrections(site) if row["id"] == site.store.people()[folder].id]
-    result = {name: mark.get(name) for name in ("mark", "highest", "points", "out_of", "warnings", "lines")}
-    return {**sheet, "sections": sections, "uploads": uploads, "corrections": own, **result}
+    result = {name: mark.get(name) for name in ("mark", "highest", "points", "out_of")}
+    said = {name: mark.get(name, []) for name in ("warnings", "lines")}
+    return {**sheet, "sections": sections, "uploads": uploads, "corrections": own, **result, **said}
 
 
 # --- corrections ------------------------------------------------------------------------------------

@@ -12,11 +12,26 @@ from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from functools import partial
-from typing import Any, TypeVar
+from typing import Any, Protocol, TypeVar
 
 from reportgen.base.units import Language
 
 Result = TypeVar("Result")
+
+
+class Queue(Protocol):
+    """Where the work of the pages is done."""
+
+    waiting: int
+    """Number of calls that wait or run."""
+
+    async def run(self, function: Callable[..., Any], *arguments: Any, kind: str = "short") -> Any: ...
+
+    def warm(self) -> None:
+        """Start what serves requests that somebody waits for."""
+
+    def close(self) -> None:
+        """End the processes without waiting for their work, which is queued again at the next start."""
 
 
 def begin(language: Language) -> None:
@@ -36,7 +51,11 @@ class MarkingQueue:
         self._workers = workers or max(os.cpu_count() or 1, 1)
         self._pools: dict[str, ProcessPoolExecutor] = {}
         self.waiting = 0
-        """Number of calls that wait or run."""
+
+    def warm(self) -> None:
+        for _ in range(self._workers):
+            self._pool("short").submit(_nothing)
+        self._pool("reading").submit(_nothing)
 
     def _pool(self, kind: str) -> ProcessPoolExecutor:
         if kind not in self._pools:
@@ -65,9 +84,12 @@ class MarkingQueue:
             self.waiting -= 1
 
     def close(self) -> None:
-        """End the processes without waiting for their work, which is queued again at the next start."""
         for pool in self._pools.values():
             processes = list((pool._processes or {}).values())
             pool.shutdown(wait=False, cancel_futures=True)
             for process in processes:
                 process.terminate()
+
+
+def _nothing() -> None:
+    """Have a process start."""

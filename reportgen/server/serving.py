@@ -16,6 +16,7 @@ from reportgen.base.words import as_error
 from reportgen.server.app import application
 from reportgen.server.class_folder import ClassFolder
 from reportgen.server.links import DESK
+from reportgen.server.marking_queue import Queue
 from reportgen.server.protocol import TimedProtocol
 from reportgen.server.site import Site
 
@@ -29,9 +30,9 @@ def make_class(path: Path, spec: Path, roster: Path, policy: Path | None, langua
     return work.draw(folder)
 
 
-def open_site(path: Path, base_url: str) -> Site:
+def open_site(path: Path, base_url: str, queue: Queue | None = None) -> Site:
     """Return a class with everybody of its roster known."""
-    site = Site(ClassFolder(path), base_url.rstrip("/"))
+    site = Site(ClassFolder(path), base_url.rstrip("/"), queue)
     known = site.store.everybody()
     if DESK not in known:
         site.links.add(DESK, "instructor", DESK, "")

@@ -26,7 +26,11 @@ async def start(request: Request) -> Response:
     site: Site = request.app.state.site
     cookie = request.cookies.get(COOKIE, "")
     person = await run_in_threadpool(site.links.of_cookie, cookie) if cookie else None
-    return RedirectResponse(HOME[person.role], 303) if person else site.page(request, "sign_in", None, failed=False)
+    return (
+        RedirectResponse(HOME[person.role], 303)
+        if person
+        else site.page(request, "sign_in", None, failed=False, number="")
+    )
 
 
 async def by_link(request: Request) -> Response:
@@ -50,13 +54,13 @@ async def by_code(request: Request) -> Response:
     row = await run_in_threadpool(site.links.of_code, id, code)
     if row is None:
         site.guesses.count(who)
-        return _wrong(request, site)
+        return _wrong(request, site, id)
     return await _signed_in(site, row, RedirectResponse(HOME[row.role], 303))
 
 
-def _wrong(request: Request, site: Site) -> Response:
+def _wrong(request: Request, site: Site, number: str = "") -> Response:
     site.attempts.count(request.client.host if request.client else "-")
-    return site.page(request, "sign_in", None, 403, failed=True)
+    return site.page(request, "sign_in", None, 403, failed=True, number=number)
 
 
 async def _signed_in(site: Site, row: Row[Any], answer: Response) -> Response:

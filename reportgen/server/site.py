@@ -26,7 +26,7 @@ from reportgen.server.class_folder import ClassFolder
 from reportgen.server.database import Database
 from reportgen.server.guards import LOGGER, Rates, Refusal
 from reportgen.server.links import DESK, Links, Person
-from reportgen.server.marking_queue import MarkingQueue
+from reportgen.server.marking_queue import MarkingQueue, Queue
 from reportgen.server.store import Store, Window
 
 COOKIE, LANGUAGE = "reportgen", "language"
@@ -39,6 +39,8 @@ class Site:
 
     folder: ClassFolder
     base_url: str
+    own_queue: Queue | None = None
+    """Where work is done, if not in processes of its own."""
     database: Database = field(init=False)
     marking: bool = False
     """True while the class is being marked."""
@@ -47,7 +49,7 @@ class Site:
         self.database = Database(self.folder.server)
         self.store = Store(self.database)
         self.links = Links(self.database, self.folder.server)
-        self.queue = MarkingQueue(self.language)
+        self.queue: Queue = self.own_queue or MarkingQueue(self.language)
         self.attempts = Rates(60, 60)
         """Links and codes that were wrong, for each address; a whole class may have one."""
         self.guesses = Rates(20, 3600)
@@ -139,7 +141,7 @@ class Site:
         message = pages.explained(language, refusal.code)
         wants_page = request.method == "GET" and "text/html" in request.headers.get("accept", "")
         if wants_page and refusal.code == "signed_out":
-            return self.page(request, "sign_in", None, refusal.status, failed=False)
+            return self.page(request, "sign_in", None, refusal.status, failed=False, number="")
         if wants_page:
             return self.page(request, "refused", None, refusal.status, code=refusal.code, message=message)
         return JSONResponse({"error": refusal.code, "message": message, **refusal.more}, refusal.status)
