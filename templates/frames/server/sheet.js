@@ -7,8 +7,10 @@ const TYPING = 500, FIRST_WAIT = 1000, LONGEST_WAIT = 30000, BATCH = 100;
 const sheet = document.getElementById("answers"), saving = document.getElementById("saving");
 const inputs = [...sheet.querySelectorAll("input[data-id]")];
 const closed = "closed" in sheet.dataset;
-const outbox = new Outbox(sheet.dataset.owner);
-const channel = "BroadcastChannel" in window ? new BroadcastChannel(`reportgen:${sheet.dataset.owner}`) : undefined;
+const variant = sheet.dataset.variant;
+// Cells of another variant are not sent for this one.
+const name = `${sheet.dataset.owner}:${variant}`, outbox = new Outbox(name);
+const channel = "BroadcastChannel" in window ? new BroadcastChannel(`reportgen:${name}`) : undefined;
 const timers = new Map();
 const places = new Map(inputs.map((input) => [`${input.dataset.id}@${input.dataset.position}`, input]));
 let revision = Number(sheet.dataset.revision) || 0, wait = FIRST_WAIT, retry, running, barred = "";
@@ -78,7 +80,7 @@ async function work() {
     for (const cell of cells) mark(find(cell), "saving");
     summarise();
     try {
-      received(cells, await send("/me/cells", { cells }));
+      received(cells, await send("/me/cells", { variant, cells }));
     } catch (error) {
       for (const cell of outbox.all()) mark(find(cell), "unsaved");
       barred = error.again ? "" : error.status === 401 || error.status === 403 ? words.expired : error.message;

@@ -75,10 +75,12 @@ async function showResult() {
   try {
     const result = await send("/me/result");
     marked.replaceChildren(
-      element("p", [element("strong", number(result.mark)), ` / ${number(result.highest)}`], { className: "mark" }),
-      element("p", fill(words.points, { points: number(result.points), out_of: number(result.out_of) })),
-      ...result.lines.map((line) => element("p", line)),
-      element("ul", result.files.map((name) => element("li", [
+      ...(result.mark === null ? [element("p", words.no_mark)] : [
+        element("p", [element("strong", number(result.mark)), ` / ${number(result.highest)}`], { className: "mark" }),
+        element("p", fill(words.points, { points: number(result.points), out_of: number(result.out_of) })),
+      ]),
+      ...(result.lines ?? []).map((line) => element("p", line)),
+      element("ul", (result.files ?? []).map((name) => element("li", [
         element("a", names[name] ?? name, { href: `/me/result/${encodeURIComponent(name)}` }),
       ])), { className: "links" }),
     );
