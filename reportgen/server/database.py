@@ -30,6 +30,11 @@ LAST = "last_time"
 TICK = datetime.timedelta(microseconds=1)
 
 
+def wall_time() -> datetime.datetime:
+    """Return the time of the machine's clock with its offset from UTC."""
+    return datetime.datetime.now().astimezone()
+
+
 class Clock:
     """Times that only grow: the machine's clock, or just after the last time that was stored."""
 
@@ -37,8 +42,8 @@ class Clock:
         self._last = datetime.datetime.fromisoformat(last) if last else None
 
     def now(self) -> datetime.datetime:
-        """Return the present time with the machine's offset from UTC."""
-        now = datetime.datetime.now().astimezone()
+        """Return the present time."""
+        now = wall_time()
         return now if self._last is None or now > self._last else self._last + TICK
 
     def stored(self, now: datetime.datetime) -> None:
