@@ -7,7 +7,9 @@ from __future__ import annotations
 
 import asyncio
 import multiprocessing
+import multiprocessing.connection
 import os
+import threading
 from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
@@ -39,8 +41,17 @@ def begin(language: Language) -> None:
     from reportgen.base.words import speak
     from reportgen.server import work
 
+    threading.Thread(target=_end_with_server, daemon=True).start()
     speak(language)
     assert work
+
+
+def _end_with_server() -> None:
+    """End this process when the server is gone, even if that was killed."""
+    server = multiprocessing.parent_process()
+    if server is not None:
+        multiprocessing.connection.wait([server.sentinel])
+        os._exit(0)
 
 
 class MarkingQueue:
