@@ -73,13 +73,25 @@ def served(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Class]:
         port = str(free.getsockname()[1])
     folder = home / "class"
     made = subprocess.run(
-        command(folder, home / "roster.csv", "--init", "--spec", home / "spec.yaml", "--policy", home / "policy.yaml", "--port", port),
+        command(
+            folder,
+            home / "roster.csv",
+            "--init",
+            "--spec",
+            home / "spec.yaml",
+            "--policy",
+            home / "policy.yaml",
+            "--port",
+            port,
+        ),
         capture_output=True,
         text=True,
         check=True,
         timeout=60,
     )
-    with subprocess.Popen(command(folder, "--port", port), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as server:
+    with subprocess.Popen(
+        command(folder, "--port", port), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+    ) as server:
         for _ in range(300):
             try:
                 urllib.request.urlopen(f"http://127.0.0.1:{port}/", timeout=5).close()
@@ -114,9 +126,11 @@ def hands_in(student: Walk, served: Class, id: str, link: str, tmp_path: Path) -
     left = student.text("#left")
     assert "4" in left
     box = f"input[data-id='{first[0]}'][data-position='{first[1]}']"
-    student.value(f"document.querySelector(\"{box}\").select()")
+    student.value(f'document.querySelector("{box}").select()')
     student.type(box, right)
-    student.until("document.getElementById('saving').dataset.state === 'saved' && !document.querySelector('.cell.wrong')")
+    student.until(
+        "document.getElementById('saving').dataset.state === 'saved' && !document.querySelector('.cell.wrong')"
+    )
     file = tmp_path / "bản vẽ <i>.pdf"
     file.write_bytes(b"%PDF-1.4\n% a scan")
     student.choose("#file", file)
@@ -194,5 +208,7 @@ def test_a_class_from_the_empty_folder_to_the_released_mark(served: Class, brows
     assert faults == {}
     with (served.folder / "marked" / "grades.csv").open(encoding="utf-8-sig", newline="") as file:
         rows = list(csv.reader(file))
-    assert any(re.search(rf"\b{re.escape(mark.replace(',', '.'))}\b", ";".join(row).replace(",", ".")) for row in rows[1:])
+    assert any(
+        re.search(rf"\b{re.escape(mark.replace(',', '.'))}\b", ";".join(row).replace(",", ".")) for row in rows[1:]
+    )
     assert mark == "10"

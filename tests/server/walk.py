@@ -10,8 +10,6 @@ from typing import Any
 from tests.page.browser import Browser
 
 PATIENCE = 30.0
-T0=time.monotonic()
-def log(*a): print(f'{time.monotonic()-T0:.1f}',*a,flush=True)
 
 
 class Walk:
@@ -36,7 +34,6 @@ class Walk:
         return self.browser.run(f"return {expression}")
 
     def until(self, condition: str) -> None:
-        log('until',condition)
         """Wait until an expression is true on the page."""
         self.wait(lambda: bool(self.value(f"document.readyState === 'complete' && ({condition})")), condition)
 
@@ -49,7 +46,6 @@ class Walk:
         raise AssertionError(f"{what}\n{self.value('document.body.innerText')}")
 
     def press(self, selector: str) -> None:
-        log('press',selector)
         self.value(f"document.querySelector(\"{selector}\").scrollIntoView({{block: 'center'}})")
         self.browser.driver.find_element("css selector", selector).click()
 
@@ -65,14 +61,15 @@ class Walk:
         self.browser.driver.find_element("css selector", selector).send_keys(str(file))
 
     def text(self, selector: str) -> str:
-        return str(self.value(f"document.querySelector(\"{selector}\").innerText"))
+        return str(self.value(f'document.querySelector("{selector}").innerText'))
 
     def look(self, name: str) -> None:
-        log('look',name)
         """Note faults of the page: by axe-core, in the console, what is wider than the screen, other hosts."""
         faults = [one for one in self.browser.violations(self.axe)]
         faults += [one for one in self.browser.messages() if "favicon" not in one]
         wide = self.value("document.documentElement.scrollWidth")
         faults += [f"{wide} px wide"] if wide > self.width else []
-        faults += [one for one in self.browser.requests() if not one.startswith(("http://127.0.0.1:", "data:", "about:"))]
+        faults += [
+            one for one in self.browser.requests() if not one.startswith(("http://127.0.0.1:", "data:", "about:"))
+        ]
         self.seen[name] = faults

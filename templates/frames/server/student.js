@@ -58,7 +58,7 @@ function put(receipt) {
 // Ask again until every upload has been read.
 async function renew() {
   try {
-    const state = await send(`/me/state?since=${Number.MAX_SAFE_INTEGER}`);
+    const state = await send("/me/state?since=999999999999999");
     state.uploads.forEach(put);
     if (left && Number.isInteger(state.uploads_left)) left.textContent = fill(words.uploads_left, { count: state.uploads_left });
     if (state.uploads.some((one) => one.state === "queued")) setTimeout(renew, 1500);
