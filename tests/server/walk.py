@@ -10,6 +10,9 @@ from typing import Any
 from tests.page.browser import Browser
 
 PATIENCE = 30.0
+"""Seconds to wait for a page, on a machine that does much else."""
+CONTROL = "\ue009"
+"""The key as a driver of browsers sends it."""
 
 
 class Walk:
@@ -57,6 +60,10 @@ class Walk:
         for (id, position), text in values.items():
             self.type(f"input[data-id='{id}'][data-position='{position}']", f"{text}\n")
 
+    def replace(self, selector: str, text: str) -> None:
+        """Type over what a field has."""
+        self.type(selector, f"{CONTROL}a{CONTROL}{text}")
+
     def choose(self, selector: str, file: Path) -> None:
         self.browser.driver.find_element("css selector", selector).send_keys(str(file))
 
@@ -65,7 +72,7 @@ class Walk:
 
     def look(self, name: str) -> None:
         """Note faults of the page: by axe-core, in the console, what is wider than the screen, other hosts."""
-        faults = [one for one in self.browser.violations(self.axe)]
+        faults = self.browser.violations(self.axe)
         faults += [one for one in self.browser.messages() if "favicon" not in one]
         wide = self.value("document.documentElement.scrollWidth")
         faults += [f"{wide} px wide"] if wide > self.width else []
