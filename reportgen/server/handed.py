@@ -65,8 +65,7 @@ def lay_out_soon(site: Site, folder: str) -> None:
 
 async def _read(site: Site, row: Row[Any]) -> None:
     try:
-        await lay_out(site, row.folder)
-        file = site.folder.handed / row.folder / upload_name(row)
+        file = await run_in_threadpool(_put_upload, site, row)
         try:
             state, values, lines = await site.queue.run(
                 work_calls.read_upload, site.folder, row.folder, file, kind="reading"
@@ -86,11 +85,11 @@ def upload_name(row: Row[Any]) -> str:
 
 async def lay_out(site: Site, folder: str) -> None:
     """Write the files of one student."""
-    async with site.laying:
+    async with site.laying.setdefault(folder, asyncio.Lock()):
         cells, when = await run_in_threadpool(counted_cells, site.store, site.drawn(folder), folder)
         content = None
         if cells:
-            content = await site.queue.run(work_calls.filled_sheet, site.folder, folder, cells)
+            content = await site.queue.run(work_calls.filled_sheet, site.folder, folder, cells, kind="files")
         await run_in_threadpool(_put, site, folder, content, when)
 
 
@@ -125,13 +124,21 @@ def _put(site: Site, folder: str, content: bytes | None, when: str) -> None:
     if content is None and (target / SHEET).exists():
         stale.append(target / SHEET)
     put_set({}, stale)
-    for name, row in kept.items():
-        if not (target / name).exists():
-            put_files(target, {name: (site.folder.uploads / row.sha256).read_bytes()})
-        _dated(target / name, row.at)
+    for row in kept.values():
+        _put_upload(site, row)
     if content is not None:
         put_files(target, {SHEET: content})
         _dated(target / SHEET, when)
+
+
+def _put_upload(site: Site, row: Row[Any]) -> Path:
+    """Write an upload into the folder of its student; return its path."""
+    target: Path = site.folder.handed / row.folder
+    file = target / upload_name(row)
+    if not file.exists():
+        put_files(target, {file.name: (site.folder.uploads / row.sha256).read_bytes()})
+    _dated(file, row.at)
+    return file
 
 
 def _dated(file: Path, when: str) -> None:

@@ -42,7 +42,7 @@ async def sheet(request: Request, site: Site, person: Person) -> Response:
 
 
 async def _sheet(site: Site, folder: str) -> dict[str, Any]:
-    made = await sheet_of(site, folder)
+    made = await sheet_of(site, folder, await run_in_threadpool(site.drawn, folder))
     keys = await site.queue.run(work_calls.key_values, site.folder, folder)
     return await run_in_threadpool(desk_work.beside_key, site, folder, made, keys)
 

@@ -17,8 +17,11 @@ from functools import partial
 from typing import Any, Protocol, TypeVar
 
 from reportgen.base.units import Language
+from reportgen.server import work_calls
 
 Result = TypeVar("Result")
+NICENESS = 10
+"""How much these processes stand back behind that of the pages."""
 
 
 class Queue(Protocol):
@@ -38,10 +41,13 @@ class Queue(Protocol):
 
 def begin(language: Language) -> None:
     """Prepare a process: it loads what it computes with before the first request."""
+    threading.Thread(target=_end_with_server, daemon=True).start()
+    if hasattr(os, "nice"):
+        # Saving a cell goes before every calculation.
+        os.nice(NICENESS)
     from reportgen.base.words import speak
     from reportgen.server import work
 
-    threading.Thread(target=_end_with_server, daemon=True).start()
     speak(language)
     assert work
 
@@ -66,7 +72,7 @@ class MarkingQueue:
     def warm(self) -> None:
         for _ in range(self._workers):
             self._pool("short").submit(_nothing)
-        self._pool("reading").submit(_nothing)
+        self._pool("reading").submit(work_calls.begin_reading)
 
     def _pool(self, kind: str) -> ProcessPoolExecutor:
         if kind not in self._pools:

@@ -40,7 +40,9 @@ async def by_link(request: Request) -> Response:
     if row is None:
         return _wrong(request, site)
     # The browser sends the cookie only if the next page is opened from here; a redirect still comes from elsewhere.
-    return await _signed_in(site, row, site.page(request, "enter", None, home=HOME[row.role]))
+    page = site.page(request, "enter", None, home=HOME[row.role])
+    page.headers["Referrer-Policy"] = "no-referrer"
+    return await _signed_in(site, row, page)
 
 
 async def by_code(request: Request) -> Response:

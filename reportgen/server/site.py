@@ -59,8 +59,10 @@ class Site:
         self.files = Rates(30, 60)
         self.reading: set[int] = set()
         """Uploads that wait to be read."""
-        self.laying, self.changing = asyncio.Lock(), asyncio.Lock()
-        """Held while the files of a student are written, and while variants or the roster change."""
+        self.laying: dict[str, asyncio.Lock] = {}
+        """Each student's lock is held while the files of the student are written."""
+        self.changing = asyncio.Lock()
+        """Held while variants or the roster change."""
         self.log = LOGGER
         self._policy: tuple[tuple[int, int], Browser] | None = None
         self._sheets: dict[str, tuple[tuple[int, ...], dict[str, Any]]] = {}

@@ -20,7 +20,7 @@ from reportgen.server.class_folder import safe_name
 from reportgen.server.guards import LARGE, Refusal, json_of
 from reportgen.server.links import Person
 from reportgen.server.site import Site, client_of
-from reportgen.server.store import ClosedError, Entry, UsedUpError
+from reportgen.server.store import ClosedError, Entry, Saved, UsedUpError
 
 MOST_CELLS = 200
 LONGEST = 60
@@ -45,7 +45,7 @@ MOVING_POLICY = (
 
 
 async def page(request: Request, site: Site, person: Person) -> Response:
-    sheet = await sheet_of(site, person.folder)
+    sheet = await sheet_of(site, person.folder, person.drawn)
     state = await run_in_threadpool(state_of, site, person, sheet, 0)
     tasks = [*TASKS, *(["report.pdf"] if state["self_report"] else [])]
     return site.page(request, "student", person, student=_about(person), sheet=sheet, state=state, tasks=tasks)
@@ -56,21 +56,21 @@ def _about(person: Person) -> dict[str, str]:
 
 
 async def sheet(request: Request, site: Site, person: Person) -> Response:
-    return JSONResponse(await sheet_of(site, person.folder))
+    return JSONResponse(await sheet_of(site, person.folder, person.drawn))
 
 
-async def sheet_of(site: Site, folder: str) -> dict[str, Any]:
+async def sheet_of(site: Site, folder: str, drawn: str) -> dict[str, Any]:
     """Return the answer sheet of a student, made now if it is not there."""
     known = await run_in_threadpool(site.sheet, folder)
     made: dict[str, Any] = known if known else await site.queue.run(work_calls.make_sheet, site.folder, folder)
-    return {"variant": await run_in_threadpool(site.drawn, folder), **made}
+    return {"variant": drawn, **made}
 
 
 async def state(request: Request, site: Site, person: Person) -> Response:
     since = request.query_params.get("since", "0")
     if not since.isascii() or not since.isdecimal() or len(since) > 15:
         raise Refusal("malformed")
-    sheet = await sheet_of(site, person.folder)
+    sheet = await sheet_of(site, person.folder, person.drawn)
     return JSONResponse(await run_in_threadpool(state_of, site, person, sheet, int(since)))
 
 
@@ -123,13 +123,10 @@ async def cells(request: Request, site: Site, person: Person) -> Response:
     sent = content.get("cells")
     if not isinstance(sent, list) or not 0 < len(sent) <= MOST_CELLS:
         raise Refusal("malformed")
-    places = open_places(await sheet_of(site, person.folder))
     refused: list[dict[str, str]] = []
-    entries = [entry for one in sent if (entry := _entry(one, places, refused)) is not None]
-    try:
-        saved = await run_in_threadpool(site.store.save, person.folder, person.drawn, entries, site.window(person))
-    except ClosedError:
-        raise Refusal("closed") from None
+    if await run_in_threadpool(site.sheet, person.folder) is None:
+        await sheet_of(site, person.folder, person.drawn)
+    saved = await run_in_threadpool(_saved, site, person, sent, refused)
     made = [
         {
             "client": one.entry.client,
@@ -143,6 +140,15 @@ async def cells(request: Request, site: Site, person: Person) -> Response:
     language = site.language_of(request)
     explained = [{**one, "message": pages.explained(language, one["error"])} for one in refused]
     return JSONResponse({"saved": made, "refused": explained})
+
+
+def _saved(site: Site, person: Person, sent: list[Any], refused: list[dict[str, str]]) -> list[Saved]:
+    places = open_places(site.sheet(person.folder) or {"sections": []})
+    entries = [entry for one in sent if (entry := _entry(one, places, refused)) is not None]
+    try:
+        return site.store.save(person.folder, person.drawn, entries, site.window(person))
+    except ClosedError:
+        raise Refusal("closed") from None
 
 
 def _same_variant(content: dict[str, Any], person: Person) -> None:
@@ -264,7 +270,7 @@ async def hand_in(request: Request, site: Site, person: Person) -> Response:
     content = await json_of(request)
     _same_variant(content, person)
     client = client_of(content)
-    sheet = await sheet_of(site, person.folder)
+    sheet = await sheet_of(site, person.folder, person.drawn)
     try:
         row = await run_in_threadpool(handed.hand_in, site, person, client)
     except ClosedError:

@@ -23,7 +23,7 @@ from reportgen.base.template_folders import search_path
 from reportgen.base.words import load_words, speak
 from reportgen.case.answer_key import Key, KeyRow
 from reportgen.cases import open_case
-from reportgen.classes import class_marking, class_outputs
+from reportgen.classes import class_marking, class_outputs, reading_sheets
 from reportgen.classes.batch_run import Order, run_batch
 from reportgen.classes.corrections import read_corrections
 from reportgen.classes.gradebooks import read_gradebook
@@ -31,6 +31,7 @@ from reportgen.classes.one_pdf import bind_products
 from reportgen.classes.platforms import Handed
 from reportgen.classes.reading_sheets import read_own, read_sheets
 from reportgen.classes.variants import make_variants
+from reportgen.classes.worker_pool import each_within
 from reportgen.document import plain
 from reportgen.handin import file_kinds, submission
 from reportgen.handin.drawing_file import wanted_plans
@@ -189,6 +190,11 @@ def _wanted(key: Key, asked: Mapping[str, Any]) -> Callable[[tuple[str, int]], b
 
 
 # --- uploads ----------------------------------------------------------------------------------------
+
+
+def begin_reading() -> None:
+    """Start what opens uploads within limits, so that the first upload does not wait for it."""
+    list(each_within(reading_sheets.LIMITS, len, [()], reading_sheets.__name__))
 
 
 def read_upload(folder: ClassFolder, student: str, file: Path) -> tuple[str, int, list[str]]:
