@@ -94,7 +94,7 @@ def _app() -> typer.Typer:
     """Return the commands in the order of the help."""
     import typer
 
-    from reportgen.cli import documentation, export, instructor, student, translator
+    from reportgen.cli import documentation, export, instructor, serving, student, translator
     from reportgen.cli.common import begin
     from reportgen.cli.help_texts import Command, Commands
 
@@ -127,6 +127,7 @@ def _app() -> typer.Typer:
         instructor.batch,
         instructor.key,
         instructor.grade,
+        serving.serve,
         translator.words,
         documentation.docs,
     ):

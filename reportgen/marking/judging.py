@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -306,14 +306,39 @@ def compare(case: Case, sheet: Path, hint: bool = False) -> tuple[tuple[str, ...
     return compared(scheme, submission, hint)
 
 
+@dataclass(frozen=True)
+class Comparison:
+    """A submission compared with its assignment, for its student."""
+
+    scheme: MarkingScheme
+    marking: Marking
+
+    @property
+    def agrees(self) -> bool:
+        """True if no value disagrees; a blank one does not, nor does one that follows from a right one."""
+        unread = self.marking.submission.problems
+        return not (unread or any(cell.verdict is Verdict.wrong for cell in self.marking.cells))
+
+    def lines(self, hint: bool) -> Iterator[str]:
+        """Yield a line for each first divergence."""
+        return _lines(self.scheme, self.marking, hint, self.agrees)
+
+    def hint(self, cell: Marked) -> str:
+        """Return where to look for the mistake in a cell that is a first divergence."""
+        return _hint(self.scheme, self.marking, cell)
+
+
 def compared(scheme: MarkingScheme, submission: Submission, hint: bool = False) -> tuple[tuple[str, ...], bool]:
-    """Return the same as `compare` for a submission that has been read; every row of the sheet counts as requested."""
+    """Return the same as `compare` for a submission that has been read."""
+    comparison = comparison_of(scheme, submission)
+    return tuple(comparison.lines(hint)), comparison.agrees
+
+
+def comparison_of(scheme: MarkingScheme, submission: Submission) -> Comparison:
+    """Return a submission that has been read, compared; every row of the sheet counts as requested."""
     # A quantity without a row on the sheet is not missing.
     scheme = replace(scheme, key=Ask(()).of(scheme.key, submission.rows))
-    marking = mark(scheme, submission)
-    # A blank value does not disagree, nor does one that follows from a right one.
-    agrees = not (marking.submission.problems or any(cell.verdict is Verdict.wrong for cell in marking.cells))
-    return tuple(_lines(scheme, marking, hint, agrees)), agrees
+    return Comparison(scheme, mark(scheme, submission))
 
 
 def _lines(scheme: MarkingScheme, marking: Marking, hint: bool, agrees: bool) -> Iterator[str]:

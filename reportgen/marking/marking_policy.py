@@ -54,6 +54,21 @@ class Lateness:
         return max(math.ceil((handed_in - self.due) / datetime.timedelta(days=1)), 0)
 
 
+@dataclass(frozen=True, slots=True)
+class Browser:
+    """What students may do in the browser (`serve`): until when, and how often they check and upload.
+
+    None allows any number; `checks_from` is the moment of the first check.
+    """
+
+    closes: datetime.datetime | None = None
+    uploads: int | None = None
+    checks: int | None = None
+    checks_from: datetime.datetime | None = None
+    hints: bool = True
+    self_report: bool = False
+
+
 LEAST_READ = 0.8
 
 Twice = Literal["last", "first"]
@@ -85,6 +100,7 @@ class Policy:
     twice: Twice = "last"
     least_read: float = LEAST_READ
     """Smallest share of the student's own files that must be read; below it there is no mark."""
+    browser: Browser = field(default_factory=Browser)
     approximations: bool = True
     """True if a value by a textbook's approximation earns its points; the feedback names it in any case."""
     file: Path | None = None
@@ -130,6 +146,15 @@ class _Late(Part):
     most: Annotated[float, Decimal(Interval(least=0, most=1000))] = math.inf
 
 
+class _Browser(Part):
+    closes: Annotated[datetime.datetime, Until()] | None = None
+    uploads: Annotated[int, Whole(0, 1000)] | None = None
+    checks: Annotated[int, Whole(0, 100_000)] | None = None
+    checks_from: Annotated[datetime.datetime, Until()] | None = None
+    hints: Annotated[bool, Flag()] = True
+    self_report: Annotated[bool, Flag()] = False
+
+
 class _PolicyFile(Part):
     ask: Annotated[tuple[Annotated[str, TypedText()], ...], Field(min_length=1)] = Ask().patterns
     by_section: Annotated[bool, Flag()] = False
@@ -147,6 +172,7 @@ class _PolicyFile(Part):
     twice: Annotated[Twice, Field(json_schema_extra={})] = "last"
     least_read: Annotated[float, Percent()] = LEAST_READ
     approximations: Annotated[bool, Flag()] = True
+    browser: _Browser = _Browser()
 
 
 def read_policy(path: Path, language: Language | None = None) -> Policy:
@@ -177,6 +203,13 @@ def read_policy(path: Path, language: Language | None = None) -> Policy:
       due: 2026-11-20 23:59
       per_day: 1
       most: 5
+    browser:                 # what students may do on the pages of `serve`
+      closes: 2026-11-25 23:59   # nothing is accepted after it
+      uploads: 20            # how many files and checks; without it, any number
+      checks: 40
+      checks_from: 2026-11-10 00:00
+      hints: true            # a check also says where to look
+      self_report: false     # students may build the report of their own data
     twice: last              # which of two sheets of one student is marked, or: first
     least_read: 80 %         # least share of a report or drawing that must be read; below it there is no mark
     approximations: true     # a value computed by a textbook's approximation earns its points
@@ -203,5 +236,6 @@ def read_policy(path: Path, language: Language | None = None) -> Policy:
         twice=content.twice,
         least_read=content.least_read,
         approximations=content.approximations,
+        browser=Browser(**dict(content.browser)),
         file=path,
     )

@@ -1,0 +1,166 @@
+"""What students hand in as files of the class folder, in `handed/ID/`: the sheet as typed, and the uploads.
+
+`grade` reads the same files. The sheet counts as it was handed in; of a student who handed in and uploaded nothing, the
+cells count as they were saved last.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import datetime
+import hashlib
+import json
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from sqlalchemy import Row
+from starlette.concurrency import run_in_threadpool
+
+from reportgen.base.files import put_files, put_set
+from reportgen.classes.roster import HANDED_IN, PERSONAL
+from reportgen.server import work_calls
+from reportgen.server.links import Person
+from reportgen.server.store import Store
+from reportgen.workbook import write_csv
+
+if TYPE_CHECKING:
+    from reportgen.server.site import Site
+
+SHEET = "answers.xlsx"
+_running: set[asyncio.Task[None]] = set()
+"""Tasks that are not finished: the loop itself would forget them."""
+
+
+def hand_in(site: Site, person: Person, client: str) -> Row[Any]:
+    """Store that the cells of now are handed in."""
+    rows = site.store.cells(person.folder, person.drawn)
+    filled = [[row.quantity, row.position, row.text] for row in rows if row.text]
+    content = json.dumps(sorted(filled), ensure_ascii=False, separators=(",", ":")).encode()
+    sheet = {
+        "revision": rows[-1].revision if rows else 0,
+        "filled": len(filled),
+        "sha256": hashlib.sha256(content).hexdigest(),
+    }
+    return site.store.hand_in(person.folder, client, person.drawn, sheet, site.window(person))
+
+
+def begin(task: Any) -> None:
+    """Run a task in the background."""
+    running = asyncio.get_running_loop().create_task(task)
+    _running.add(running)
+    running.add_done_callback(_running.discard)
+
+
+def read_soon(site: Site, row: Row[Any]) -> None:
+    """Read an upload when its turn comes."""
+    if row.state == "queued" and row.number not in site.reading:
+        site.reading.add(row.number)
+        begin(_read(site, row))
+
+
+def lay_out_soon(site: Site, folder: str) -> None:
+    begin(lay_out(site, folder))
+
+
+async def _read(site: Site, row: Row[Any]) -> None:
+    try:
+        file = await run_in_threadpool(_put_upload, site, row)
+        try:
+            state, values, lines = await site.queue.run(
+                work_calls.read_upload, site.folder, row.folder, file, kind="reading"
+            )
+        except Exception as error:
+            site.log.error("upload %s not read: %s", row.number, type(error).__name__, exc_info=error)
+            state, values, lines = "kept", 0, []
+        await run_in_threadpool(site.store.settle_upload, row.number, state, values, lines)
+    finally:
+        site.reading.discard(row.number)
+
+
+def upload_name(row: Row[Any]) -> str:
+    """Return the name of an upload in the folder of its student."""
+    return f"{row.number:05}-{row.name}"
+
+
+async def lay_out(site: Site, folder: str) -> None:
+    """Write the files of one student."""
+    async with site.laying.setdefault(folder, asyncio.Lock()):
+        cells, when = await run_in_threadpool(counted_cells, site.store, site.drawn(folder), folder)
+        content = None
+        if cells:
+            content = await site.queue.run(work_calls.filled_sheet, site.folder, folder, cells, kind="files")
+        await run_in_threadpool(_put, site, folder, content, when)
+
+
+async def lay_out_all(site: Site) -> None:
+    """Write the files of all students, and the times of their hand-ins."""
+    people = await run_in_threadpool(site.store.people)
+    for folder, row in people.items():
+        if row.role == "student":
+            await lay_out(site, folder)
+    await run_in_threadpool(put_handed_roster, site)
+
+
+def counted_cells(store: Store, drawn: str, folder: str) -> tuple[dict[tuple[str, int], str], str]:
+    """Return the cells that count, with their time: those handed in, or without any hand-in those saved."""
+    handin = store.handin(folder, drawn)
+    if handin is not None:
+        cells = store.cells_at(folder, drawn, handin.revision)
+        return {place: text for place, text in cells.items() if text}, handin.at
+    rows = store.cells(folder, drawn)
+    if not rows or any(row.drawn == drawn for row in store.uploads(folder)):
+        return {}, ""
+    return {(row.quantity, row.position): row.text for row in rows if row.text}, rows[-1].at
+
+
+def _put(site: Site, folder: str, content: bytes | None, when: str) -> None:
+    """Write the files of a student with their times, and remove what no longer counts."""
+    target = site.folder.handed / folder
+    drawn = site.drawn(folder)
+    kept = {upload_name(row): row for row in site.store.uploads(folder) if row.drawn == drawn}
+    target.mkdir(parents=True, exist_ok=True)
+    stale = [file for file in target.iterdir() if file.is_file() and file.name not in {*kept, SHEET}]
+    if content is None and (target / SHEET).exists():
+        stale.append(target / SHEET)
+    put_set({}, stale)
+    for row in kept.values():
+        _put_upload(site, row)
+    if content is not None:
+        put_files(target, {SHEET: content})
+        _dated(target / SHEET, when)
+
+
+def _put_upload(site: Site, row: Row[Any]) -> Path:
+    """Write an upload into the folder of its student; return its path."""
+    target: Path = site.folder.handed / row.folder
+    file = target / upload_name(row)
+    if not file.exists():
+        put_files(target, {file.name: (site.folder.uploads / row.sha256).read_bytes()})
+    _dated(file, row.at)
+    return file
+
+
+def _dated(file: Path, when: str) -> None:
+    """Give a file the time at which it was handed in: of two sheets the policy chooses by it."""
+    moment = datetime.datetime.fromisoformat(when).timestamp()
+    os.utime(file, (moment, moment))
+
+
+def put_handed_roster(site: Site) -> None:
+    """Write the roster with the time of each hand-in, which lateness is counted from."""
+    table, people = site.store.table(), site.store.people()
+    due = site.folder.policy().late
+    rows: list[list[str]] = [[*PERSONAL, HANDED_IN]]
+    for student in site.folder.students(site.language):
+        figures = table.get(student.folder, {})
+        handed = max(filter(None, (figures.get("handed_in"), figures.get("uploaded"))), default=figures.get("saved"))
+        at = None if handed is None else datetime.datetime.fromisoformat(handed).astimezone().replace(tzinfo=None)
+        person = people.get(student.folder)
+        if at is not None and due is not None and person is not None and person.closes:
+            extended = datetime.datetime.fromisoformat(person.closes).astimezone().replace(tzinfo=None)
+            # An extension of the deadline makes the time up to it no lateness.
+            at = at if at > extended else min(at, due.due)
+        own = [student.card.get(name, "") for name in PERSONAL]
+        rows.append([*own, "" if at is None else f"{at:%Y-%m-%d %H:%M:%S}"])
+    put_set({site.folder.handed_roster: write_csv(rows)})

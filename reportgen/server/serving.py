@@ -1,0 +1,92 @@
+"""Start the server of a class, and make a new class: what the command `serve` calls."""
+
+from __future__ import annotations
+
+import logging
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import uvicorn
+
+from reportgen.base.errors import Fault, Location
+from reportgen.base.files import held
+from reportgen.base.units import Language
+from reportgen.base.words import as_error
+from reportgen.server.app import application
+from reportgen.server.class_folder import ClassFolder
+from reportgen.server.links import DESK
+from reportgen.server.marking_queue import Queue
+from reportgen.server.protocol import TimedProtocol
+from reportgen.server.site import Site
+
+
+def make_class(path: Path, spec: Path, roster: Path, policy: Path | None, language: Language | None) -> list[str]:
+    """Make the folder of a new class and draw its variants; return remarks."""
+    from reportgen.server import work
+
+    folder = ClassFolder(path)
+    folder.begin(spec, roster, policy, language)
+    return work.draw(folder)
+
+
+def open_site(path: Path, base_url: str, queue: Queue | None = None) -> Site:
+    """Return a class with everybody of its roster known."""
+    site = Site(ClassFolder(path), base_url.rstrip("/"), queue)
+    known = site.store.everybody()
+    if DESK not in known:
+        site.links.add(DESK, "instructor", DESK, "")
+    for student in site.folder.students(site.language):
+        row, name = known.get(student.folder), student.card.get("name", "")
+        if row is None or (row.name != name and not row.dropped):
+            site.links.add(student.folder, "student", student.id, name, row.drawn if row else "1")
+    return site
+
+
+def desk_link(path: Path, base_url: str) -> str:
+    """Return the instructor's link of a class."""
+    site = open_site(path, base_url)
+    try:
+        return site.link(DESK)
+    finally:
+        site.database.close()
+
+
+def run(path: Path, base_url: str, host: str, port: int, tell: Callable[[str], None]) -> None:
+    """Serve a class until the program is interrupted; `tell` gets the instructor's link.
+
+    Raises `AssignmentError` if the class is served already, and for faults of its files.
+    """
+    folder = ClassFolder(path)
+    if not folder.spec.exists():
+        raise as_error([Fault("serve-no-class", Location(str(path)))], None)
+    folder.server.mkdir(parents=True, exist_ok=True, mode=0o700)
+    try:
+        with held(folder.server):
+            site = open_site(path, base_url)
+            tell(site.link(DESK))
+            _serve(site, host, port)
+    except BlockingIOError:
+        raise as_error([Fault("serve-running", Location(str(path)))], None) from None
+
+
+def _serve(site: Site, host: str, port: int) -> None:
+    handler = logging.StreamHandler(sys.stderr)
+    handler.setFormatter(logging.Formatter("%(asctime)s %(levelname)s %(message)s"))
+    logging.getLogger("reportgen.server").addHandler(handler)
+    logging.getLogger("reportgen.server").setLevel(logging.INFO)
+    config = uvicorn.Config(
+        application(site),
+        host=host,
+        port=port,
+        access_log=False,
+        server_header=False,
+        log_level="warning",
+        http=TimedProtocol,
+        timeout_keep_alive=20,
+        limit_concurrency=1000,
+        h11_max_incomplete_event_size=32_768,
+        proxy_headers=True,
+        forwarded_allow_ips="127.0.0.1",
+    )
+    uvicorn.Server(config).run()

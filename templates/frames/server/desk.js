@@ -1,0 +1,154 @@
+// The instructor's desk: the class as a table that sorts, filters and renews itself, and what is done for all of it.
+
+import { clock, data, element, fill, moment, number, send, words } from "./requests.js";
+
+const EVERY = 15000, WHILE_MARKING = 1500;
+const body = document.querySelector("#students tbody"), summary = document.getElementById("summary");
+const search = document.getElementById("search"), which = document.getElementById("which");
+const by = (id) => document.getElementById(id);
+let table = data("table-data"), order = "", falling = false, timer;
+
+const FILTERS = {
+  all: () => true,
+  unopened: (one) => !one.opened,
+  open: (one) => !one.handed_in,
+  handed: (one) => one.handed_in,
+  unread: (one) => one.state === "refused" || one.state === "kept",
+  warned: (one) => one.warnings.length,
+};
+const VALUES = {
+  name: (one) => one.name || one.id,
+  opened: (one) => (one.opened ? 1 : 0),
+  saved: (one) => one.filled,
+  handed_in: (one) => one.handed_in ?? "",
+  state: (one) => one.state,
+  mark: (one) => one.mark ?? -1,
+  warnings: (one) => one.warnings.length,
+};
+const value = (one, key) => (VALUES[key] ?? ((it) => it[key] ?? ""))(one);
+const compare = (a, b) => (typeof a === "number" && typeof b === "number" ? a - b : String(a).localeCompare(String(b), "vi", { numeric: true }));
+const folded = (text) => text.normalize("NFD").replace(/\p{M}/gu, "").replaceAll("đ", "d").toLowerCase();
+
+const CELLS = {
+  id: (one) => [one.id],
+  name: (one) => [element("a", one.name || one.id, { href: `/desk/students/${encodeURIComponent(one.folder)}` })],
+  class: (one) => [one.class],
+  opened: (one) => [one.opened ? words.opened : "–"],
+  saved: (one) => [`${one.filled}/${one.asked}`],
+  handed_in: (one) => [one.handed_in ? moment(one.handed_in) : "–", ...(one.changed ? [` ${words.changed}`] : [])],
+  state: (one) => [one.state ? words.short_states[one.state] ?? one.state : one.uploads ? words.short_states.queued : "–"],
+  mark: (one) => [number(one.mark)],
+  warnings: (one) => one.warnings.map((text) => element("span", text, { className: "warning" })),
+};
+const columns = [...document.querySelectorAll("[data-sort]")].map((button) => button.dataset.sort);
+
+function rows() {
+  const sought = folded(search.value.trim());
+  const chosen = table.students.filter(FILTERS[which.value] ?? FILTERS.all)
+    .filter((one) => !sought || folded(`${one.id} ${one.name} ${one.class}`).includes(sought));
+  if (order) chosen.sort((a, b) => (falling ? -1 : 1) * compare(value(a, order), value(b, order)));
+  return chosen;
+}
+
+function show() {
+  body.replaceChildren(...rows().map((one) => element("tr", columns.map((key) => element(key === "name" ? "th" : "td", CELLS[key](one), key === "name" ? { scope: "row" } : { className: key })))));
+  for (const button of document.querySelectorAll("[data-sort]")) {
+    const head = button.closest("th");
+    if (button.dataset.sort === order) head.setAttribute("aria-sort", falling ? "descending" : "ascending");
+    else head.removeAttribute("aria-sort");
+  }
+  const all = table.students, some = (test) => all.filter(test).length;
+  const said = [
+    fill(words.summary, {
+      count: all.length, opened: some((one) => one.opened), handed: some((one) => one.handed_in), marked: some((one) => one.mark !== null),
+    }),
+    table.closes ? fill(words.closes, { time: moment(table.closes) }) : words.closes_never,
+    table.marking ? words.marking : table.marked_at ? fill(words.marked_at, { time: moment(table.marked_at) }) : words.not_marked,
+    table.released ? words.released : words.not_released,
+    ...(table.queue ? [fill(words.queue, { count: table.queue })] : []),
+  ].join(" ");
+  if (summary.textContent !== said) summary.textContent = said;
+  by("release").textContent = table.released ? words.withdraw : words.release;
+  by("mark").disabled = table.marking;
+  by("release").disabled = table.marking || (!table.released && !table.marked_at);
+  by("problems").replaceChildren(...table.problems.map((text) => element("p", text, { className: "warning" })));
+}
+
+async function renew() {
+  clearTimeout(timer);
+  try {
+    const marking = table.marking;
+    table = await send("/desk/table");
+    show();
+    if (marking && !table.marking) notices();
+  } catch (error) {
+    if (!error.again) by("acting").textContent = error.message;
+  }
+  timer = setTimeout(renew, table.marking || table.queue ? WHILE_MARKING : EVERY);
+}
+
+async function notices() {
+  try {
+    const found = (await send("/desk/notices")).notices;
+    const of = (folder) => table.students.find((one) => one.folder === folder);
+    by("notices").replaceChildren(...found.map((one) => element("li", [
+      ...one.lines.map((line) => element("p", line)),
+      element("p", one.students.flatMap((folder, at) => [
+        ...(at ? [" · "] : []),
+        element("a", of(folder)?.name || folder, { href: `/desk/students/${encodeURIComponent(folder)}` }),
+      ])),
+    ])));
+    if (!found.length) by("notices").replaceChildren(element("li", words.no_notices));
+  } catch (error) {
+    by("notices").replaceChildren(element("li", error.message));
+  }
+}
+
+async function act(path, body, place = by("acting")) {
+  place.textContent = words.working;
+  try {
+    const answer = await send(path, body, 120000);
+    place.textContent = "";
+    return answer;
+  } catch (error) {
+    place.textContent = error.message;
+    return undefined;
+  } finally {
+    renew();
+  }
+}
+
+for (const button of document.querySelectorAll("[data-sort]")) {
+  button.addEventListener("click", () => {
+    falling = order === button.dataset.sort && !falling;
+    order = button.dataset.sort;
+    show();
+  });
+}
+search.addEventListener("input", show);
+which.addEventListener("change", show);
+by("mark").addEventListener("click", async () => {
+  if (await act("/desk/mark", {})) { table.marking = true; show(); }
+});
+by("release").addEventListener("click", () => act("/desk/release", { released: !table.released }));
+by("backup").addEventListener("click", async () => {
+  const answer = await act("/desk/backup", {}, by("backed"));
+  if (answer) by("backed").textContent = `${answer.file} (${clock()})`;
+});
+by("add").addEventListener("submit", async (event) => {
+  event.preventDefault();
+  const student = Object.fromEntries(new FormData(by("add")));
+  const answer = await act("/desk/students", student, by("adding"));
+  if (!answer) return;
+  by("adding").textContent = fill(words.added, { name: student.name });
+  by("add").reset();
+});
+// A download may have to be made first: say so as long as it takes.
+document.addEventListener("click", ({ target }) => {
+  if (!target.matches("[data-download]")) return;
+  by("downloading").textContent = words.preparing;
+  setTimeout(() => { by("downloading").textContent = ""; }, 8000);
+});
+show();
+notices();
+timer = setTimeout(renew, table.marking ? WHILE_MARKING : EVERY);

@@ -1,0 +1,211 @@
+"""A class from the empty folder to the released mark, in a browser: on a desktop and a phone, in both languages."""
+
+from __future__ import annotations
+
+import csv
+import socket
+import subprocess
+import sys
+import time
+import urllib.request
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+
+from reportgen.cases import open_case
+from reportgen.marking.toleranced_key import Ask, key_of
+from tests.page.browser import Browser, axe, opened
+from tests.server.walk import Walk
+
+SPEC = """
+kind: slider-crank
+salt: walk
+report: {language: vi, worked_positions: [2]}
+positions: {count: 8}
+parameters:
+  r: {from: 130 mm, to: 170 mm, step: 5 mm}
+  l: 600 mm
+  n: 300 rpm
+"""
+ROSTER = "id,name,class\nK01,Nguyễn Hoàng An,K58\nK02,Trần <b>Ánh</b>,K58\n"
+POLICY = "ask: [velocity]\nbrowser: {closes: 2099-11-20 23:59, checks: 5, uploads: 3}\n"
+
+
+@dataclass(frozen=True)
+class Class:
+    """A class that is being served."""
+
+    folder: Path
+    desk: str
+    """The link of the instructor."""
+
+    @property
+    def address(self) -> str:
+        return self.desk.partition("/in/")[0]
+
+    def right(self, id: str, scales: bool) -> dict[tuple[str, int], str]:
+        """The right values of a student's sheet, as typed in Vietnamese."""
+        key = Ask(("velocity",)).of(key_of(open_case(self.folder / "variants" / f"{id}.yaml", "vi")))
+        return {
+            (row.id, position): f"{row.printed[row.at(position)]:.6g}".replace(".", ",")
+            for row in key.asked
+            for position in row.positions
+            if scales or row.role == "asked"
+        }
+
+
+def command(*arguments: str | Path) -> list[str]:
+    return [sys.executable, "-m", "reportgen.cli", "serve", *map(str, arguments)]
+
+
+@pytest.fixture(scope="module")
+def served(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Class]:
+    """A class made by the command in a folder that did not exist."""
+    pytest.importorskip("starlette")
+    home = tmp_path_factory.mktemp("walk")
+    for name, text in (("spec.yaml", SPEC), ("roster.csv", ROSTER), ("policy.yaml", POLICY)):
+        (home / name).write_text(text, encoding="utf-8")
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        port = str(free.getsockname()[1])
+    folder = home / "class"
+    made = subprocess.run(
+        command(
+            folder,
+            home / "roster.csv",
+            "--init",
+            "--spec",
+            home / "spec.yaml",
+            "--policy",
+            home / "policy.yaml",
+            "--port",
+            port,
+        ),
+        capture_output=True,
+        text=True,
+        check=True,
+        timeout=60,
+    )
+    with subprocess.Popen(
+        command(folder, "--port", port), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+    ) as server:
+        for _ in range(300):
+            try:
+                urllib.request.urlopen(f"http://127.0.0.1:{port}/", timeout=5).close()
+                break
+            except OSError:
+                time.sleep(0.1)
+        try:
+            yield Class(folder, made.stdout.split()[-1])
+        finally:
+            server.terminate()
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Browser]:
+    with opened() as one:
+        yield one
+
+
+def hands_in(student: Walk, served: Class, id: str, link: str, tmp_path: Path, scales: bool) -> None:
+    """A student's way: the link, the machine, the sheet with a wrong value, a check, a file, the hand-in."""
+    student.open(link)
+    student.until("location.pathname === '/me'")
+    student.speak()
+    student.press("#moving summary")
+    student.until("document.querySelector('#moving iframe').src.endsWith('machine.html')")
+    values = served.right(id, scales)
+    (first, right), *others = values.items()
+    student.fill({first: "12345", **dict(others)})
+    student.until("document.getElementById('saving').dataset.state === 'saved'")
+    student.press("[data-check=velocity]")
+    student.until("document.querySelector('.cell.wrong') !== null")
+    left = student.text("#left")
+    assert "4" in left
+    box = f"input[data-id='{first[0]}'][data-position='{first[1]}']"
+    student.value(f'document.querySelector("{box}").select()')
+    student.type(box, right)
+    student.until(
+        "document.getElementById('saving').dataset.state === 'saved' && !document.querySelector('.cell.wrong')"
+    )
+    file = tmp_path / "bản vẽ <i>.pdf"
+    file.write_bytes(b"%PDF-1.4\n% a scan")
+    student.choose("#file", file)
+    student.press("#upload button")
+    student.until("document.querySelector('#receipts .digest') !== null")
+    assert student.value("document.querySelector('#receipts i') === null")
+    student.look(f"student {id}")
+    student.press("#hand-in")
+    # With empty cells, such as that of the scale of the machine, the button asks once more.
+    student.until("document.getElementById('hand-in').dataset.sure === 'yes'")
+    student.press("#hand-in")
+    student.until("document.getElementById('handed').innerText !== ''")
+
+
+def link_of(desk: Walk, served: Class, id: str) -> tuple[str, str]:
+    """The personal link and the code of a student, as an instructor sees them."""
+    desk.open(f"{served.address}/desk/students/{id}")
+    desk.press("[data-act=link]")
+    desk.until("document.querySelector('#link input') !== null")
+    return str(desk.value("document.querySelector('#link input').value")), desk.text("#link").split()[-1]
+
+
+def marks(desk: Walk, served: Class) -> None:
+    """An instructor's way: the table, one hand-in beside the key, the marking, the release."""
+    desk.open(served.desk)
+    desk.until("document.querySelectorAll('#students tbody tr').length === 2")
+    desk.press("#mark")
+    desk.until("!document.getElementById('mark').disabled && !document.getElementById('release').disabled")
+    desk.look("desk")
+    desk.press("#students tbody a")
+    desk.until("document.querySelector('#cells .verdict') !== null")
+    desk.look("hand-in")
+    desk.value("history.back()")
+    desk.until("document.querySelectorAll('#students tbody tr').length === 2")
+    desk.press("#release")
+
+
+@pytest.mark.proof
+def test_a_class_from_the_empty_folder_to_the_released_mark(served: Class, browser: Browser, tmp_path: Path) -> None:
+    source = axe()
+    an, anh = (Walk(browser, source, *screen) for screen in ((390, "vi"), (1280, "en")))
+    desks = [Walk(browser, source, *screen) for screen in ((1280, "vi"), (390, "en"))]
+    desks[0].open(served.desk)
+    desks[0].until("location.pathname === '/desk'")
+    link, _ = link_of(desks[0], served, "K01")
+    _, code = link_of(desks[0], served, "K02")
+    # A link on a page of another site, such as a mail, leads in.
+    browser.driver.get(f"data:text/html,<a href={link}>link</a>")
+    browser.driver.find_element("tag name", "a").click()
+    an.until("location.pathname === '/me'")
+    hands_in(an, served, "K01", f"{served.address}/me", tmp_path, scales=True)
+    an.press("form[action='/out'] button")
+    an.until("location.pathname === '/'")
+    an.look("sign-in")
+
+    # The second student types the number and the code.
+    anh.open(f"{served.address}/")
+    anh.type("#id", "k02")
+    anh.type("#code", f"{code}\n")
+    anh.until("location.pathname === '/me'")
+    hands_in(anh, served, "K02", f"{served.address}/me", tmp_path, scales=False)
+    anh.press("form[action='/out'] button")
+
+    marks(desks[0], served)
+    desks[0].until("document.getElementById('release').innerText !== ''")
+    desks[1].open(f"{served.address}/desk")
+    desks[1].until("document.querySelectorAll('#students tbody tr').length === 2")
+    desks[1].look("desk on a phone")
+
+    an.open(link)
+    an.until("document.querySelector('#marked .mark') !== null")
+    an.look("result")
+    mark = an.text("#marked .mark strong")
+    faults = {name: found for walk in (an, anh, *desks) for name, found in walk.seen.items() if found}
+    assert faults == {}
+    with (served.folder / "marked" / "grades.csv").open(encoding="utf-8-sig", newline="") as file:
+        rows = list(csv.reader(file))
+    marks_of_all = [float(row[rows[0].index("điểm số")].replace(",", ".")) for row in rows[1:]]
+    assert (mark, marks_of_all) == ("10", [10, 9.4])
