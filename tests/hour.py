@@ -26,6 +26,8 @@ LONGEST = 600
 """Longest duration of a step in seconds."""
 WATCHED = 3
 """Duration for which the page is watched, in seconds."""
+PORT = 8761
+"""Port of the class in the browser."""
 STUDENTS = ("K225520103001", "K225520103004", "K225520103007")
 """Some students of the class that comes with the program."""
 
@@ -159,6 +161,45 @@ def a_class(new: Newcomer) -> None:
     wanted("each has a mark", all(student in grades for student in STUDENTS), grades)
 
 
+def a_class_in_the_browser(new: Newcomer, wheel: Path) -> None:
+    """Serve a class: without its packages the command names them, with them it answers."""
+    demo = new.desk / "examples" / "class-demo"
+    begin = ("serve", "browser", "roster.csv", "--init", "--spec", demo / "spec.yaml", "--port", str(PORT))
+    told = new.reportgen(*begin, code=3)
+    wanted("the packages are named in one line", "reportgen[server]" in told and told.count("\n") == 1, told)
+    done([new.programs / "python", "-m", "pip", "install", "--quiet", f"{wheel}[server]"], new.desk)
+    link = new.reportgen(*begin).split()[-1]
+    print("$ reportgen serve browser")
+    with subprocess.Popen(
+        [new.programs / "reportgen", "serve", "browser", "--port", str(PORT)],
+        cwd=new.desk,
+        env=new.surroundings,
+        stdout=subprocess.PIPE,
+        encoding="utf-8",
+    ) as process:
+        assert process.stdout is not None
+        wanted("it prints the same link", process.stdout.readline().strip() == link, link)
+        page = answered(link)
+        process.send_signal(signal.SIGINT)
+        wanted("Ctrl-C ends it", process.wait(LONGEST) in (0, 130), process.returncode)
+    wanted("the link leads to the desk", "/desk" in page, page[:200])
+
+
+def answered(address: str) -> str:
+    """Return the page of a server that may still be starting."""
+    for attempt in range(60):
+        try:
+            with urllib.request.urlopen(address, timeout=LONGEST) as answer:
+                page: str = answer.read().decode()
+                return page
+        except ConnectionError:
+            time.sleep(0.5)
+        except OSError as error:
+            wanted("the server answers", isinstance(getattr(error, "reason", None), ConnectionError), (attempt, error))
+            time.sleep(0.5)
+    raise StepError(f"{address} does not answer")
+
+
 def an_example(new: Newcomer) -> None:
     """Build an example of a checkout, with a school's words that are not in the package."""
     new.reportgen("new", "engine-twin", "--from", "engine-twin-05", "-o", "twin.yaml")
@@ -198,6 +239,7 @@ def main(arguments: Sequence[str]) -> int:
             a_report(new)
             an_example(new)
             a_class(new)
+            a_class_in_the_browser(new, wheel)
             if "--tools" in arguments:
                 with_tools(tools, wheel, place)
         except (StepError, subprocess.TimeoutExpired) as error:

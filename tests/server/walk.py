@@ -33,6 +33,17 @@ class Walk:
             self.press(chosen)
             self.until(f"document.documentElement.lang === '{self.language}'")
 
+    def connect(self, connected: bool) -> None:
+        """Give the page a network, or take it away."""
+        self.browser.command("Network.enable")
+        self.browser.command(
+            "Network.emulateNetworkConditions",
+            offline=not connected,
+            latency=0,
+            downloadThroughput=-1,
+            uploadThroughput=-1,
+        )
+
     def value(self, expression: str) -> Any:
         return self.browser.run(f"return {expression}")
 

@@ -23,7 +23,7 @@ const AGAIN = new Set([408, 413, 429, 500, 502, 503, 504, 507]);
 // An answer that is an error. `again`: the same request may succeed later.
 export class Refused extends Error {
   constructor(status, answer) {
-    super(answer.message || errors[answer.error] || words.refused);
+    super([answer.message || errors[answer.error] || words.refused, ...(answer.lines ?? [])].join(" "));
     this.status = status;
     this.again = AGAIN.has(status);
   }

@@ -156,20 +156,35 @@ function judged(cells) {
   }
 }
 
-async function check(button) {
-  const outcome = button.parentElement.querySelector(".outcome"), left = document.getElementById("left");
+// Check what a button stands for: its section, or the cell beside it, which has its outcome itself.
+async function check(button, asked, outcome) {
+  const left = document.getElementById("left");
   button.disabled = true;
   outcome.textContent = words.checking;
   try {
     if (!(await settle())) throw new Error(words.not_saved_first);
-    const answer = await send("/me/check", { client: newId(), section: button.dataset.check }, 120000);
+    const answer = await send("/me/check", { client: newId(), ...asked }, 120000);
+    if (asked.section) outcome.replaceChildren(...(answer.lines ?? []).map((line) => element("p", line.trim())));
     judged(answer.cells ?? []);
-    outcome.replaceChildren(...(answer.lines ?? []).map((line) => element("p", line.trim())));
     if (left && Number.isInteger(answer.checks_left)) left.textContent = fill(words.checks_left, { count: answer.checks_left });
   } catch (error) {
     outcome.textContent = error.message;
   }
   button.disabled = false;
+}
+
+// One button for all cells: it comes to the cell that has the focus.
+const single = element("button", "✓?", { type: "button", className: "single", ariaLabel: words.check_cell, title: words.check_cell });
+
+function offer({ target }) {
+  if (!target.dataset?.id) return;
+  target.after(single);
+  single.hidden = !target.value.trim();
+}
+
+function checkCell() {
+  const input = single.previousElementSibling, { id, position } = cellOf(input);
+  check(single, { id, position }, document.getElementById(input.getAttribute("aria-describedby")));
 }
 
 // --- handing in -----------------------------------------------------------------------------------
@@ -219,7 +234,14 @@ sheet.addEventListener("keydown", (event) => {
   event.preventDefault();
   inputs[at + (event.shiftKey ? -1 : 1)]?.focus();
 });
-sheet.addEventListener("click", ({ target }) => { if (target.matches("[data-check]")) check(target); });
+sheet.addEventListener("click", ({ target }) => {
+  if (target.matches("[data-check]")) check(target, { section: target.dataset.check }, target.parentElement.querySelector(".outcome"));
+});
+if (document.querySelector("[data-check]")) {
+  single.addEventListener("click", checkCell);
+  sheet.addEventListener("focusin", offer);
+  sheet.addEventListener("input", offer);
+}
 button?.addEventListener("click", handIn);
 channel?.addEventListener("message", ({ data }) => show(data));
 addEventListener("online", () => { wait = FIRST_WAIT; flush(); });
