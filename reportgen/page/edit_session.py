@@ -54,7 +54,7 @@ REST = 0.3
 PATIENCE = 10.0
 """Longest delay (s) of work that can wait."""
 HERE = Location("")
-SCRIPTS = "live.js", "drafts.js", "redraw.js", "tables.js", "edit.js", "owned.js", "pull.js", "missing.js"
+SCRIPTS = "live.js", "drafts.js", "redraw.js", "tables.js", "edit.js", "owned.js", "pull.js", "handle.js", "missing.js"
 STYLES = "live.css", "edit.css", "pull.css"
 
 

@@ -107,7 +107,7 @@ const pulls = (() => {
   };
   const move = (event) => {
     if (!held) {
-      const name = event.pointerType !== "touch" && svg()?.contains(event.target) && !panel.playing() ? under(event) : null;
+      const name = event.pointerType !== "touch" && svg()?.contains(event.target) && !event.target.closest(".handle") && !panel.playing() ? under(event) : null;
       if (svg()) ring(name && at(name));
       return;
     }
@@ -191,5 +191,5 @@ const pulls = (() => {
     learn();
   });
   learn();
-  return { at, svg, toDrawing, element, held: () => held !== null };
+  return { at, svg, toDrawing, element, noClick, held: () => held !== null };
 })();
