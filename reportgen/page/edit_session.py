@@ -54,7 +54,9 @@ REST = 0.3
 PATIENCE = 10.0
 """Longest delay (s) of work that can wait."""
 HERE = Location("")
-SCRIPTS = "live.js", "drafts.js", "redraw.js", "tables.js", "edit.js", "owned.js", "pull.js", "handle.js", "missing.js"
+FIELDS = "drafts.js", "redraw.js", "tables.js", "edit.js", "owned.js", "missing.js"
+PULLED = "pull.js", "handle.js", "region.js"
+SCRIPTS = "live.js", *FIELDS, *PULLED
 STYLES = "live.css", "edit.css", "pull.css"
 
 
@@ -155,7 +157,13 @@ class EditSession(LiveSession):
 
     @property
     def takes(self) -> Mapping[str, Callable[[Asked], Mapping[str, Any] | bytes]]:
-        return {"edit.json": self.edit, "drag.json": self.drag, "pull.json": self.pull, "make.json": self.make}
+        return {
+            "edit.json": self.edit,
+            "drag.json": self.drag,
+            "pull.json": self.pull,
+            **self.pulls.takes,
+            "make.json": self.make,
+        }
 
     def below(self, name: str) -> EditSession | None:
         """Return the open form of a part's file by its number: a file that the text names now, in its folder or below.

@@ -17,6 +17,7 @@ KNOB = """
 const { left, top, width, height } = document.querySelector(".handle circle").getBoundingClientRect();
 return [left + width / 2, top + height / 2];
 """
+SHADED = "return document.querySelector('.region')?.getBoundingClientRect().width > 20"
 BC, CD = "f:parameters.BC", "f:parameters.CD"
 
 
@@ -30,9 +31,11 @@ def test_a_pin_changes_its_lengths_and_esc_takes_them_back(browser: Browser, tmp
         until(lambda: {key for key, text in hand.values().items() if text != values[key]} == {BC, CD})
         until(lambda: hand.at("C")[0] > here[0] + 12)
         assert hand.values()[BC] in browser.run(TOLD)
+        until(lambda: browser.run(SHADED))
         Typist(browser).press("Escape")
         hand.release()
         until(lambda: hand.values() == values)
+        assert not browser.run(SHADED)
         assert hand.at("C") == pytest.approx(here)
         assert hand.file.read_bytes() == before
         hand.press(here)

@@ -70,7 +70,10 @@ const pulls = (() => {
     }
     output.textContent = text;
   };
-  const named = (field) => field.closest(".field").querySelector("label").textContent.trim();
+  const named = (field) => {
+    const label = field.closest(".field").querySelector("label");
+    return (label.querySelector("code") || label).textContent.trim();
+  };
 
   // The nearest point under a pointer; a finger covers more than a mouse.
   const under = (event) => {
