@@ -36,7 +36,7 @@ STYLES, SCRIPTS = ("page.css",), ("page.js", "save.js")
 """Style sheets and scripts that every page has."""
 FEED, GIVES, EXTENDED = "feed.js", "  return { root, own,", "const extended = new Map();"
 """Script that a form needs of each panel, its place in the panel's script, and the line by which panels get it."""
-MOVING_STYLES, MOVING_SCRIPTS = ("moving.css",), ("moving.js",)
+MOVING_STYLES, MOVING_SCRIPTS = ("moving.css",), ("labels.js", "moving.js")
 """Styles and scripts for panels."""
 
 
