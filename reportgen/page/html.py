@@ -135,7 +135,7 @@ def write(
         "default-src 'none'",
         f"script-src {_hash(script)}",
         f"style-src {_hash(style)}",
-        "img-src data:",
+        "img-src data: 'self'" if live and live.form else "img-src data:",
         *(["connect-src 'self'"] if live else []),
         "base-uri 'none'",
         "form-action 'none'",

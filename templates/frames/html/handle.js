@@ -2,7 +2,7 @@
 // A handle turns the machine: a ring about the crank, or a line beside a sliding driver.  Arrow keys turn it, too.
 (() => {
   const panel = typeof panels === "undefined" ? undefined : panels[0];
-  if (!panel) return;
+  if (!panel || !pulls) return;
   const BESIDE = 2.5, WIDE = 5, FINGER = 24, KNOB = 2.2;
   const words = JSON.parse(document.getElementById("live").textContent).words;
   let driver = null, turning = null;

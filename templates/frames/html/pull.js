@@ -4,7 +4,7 @@
 // the program.
 const pulls = (() => {
   const panel = typeof panels === "undefined" ? undefined : panels[0];
-  if (!panel) return undefined;
+  if (!panel?.root.querySelector('[data-stage="machine"] svg')) return undefined;
   const SLACK = 3, NEAR = 4, FINGER = 24;
   const form = document.getElementById("fields"), words = JSON.parse(document.getElementById("live").textContent).words;
   let grips = { points: {}, ground: {} }, asked = "", held = null, count = 0;
