@@ -193,7 +193,7 @@ def two_readings(text: str) -> tuple[str, str] | None:
         return None
     if match[3] and (re.match(r"[eE][+-]?[0-9]", match[3]) or not _is_unit(match[3].strip())):
         return None
-    decimals, thousands = (f"{match[1]}{way}{match[3]}" for way in _ways(match[2]))
+    decimals, thousands = (f"{match[1]}{way}{match[3]}" for way in _readings(match[2]))
     return decimals, thousands
 
 
@@ -205,7 +205,7 @@ def _is_unit(text: str) -> bool:
     return True
 
 
-def _ways(body: str) -> list[str]:
+def _readings(body: str) -> list[str]:
     """Return the readings of digits with points or commas among them, each with a decimal point or none: decimals
     first.
 
@@ -289,7 +289,7 @@ def _cleaned(text: str) -> str:
     if len(cleaned) > _LONGEST:
         raise QuantityFault("not-a-number", text=text)
     if (match := _MARKED.fullmatch(cleaned)) and ("," in match[2] or match[2].count(".") > 1):
-        ways = (f"{match[1]}{way}{match[3]}" for way in _ways(match[2]))
+        ways = (f"{match[1]}{way}{match[3]}" for way in _readings(match[2]))
         code = "decimal-comma" if "," in match[2] else "not-a-number"
         raise QuantityFault(code, text=text, **dict(zip(("fixed", "other"), ways, strict=False)))
     if _NOT_FINITE.fullmatch(cleaned):

@@ -230,7 +230,7 @@ def _assembly(given: file.Parameters, positions: Positions) -> Iterator[Finding]
     }
     if isinstance(given.driver, file.SlideDriver):
         if not positions.at:
-            yield from _along_the_way(given, given.driver, made, members)
+            yield from _along_travel(given, given.driver, made, members)
         return
     by_stroke = {
         index: load.link for index, load in enumerate(given.loads) if isinstance(load, file.OverStroke | file.Gas)
@@ -248,7 +248,7 @@ def _assembly(given: file.Parameters, positions: Positions) -> Iterator[Finding]
         yield from assembly_checks.to_and_fro(made, slider, motion_at, (*TOP, "loads", index, "link"))
 
 
-def _along_the_way(
+def _along_travel(
     given: file.Parameters, driver: file.SlideDriver, made: Linkage, members: dict[tuple[int, int], Member]
 ) -> Iterator[Finding]:
     start, end = driver.start, driver.end

@@ -51,7 +51,7 @@ def main() -> None:
         # Vietnamese must not fail on a terminal or pipe with another encoding.
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(encoding="utf-8", errors="backslashreplace")
-    warnings.showwarning = _tell
+    warnings.showwarning = _print_warning
     # Warn about each file, not only the first.
     warnings.simplefilter("always", OutputWarning)
     try:
@@ -141,7 +141,7 @@ def __getattr__(name: str) -> Any:
     return _app()
 
 
-def _tell(
+def _print_warning(
     message: Warning | str,
     category: type[Warning],
     filename: str,

@@ -58,7 +58,7 @@ class SolvedPair(DesignCase):
 
     @cached_property
     def misconceptions(self) -> Misconceptions:
-        return Misconceptions(changed=_changed(self.calculation), ways=_ways(self.chosen.follows))
+        return Misconceptions(changed=_changed(self.calculation), ways=_alternative_definitions(self.chosen.follows))
 
 
 class PairCalculation(PairFormulas):
@@ -119,7 +119,7 @@ def _changed(sheet: Calculation) -> Mapping[str, list[tuple[str, Expression]]]:
     return definitions
 
 
-def _ways(follows: bool) -> Mapping[str, list[Expression]]:
+def _alternative_definitions(follows: bool) -> Mapping[str, list[Expression]]:
     """Return alternative definitions that are equally right, from the centre distance and the radii of curvature, by
     id.
     """

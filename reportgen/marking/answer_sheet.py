@@ -236,7 +236,7 @@ def read_submission(
     reading = _Reading(key, language, settled=fingerprint is None)
     answered = sheets if key.parts else sheets[:1]
     if by_data:
-        data_faults = [fault for answers in answered for fault in _data_shown(key, *answers)]
+        data_faults = [fault for answers in answered for fault in _data_faults(key, *answers)]
         unsaid = not data_faults and named is not None and name != key.id
         about = {"text": name, "wanted": key.id}
         if (
@@ -309,7 +309,7 @@ def _titled(rows: Sequence[Sequence[SheetCell]]) -> tuple[str, Location] | None:
     return None
 
 
-def _data_shown(key: Key, page: Page, head: int) -> Iterator[Fault | None]:
+def _data_faults(key: Key, page: Page, head: int) -> Iterator[Fault | None]:
     """Yield, for each given value of a sheet, a fault at its cell if it is not the assignment's, else None."""
     heads = page.rows[head]
     at, column = (next(n for n, cell in enumerate(heads) if _says(cell, name)) for name in ("id", "value"))

@@ -93,7 +93,7 @@ def form_of(count: int, forms: int) -> int:
     return 0 if last == 1 and not teen else 1 if 2 <= last <= 4 and not teen else 2
 
 
-def shown_smaller(report: ReportContext, times: float, name: str) -> Inlines:
+def reduction_remark(report: ReportContext, times: float, name: str) -> Inlines:
     """Return the remark on a figure that is smaller than μ_l by the factor `times`; () if the factor is 1."""
     if times == 1.0:
         return ()

@@ -117,17 +117,17 @@ def frame_scene(size: str, block: TitleBlock, fields: Mapping[str, str]) -> Scen
         *_cells(beside),
         *([Label(complex(high.real, low.imag / 2), note, "right", font_size(HEIGHTS[-2]))] if note else []),
     )
-    return Scene(width, height, items, description=_said(items))
+    return Scene(width, height, items, description=_description(items))
 
 
 def title_block(cells: Sequence[BlockCell], size: tuple[float, float]) -> Scene:
     """Return a title block of a size (mm) with its cells filled in; the texts stay inside their cells."""
     outline = Polyline(_corners(0j, complex(*size)), HEAVY, closed=True)
     items = tuple(_cells(cells))
-    return Scene(*size, (*items, outline), description=_said(items))
+    return Scene(*size, (*items, outline), description=_description(items))
 
 
-def _said(items: Iterable[Item]) -> Description:
+def _description(items: Iterable[Item]) -> Description:
     """Return a description with the texts of a frame, in the order of its cells."""
     return tuple(fact("line", item.content) for item in items if isinstance(item, Label))
 
