@@ -208,9 +208,9 @@ def _declared(given: file.Parameters) -> Iterator[Finding]:
         if said is not None and said != is_so:
             yield Finding("not-as-declared", (*at, key), {"text": str(said), "found": str(is_so)})
     if declared.groups is not None:
-        said_groups = {tuple(sorted(pair)) for pair in declared.groups}
+        declared_groups = {tuple(sorted(pair)) for pair in declared.groups}
         is_groups = [tuple(sorted(dyad.links)) for dyad in actual.groups]
-        if said_groups != set(is_groups):
+        if declared_groups != set(is_groups):
             text = ", ".join(map(str, declared.groups))
             yield Finding("not-as-declared", (*at, "groups"), {"text": text, "found": ", ".join(map(str, is_groups))})
 
@@ -284,10 +284,10 @@ def _slots(given: file.Parameters, made: Linkage, motion: Motion) -> Iterator[Fi
     for index, group in enumerate(given.groups):
         at = (*TOP, "groups", index)
         i, j = group.links
-        ways = [(guide.slot, (*at, *where, "slot"), (guide.on, link)) for link, guide, where in file.rails(group)]
+        slots = [(guide.slot, (*at, *where, "slot"), (guide.on, link)) for link, guide, where in file.rails(group)]
         if isinstance(group, file.RPR):
-            ways.append((group.slot, (*at, "slot"), (j, i)))
-        for slot, where, key in ways:
+            slots.append((group.slot, (*at, "slot"), (j, i)))
+        for slot, where, key in slots:
             if slot is not None:
                 yield from _stays(slot, where, key, motion, f"({i}, {j})", isinstance(made.driver, Crank))
 

@@ -212,8 +212,8 @@ def medium(report: ReportContext) -> str:
 
 def slider_convention(report: ReportContext) -> Inlines:
     """Return a sentence on the positive directions of sliders; () without sliders."""
-    ways = slider_ways(report)
-    return say(report, f" {report.words['conventions']['sliders']} {{ways}}.", ways=ways) if ways else ()
+    senses = slider_ways(report)
+    return say(report, f" {report.words['conventions']['sliders']} {{senses}}.", senses=senses) if senses else ()
 
 
 def balance_sign(report: ReportContext, position: int) -> Inlines:

@@ -188,11 +188,11 @@ def _evenly(words: Sequence[str], count: int, height: float) -> list[str]:
     """Return words in `count` lines, the longest of them as short as possible."""
     if count == 1:
         return [" ".join(words)]
-    ways = (
+    divisions = (
         [" ".join(words[:first]), *_evenly(words[first:], count - 1, height)]
         for first in range(1, len(words) - count + 2)
     )
-    return min(ways, key=lambda lines: max(_width(line, height) for line in lines))
+    return min(divisions, key=lambda lines: max(_width(line, height) for line in lines))
 
 
 def _width(text: str, height: float) -> float:
