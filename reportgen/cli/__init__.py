@@ -108,19 +108,20 @@ def _app() -> typer.Typer:
         rich_markup_mode=None,
     )
     made.callback()(begin)
+    # In the order of a student's work, then of an instructor's.
     for command in (
         student.edit,
+        student.kinds,
         student.new,
         student.check,
         student.build,
-        student.sheet,
-        export.figure,
-        export.plot,
         student.watch,
-        student.solve,
+        student.sheet,
         student.compare,
+        student.solve,
+        export.plot,
+        export.figure,
         student.read,
-        student.kinds,
         student.samples,
         student.schema,
         instructor.variants,
