@@ -22,8 +22,9 @@ TEXTS: Mapping[Language, Mapping[str, str]] = {
         "top": """# Error codes
 
 An error is printed as `FILE:LINE:COLUMN: error[code]: message`; a warning has `warning[code]`, a note `note[code]`. The
-place is where the faulty text begins; in a workbook it is the cell. This page has each code with its message; “…”
-stands for the text, names and numbers of your file. [The assignment file](assignment.md) explains how to write one.
+place is where the faulty text begins; in a workbook it is the cell. This page has each code with its message. In
+place of “…”, the program shows texts, names and numbers from your file. [The assignment file](assignment.md) explains
+how to write one.
 """,
         "do": "What to do",
         "or": "Or",

@@ -140,8 +140,8 @@ class MachineCase(MachineAnalysis):
         from reportgen.report.template_equations import heading_words
 
         report = self._report
-        ways = report.slider_senses.items()
-        return {point: heading_words(report, float(np.degrees(np.angle(way)))) for point, way in ways}
+        senses = report.slider_senses.items()
+        return {point: heading_words(report, float(np.degrees(np.angle(sense)))) for point, sense in senses}
 
     @property
     def speed(self) -> float:

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from reportgen.api.typesetting import typeset
+from reportgen.api.typesetting import pages_of, typeset
 from reportgen.base.units import Language
 from reportgen.cases import opener
 from reportgen.page import file_watch as served
@@ -35,11 +35,11 @@ def watch(path: Path, language: Language | None = None, written: Written | None 
 
 def edit(path: Path, products: Products, language: Language | None = None, browser: bool = True) -> None:
     """Like `watch`, with a form beside the moving figure that changes the file and makes its `products`."""
-    served.edit(path, opener(), language, products, browser=browser)
+    served.edit(path, opener(), language, products, pages=pages_of, browser=browser)
 
 
 def choose(
     begins: Callable[[str, str], Path], products: Products, language: Language | None = None, browser: bool = True
 ) -> None:
     """Show the kinds in a browser; `begins` creates a file of a kind or a copy of its sample, which is then edited."""
-    served.choose(begins, opener(), language, products, browser=browser)
+    served.choose(begins, opener(), language, products, pages=pages_of, browser=browser)

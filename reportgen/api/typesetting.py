@@ -11,7 +11,7 @@ from reportgen.assignment import Assignment
 from reportgen.base.errors import TypesetterError
 from reportgen.base.languages import setting_of
 from reportgen.base.pdf_standards import STANDARDS, Standards
-from reportgen.base.progress import step
+from reportgen.base.progress import leave_source, step
 from reportgen.base.words import word
 
 if TYPE_CHECKING:
@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     from reportgen.drawing.drawing_sheet import DrawingSheet
     from reportgen.writers.pdflatex import Ahead
 
+OF_SYSTEM = "// with fonts of the system\n"
+"""First line of a source that was left for a preview and may use fonts of the system."""
 SUFFIX: Mapping[Engine, str] = {"typst": ".typ", "latex": ".tex"}
 
 
@@ -65,7 +67,19 @@ def typeset(
     from reportgen.writers import typst, typst_compiler
 
     source = typst.write(tree, letter)
-    return source, typst_compiler.compile(source, bool(letter.font), standards)
+    pdf = typst_compiler.compile(source, bool(letter.font), standards)
+    leave_source(f"{OF_SYSTEM}{source}" if letter.font else source)
+    return source, pdf
+
+
+def pages_of(source: str) -> list[bytes]:
+    """Return the pages of a typst source that was left for a preview, as SVG.
+
+    Raises `TypesetterError`.
+    """
+    from reportgen.writers import typst_compiler
+
+    return typst_compiler.compile_as(source, "svg", system=source.startswith(OF_SYSTEM))
 
 
 def typeset_sheet(

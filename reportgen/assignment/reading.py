@@ -187,8 +187,8 @@ def _doubtful(node: Node | None) -> Iterator[Fault]:
                 if not (bare and plain_points):
                     yield from _doubtful(item)
         case Scalar(text, mark):
-            if ways := two_readings(text):
-                yield Fault("thousands", mark, {"text": text, "fixed": ways[0], "other": ways[1]})
+            if readings := two_readings(text):
+                yield Fault("thousands", mark, {"text": text, "fixed": readings[0], "other": readings[1]})
 
 
 def _top(source: Source) -> tuple[MappingNode | None, list[Fault]]:

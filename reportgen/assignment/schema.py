@@ -54,7 +54,7 @@ class _Generator(GenerateJsonSchema):
 def file_schema(kind: Kind) -> Schema:
     """Return the JSON Schema of a whole file of a kind; of draft 2020-12."""
     schema = file_model(kind).model_json_schema(by_alias=True, schema_generator=_Generator)
-    _tell_checks(schema, schema, kind)
+    _add_checks(schema, schema, kind)
     return schema
 
 
@@ -69,8 +69,8 @@ def schema_of(kinds: Iterable[Kind], words: Callable[[str], Mapping[str, FieldWo
     references, definitions = models_json_schema([*models.values()], by_alias=True, schema_generator=_Generator)
     modern = {"title": "reportgen assignment", "oneOf": [references[model] for model in models.values()], **definitions}
     for kind, model in models.items():
-        _tell_checks(references[model], modern, kind)
-        _tell_words(references[model], modern, words(kind.name), ())
+        _add_checks(references[model], modern, kind)
+        _add_words(references[model], modern, words(kind.name), ())
     return {"$schema": "http://json-schema.org/draft-07/schema#", **_as_draft_07(modern)}
 
 
@@ -90,7 +90,7 @@ def _as_draft_07(part: Any) -> Any:
 # --- rules of checks, and words of keys -------------------------------------------------------------
 
 
-def _tell_checks(part: Schema, root: Schema, kind: Kind) -> None:
+def _add_checks(part: Schema, root: Schema, kind: Kind) -> None:
     """Add the rules of a kind's checks about several keys to the schema."""
     for check in kind.all_checks:
         match check:
@@ -124,17 +124,17 @@ def _add(table: Schema, key: str, rule: Any) -> None:
         listed.append(rule)
 
 
-def _tell_words(part: Schema, root: Schema, words: Mapping[str, FieldWords], path: tuple[str, ...]) -> None:
+def _add_words(part: Schema, root: Schema, words: Mapping[str, FieldWords], path: tuple[str, ...]) -> None:
     """Label and describe the keys of a schema, and everything in them."""
     for schema in alternatives(part, root):
         for inner in _unnamed(schema):
-            _tell_words(inner, root, words, path)
+            _add_words(inner, root, words, path)
         for key, about in schema.get("properties", {}).items():
             said = words.get(".".join((*path, key)))
             # A definition that several kinds share is described in the words of the first.
             if said is not None and "description" not in about:
                 about["title"], about["description"] = said.label, said.whole
-            _tell_words(about, root, words, (*path, key))
+            _add_words(about, root, words, (*path, key))
 
 
 def _unnamed(schema: Schema) -> Iterator[Schema]:

@@ -39,11 +39,11 @@ def factor_lines(report: ReportContext) -> list[str]:
     """Return the ids of λ, of the orders of a piston's acceleration by the series, and of the reciprocating mass."""
     series = (balance_ids.series(order) for order in EXACT)
     masses = [id for id in report.ledger.families if id in balance_ids.point_mass]
-    first = masses if masses and not _told_later(report) else []
+    first = masses if masses and not _rules_print_rod_masses(report) else []
     return report.known([balance_ids.RATIO, *series, *first[:2], balance_ids.TO_AND_FRO])
 
 
-def _told_later(report: ReportContext) -> bool:
+def _rules_print_rod_masses(report: ReportContext) -> bool:
     """Return True if a rule prints the masses of the rods."""
     return bool({"rotating", "share"} & balanced_in(report.analysis).products.keys())
 

@@ -95,12 +95,12 @@ def seen_lines(report: ReportContext) -> list[str]:
 
 def balance_rules(report: ReportContext) -> tuple[BalancingRule, ...]:
     """Return the requested rules, in their order; the first one is applied."""
-    shown_before: set[str] = set()
+    printed_before: set[str] = set()
     rules = []
     for rule in _turn(report).products:
         masses = [id for id in report.ledger.families if id in balance_ids.point_mass] if rule in RODS else []
-        own = [id for id in masses if id not in shown_before]
-        shown_before.update(own)
+        own = [id for id in masses if id not in printed_before]
+        printed_before.update(own)
         before = {
             "rms": [balance_ids.mean(axis) for axis in AXES],
             "max": [id for id in report.ledger.families if id in balance_ids.touching],

@@ -17,7 +17,7 @@ from typing import Any
 
 from reportgen.base.errors import TemplateError
 from reportgen.base.languages import setting_of
-from reportgen.base.template_folders import MACHINES, languages, told_in, topic_file
+from reportgen.base.template_folders import MACHINES, languages, topic_file, words_file
 from reportgen.base.topics import topics
 from reportgen.base.units import Language
 from reportgen.base.words import sections
@@ -53,21 +53,21 @@ def field_words(kind: str, language: Language) -> Mapping[str, FieldWords]:
 
     A kind without the section has only the common ones.  Raises `TemplateError` for a section that is not a table.
     """
-    own, common = told_in(language, f"{MACHINES}/{kind}.md"), told_in(language, FILE)
+    own, common = words_file(language, f"{MACHINES}/{kind}.md"), words_file(language, FILE)
     of_topics = _of_topics(language)
-    return _found(own, common, of_topics, *(file.stat().st_mtime_ns for file in (own, common, *of_topics)))
+    return _words_by_path(own, common, of_topics, *(file.stat().st_mtime_ns for file in (own, common, *of_topics)))
 
 
 def shared_keys(language: Language) -> frozenset[str]:
     """Return the parameters that have the same label in every kind that has them."""
-    common = told_in(language, FILE)
+    common = words_file(language, FILE)
     tables = [_common(common, common.stat().st_mtime_ns)[PARAMETERS], *map(_own, _of_topics(language))]
     return frozenset(key for groups in tables for keys in groups.values() for key in keys)
 
 
 def choice_words(language: Language) -> Mapping[str, str]:
     """Return the labels of the values that a key may choose among."""
-    common = told_in(language, FILE)
+    common = words_file(language, FILE)
     table: Mapping[str, str] = _common(common, common.stat().st_mtime_ns)["choices"]
     of_topics = {key: said for file in _of_topics(language) for key, said in _own(file, CHOICES).items()}
     # Each language by its own name, unless this one has another for it.
@@ -76,24 +76,24 @@ def choice_words(language: Language) -> Mapping[str, str]:
 
 def group_titles(language: Language) -> list[str]:
     """Return the titles of groups in the order of a form."""
-    common = told_in(language, FILE)
+    common = words_file(language, FILE)
     return list(_common(common, common.stat().st_mtime_ns)["groups"].values())
 
 
 def also(language: Language) -> str:
     """Return the word between two ways to give the same value (“or”)."""
-    common = told_in(language, FILE)
+    common = words_file(language, FILE)
     return str(_common(common, common.stat().st_mtime_ns)["or"])
 
 
 def _of_topics(language: Language) -> tuple[Path, ...]:
     """Return the template files of all topics; those of the reference language where the language has none."""
-    files = (told_in(language, topic_file(topic)) for topic in topics())
+    files = (words_file(language, topic_file(topic)) for topic in topics())
     return tuple(file for file in files if file.is_file())
 
 
 @lru_cache(maxsize=64)
-def _found(own: Path, common: Path, of_topics: tuple[Path, ...], *_: int) -> Mapping[str, FieldWords]:
+def _words_by_path(own: Path, common: Path, of_topics: tuple[Path, ...], *_: int) -> Mapping[str, FieldWords]:
     shared = _common(common, common.stat().st_mtime_ns)
     groups: Mapping[str, str] = shared["groups"]
     words = {path: _words(said) for path, said in shared["file"].items()}

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
 
-from reportgen.base.template_folders import MACHINES, REFERENCE, kind_file, templates, told_in
+from reportgen.base.template_folders import MACHINES, REFERENCE, kind_file, templates, words_file
 from reportgen.base.units import Language
 from reportgen.base.words import load_words
 
@@ -30,7 +30,7 @@ def kinds() -> Mapping[str, str]:
 
 def title(name: str, language: Language) -> str:
     """Return the line of description of a kind, from its words."""
-    return str(load_words((told_in(language, f"{MACHINES}/{name}.md"),))["title"])
+    return str(load_words((words_file(language, f"{MACHINES}/{name}.md"),))["title"])
 
 
 def titles(language: Language) -> dict[str, str]:

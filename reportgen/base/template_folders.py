@@ -119,7 +119,7 @@ def topic_file(topic: str) -> str:
     return f"{TOPICS}/{topic}.md"
 
 
-def told_in(language: Language, name: str) -> Path:
+def words_file(language: Language, name: str) -> Path:
     """Return a file of words of a language, also a kind's, `catalogue/cam.md`; that of the reference if it has none."""
     own = templates() / language / name
     return own if own.is_file() else templates() / REFERENCE / name

@@ -169,8 +169,8 @@ def read_quantity(text: str, unit: str) -> Given:
         raise QuantityFault("not-a-number", text=text)
     if not match[2]:
         # 1.600 gets a hint of both its readings: with the unit alone it would be as doubtful as before.
-        ways = two_readings(f"{cleaned} {unit}")
-        hint = {"hint": "thousands", "fixed": ways[0], "other": ways[1]} if ways else {}
+        readings = two_readings(f"{cleaned} {unit}")
+        hint = {"hint": "thousands", "fixed": readings[0], "other": readings[1]} if readings else {}
         raise QuantityFault("missing-unit", text=text, unit=unit, **hint)
     try:
         value, factor = float(match[1]), read_unit(match[2], unit)
@@ -193,7 +193,7 @@ def two_readings(text: str) -> tuple[str, str] | None:
         return None
     if match[3] and (re.match(r"[eE][+-]?[0-9]", match[3]) or not _is_unit(match[3].strip())):
         return None
-    decimals, thousands = (f"{match[1]}{way}{match[3]}" for way in _ways(match[2]))
+    decimals, thousands = (f"{match[1]}{number}{match[3]}" for number in _readings(match[2]))
     return decimals, thousands
 
 
@@ -205,7 +205,7 @@ def _is_unit(text: str) -> bool:
     return True
 
 
-def _ways(body: str) -> list[str]:
+def _readings(body: str) -> list[str]:
     """Return the readings of digits with points or commas among them, each with a decimal point or none: decimals
     first.
 
@@ -289,9 +289,9 @@ def _cleaned(text: str) -> str:
     if len(cleaned) > _LONGEST:
         raise QuantityFault("not-a-number", text=text)
     if (match := _MARKED.fullmatch(cleaned)) and ("," in match[2] or match[2].count(".") > 1):
-        ways = (f"{match[1]}{way}{match[3]}" for way in _ways(match[2]))
+        readings = (f"{match[1]}{number}{match[3]}" for number in _readings(match[2]))
         code = "decimal-comma" if "," in match[2] else "not-a-number"
-        raise QuantityFault(code, text=text, **dict(zip(("fixed", "other"), ways, strict=False)))
+        raise QuantityFault(code, text=text, **dict(zip(("fixed", "other"), readings, strict=False)))
     if _NOT_FINITE.fullmatch(cleaned):
         raise QuantityFault("not-finite", text=text)
     return cleaned

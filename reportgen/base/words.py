@@ -189,7 +189,7 @@ class _Word(str):
 
 def unfilled(text: str, known: Iterable[str], language: Language) -> str:
     """Return the message about a placeholder that cannot be filled."""
-    return word("template_gap", language, text=_shown(text), known=", ".join(known) or "–")
+    return word("template_gap", language, text=_quotable(text), known=", ".join(known) or "–")
 
 
 def of_file(file: Path) -> Language:
@@ -336,7 +336,9 @@ def as_problem(fault: Fault, language: Language | None, level: Level = "error") 
     """Return the fault with its message; it has a hint if the arguments of the hint are known."""
     table = messages(language or spoken())
     # The list of known names comes from the program, so it is shown in full.
-    arguments = {name: text if name in {"known", "place"} else _shown(text) for name, text in fault.arguments.items()}
+    arguments = {
+        name: text if name in {"known", "place"} else _quotable(text) for name, text in fault.arguments.items()
+    }
     for name in arguments.keys() & {"expected", "reason", "range"}:
         words = [table["words"].get(one) for one in fault.arguments[name].split("+")]
         if None not in words:
@@ -369,10 +371,10 @@ def unknown(key: str, text: str, known: Sequence[str], language: Language | None
     """Return a message about an unknown name, with the known name that was probably meant, or all known names."""
     near = close_or_known(text, known)
     hint = messages(language or spoken())["hints"]["unknown-key" if "close" in near else "unknown-key-otherwise"]
-    return f"{word(key, language, text=_shown(text))}: {hint.format(**near)}"
+    return f"{word(key, language, text=_quotable(text))}: {hint.format(**near)}"
 
 
-def _shown(text: str) -> str:
+def _quotable(text: str) -> str:
     """Return a piece of the file for a message: one line, no control characters, limited length."""
     clean = "".join("\N{REPLACEMENT CHARACTER}" if unicodedata.category(c) in {"Cc", "Cs"} else c for c in text)
     return clean if len(clean) <= LONGEST_SHOWN else f"{clean[:LONGEST_SHOWN]}…"

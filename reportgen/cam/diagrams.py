@@ -166,7 +166,7 @@ def law_diagrams(case: SolvedCam, size: FigureSize = IN_REPORT) -> Scene:
 def _notes(case: SolvedCam, scales: LawScales, size: FigureSize) -> Iterator[Content]:
     """Yield the notes of scales; on a sheet with those of the report and the pole distances."""
     phi = cam_ids.scale("phi")
-    drawn = _shown(case, phi, 2 * math.pi / scales.turn)
+    drawn = _printed_scale(case, phi, 2 * math.pi / scales.turn)
     note = size.compared(case.printed.symbol(phi), drawn, case.printed.number(phi))
     if size.beside:
         degrees = Number(DEGREES_PER_MM[size.steps], unit="°/mm")
@@ -174,7 +174,7 @@ def _notes(case: SolvedCam, scales: LawScales, size: FigureSize) -> Iterator[Con
     yield note
     for id, per_mm in zip(case.solution.moved, scales.per_mm, strict=True):
         of = cam_ids.scale(id.removeprefix("cam."))
-        yield size.compared(case.printed.symbol(of), _shown(case, of, per_mm), case.printed.number(of))
+        yield size.compared(case.printed.symbol(of), _printed_scale(case, of, per_mm), case.printed.number(of))
     if size.beside:
         for number, pole in enumerate(scales.poles, start=1):
             K = cam_ids.diagram(number)
@@ -183,7 +183,7 @@ def _notes(case: SolvedCam, scales: LawScales, size: FigureSize) -> Iterator[Con
             )
 
 
-def _shown(case: SolvedCam, id: str, per_mm: float) -> Number:
+def _printed_scale(case: SolvedCam, id: str, per_mm: float) -> Number:
     """Return a scale (SI per mm) as the report prints it."""
     number = case.printed.number(id)
     usual = float(case.printed[id].values[0]) / MM

@@ -179,13 +179,13 @@ class CamPage(DesignPage[SolvedCam]):
             hidden.add(cam_ids.limit("return"))
         rows = list(self.given_rows(hidden))
         for key in ("follower", "end", "lifts", "direction", "closed_by"):
-            if (said := self._said(key)) is not None:
+            if (said := self._choice(key)) is not None:
                 rows.append(((Text(said[0]),), (Text("–"),), (Text(said[1]),)))
         for phase, text in self.law_words.items():
             rows.append(((Text(self.words["law_of"][phase]),), (Text("–"),), (Text(text),)))
         return self.data_table(rows)
 
-    def _said(self, key: str) -> tuple[str, str] | None:
+    def _choice(self, key: str) -> tuple[str, str] | None:
         """Return a choice of the file in words; None if it is not printed."""
         given = self.case.solution.given
         if key == "lifts" and given.translating:

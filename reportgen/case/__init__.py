@@ -49,10 +49,10 @@ class Misconceptions:
     `applied` are the names of the given loads, `loads` those of all loads, each of which may be forgotten or reversed.
     `readings` gives, for a quantity read from a diagram, its wrongly read values [N] with the mistake's name.  `whole`
     maps a length from one end of a rod to the length of the whole rod, by ids.  `changed` gives other definitions of a
-    quantity that students often use, with the mistake's name; `ways` gives equally right definitions of quantities that
-    do not depend on it.  `approximations` gives definitions that books use instead of the exact one, with their names.
-    `designs` gives, for a datum that a design determines, the data that follow from another value of it (SI), one set
-    for each way to continue; empty without a design.
+    quantity that students often use, with the mistake's name; `alternatives` gives equally right definitions of
+    quantities that do not depend on it.  `approximations` gives definitions that books use instead of the exact one,
+    with their names.  `designs` gives, for a datum that a design determines, the data that follow from another value of
+    it (SI), one set for each way to continue; empty without a design.
     """
 
     applied: frozenset[str] = frozenset()
@@ -60,7 +60,7 @@ class Misconceptions:
     readings: Mapping[str, Sequence[tuple[str, np.ndarray]]] = field(default_factory=dict)
     whole: Mapping[str, str] = field(default_factory=dict)
     changed: Mapping[str, Sequence[tuple[str, Expression]]] = field(default_factory=dict)
-    ways: Mapping[str, Sequence[Expression]] = field(default_factory=dict)
+    alternatives: Mapping[str, Sequence[Expression]] = field(default_factory=dict)
     approximations: Mapping[str, Sequence[tuple[str, Expression]]] = field(default_factory=dict)
     designs: Mapping[str, Callable[[float], Sequence[Mapping[str, np.ndarray]]]] = field(default_factory=dict)
 

@@ -65,7 +65,7 @@ def positive_sense(id: str, ledger: Ledger, words: Mapping[str, Any], ways: Mapp
     `ways` gives the positive direction of the motion of sliders, by their points.
     """
     family = ledger[id]
-    known = _points(id, ledger) | _way(id, ways or {})
+    known = _points(id, ledger) | _sliding_sense(id, ways or {})
     for phrase in vocabulary.words_of(words["positive"], id, family.kind, family.symbol):
         # A phrase is skipped if it has a placeholder that this quantity cannot fill.
         if gaps(phrase) <= known.keys():
@@ -98,7 +98,7 @@ def definition_of(ledger: Ledger, id: str) -> Expression:
     return definition
 
 
-def _way(id: str, ways: Mapping[str, str]) -> dict[str, str]:
+def _sliding_sense(id: str, ways: Mapping[str, str]) -> dict[str, str]:
     """Return the positive direction of a slider's motion, in words."""
     names = ids.formula_velocity.read(id) or ids.formula_acceleration.read(id)
     return {"way": ways[names["point"]]} if names and names["point"] in ways else {}

@@ -34,7 +34,7 @@ from reportgen.assignment.schema import alternatives_to, choices_of, file_schema
 from reportgen.base.errors import AssignmentError, Fault, Finding, Level, Problem, ReportgenError, TemplateError
 from reportgen.base.field_words import also, choice_words, field_words, remarked
 from reportgen.base.kinds import SAMPLE, kinds
-from reportgen.base.template_folders import MACHINES, samples, told_in
+from reportgen.base.template_folders import MACHINES, samples, words_file
 from reportgen.base.topics import topics
 from reportgen.base.translation_coverage import is_topic_whole, is_whole, offered
 from reportgen.base.units import Language, QuantityFault, measures, read_quantity, read_unit
@@ -284,7 +284,7 @@ def schema(language: Language | None = None) -> dict[str, Any]:
 def sample(name: str, language: Language) -> str:
     """Return the commented starter file of a kind; raises `KeyError`, or `TemplateError` if the kind has none."""
     known = kind(name)
-    file = told_in(language, f"{MACHINES}/{name}.md")
+    file = words_file(language, f"{MACHINES}/{name}.md")
     if (section := sections(file).get(SAMPLE)) is None:
         raise TemplateError(f"{file}:1: there is no section {SAMPLE}")
     words = field_words(name, language)

@@ -208,9 +208,9 @@ def _declared(given: file.Parameters) -> Iterator[Finding]:
         if said is not None and said != is_so:
             yield Finding("not-as-declared", (*at, key), {"text": str(said), "found": str(is_so)})
     if declared.groups is not None:
-        said_groups = {tuple(sorted(pair)) for pair in declared.groups}
+        declared_groups = {tuple(sorted(pair)) for pair in declared.groups}
         is_groups = [tuple(sorted(dyad.links)) for dyad in actual.groups]
-        if said_groups != set(is_groups):
+        if declared_groups != set(is_groups):
             text = ", ".join(map(str, declared.groups))
             yield Finding("not-as-declared", (*at, "groups"), {"text": text, "found": ", ".join(map(str, is_groups))})
 
@@ -230,7 +230,7 @@ def _assembly(given: file.Parameters, positions: Positions) -> Iterator[Finding]
     }
     if isinstance(given.driver, file.SlideDriver):
         if not positions.at:
-            yield from _along_the_way(given, given.driver, made, members)
+            yield from _along_travel(given, given.driver, made, members)
         return
     by_stroke = {
         index: load.link for index, load in enumerate(given.loads) if isinstance(load, file.OverStroke | file.Gas)
@@ -248,7 +248,7 @@ def _assembly(given: file.Parameters, positions: Positions) -> Iterator[Finding]
         yield from assembly_checks.to_and_fro(made, slider, motion_at, (*TOP, "loads", index, "link"))
 
 
-def _along_the_way(
+def _along_travel(
     given: file.Parameters, driver: file.SlideDriver, made: Linkage, members: dict[tuple[int, int], Member]
 ) -> Iterator[Finding]:
     start, end = driver.start, driver.end
@@ -284,10 +284,10 @@ def _slots(given: file.Parameters, made: Linkage, motion: Motion) -> Iterator[Fi
     for index, group in enumerate(given.groups):
         at = (*TOP, "groups", index)
         i, j = group.links
-        ways = [(guide.slot, (*at, *where, "slot"), (guide.on, link)) for link, guide, where in file.rails(group)]
+        slots = [(guide.slot, (*at, *where, "slot"), (guide.on, link)) for link, guide, where in file.rails(group)]
         if isinstance(group, file.RPR):
-            ways.append((group.slot, (*at, "slot"), (j, i)))
-        for slot, where, key in ways:
+            slots.append((group.slot, (*at, "slot"), (j, i)))
+        for slot, where, key in slots:
             if slot is not None:
                 yield from _stays(slot, where, key, motion, f"({i}, {j})", isinstance(made.driver, Crank))
 

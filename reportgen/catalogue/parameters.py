@@ -130,14 +130,14 @@ def weightless(weights: Iterable[Where]) -> Check:
         if given.plane == "horizontal" and given.g.si and draft.at("parameters", "g") is not None:
             yield Finding("plane-with-gravity", ("parameters", "g"), {"text": given.g.text})
         for place in () if given.gravity else places:
-            if _stands(draft.raw, place):
+            if _has_value(draft.raw, place):
                 mass = str(place[-1]).replace("G", "m")
                 yield Finding("weight-without-gravity", place, {"key": str(place[-1]), "mass": mass}, at="key")
 
     return check
 
 
-def _stands(content: Any, place: Where) -> bool:
+def _has_value(content: Any, place: Where) -> bool:
     """Return True if a file has a value at a place, which may lead into lists."""
     for key in place:
         fits = isinstance(content, list) if isinstance(key, int) else isinstance(content, dict)

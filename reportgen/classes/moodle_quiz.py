@@ -118,7 +118,7 @@ def _scales(key: Key, words: Mapping[str, Any], blocks: Blocks) -> str:
     """Return the scales of the requested lengths, as a list."""
     scales = {row.id for row in key.rows if row.role is Role.scale and any(row.id in one.plans for one in key.asked)}
     rows = [row for row in key.rows if row.single and row.id in scales]
-    items = "".join(f"<li>{_named(row, key)} = {_shown(row, blocks)}</li>" for row in rows)
+    items = "".join(f"<li>{_named(row, key)} = {_printed_value(row, blocks)}</li>" for row in rows)
     return f"<p>{html.escape(words['data'])}</p><ul>{items}</ul>" if items else ""
 
 
@@ -127,7 +127,7 @@ def _named(row: KeyRow, key: Key) -> str:
     return html.escape(f"{symbol_text(row, key)}{what}")
 
 
-def _shown(row: KeyRow, blocks: Blocks) -> str:
+def _printed_value(row: KeyRow, blocks: Blocks) -> str:
     value = blocks.inline(tree.Value(shown_number(row, float(row.printed[0]))))
     return f"{value} {html.escape(row.unit)}".strip()
 

@@ -221,7 +221,7 @@ def read_roster(path: Path, language: Language | None = None) -> Roster:
     by_address = (
         [Fault("roster-ids-mail", headings[0].location, {"text": rows[0].values["id"].text})] if by_mail else []
     )
-    left = (Fault("roster-row-left", row.location, {"text": _said(row)}) for row in left_out)
+    left = (Fault("roster-row-left", row.location, {"text": _quoted(row)}) for row in left_out)
     notes = (as_problem(fault, language, "note") for fault in (*by_address, *left))
     return Roster(tuple(map(_student, rows)), overriding, tuple(notes))
 
@@ -258,7 +258,7 @@ def _students_rows(rows: Sequence[Record]) -> tuple[list[Record], list[Record]]:
     return students, left_out
 
 
-def _said(row: Record) -> str:
+def _quoted(row: Record) -> str:
     """Return the content of a row for quoting."""
     return " ".join(value.text for value in row.values.values())
 

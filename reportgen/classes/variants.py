@@ -380,7 +380,7 @@ def _outliers(name: str, values: Sequence[float | None], middle: float) -> tuple
 def _lines(spreads: Sequence[Spread], language: Language) -> list[str]:
     """Return the spreads as lines of text: a figure with its smallest, median and largest value."""
     rows = [["", *(word(name, language) for name in ("least", "median", "greatest"))]]
-    rows += [[word(one.name, language), *map(_shown, (one.least, one.median, one.greatest))] for one in spreads]
+    rows += [[word(one.name, language), *map(_rounded, (one.least, one.median, one.greatest))] for one in spreads]
     first, *others = (max(map(len, cells)) for cells in zip(*rows, strict=True))
     return [
         "  ".join([name.ljust(first), *(cell.rjust(width) for cell, width in zip(cells, others, strict=True))])
@@ -388,7 +388,7 @@ def _lines(spreads: Sequence[Spread], language: Language) -> list[str]:
     ]
 
 
-def _shown(value: float) -> str:
+def _rounded(value: float) -> str:
     """Return a figure with four digits, a count with all."""
     return f"{value:.0f}" if float(value).is_integer() and abs(value) < 1e9 else f"{value:.4g}"
 
@@ -423,9 +423,9 @@ def _summary(efforts: Mapping[str, Effort], language: Language) -> Iterator[str]
     yield word("variants_table", language, count=len(efforts))
     yield from _lines(spreads, language)
     for spread in spreads:
-        apart = [f"{id} ({_shown(getattr(one, spread.name))})" for id, one in (students[k] for k in spread.outliers)]
+        apart = [f"{id} ({_rounded(getattr(one, spread.name))})" for id, one in (students[k] for k in spread.outliers)]
         if apart:
-            about = {"name": word(spread.name, language), "median": _shown(spread.median)}
+            about = {"name": word(spread.name, language), "median": _rounded(spread.median)}
             yield word("variants_apart", language, ids=", ".join(apart), **about)
 
 

@@ -51,7 +51,7 @@ def main() -> None:
         # Vietnamese must not fail on a terminal or pipe with another encoding.
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(encoding="utf-8", errors="backslashreplace")
-    warnings.showwarning = _tell
+    warnings.showwarning = _print_warning
     # Warn about each file, not only the first.
     warnings.simplefilter("always", OutputWarning)
     try:
@@ -108,19 +108,20 @@ def _app() -> typer.Typer:
         rich_markup_mode=None,
     )
     made.callback()(begin)
+    # In the order of a student's work, then of an instructor's.
     for command in (
         student.edit,
+        student.kinds,
         student.new,
         student.check,
         student.build,
-        student.sheet,
-        export.figure,
-        export.plot,
         student.watch,
-        student.solve,
+        student.sheet,
         student.compare,
+        student.solve,
+        export.plot,
+        export.figure,
         student.read,
-        student.kinds,
         student.samples,
         student.schema,
         instructor.variants,
@@ -142,7 +143,7 @@ def __getattr__(name: str) -> Any:
     return _app()
 
 
-def _tell(
+def _print_warning(
     message: Warning | str,
     category: type[Warning],
     filename: str,

@@ -47,7 +47,7 @@ def figure(
     lang: LangOption = None,
     templates: TemplatesOption = None,
 ) -> None:
-    """Write figures of the report as files of their own. They go to DIR/<id>/figures/NAME.svg, .png, ….
+    """Write figures of the report as separate files. They go to DIR/<id>/figures/NAME.svg, .png, ….
 
     A NAME is the key of a figure, v.4, or with --at only what it shows, v; what moves has a name, too, machine.
     """

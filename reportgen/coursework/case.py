@@ -262,12 +262,12 @@ class Coursework(CaseOfParts):
         letters = self.letters[member.name]
         document = relettered(self.documents[member.name], letters)
         rows = tuple(self._symbols(member)) if self.assignment.report.extent == "full" else ()
-        lettered = tuple(self._said(letters, member))
+        lettered = tuple(self._symbol_remarks(letters, member))
         summary = tuple(relettered(member.case.summary(), letters))
         taken = tuple(self._taken(member))
         return PartReport(member.name, member.title, document, taken, lettered, symbols=rows, summary=summary)
 
-    def _said(self, letters: Letters, member: PartCase) -> Iterator[Paragraph]:
+    def _symbol_remarks(self, letters: Letters, member: PartCase) -> Iterator[Paragraph]:
         """Yield the sentences on the symbols of a part with its index, and on its points that share a name with earlier
         ones.
         """

@@ -151,7 +151,7 @@ def _stroke(q: Calculation, course: Stroke) -> Ref:
     return q.give(ids.stroke(course.link), stroke, Symbol("H", str(course.link)), "length", hidden=True)
 
 
-def _way(q: Calculation, linkage: Linkage, link: int, values: np.ndarray, stroke: float) -> None:
+def _enter_displacement(q: Calculation, linkage: Linkage, link: int, values: np.ndarray, stroke: float) -> None:
     """Enter a slider's distances from its dead centre, the `values` [N] (m), as measured on the drawing.
 
     At the dead centre crank and rod lie in one line.
@@ -190,7 +190,7 @@ def _applied(q: Calculation, analysis: Analysis) -> None:
         own = force.name in analysis.gas or force.link not in gassed
         if course is not None and own and ids.displacement(force.link) not in q:
             displacements = course.fraction(analysis.motion) * course.stroke
-            _way(q, machine.linkage, force.link, displacements, course.stroke)
+            _enter_displacement(q, machine.linkage, force.link, displacements, course.stroke)
         if force.name in analysis.gas:
             state, link = analysis.gas[force.name], force.link
             piston = state.piston

@@ -33,8 +33,8 @@ def enter_reduced(
         for load in (*analysis.weights, *analysis.applied)
         if ids.lever_moment(load.name) in q
     ]
-    ways = np.diff(np.append(machine.cycle_angles, machine.turns * FULL_TURN))
-    steps = q.give("steps", ways, Symbol("φ"), "ratio", hidden=True)
+    angles = np.diff(np.append(machine.cycle_angles, machine.turns * FULL_TURN))
+    steps = q.give("steps", angles, Symbol("φ"), "ratio", hidden=True)
     by_lever: Expression = machine.turn * total(on_lever) if on_lever else Number(0.0)
     symbol = Symbol("M", "tt")
     for hooks in LEDGER.among(machine.topics):

@@ -91,7 +91,7 @@ class Dialect(Environment):
             pass
         if isinstance(obj, Undefined):
             str(obj)
-        return self.undefined(hint=f"there is no {_said(argument)} here", name=_said(argument))
+        return self.undefined(hint=f"there is no {_type_name(argument)} here", name=_type_name(argument))
 
     def call(self, _context: Context, called: Any, /, *arguments: Any, **named: Any) -> Any:
         """Return the result of a function of the table; the variables of a loop, which Jinja adds, are removed."""
@@ -341,5 +341,5 @@ def numbers(*ends: int) -> tuple[int, ...]:
     return tuple(numbers)
 
 
-def _said(name: Any) -> str:
+def _type_name(name: Any) -> str:
     return name if isinstance(name, str) else type(name).__name__

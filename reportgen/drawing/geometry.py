@@ -305,11 +305,11 @@ class Ink:
     def __init__(self, strokes: Complexes) -> None:
         self.strokes = strokes
         self.low, high = corners_of(strokes.ravel()) if len(strokes) else (0j, 0j)
-        ways = strokes[:, 1] - strokes[:, 0]
-        steps = np.ceil(settled(np.abs(ways)) / CELL).astype(np.intp) + 1
+        along = strokes[:, 1] - strokes[:, 0]
+        steps = np.ceil(settled(np.abs(along)) / CELL).astype(np.intp) + 1
         stroke = np.repeat(np.arange(len(steps)), steps)
         step = np.arange(len(stroke)) - np.repeat(np.cumsum(steps) - steps, steps)
-        dots = settled(strokes[stroke, 0] + ways[stroke] * (step / np.maximum(steps - 1, 1)[stroke]) - self.low) / CELL
+        dots = settled(strokes[stroke, 0] + along[stroke] * (step / np.maximum(steps - 1, 1)[stroke]) - self.low) / CELL
         self.size = int((high - self.low).real / CELL) + 2, int((high - self.low).imag / CELL) + 2
         # Counts modulo 2¹⁶ still distinguish boxes from empty ones: a label has fewer cells.
         inked = np.zeros((self.size[0] + 1, self.size[1] + 1), dtype=np.uint16)

@@ -246,9 +246,9 @@ class _Spots:
     def beyond(self, at: complex) -> tuple[Complexes, Complexes]:
         """Return the free candidates farther out from a point, the cheapest first, and their leaders [K, 2]."""
         if at not in self.far:
-            offsets, cost, ways = beyond(self.half, self.request.gap, self.request.prefer)
+            offsets, cost, lines = beyond(self.half, self.request.gap, self.request.prefer)
             free = self.free(at + offsets, self.request.short != LEFT_OUT)
-            centres, leaders = at + offsets[free], at + ways[free]
+            centres, leaders = at + offsets[free], at + lines[free]
             past = ~self.nearest(centres)
             order = np.argsort(settled(cost[free] + 0.3 * inked(self.field.ink, leaders) + past), kind="stable")
             self.far[at] = centres[order], leaders[order]
@@ -275,10 +275,10 @@ class _Spots:
         With `led`, a spot is nearer to another's point, but clear of it, and no other point is near its leader.
         """
         field, half, points = self.field, self.half, self.request.points
-        offsets, cost, ways = around(half, self.request.gap, self.request.prefer)
+        offsets, cost, lines = around(half, self.request.gap, self.request.prefer)
         centres = np.concatenate([at + offsets for at in points])
         free = np.flatnonzero(~field.firm.touches(centres, np.array(half + CLEAR * (1 + 1j))))
-        leaders, centres = np.concatenate([at + ways for at in points])[free], centres[free]
+        leaders, centres = np.concatenate([at + lines for at in points])[free], centres[free]
         near = free % len(offsets) < len(FINE) * LEADERLESS
         if led:
             others = field.points[field.owners != self.number]

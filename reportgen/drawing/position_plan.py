@@ -276,11 +276,11 @@ def swing_marks(marks: SwingMarks, scale: float) -> Canvas:
 
 def _covers(curve: Complexes, covered: Complexes) -> bool:
     """Return True if a curve lies on another one."""
-    starts, ways = curve[:-1], np.diff(curve)
-    sizes = np.where(np.abs(ways) > 0, np.abs(ways) ** 2, 1.0)
+    starts, steps = curve[:-1], np.diff(curve)
+    sizes = np.where(np.abs(steps) > 0, np.abs(steps) ** 2, 1.0)
     off = covered[:, None] - starts
-    share = np.clip((off * ways.conj()).real / sizes, 0.0, 1.0)
-    return bool(np.abs(off - share * ways).min(axis=1).max(initial=0.0) < TOGETHER)
+    share = np.clip((off * steps.conj()).real / sizes, 0.0, 1.0)
+    return bool(np.abs(off - share * steps).min(axis=1).max(initial=0.0) < TOGETHER)
 
 
 def _radii(dense: Motion, centre: str, numbered: Sequence[str], scale: float) -> list[float]:

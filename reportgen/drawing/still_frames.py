@@ -150,8 +150,8 @@ def _request(item: MovingItem, now: Moment, zoom: float, enlargement: float) -> 
             if cmath.isfinite(place):
                 label, half = _sized(content, LABEL * enlargement)
                 free = cmath.phase(_away(place, [zoom * now.of(one) for one in neighbours]))
-                ways = [(gap * enlargement + further, polar(free + turn)) for further in FURTHER for turn in ABOUT]
-                return _Request(label, [place + (by + _reach(half, way)) * way for by, way in ways], True)
+                rays = [(gap * enlargement + further, polar(free + turn)) for further in FURTHER for turn in ABOUT]
+                return _Request(label, [place + (by + _reach(half, ray)) * ray for by, ray in rays], True)
     return None
 
 
@@ -169,10 +169,10 @@ def _away(place: complex, others: Sequence[complex]) -> complex:
     """Return the direction away from the points that a point is joined to; if they surround it, normal to the last of
     them.
     """
-    ways = [unit(place - other) for other in others if 0.5 < abs(place - other) < math.inf]
-    away = sum(ways, 0j)
+    directions = [unit(place - other) for other in others if 0.5 < abs(place - other) < math.inf]
+    away = sum(directions, 0j)
     if abs(away) < BALANCED:
-        away += 1j * ways[-1] if ways else 0.8 + 0.6j
+        away += 1j * directions[-1] if directions else 0.8 + 0.6j
     return away
 
 

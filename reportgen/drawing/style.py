@@ -182,9 +182,9 @@ def _around(points: Sequence[complex]) -> list[complex]:
     places = {settled(point): point for point in points}
     ordered = [places[place] for place in sorted(places, key=lambda p: (p.real, p.imag))]
 
-    def chain(ways: Sequence[complex]) -> list[complex]:
+    def chain(corners: Sequence[complex]) -> list[complex]:
         kept: list[complex] = []
-        for p in ways:
+        for p in corners:
             while len(kept) > 1 and ((kept[-1] - kept[-2]).conjugate() * (p - kept[-1])).imag <= 0:
                 kept.pop()
             kept.append(p)

@@ -44,7 +44,7 @@ class ExerciseCase(SolvedExercise):
 
     @cached_property
     def _of_open_sense(self) -> frozenset[str]:
-        return frozenset(one.id for one in self.exercise.asked if not self.exercise.tells_sense(one))
+        return frozenset(one.id for one in self.exercise.asked if not self.exercise.determines_sense(one))
 
     def question(self, asked: AskedFor) -> tuple[Sequence[Block], Sequence[Block]]:
         """Return the title of the question and its text on the task sheet, each as blocks."""

@@ -74,7 +74,7 @@ def closed_form(
         if isinstance(second, Turn) and len(own) == len(rest) == 1 and all(leg.slide is None for leg in legs):
             return _two_angles(k, loop.point, vectors, own[0], rest[0])
         if isinstance(second, SlideTravel) and len(own) == len(rest) == 1 and own[0].slide is None:
-            return _angle_and_way(k, vectors, own[0], rest[0], second)
+            return _angle_and_travel(k, vectors, own[0], rest[0], second)
         ways = [leg for leg in own if leg.slide == second]
         if isinstance(second, SlideTravel) and not rest and len(ways) == 1 and len(own) <= 2:
             return _line_that_turns(k, loop.point, vectors, ways[0], [leg for leg in own if leg not in ways], second)
@@ -121,7 +121,7 @@ def _lead(
     return tuple(lines), parts[0], parts[1]
 
 
-def _angle_and_way(
+def _angle_and_travel(
     k: RateFormulas, vectors: list[LoopVector], rod: LoopVector, slide: LoopVector, of: SlideTravel
 ) -> tuple[str, ...]:
     """Enter φ from sin(φ − α) = the distance of the known legs from the line, divided by l; then the travel s."""

@@ -100,8 +100,8 @@ class Layout:
     def in_line(self, point: str) -> bool:
         """Return True if a point lies on one line with the guided points of each of its bodies."""
         for names in (names for names in self.members.values() if point in names):
-            ways = [self.points[name] - self.points[point] for name in names if name in self.guided and name != point]
-            if any(abs((ways[0].conjugate() * way).imag) > SAME_PLACE * abs(ways[0]) for way in ways):
+            arms = [self.points[name] - self.points[point] for name in names if name in self.guided and name != point]
+            if any(abs((arms[0].conjugate() * arm).imag) > SAME_PLACE * abs(arms[0]) for arm in arms):
                 return False
         return True
 

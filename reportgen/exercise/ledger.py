@@ -109,7 +109,7 @@ def work_out(
     steps = tuple(step for step in derivation.steps if _leads_on(step, needed))
     # A step that is used at all is written out completely.
     needed |= _with_ancestors(derivation, [id for step in steps for id in (*step.ids, *step.read)])
-    steps = _told_once(step for step in derivation.steps if _leads_on(step, needed))
+    steps = _without_repeated_readings(step for step in derivation.steps if _leads_on(step, needed))
     q = Calculation(POSITIONS)
     for id, family in derivation.q.families.items():
         if id in needed:
@@ -182,7 +182,7 @@ def _with_ancestors(derivation: Derivation, some: Sequence[str]) -> set[str]:
     return leading
 
 
-def _told_once(steps: Iterable[Step]) -> tuple[Step, ...]:
+def _without_repeated_readings(steps: Iterable[Step]) -> tuple[Step, ...]:
     """Return steps without readings that an earlier step has printed."""
     known, kept = set[str](), list[Step]()
     for step in steps:

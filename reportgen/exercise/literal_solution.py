@@ -143,7 +143,7 @@ class LiteralBoard:
         self.exercise, self.worked = exercise, worked
         self.motion = LiteralMotion(exercise)
         self.at = {name: one.given.si for name, one in exercise.given.symbols.items()}
-        self._found: dict[str, Algebraic | None] = {}
+        self._values: dict[str, Algebraic | None] = {}
 
     def __getitem__(self, id: str) -> Expression | None:
         """Return a quantity as an expression over the names of symbols; None if there is none or it is too long."""
@@ -157,10 +157,10 @@ class LiteralBoard:
         return None if x is None or y is None else (algebra.expression(x, self.at), algebra.expression(y, self.at))
 
     def algebraic(self, id: str) -> Algebraic | None:
-        if id not in self._found:
+        if id not in self._values:
             whole = self._of(id)
-            self._found[id] = None if whole is None else _short(whole, lambda of: algebra.size(of, self.at))
-        return self._found[id]
+            self._values[id] = None if whole is None else _short(whole, lambda of: algebra.size(of, self.at))
+        return self._values[id]
 
     def _of(self, id: str) -> Any:
         """Return the number or vector whose magnitude the quantity is: from the motion, otherwise by the formula of its

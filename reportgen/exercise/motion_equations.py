@@ -107,7 +107,7 @@ class EquationsOfMotion(RateFormulas):
         """
         eliminated: dict[CoordinateRate, dict[CoordinateRate, tuple[Expression, float]]] = {}
         for relation in self.linked.relations:
-            rates = {CoordinateRate(of, self.order): told for of, told in relation.items()}
+            rates = {CoordinateRate(of, self.order): factor for of, factor in relation.items()}
             unknown = [rate for rate in rates if rate not in self.known]
             if len(unknown) < 2:
                 continue
@@ -127,7 +127,7 @@ class EquationsOfMotion(RateFormulas):
 
     def _by_relation(self) -> bool:
         for relation in self.linked.relations:
-            rates = {CoordinateRate(of, self.order): told for of, told in relation.items()}
+            rates = {CoordinateRate(of, self.order): factor for of, factor in relation.items()}
             unknown = [rate for rate in rates if rate not in self.known]
             if len(unknown) == 1:
                 factor, _ = rates.pop(unknown[0])

@@ -361,7 +361,7 @@ class Exercise:
     def asked(self) -> tuple[file.Asked, ...]:
         return self.given.find
 
-    def tells_sense(self, asked: file.Asked) -> bool:
+    def determines_sense(self, asked: file.Asked) -> bool:
         """Return True if the data determine the sense of the requested quantity, and not its size alone."""
         return asked.what not in ("omega", "eps") or self.motion.knows_sense(asked.what, asked.body)
 

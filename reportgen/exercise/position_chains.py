@@ -425,7 +425,7 @@ class Linked:
                 if leader := self.turning[body]:
                     before, value = relation.get(Turn(leader), (NOTHING, 0.0))
                     relation[Turn(leader)] = plus(before, signed(sign, radius)), value + sign * size
-        self.relations.append({one: told for one, told in relation.items() if abs(told[1]) > SAME_PLACE})
+        self.relations.append({one: factor for one, factor in relation.items() if abs(factor[1]) > SAME_PLACE})
 
 
 def legs_of(closure: Closure) -> Iterator[LoopVector]:

@@ -276,7 +276,7 @@ class SolutionPage(Solution):
     def _asked_symbol(self, asked: file.Asked) -> Expression:
         """Return the symbol of a requested rate, in bars if the data leave its sense open."""
         symbol = vocabulary.symbol(asked.id)
-        return symbol if self.case.exercise.tells_sense(asked) else abs(symbol)
+        return symbol if self.case.exercise.determines_sense(asked) else abs(symbol)
 
     def _centre_symbol(self, body: int) -> Symbol:
         return vocabulary.point(self.worked.layout.centres[body].name or "∞")
@@ -395,7 +395,7 @@ class SolutionPage(Solution):
             number, literal = ledger.number(asked.id, AT), self._literal(asked.id)
             size: Inlines = (Value(number),) if self.put_in or literal is None else (InlineMath(literal, slashed=True),)
             if asked.of_body:
-                sense = self._sense(motion.turn(asked.what, asked.body), self.case.exercise.tells_sense(asked))
+                sense = self._sense(motion.turn(asked.what, asked.body), self.case.exercise.determines_sense(asked))
                 yield symbol, size, (Text(sense),)
             else:
                 vector = motion.v(asked.of) if asked.what == "v" else motion.a(asked.of)

@@ -130,9 +130,9 @@ def axis_up(source: CaseQuantity, ids: Sequence[str]) -> Content:
     It has the symbol of a single quantity, the unit, and the positive direction if all have the same one.
     """
     unit, motion = source.family.how.unit, source.case.driver_motion
-    ways = {motion.signed[id][1] if motion and id in motion.signed else None for id in ids}
+    directions = {motion.signed[id][1] if motion and id in motion.signed else None for id in ids}
     note, words = unit, source.case.words
-    if len(ways) == 1 and (direction := ways.pop()) is not None:
+    if len(directions) == 1 and (direction := directions.pop()) is not None:
         sense = heading_of(words, math.degrees(cmath.phase(direction)))
         note = str(words["figure"]["positive"]).format(title=unit, sense=sense)
     return Chain((source.family.symbol,), note) if len(ids) == 1 else note

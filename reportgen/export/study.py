@@ -114,9 +114,9 @@ class Study:
         if not self._given or family.is_plane or family.kind == "segment" or _is_scale(family):
             return False
         motions = [case.driver_motion for case in self._probes]
-        ways = {motion.signed[id][1] for motion in motions if motion is not None and id in motion.signed}
+        directions = {motion.signed[id][1] for motion in motions if motion is not None and id in motion.signed}
         ledgers = [case.ledger for case in self._probes]
-        return len(ways) <= 1 and all(self._is_same(one, ledgers) for one in self._needed(id))
+        return len(directions) <= 1 and all(self._is_same(one, ledgers) for one in self._needed(id))
 
     def _is_same(self, id: str, ledgers: Sequence[Ledger]) -> bool:
         """Return True if a number has one formula for all values or, without a formula, is the same for all."""

@@ -64,7 +64,7 @@ class Speech(Setter[str]):
         self.words = words
         self.unit = lru_cache(KEPT_UNITS)(self._unit)
         self._counts = list(map(_pattern, words["counts"].split()))
-        self._said = {node: self._symbol(node, detail) for node, detail in self._apart(symbols).items()}
+        self._spoken = {node: self._symbol(node, detail) for node, detail in self._apart(symbols).items()}
 
     # --- parts ------------------------------------------------------------------------------------
 
@@ -155,8 +155,8 @@ class Speech(Setter[str]):
 
     def symbol(self, node: Symbol) -> str:
         """Return a symbol in words, as unambiguous as the report's symbols require."""
-        if (said := self._said.get(node)) is None:
-            said = self._said[node] = self._symbol(node, PLAINLY)
+        if (said := self._spoken.get(node)) is None:
+            said = self._spoken[node] = self._symbol(node, PLAINLY)
         return said
 
     def _symbol(self, node: Symbol, detail: int) -> str:

@@ -391,7 +391,7 @@ def rows_of(head: str) -> tuple[VocabularyRow, ...]:
 
 
 @lru_cache(maxsize=4096)
-def _found(id: str) -> tuple[VocabularyRow, dict[str, str]]:
+def _row_and_words(id: str) -> tuple[VocabularyRow, dict[str, str]]:
     for row in rows_of(id.partition(".")[0]):
         if (words := row.ids.read(id)) is not None:
             return row, words
@@ -400,7 +400,7 @@ def _found(id: str) -> tuple[VocabularyRow, dict[str, str]]:
 
 def row(id: str) -> VocabularyRow:
     """Return the row of an id; an empty row for an id without one, which belongs to a single machine."""
-    return _found(id)[0]
+    return _row_and_words(id)[0]
 
 
 def symbol(id: str) -> Symbol:
@@ -408,7 +408,7 @@ def symbol(id: str) -> Symbol:
 
     Raises `KeyError` for an id whose row has no letter.
     """
-    family, words = _found(id)
+    family, words = _row_and_words(id)
     if not family.letter:
         raise KeyError(f"no letter for {id}")
     part = words.get("part", "")
@@ -441,7 +441,7 @@ def wording(id: str, symbol: Symbol) -> tuple[str, dict[str, str]]:
 
     `symbol` is the quantity's symbol, whose points may say more than the id's (B₃B₂ for B3B).
     """
-    family, parts = _found(id)
+    family, parts = _row_and_words(id)
     index = family.index(parts)
     points = ids.points(symbol.sub if family.kind in ("velocity", "acceleration") else index)
     link, acted_on = (
@@ -475,7 +475,7 @@ def words_of(table: Mapping[str, str], id: str, kind: str, symbol: Symbol) -> It
     for key, text in table.items():
         for name in key.split(", "):
             said.setdefault(name, text)
-    family, parts = _found(id)
+    family, parts = _row_and_words(id)
     named = id, f"{family.name}.{parts.get('axis', '')}", wording(id, symbol)[0]
     nearest = (*(one for name in named if name for one in (f"{name}:{kind}", name)), f":{kind}")
     return (said[one] for one in nearest if one in said)
@@ -484,7 +484,7 @@ def words_of(table: Mapping[str, str], id: str, kind: str, symbol: Symbol) -> It
 @lru_cache(maxsize=4096)
 def plan(id: str) -> str:
     """Return the id of the scale that a length on paper is measured with; "" for anything else."""
-    family, parts = _found(id)
+    family, parts = _row_and_words(id)
     return family.plan.format(**parts)
 
 

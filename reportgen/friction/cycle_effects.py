@@ -48,7 +48,7 @@ def mean_torque(machine: Machine) -> float:
 
     def torque(angle: Floats) -> Floats:
         solved = with_friction(analyse(machine, angle))
-        if not solved.stands.all():
+        if not solved.in_equilibrium.all():
             raise _LocksError
         return solved.torque
 

@@ -76,14 +76,14 @@ class FrictionForces:
         return self.rounds[-1]
 
     @property
-    def stands(self) -> Flags:
+    def in_equilibrium(self) -> Flags:
         """Flags [N], True where reactions with friction exist; elsewhere the mechanism locks."""
         return np.asarray(~np.any(list(self.held.values()), axis=0))
 
     @property
     def torque(self) -> Floats:
         """The balancing torque with friction (N·m) [N], nan where the mechanism locks."""
-        return np.where(self.stands, self.forces.torque, np.nan)
+        return np.where(self.in_equilibrium, self.forces.torque, np.nan)
 
 
 def relative_motion(joint: Joint, motion: Motion) -> tuple[Floats, Floats]:

@@ -151,8 +151,8 @@ def _rounds(solved: FrictionForces, worked: Sequence[int]) -> int:
     compared = compared[:, np.isfinite(compared).all(axis=0)]
     decimals = significant_decimals(float(np.nanmax(np.abs(torques[-1]))), KINDS["torque"].digits)
     printed = rounded(compared, decimals)
-    stands = (printed == printed[-1]).all(axis=1)
-    return min(int(stands.argmax()), MOST_ROUNDS)
+    settled = (printed == printed[-1]).all(axis=1)
+    return min(int(settled.argmax()), MOST_ROUNDS)
 
 
 # --- relative motion of the links of a joint --------------------------------------------------------

@@ -18,7 +18,7 @@ def at_position(analysis: Analysis, k: int, entry: dict[str, Any]) -> None:
     """
     solved = with_friction(analysis)
     balance = "torque" if isinstance(analysis.machine.linkage.driver, Crank) else "force"
-    if not solved.stands[k]:
+    if not solved.in_equilibrium[k]:
         locked: dict[str, None] = dict.fromkeys(solved.forces.reactions)
         entry["friction"] = {"reactions": locked, "loads": {}, balance: None, "efficiency": None}
         return

@@ -85,7 +85,7 @@ def resting(report: ReportContext) -> str:
 
 def solved_exactly(report: ReportContext, k: int) -> bool:
     """Return True if the rounds do not converge at a position, so that the equations are solved instead."""
-    return bool(_found(report).exact[k - 1])
+    return bool(_solved_friction(report).exact[k - 1])
 
 
 def data(report: ReportContext) -> Inlines:
@@ -220,7 +220,7 @@ class JointForce:
     """Vector (m) from the centre of the pin to the line of the force; 0 in a guide."""
 
 
-def _found(report: ReportContext) -> FrictionForces:
+def _solved_friction(report: ReportContext) -> FrictionForces:
     solved = with_friction(report.analysis)
     assert solved is not None
     return solved
@@ -228,7 +228,7 @@ def _found(report: ReportContext) -> FrictionForces:
 
 def joint_forces(report: ReportContext, k: int) -> Iterator[JointForce]:
     """Yield the force in each joint, friction included."""
-    solved, motion, index = _found(report), report.analysis.motion, k - 1
+    solved, motion, index = _solved_friction(report), report.analysis.motion, k - 1
     loads = {(load.name, load.link): load for load in solved.loads}
     for each in rubbing(report):
         joint = each.of.joint
@@ -435,7 +435,7 @@ def _closing(polygon: Polygon) -> list[Edge]:
 
 def _with_friction(report: ReportContext, name: str, k: int) -> complex:
     """Return a reaction by its name (N), with the force of friction in its guide."""
-    solved = _found(report)
+    solved = _solved_friction(report)
     rubbing = sum(complex(load.force[k - 1]) for load in solved.loads if load.name == name)
     return complex(solved.forces.reactions[name].force[k - 1]) + rubbing
 

@@ -96,7 +96,7 @@ def on_line(pair: GearPair, rolled: float) -> complex:
 def mesh_scale(case: SolvedPair) -> tuple[float, bool]:
     """Return the scale of the mesh in a report (mm/mm), and True if both ends of the line of action are drawn."""
     pair = case.gears
-    paper = [point * MM for point in (*_shown(pair)[1], on_line(pair, 0.0), on_line(pair, float(pair["g"])))]
+    paper = [point * MM for point in (*_drawn_teeth(pair)[1], on_line(pair, 0.0), on_line(pair, float(pair["g"])))]
     usual, _ = IN_REPORT.fitting(paper, MESH_ROOM)
     with_ends = tooth(case) / usual >= LEAST_WITH_ENDS
     if not with_ends:
@@ -109,7 +109,7 @@ def tooth(case: SolvedPair) -> float:
     return float(case.ledger["gears.h"].values[0]) * MM
 
 
-def _shown(pair: GearPair) -> tuple[list[list[Complexes]], Complexes]:
+def _drawn_teeth(pair: GearPair) -> tuple[list[list[Complexes]], Complexes]:
     """Return the drawn teeth of each wheel, and all their points (m)."""
     at_pitch = float(pair.to_pitch_point[0])
     outlines = [list(_teeth(pair, number, at_pitch)) for number in (0, 1)]
@@ -121,7 +121,7 @@ def mesh(case: SolvedPair, size: FigureSize = IN_REPORT) -> Scene:
     pair = case.gears
     ends = [on_line(pair, 0.0), on_line(pair, float(pair["g"]))]
     at_pitch = float(pair.to_pitch_point[0])
-    outlines, drawn = _shown(pair)
+    outlines, drawn = _drawn_teeth(pair)
     usual, with_ends = mesh_scale(case)
     at = size.per_unit(usual) * MM
     points: Complexes = np.append(drawn, np.array(ends, np.complex128)) if with_ends else drawn

@@ -58,7 +58,9 @@ class SolvedPair(DesignCase):
 
     @cached_property
     def misconceptions(self) -> Misconceptions:
-        return Misconceptions(changed=_changed(self.calculation), ways=_ways(self.chosen.follows))
+        return Misconceptions(
+            changed=_changed(self.calculation), alternatives=_alternative_definitions(self.chosen.follows)
+        )
 
 
 class PairCalculation(PairFormulas):
@@ -119,16 +121,16 @@ def _changed(sheet: Calculation) -> Mapping[str, list[tuple[str, Expression]]]:
     return definitions
 
 
-def _ways(follows: bool) -> Mapping[str, list[Expression]]:
+def _alternative_definitions(follows: bool) -> Mapping[str, list[Expression]]:
     """Return alternative definitions that are equally right, from the centre distance and the radii of curvature, by
     id.
     """
     a, a_w, m, g, p_b = (Ref(f"gears.{one}") for one in ("a", "a_w", "m", "g", "p_b"))
     z1, z2 = (Ref(gears_ids.of_wheel("z", wheel)) for wheel in WHEELS)
     path = Ref(gears_ids.of_wheel("rho_a", 1)) + Ref(gears_ids.of_wheel("rho_a", 2)) - g
-    ways: dict[str, list[Expression]] = {"gears.epsilon": [path / p_b], "gears.g_a": [path]}
+    alternatives: dict[str, list[Expression]] = {"gears.epsilon": [path / p_b], "gears.g_a": [path]}
     if not follows:
-        ways["gears.y"] = [(a_w - a) / m]
+        alternatives["gears.y"] = [(a_w - a) / m]
     for wheel, z in zip(WHEELS, (z1, z2), strict=True):
-        ways[gears_ids.of_wheel("d_w", wheel)] = [2 * a_w * z / (z1 + z2)]
-    return ways
+        alternatives[gears_ids.of_wheel("d_w", wheel)] = [2 * a_w * z / (z1 + z2)]
+    return alternatives

@@ -89,7 +89,7 @@ class PairPage(DesignPage[SolvedPair]):
         columns = (Column(widths[0], "left"), *(Column(width) for width in widths[1:]))
         return self.table(name, columns, (heads,), rows)
 
-    def _said(self, id: str) -> Inlines:
+    def _described(self, id: str) -> Inlines:
         """Return the name of a quantity in words; both wheels share the name."""
         text = phrase(id, self.case.ledger, self.case.words)
         return (Text(text[:1].upper() + text[1:]),)
@@ -112,7 +112,9 @@ class PairPage(DesignPage[SolvedPair]):
             rows.append(((Text(words["own"][name]),), (InlineMath(symbol),), *both))
         for name in SHARED:
             id = f"gears.{name}"
-            rows.append((self._said(id), (InlineMath(ledger.symbol(id)),), (Value(ledger.result(id)),), (Text("–"),)))
+            rows.append(
+                (self._described(id), (InlineMath(ledger.symbol(id)),), (Value(ledger.result(id)),), (Text("–"),))
+            )
         heads = ((Text(text),) for text in words["pair_head"])
         return self._table("pair", PAIR, heads, rows)
 

@@ -263,9 +263,13 @@ class TrainCase(SolvedTrain):
         return ResultEntries(
             [{"number": 1, "wheels": wheels}],
             {
-                "train": {**_told(self.train), "satellites": self.given.k, "possible": list(self.train.satellites)},
+                "train": {
+                    **_train_entry(self.train),
+                    "satellites": self.given.k,
+                    "possible": list(self.train.satellites),
+                },
                 "found": len(choice.sets),
-                "sets": [{**_told(choice.train(n)), "unshifted": choice.free[n]} for n in listed],
+                "sets": [{**_train_entry(choice.train(n)), "unshifted": choice.free[n]} for n in listed],
             },
         )
 
@@ -283,6 +287,6 @@ class TrainCase(SolvedTrain):
         return {"train": [*train_drawings.plates(self), *(replace(table, spare=True) for table in in_tables)]}
 
 
-def _told(train: Train) -> dict[str, Any]:
+def _train_entry(train: Train) -> dict[str, Any]:
     z = train.teeth
     return {"z": [z.z1, z.z2, z.z2_prime, z.z3], "ratio": float(train.ratio)}

@@ -34,7 +34,7 @@ def arrowheads(lines: Lines) -> Arrowheads:
     count = len(lines.ends)
     strokes, heads = np.zeros(count, dtype=bool), np.zeros(2 * count, dtype=bool)
     line, stroke = lines.touching
-    length, angle = np.abs(lines.ways), np.angle(lines.ways[stroke] / lines.ways[line])
+    length, angle = np.abs(lines.vectors), np.angle(lines.vectors[stroke] / lines.vectors[line])
     # The strokes begin exactly at the end that they mark, because the program snaps to it.
     at_end = np.abs(lines.points[line] - lines.points[stroke]) <= lines.reach
     slim = (np.abs(angle) >= SLIMMEST) & (np.abs(angle) <= WIDEST)

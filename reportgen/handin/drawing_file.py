@@ -79,7 +79,7 @@ def marked(path: Path, data: bytes, reading: FileReading, marking: Marking, poli
         judged = (cell.id, cell.position) in marking.submission.measured
         if judged and (cell.verdict in AT_FAULT or (cell.corrected and not cell.points)):
             lines = said.setdefault(answer.location, [])
-            lines.append(_told(cell, marking, cell_comment(cell, marking, words, policy.show_answers)))
+            lines.append(_comment_line(cell, marking, cell_comment(cell, marking, words, policy.show_answers)))
         elif judged and answer.location.wrong:
             said.setdefault(answer.location, [])
     for (id, position), mark in reading.beside.items():
@@ -96,7 +96,7 @@ def marked(path: Path, data: bytes, reading: FileReading, marking: Marking, poli
     return MARKED, with_corrections(data, vectors, 1 / next(iter(units), 1.0))
 
 
-def _told(cell: Marked, marking: Marking, comment: str) -> str:
+def _comment_line(cell: Marked, marking: Marking, comment: str) -> str:
     """Return the comment on a value as one line: v_C (3): wrong …"""
     row = marking.key.row(cell.id)
     label = marking.key.label(cell.position, cell.id)

@@ -78,7 +78,7 @@ class Lines:
         return np.concatenate((first, second)), np.concatenate((second, first))
 
     @cached_property
-    def ways(self) -> np.ndarray:
+    def vectors(self) -> np.ndarray:
         """The lines as vectors (mm) from each of their ends [2 M]."""
         along = self.ends[:, 1] - self.ends[:, 0]
         return np.concatenate((along, -along))
@@ -90,7 +90,7 @@ class Lines:
         All four arrays are [K]; the end and the vectors are in mm.
         """
         first, second = self.touching
-        along, beside = self.ways[first], self.ways[second]
+        along, beside = self.vectors[first], self.vectors[second]
         at = (self.points[first] + self.points[second]) / 2
         angle = np.angle(along)
         order = np.argsort(angle, kind="stable")

@@ -172,7 +172,7 @@ class _Judge:
     def _long(self) -> tuple[np.ndarray, np.ndarray]:
         """The numbers of all pairs of lines with a common end that are both long enough to have a direction."""
         first, second = self.lines.touching
-        length = np.abs(self.lines.ways)
+        length = np.abs(self.lines.vectors)
         long = np.minimum(length[first], length[second]) > LONG * self.lines.error
         count = len(self.lines.ends)
         return first[long] % count, second[long] % count

@@ -174,10 +174,10 @@ def _meeting(shape: PlanShape) -> Iterator[tuple[complex, complex, complex]]:
         start, end = complex(shape.corners[vector.start]), complex(shape.corners[vector.end])
         touching.setdefault(vector.start, []).append(end - start)
         touching.setdefault(vector.end, []).append(start - end)
-    for corner, ways in touching.items():
-        ways = sorted(ways, key=abs, reverse=True)
-        for number, first in enumerate(ways):
-            for second in ways[number + 1 :]:
+    for corner, vectors in touching.items():
+        vectors = sorted(vectors, key=abs, reverse=True)
+        for number, first in enumerate(vectors):
+            for second in vectors[number + 1 :]:
                 if first != second:
                     yield complex(shape.corners[corner]), first, second
 
@@ -195,11 +195,11 @@ def _by_vectors(shape: PlanShape, lines: Lines, scale: float) -> tuple[np.ndarra
 
     The shifts follow from every line with the length and direction of one of the plan's vectors.
     """
-    starts, ways = shape.starts, scale * (shape.ends - shape.starts)
+    starts, vectors = shape.starts, scale * (shape.ends - shape.starts)
     shifts = []
     for sense, start in ((1, lines.ends[:, 0]), (-1, lines.ends[:, 1])):
         along = sense * (lines.ends[:, 1] - lines.ends[:, 0])
-        vector, line = np.nonzero(np.abs(ways[:, None] - along) <= 2 * lines.reach)
+        vector, line = np.nonzero(np.abs(vectors[:, None] - along) <= 2 * lines.reach)
         shifts.append(start[line] - scale * starts[vector])
     shift = np.concatenate(shifts)
     return np.full(len(shift), scale), shift

@@ -110,8 +110,8 @@ class Symbols:
     @cached_property
     def _loose(self) -> tuple[dict[str, list[str]], ...]:
         """The symbols by their looser letters, for each of the functions `_LOOSER`."""
-        ways: tuple[dict[str, list[str]], ...] = tuple({} for _ in _LOOSER)
-        for loose, known in zip(_LOOSER, ways, strict=True):
+        lookups: tuple[dict[str, list[str]], ...] = tuple({} for _ in _LOOSER)
+        for loose, known in zip(_LOOSER, lookups, strict=True):
             for text in self.every:
                 known.setdefault(loose(text), []).append(text)
-        return ways
+        return lookups

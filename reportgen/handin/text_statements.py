@@ -261,6 +261,6 @@ def is_operator(text: str) -> bool:
     return text.rstrip()[-1:] in _OPERATORS
 
 
-def said_otherwise(text: str) -> list[tuple[str, str, int]]:
+def without_equality_sign(text: str) -> list[tuple[str, str, int]]:
     """Return symbols followed by a number without a sign of equality, each with the number and its index."""
     return [(match[1], match[0], match.start(2)) for match in _COLON.finditer(text)]

@@ -171,7 +171,7 @@ class _Reader:
 
     def otherwise(self, line: TextLine, label: str | None) -> None:
         """Record values that are stated without “=” as unread."""
-        for symbol, text, at in said.said_otherwise(line.text):
+        for symbol, text, at in said.without_equality_sign(line.text):
             for row in self.gathering.rows_of(symbol):
                 position = self.gathering.position(row, label)
                 self.gathering.doubt(row, position, "unread-number", self.gathering.location(line, at), text)

@@ -56,22 +56,22 @@ def read_table(grid: TextGrid, gathering: Gathering, line: Statements, label: st
     if any(said.RELATION.search(text) for text in texts.values()):
         _read_statements(grid.rows, gathering, line, label)
     elif grid.rows and len({len(row) for row in grid.rows}) == 1:
-        ways: list[TextCells] = [grid.rows, [list(column) for column in zip(*grid.rows, strict=True)]]
+        layouts: list[TextCells] = [grid.rows, [list(column) for column in zip(*grid.rows, strict=True)]]
         if not (
-            any(_read_positions(way, gathering) for way in ways)
-            or any(_read_single(way, gathering, label) for way in ways)
-            or any(_read_composed(way, gathering, label) for way in ways)
+            any(_read_positions(layout, gathering) for layout in layouts)
+            or any(_read_single(layout, gathering, label) for layout in layouts)
+            or any(_read_composed(layout, gathering, label) for layout in layouts)
         ):
-            _leave(ways, gathering)
+            _leave(layouts, gathering)
     else:
         _leave([grid.rows], gathering)
     for inner in nested:
         read_table(inner, gathering, line, label)
 
 
-def _leave(ways: Sequence[TextCells], gathering: Gathering) -> None:
+def _leave(layouts: Sequence[TextCells], gathering: Gathering) -> None:
     """Record doubts for the quantities of a table whose numbers cannot be assigned to positions."""
-    for row in (row for way in ways for row in way):
+    for row in (row for layout in layouts for row in layout):
         numbers = [cell for cell in row if _NUMBER_CELL.fullmatch(cell.line.text)]
         named = _named(row, gathering)
         for key_row in named[0].rows if named and numbers else ():

@@ -236,7 +236,7 @@ def read_submission(
     reading = _Reading(key, language, settled=fingerprint is None)
     answered = sheets if key.parts else sheets[:1]
     if by_data:
-        data_faults = [fault for answers in answered for fault in _data_shown(key, *answers)]
+        data_faults = [fault for answers in answered for fault in _data_faults(key, *answers)]
         unsaid = not data_faults and named is not None and name != key.id
         about = {"text": name, "wanted": key.id}
         if (
@@ -309,7 +309,7 @@ def _titled(rows: Sequence[Sequence[SheetCell]]) -> tuple[str, Location] | None:
     return None
 
 
-def _data_shown(key: Key, page: Page, head: int) -> Iterator[Fault | None]:
+def _data_faults(key: Key, page: Page, head: int) -> Iterator[Fault | None]:
     """Yield, for each given value of a sheet, a fault at its cell if it is not the assignment's, else None."""
     heads = page.rows[head]
     at, column = (next(n for n, cell in enumerate(heads) if _says(cell, name)) for name in ("id", "value"))
@@ -434,9 +434,9 @@ class _Reading:
             arguments = fault.arguments | ({"unit": row.unit} if "unit" in fault.arguments else {})
             return self.problem(place, Fault(fault.code, cell.location, arguments))
         if doubtful:
-            ways = sorted({read_number(cell.value, typed_unit(row), one)[0] for one in get_args(DecimalMark)}, key=abs)
-            number = _nearest(ways, float(row.values[row.at(place[1])]), number)
-            read, other_reading = (units.write(way, None, self.language or self.key.language) for way in ways)
+            both = sorted({read_number(cell.value, typed_unit(row), one)[0] for one in get_args(DecimalMark)}, key=abs)
+            number = _nearest(both, float(row.values[row.at(place[1])]), number)
+            read, other_reading = (units.write(value, None, self.language or self.key.language) for value in both)
             self.note(Fault("cell-thousands", cell.location, {"text": cell.text, "read": read, "other": other_reading}))
         self.values[place] = Answer(number, cell.text, cell.location)
         return None
@@ -448,11 +448,11 @@ class _Reading:
         self.notes.append(as_problem(fault, self.language, "note"))
 
 
-def _nearest(ways: Sequence[float], right: float, otherwise: float) -> float:
+def _nearest(readings: Sequence[float], right: float, otherwise: float) -> float:
     """Return the reading of a number whose size is closest to the right one, so that the doubt costs no marks."""
     if not right or not math.isfinite(right):
         return otherwise
-    return min(ways, key=lambda way: abs(math.log(abs(way / right))) if way else math.inf)
+    return min(readings, key=lambda value: abs(math.log(abs(value / right))) if value else math.inf)
 
 
 def _is_empty(cell: SheetCell) -> bool:

@@ -268,8 +268,8 @@ def _charged_once(working: Working, cells: Cells, mistakes: Mapping[Place, Mista
         if not any(map(working.shows, mistake.changes or [mistake.where]))
     }
     for (name, where), mistake in unseen.items():
-        ways = (mistake.changes, *redesigned(working, mistake))
-        possible = [working.own_values(changes=changes) for changes in ways]
+        worlds = (mistake.changes, *redesigned(working, mistake))
+        possible = [working.own_values(changes=changes) for changes in worlds]
         once = len(scheme.ledger[where].values) == 1 or name == WRONG_DATUM
         caused = [place for place, one in mistakes.items() if (one.name, one.where) == (name, where)]
         charged: dict[int, Place] = {}

@@ -136,7 +136,8 @@ class Working:
             if size in self.values and self.all_values[length][0]:
                 accepted.append(float(self.values[size][0] / self.all_values[length][0].real))
         accepted += self._by_length_scale(row, index)
-        accepted += [self.by_another_way(row, way, index) for way in self.scheme.misconceptions.ways.get(row.id, ())]
+        alternatives = self.scheme.misconceptions.alternatives.get(row.id, ())
+        accepted += [self.by_another_way(row, definition, index) for definition in alternatives]
         return [
             value
             for value in accepted

@@ -133,11 +133,11 @@ class ReducedMachine:
 
     def along(self, edges: Floats) -> ReducedTravel:
         """Return the path with these rising edges (rad) [n + 1]."""
-        return self._way(
+        return self._reduced_travel(
             edges, edges[:-1, None] + np.diff(edges)[:, None] * C, np.diff(edges)[:, None] * np.ones(STAGES)
         )
 
-    def _way(self, edges: Floats, angle: Floats, measure: Floats) -> ReducedTravel:
+    def _reduced_travel(self, edges: Floats, angle: Floats, measure: Floats) -> ReducedTravel:
         every = np.concatenate((angle.ravel(), edges))
         order = np.argsort(every, kind="stable")
         values = np.empty((3, every.size))

@@ -273,7 +273,7 @@ def failures(machine: Machine, worked: Sequence[int]) -> Iterator[Finding]:
     try:
         true_motion_of(machine)
     except NoMotionError as error:
-        yield _told(error)
+        yield _finding(error)
 
 
 def warnings(machine: Machine) -> Iterator[Finding]:
@@ -284,7 +284,7 @@ def warnings(machine: Machine) -> Iterator[Finding]:
         yield Finding("motion-off-speed", ("parameters", "motion", "drive"), words, at="key")
 
 
-def _told(error: NoMotionError) -> Finding:
+def _finding(error: NoMotionError) -> Finding:
     motion = ("parameters", "motion")
     where = {
         "no-inertia": motion,

@@ -279,7 +279,7 @@ def residuals(report: ReportContext) -> dict[str, float]:
     return {"drive": float(max(readings)), **result} if readings else result
 
 
-def _of_shown(name: str) -> Callable[[ReportContext], str]:
+def _in_main_state(name: str) -> Callable[[ReportContext], str]:
     """Return a function that returns the id of a quantity in the state that starts and stops, whose forces the report
     has.
     """
@@ -292,8 +292,8 @@ def _of_shown(name: str) -> Callable[[ReportContext], str]:
 
 
 VALUES: Mapping[str, Callable[[ReportContext], Any]] = {
-    "forces_omega": _of_shown("omega"),
-    "forces_eps": _of_shown("eps"),
+    "forces_omega": _in_main_state("omega"),
+    "forces_eps": _in_main_state("eps"),
     "inertia_apart": inertia_apart,
     "reduced_here": reduced_here,
     "inertia_form": inertia_form,

@@ -295,7 +295,7 @@ class PanelWriter:
                         "label": self.tracks.number(at),
                         "off": list(map(self.tracks.number, neighbours)),
                         "gap": round(gap * self.enlargement, 3),
-                        "size": self.half_size(content, LABEL),
+                        "size": self.size(content, LABEL),
                     },
                 )
 
@@ -323,7 +323,7 @@ class PanelWriter:
         if item.name:
             follows["name"] = item.name
         if item.label is not None:
-            follows["size"] = self.half_size(item.label, SMALL)
+            follows["size"] = self.size(item.label, SMALL)
             parts += f"<g>{self.label(item.label, SMALL)}</g>"
         return self.element(parts, item.layer, follows)
 
@@ -331,10 +331,11 @@ class PanelWriter:
         """Return a label of a size (points) centred on its own place."""
         return self.painter.label(Label(0j, content, size=size * self.enlargement))
 
-    def half_size(self, content: Content, size: float) -> list[float]:
-        """Return half the width and half the height (mm) of a label, which is at least one line high."""
+    def size(self, content: Content, size: float) -> list[float]:
+        """Return half the width and height (mm) of a label, which is at least one line high, and its font size (mm)."""
         _, half = frame(Label(0j, content, size=size * self.enlargement))
-        return [round(half.real, 2), round(max(half.imag, LINE * size * self.enlargement * POINT), 2)]
+        em = size * self.enlargement * POINT
+        return [round(half.real, 2), round(max(half.imag, LINE * em), 2), round(em, 3)]
 
     # --- curves
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from reportgen.base.progress import ASKED, MARK
+from reportgen.base.progress import ASKED, MARK, SOURCE
 
 LAST_LINES = 12
 """Number of lines of a process's error output that are reported."""
@@ -27,6 +27,8 @@ class Maker:
     commands: Mapping[str, Sequence[str]]
     """The command of each product, by its name."""
     tell: Callable[[Mapping[str, Any]], None]
+    source: Path | None = None
+    """File into which the typst source of a PDF is put."""
     files: dict[str, Path] = field(default_factory=dict)
     """Files made, by the names under which a page may request them."""
     _process: subprocess.Popen[str] | None = None
@@ -45,7 +47,7 @@ class Maker:
                 stderr=subprocess.PIPE,
                 stdin=subprocess.DEVNULL,
                 text=True,
-                env={**os.environ, ASKED: "yes"},
+                env={**os.environ, ASKED: "yes", **({SOURCE: str(self.source)} if self.source else {})},
             )
         self.tell({"product": product, "state": "running"})
         threading.Thread(target=self._wait, args=(product, self._process), daemon=True).start()

@@ -43,6 +43,7 @@ from reportgen.page.form_fields import Form, written_at
 from reportgen.page.html import Live
 from reportgen.page.live_view import PART, LiveSession, empty_document
 from reportgen.page.missing_values import MissingPanel
+from reportgen.page.preview_pages import Pages, Preview, no_pages
 from reportgen.page.pulls import Asked, Pulls, asked_place
 from reportgen.page.text_changes import changed_text, part_kinds
 from reportgen.page.typed_values import only_meaning, same_quantity
@@ -54,8 +55,10 @@ REST = 0.3
 PATIENCE = 10.0
 """Longest delay (s) of work that can wait."""
 HERE = Location("")
-SCRIPTS = "live.js", "drafts.js", "redraw.js", "tables.js", "edit.js", "owned.js", "pull.js", "missing.js"
-STYLES = "live.css", "edit.css", "pull.css"
+FIELDS = "drafts.js", "redraw.js", "tables.js", "edit.js", "owned.js", "missing.js", "preview.js"
+PULLED = "pull.js", "handle.js", "region.js"
+SCRIPTS = "live.js", *FIELDS, *PULLED
+STYLES = "live.css", "edit.css", "pull.css", "preview.css"
 
 
 @dataclass(frozen=True)
@@ -97,6 +100,8 @@ class EditSession(LiveSession):
     """The commands that make something of the file, by the names of their products."""
     of_part: Callable[[Path], EditSession] | None = None
     """Begins the form of a part's file; None if parts have no forms."""
+    pages: Pages = no_pages
+    """Returns the pages of a typst source as pictures."""
     whole: Path | None = None
     """Coursework's file of a part, whose machine gives values to the part."""
     lock: threading.RLock = field(default_factory=threading.RLock)
@@ -119,16 +124,20 @@ class EditSession(LiveSession):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        self.maker = Maker(self.products, lambda making: self._publish(making=making))
+        self.preview = Preview(self.pages, lambda making: self._publish(making=making))
+        self.maker = Maker(self.products, self.preview.hear, self.preview.source)
         self.pulls = Pulls(self.path, self._resident_machine, self._nodes)
 
     def close(self) -> None:
         self.maker.close()
+        self.preview.close()
         super().close()
 
     # --- requests of the page
 
     def made(self, name: str) -> bytes | None:
+        if (page := self.preview.page(name)) is not None:
+            return page
         file = self.maker.files.get(name)
         return file.read_bytes() if file is not None and file.is_file() else None
 
@@ -155,7 +164,13 @@ class EditSession(LiveSession):
 
     @property
     def takes(self) -> Mapping[str, Callable[[Asked], Mapping[str, Any] | bytes]]:
-        return {"edit.json": self.edit, "drag.json": self.drag, "pull.json": self.pull, "make.json": self.make}
+        return {
+            "edit.json": self.edit,
+            "drag.json": self.drag,
+            "pull.json": self.pull,
+            **self.pulls.takes,
+            "make.json": self.make,
+        }
 
     def below(self, name: str) -> EditSession | None:
         """Return the open form of a part's file by its number: a file that the text names now, in its folder or below.

@@ -27,6 +27,7 @@ from reportgen.page.edit_session import EditSession
 from reportgen.page.kind_chooser import Chooser
 from reportgen.page.live_view import LiveSession
 from reportgen.page.local_server import Server
+from reportgen.page.preview_pages import Pages, no_pages
 
 QUIET, LONGEST = 20, 200
 """Changes are collected until none arrives for the first time (ms), but no longer than the second."""
@@ -82,6 +83,7 @@ def edit(
     opens: Opener,
     language: Language | None = None,
     products: Products = no_products,
+    pages: Pages = no_pages,
     browser: bool = True,
     port: int = 0,
     stream: TextIO = sys.stdout,
@@ -89,18 +91,26 @@ def edit(
     """Serve a page as `watch` does, with a form beside the animation that changes the file and makes `products`."""
     if not path.is_file():
         opens(path, language)
-    with suppress(KeyboardInterrupt), edited(path.absolute(), opens, language, products, port) as server:
+    with (
+        suppress(KeyboardInterrupt),
+        edited(path.absolute(), opens, language, products, pages=pages, port=port) as server,
+    ):
         _announce(server, browser, stream)
         _wait()
 
 
 @contextmanager
 def edited(
-    path: Path, opens: Opener, language: Language | None = None, products: Products = no_products, port: int = 0
+    path: Path,
+    opens: Opener,
+    language: Language | None = None,
+    products: Products = no_products,
+    pages: Pages = no_pages,
+    port: int = 0,
 ) -> Iterator[Server]:
     """Yield the server of a file's form, which answers requests and is renewed while the context is open."""
     with (
-        _with_parts(path, opens, language, products) as session,
+        _with_parts(path, opens, language, products, pages) as session,
         _served(session, port) as server,
         _followed(session, path, opens),
     ):
@@ -112,6 +122,7 @@ def choose(
     opens: Opener,
     language: Language | None = None,
     products: Products = no_products,
+    pages: Pages = no_pages,
     browser: bool = True,
     stream: TextIO = sys.stdout,
 ) -> None:
@@ -125,14 +136,16 @@ def choose(
             while not chooser.chosen.wait(HEARING):
                 pass
             path = chooser.path.absolute()
-            with _with_parts(path, opens, language, products) as session, _followed(session, path, opens):
+            with _with_parts(path, opens, language, products, pages) as session, _followed(session, path, opens):
                 server.session = session
                 chooser.ready.set()
                 _wait()
 
 
 @contextmanager
-def _with_parts(path: Path, opens: Opener, language: Language | None, products: Products) -> Iterator[EditSession]:
+def _with_parts(
+    path: Path, opens: Opener, language: Language | None, products: Products, pages: Pages
+) -> Iterator[EditSession]:
     """Yield the session of an edited file; sessions of its parts' files open on request and are renewed from then."""
     with ExitStack() as followed:
 
@@ -140,12 +153,14 @@ def _with_parts(path: Path, opens: Opener, language: Language | None, products: 
             # The part's file need not say its language, so faults are reported in that of the coursework.
             spoken = language or language_of(read_source(path))
             part = EditSession(
-                partial(opens, file, spoken, path), spoken, path=file, products=products(file), whole=path
+                partial(opens, file, spoken, path), spoken, path=file, products=products(file), whole=path, pages=pages
             )
             followed.enter_context(_followed(part, file, opens, path))
             return part
 
-        yield EditSession(partial(opens, path, language), language, path=path, products=products(path), of_part=of_part)
+        yield EditSession(
+            partial(opens, path, language), language, path=path, products=products(path), of_part=of_part, pages=pages
+        )
 
 
 def serve(

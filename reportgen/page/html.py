@@ -36,7 +36,7 @@ STYLES, SCRIPTS = ("page.css",), ("page.js", "save.js")
 """Style sheets and scripts that every page has."""
 FEED, GIVES, EXTENDED = "feed.js", "  return { root, own,", "const extended = new Map();"
 """Script that a form needs of each panel, its place in the panel's script, and the line by which panels get it."""
-MOVING_STYLES, MOVING_SCRIPTS = ("moving.css",), ("moving.js",)
+MOVING_STYLES, MOVING_SCRIPTS = ("moving.css",), ("labels.js", "moving.js")
 """Styles and scripts for panels."""
 
 
@@ -135,7 +135,7 @@ def write(
         "default-src 'none'",
         f"script-src {_hash(script)}",
         f"style-src {_hash(style)}",
-        "img-src data:",
+        "img-src data: 'self'" if live and live.form else "img-src data:",
         *(["connect-src 'self'"] if live else []),
         "base-uri 'none'",
         "form-action 'none'",

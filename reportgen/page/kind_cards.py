@@ -14,7 +14,7 @@ from typing import Any
 
 from reportgen import catalogue
 from reportgen.base.kinds import kinds
-from reportgen.base.template_folders import DEFAULT_LANGUAGE, MACHINES, REFERENCE, templates, told_in
+from reportgen.base.template_folders import DEFAULT_LANGUAGE, MACHINES, REFERENCE, templates, words_file
 from reportgen.base.units import Language
 from reportgen.base.words import load_words
 
@@ -99,7 +99,7 @@ def cards(language: Language) -> Mapping[str, tuple[Card, ...]]:
 
 
 def _words(kind: str, language: Language) -> Mapping[str, Any]:
-    return load_words((told_in(language, f"{MACHINES}/{kind}.md"),))
+    return load_words((words_file(language, f"{MACHINES}/{kind}.md"),))
 
 
 def _terms(kind: str) -> str:

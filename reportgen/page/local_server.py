@@ -131,7 +131,7 @@ class _Request(BaseHTTPRequestHandler):
         elif name == "":
             self._send(session.page().encode(), "text/html; charset=utf-8")
         elif name == "news":
-            self._tell(session)
+            self._send_revisions(session)
         elif name.startswith(MADE) and (made := session.made(name.removeprefix(MADE))) is not None:
             self._send(made, mimetypes.guess_type(name)[0] or "application/octet-stream")
         elif name in (answers := session.answers):
@@ -194,7 +194,7 @@ class _Request(BaseHTTPRequestHandler):
         self.end_headers()
         self.wfile.write(body)
 
-    def _tell(self, session: LiveSession) -> None:
+    def _send_revisions(self, session: LiveSession) -> None:
         """Send each revision as it appears, until the page closes or the server ends."""
         self.close_connection = True
         self.send_response(HTTPStatus.OK)

@@ -6,6 +6,7 @@ Nothing is written. The page puts the values into their fields, and sends them a
 from __future__ import annotations
 
 import threading
+import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -21,18 +22,24 @@ from reportgen.machine import Crank, Linkage
 from reportgen.machine.analysis import Machine
 from reportgen.page.drag_samples import Resident
 from reportgen.page.form_fields import written_at
+from reportgen.page.pull_regions import REACH, Requirement, region
 from reportgen.page.pulled_values import FAR, PlacingValue, Pull, placing_values
 
+MOST_STEPS = 32
+"""Largest number of steps of a region in each direction."""
+PAUSE = 0.002
+"""Time (s) after which a region looks again whether the pulled machine is ready."""
 Asked = Mapping[str, Any]
 PlacedBy = tuple[Linkage | None, tuple[PlacingValue, ...]]
 
 
 @dataclass
 class PulledPoint:
-    """A point while it is pulled: the values that follow, and the last differences that gave a machine."""
+    """A point while it is pulled: the values that follow, the last differences that gave a machine, its beginning."""
 
     pull: Pull
     offsets: np.ndarray
+    begun: Pull
 
 
 @dataclass
@@ -46,8 +53,12 @@ class Pulls:
     resident: Callable[[], Resident | None]
     read: Callable[[], Node | None]
     known_of: tuple[Node | None, PlacedBy] | None = None
-    pulled: tuple[object, PulledPoint] | None = None
+    pulled: tuple[tuple[Any, ...], PulledPoint] | None = None
+    """The point that is pulled, by the number of the pull, the point, the place of the driver and what is locked."""
     lock: threading.Lock = field(default_factory=threading.Lock)
+    grabbing: threading.Lock = field(default_factory=threading.Lock)
+    working: bool = False
+    """True while the machine of a pulled point is computed."""
 
     def grips(self) -> Mapping[str, Any]:
         """Return the places of the values of each point that can be pulled, and the driver that a handle turns.
@@ -113,9 +124,17 @@ class Pulls:
         if resident is None:
             return {}
         top = self.read()
-        grabbed = self.grabbed(asked, resident.samples.machine, top)
+        with self.grabbing:
+            grabbed = self.grabbed(asked, resident.samples.machine, top)
         if grabbed is None or top is None:
             return {"values": []}
+        self.working = True
+        try:
+            return self._pulled(asked, resident, grabbed, top)
+        finally:
+            self.working = False
+
+    def _pulled(self, asked: Asked, resident: Resident, grabbed: PulledPoint, top: Node) -> Mapping[str, Any] | bytes:
         x, y = (float(number) for number in asked["to"])
         target = complex(x, -y) / resident.samples.scale
         offsets = grabbed.pull.to(target, grabbed.offsets)
@@ -133,6 +152,43 @@ class Pulls:
             self._recentre(grabbed, changed)
         return samples or {"values": []}
 
+    @property
+    def takes(self) -> Mapping[str, Callable[[Asked], Mapping[str, Any]]]:
+        """The further messages of a page that pulls a point, by names."""
+        return {"region.json": self.region, "released.json": self.end}
+
+    def region(self, asked: Asked) -> Mapping[str, Any]:
+        """Return the shape (mm of the drawing) of where a point that is pulled leaves a machine that runs.
+
+        `lines` is true if the point can only move along a line. The answer is empty if the pull is over before it is
+        ready. Dragging has priority.
+        """
+        resident, grab, count = self.resident(), asked["grab"], min(int(asked["count"]), MOST_STEPS)
+        with self.grabbing:
+            grabbed = self.grabbed(asked, resident.samples.machine, self.read()) if resident else None
+            if resident is None or grabbed is None:
+                return {}
+            begun, machine, scale = grabbed.begun, resident.samples.machine, resident.samples.scale
+
+        def going() -> bool:
+            while self.working:
+                time.sleep(PAUSE)
+            return self.pulled is not None and self.pulled[0][0] == grab
+
+        low, high = resident.samples.kept["box"]
+        reach = REACH * max((high - low).real, (high - low).imag) / scale
+        shapes = region(begun, Requirement.of(machine), reach, count, going)
+        if shapes is None:
+            return {}
+        lines = len(begun.values) == 1
+        return {"path": "".join(_drawn(shape * scale, "" if lines else "Z") for shape in shapes), "lines": lines}
+
+    def end(self, asked: Asked) -> Mapping[str, Any]:
+        """End a pull: its region is no longer wanted."""
+        if self.pulled is not None and self.pulled[0][0] == asked["grab"]:
+            self.pulled = None
+        return {}
+
     def grabbed(self, asked: Asked, machine: Machine, top: Node | None) -> PulledPoint | None:
         """Return the point that a page pulls; None if no value that is not locked moves it."""
         point, locked = str(asked["point"]), [asked_place(where) for where in asked.get("locked", ())]
@@ -143,7 +199,7 @@ class Pulls:
         if linkage is None:
             return None
         pull = Pull.of(linkage, values, point, _coordinate(machine, float(asked["angle"])), locked)
-        self.pulled = key, PulledPoint(pull, np.zeros(len(pull.values)))
+        self.pulled = key, PulledPoint(pull, np.zeros(len(pull.values)), pull)
         return self.pulled[1] if pull.values else None
 
     def _recentre(self, grabbed: PulledPoint, changed: Node) -> None:
@@ -168,6 +224,11 @@ def _coordinate(machine: Machine, degrees: float) -> float:
         count = machine.cycle_angles.size
         angle = machine.cycle_angles[round(float(degrees) / 360 * count) % count]
     return float(machine.angles(np.asarray(angle)))
+
+
+def _drawn(corners: np.ndarray, end: str) -> str:
+    """Return corners (mm, y upwards) as a path of the drawing."""
+    return "M" + "L".join(f"{corner.real:.1f} {-corner.imag:.1f}" for corner in corners.tolist()) + end
 
 
 def _of_fields(top: Node, texts: list[tuple[Where, str]]) -> list[tuple[Where, str]]:

@@ -52,8 +52,8 @@ COLOURS = {
 """Names of the figures' colours in the style sheet; any other colour stays as it is."""
 SUB, SUPER = 0.2, -0.38
 """Offsets of the base lines of indices below and above that of their letter, in font sizes."""
-OVER = 0.09
-"""Distance of an arrow or a bar above a letter, in font sizes."""
+OVER, STROKE, BARB = 0.2, 0.065, (0.3, 0.12)
+"""Distance of an arrow or a bar above a letter, its width, length and half the width of its head, in font sizes."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -208,12 +208,12 @@ class Painter:
         em = size * POINT
         letters = box(replace(content, sub="", sup="", over=""), size)
         top = base + 1j * (letters.height + OVER * em)
-        width = max(letters.width, 0.45 * em)
-        stroke = Pen(0.13)
+        width = max(letters.width, 0.55 * em)
         if content.over == "segment":
-            return self.items((Line(top, top + box(replace(content, over=""), size).width, stroke),), height)
+            end = top + box(replace(content, over=""), size).width
+            return self.items((Line(top, end, Pen(round(STROKE * em, 3))),), height)
         start = top + 0.05 * em
-        return self.items((Arrow(start, start + width, stroke, 0.28 * em),), height)
+        return self.items((Polyline(_accent_arrow(start, width, em), None, closed=True, fill=style.BLACK),), height)
 
     def text(self, content: Content) -> str:
         """Return a label as the content of a text element."""
@@ -229,6 +229,13 @@ class Painter:
             spans.append(f"<tspan{attributes}>{text}</tspan>" if attributes else text)
             drop = run.drop
         return "".join(spans)
+
+
+def _accent_arrow(start: complex, width: float, em: float) -> tuple[complex, ...]:
+    """Return the outline of an arrow over a letter, `width` mm long; one shape, so that its pen is never too thin."""
+    half, (length, side) = STROKE * em / 2 * 1j, (part * em for part in BARB)
+    tip, neck = start + width, start + width - length
+    return start + half, neck + half, neck + side * 1j, tip, neck - side * 1j, neck - half, start - half
 
 
 class Runs(formula_setter.Setter[tuple[Run, ...]]):

@@ -90,9 +90,9 @@ def curves_of_motion(report: ReportContext) -> list[tuple[list[ShownCurve], Chai
     return [(curves, title) for curves, title in drawings if curves]
 
 
-def headings(report: ReportContext, ways: Iterable[complex]) -> list[str]:
+def headings(report: ReportContext, vectors: Iterable[complex]) -> list[str]:
     """Return the directions of vectors (x + iy, of any length and unit) in words, each once."""
-    return list(dict.fromkeys(heading_words(report, math.degrees(cmath.phase(way))) for way in ways))
+    return list(dict.fromkeys(heading_words(report, math.degrees(cmath.phase(vector))) for vector in vectors))
 
 
 def _positive(report: ReportContext, title: Chain, sense: str) -> Chain:

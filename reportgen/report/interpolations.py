@@ -31,7 +31,7 @@ def loads_read(report: ReportContext, k: int) -> list[ReadLoad]:
     machine, ledger = report.machine, report.ledger
     loads: tuple[Applied | Torque, ...] = (*machine.applied, *machine.torques)
     return [
-        ReadLoad(load.name, _stroke(report, load), _interpolated(report, load, k), _ways(report, load))
+        ReadLoad(load.name, _stroke(report, load), _interpolated(report, load, k), _displacement_ids(report, load))
         for load in loads
         if load.name in ledger and ledger[load.name].definition is None and ledger[load.name].written is not None
     ]
@@ -44,7 +44,7 @@ def _stroke(report: ReportContext, load: Applied | Torque) -> str:
     return id if id in report.ledger else ""
 
 
-def _ways(report: ReportContext, load: Applied | Torque) -> tuple[str, ...]:
+def _displacement_ids(report: ReportContext, load: Applied | Torque) -> tuple[str, ...]:
     course = load.law.read_along
     return () if course is None else tuple(report.ledger.known([ids.displacement(course.link)]))
 

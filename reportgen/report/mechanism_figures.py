@@ -308,8 +308,8 @@ def _free_side(machine: Machine) -> complex:
     """
     first = machine.pistons[0]
     right = 1j * first.inward
-    ways = [((one.top + one.bottom) / 2 - first.bottom) / right for one in machine.pistons]
-    return right if sum(way.real for way in ways) <= SAME_ANGLE else -right
+    sides = [((one.top + one.bottom) / 2 - first.bottom) / right for one in machine.pistons]
+    return right if sum(side.real for side in sides) <= SAME_ANGLE else -right
 
 
 def _in_line(first: Piston, piston: Piston) -> bool:

@@ -76,7 +76,7 @@ def figure(report: ReportContext, name: str, *arguments: Any, words: str = "") -
     if drawn.paper is None and not drawn.turned and not report.parts("usual-type"):
         drawn = replace(drawn, scenes=tuple(map(close, drawn.scenes)))
     inlines = report.prose.inlines(caption)
-    inlines = (*inlines, *phrases.shown_smaller(report, drawn.smaller, "caption"))
+    inlines = (*inlines, *phrases.reduction_remark(report, drawn.smaller, "caption"))
     if drawn.note is not None:
         inlines = (*inlines, Text("; "), InlineMath(drawn.note))
     if drawn.paper is None:
@@ -93,4 +93,4 @@ def _drawn(report: ReportContext, name: str) -> DrawnFigure:
 
 def smaller(report: ReportContext, name: str) -> Inlines:
     """Return the remark on a named figure that is drawn smaller than the scales of the text say; empty if it is not."""
-    return phrases.shown_smaller(report, _drawn(report, name)[1](report).smaller, name)
+    return phrases.reduction_remark(report, _drawn(report, name)[1](report).smaller, name)

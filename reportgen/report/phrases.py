@@ -93,7 +93,7 @@ def form_of(count: int, forms: int) -> int:
     return 0 if last == 1 and not teen else 1 if 2 <= last <= 4 and not teen else 2
 
 
-def shown_smaller(report: ReportContext, times: float, name: str) -> Inlines:
+def reduction_remark(report: ReportContext, times: float, name: str) -> Inlines:
     """Return the remark on a figure that is smaller than μ_l by the factor `times`; () if the factor is 1."""
     if times == 1.0:
         return ()
@@ -212,8 +212,8 @@ def medium(report: ReportContext) -> str:
 
 def slider_convention(report: ReportContext) -> Inlines:
     """Return a sentence on the positive directions of sliders; () without sliders."""
-    ways = slider_ways(report)
-    return say(report, f" {report.words['conventions']['sliders']} {{ways}}.", ways=ways) if ways else ()
+    senses = slider_ways(report)
+    return say(report, f" {report.words['conventions']['sliders']} {{senses}}.", senses=senses) if senses else ()
 
 
 def balance_sign(report: ReportContext, position: int) -> Inlines:

@@ -52,14 +52,14 @@ def printed_values(written: Ledger) -> dict[str, Any]:
         id: {
             "unit": family.how.unit,
             "decimals": written.decimals[id],
-            "values": [_shown(written, family, k + 1) for k in range(len(family.values))],
+            "values": [_printed_value(written, family, k + 1) for k in range(len(family.values))],
         }
         for id, family in written.families.items()
         if not (family.hidden or family.is_plane)
     }
 
 
-def _shown(written: Ledger, family: Family, position: int) -> float | None:
+def _printed_value(written: Ledger, family: Family, position: int) -> float | None:
     """Return the printed value of a quantity at a position; None if there is none (a zero vector's direction)."""
     if family.is_of_vector and written[family.of].at(position) == 0:
         return None

@@ -222,8 +222,8 @@ def _force_plan(sources: Sources, polygon: Polygon, k: int, place: str, family: 
 
 
 def _on_one_line(drawing: Plan) -> bool:
-    ways = [unit(vector.end - vector.start) for vector in drawing.drawn()]
-    return all(abs((way * ways[0].conjugate()).imag) < ONE_LINE for way in ways)
+    directions = [unit(vector.end - vector.start) for vector in drawing.drawn()]
+    return all(abs((direction * directions[0].conjugate()).imag) < ONE_LINE for direction in directions)
 
 
 def _force_plates(sources: Sources) -> Iterator[Drawn]:

@@ -117,17 +117,17 @@ def frame_scene(size: str, block: TitleBlock, fields: Mapping[str, str]) -> Scen
         *_cells(beside),
         *([Label(complex(high.real, low.imag / 2), note, "right", font_size(HEIGHTS[-2]))] if note else []),
     )
-    return Scene(width, height, items, description=_said(items))
+    return Scene(width, height, items, description=_description(items))
 
 
 def title_block(cells: Sequence[BlockCell], size: tuple[float, float]) -> Scene:
     """Return a title block of a size (mm) with its cells filled in; the texts stay inside their cells."""
     outline = Polyline(_corners(0j, complex(*size)), HEAVY, closed=True)
     items = tuple(_cells(cells))
-    return Scene(*size, (*items, outline), description=_said(items))
+    return Scene(*size, (*items, outline), description=_description(items))
 
 
-def _said(items: Iterable[Item]) -> Description:
+def _description(items: Iterable[Item]) -> Description:
     """Return a description with the texts of a frame, in the order of its cells."""
     return tuple(fact("line", item.content) for item in items if isinstance(item, Label))
 
@@ -188,11 +188,11 @@ def _evenly(words: Sequence[str], count: int, height: float) -> list[str]:
     """Return words in `count` lines, the longest of them as short as possible."""
     if count == 1:
         return [" ".join(words)]
-    ways = (
+    divisions = (
         [" ".join(words[:first]), *_evenly(words[first:], count - 1, height)]
         for first in range(1, len(words) - count + 2)
     )
-    return min(ways, key=lambda lines: max(_width(line, height) for line in lines))
+    return min(divisions, key=lambda lines: max(_width(line, height) for line in lines))
 
 
 def _width(text: str, height: float) -> float:

@@ -372,8 +372,8 @@ class Equations:
         left = max(SLIVER, min(room - widest, (TEXT_WIDTH - indent - widest) / 2))
         grids = []
         for storey in storeys:
-            terms_shown = [place for index in storey for place in self.term(terms[index])]
-            rows = [[FREE, FREE, *terms_shown]]
+            shown_terms = [place for index in storey for place in self.term(terms[index])]
+            rows = [[FREE, FREE, *shown_terms]]
             for row, name in enumerate(equation.rows):
                 known = (
                     (FREE, GridEntry(self.formulas.known(terms[index].known[row]), style="Known")) for index in storey

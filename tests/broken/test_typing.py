@@ -59,7 +59,7 @@ SLIPS = {
         ("kind: engine-twin", "kind: engine-twins", "“engine-twin”"),
         ("  extent: full", "  extent: long", "full"),
     ],
-    "tab": [("  H: 95 mm", "\tH: 95 mm", "blanks"), ("  crank: 50 mm", "\tcrank: 50 mm", "blanks")],
+    "tab": [("  H: 95 mm", "\tH: 95 mm", "spaces"), ("  crank: 50 mm", "\tcrank: 50 mm", "spaces")],
     "indented otherwise": [("  D: 98 mm", "   D: 98 mm", "same column"), ("  count: 8", " count: 8", "same column")],
     "letter for a figure": [("  H: 95 mm", "  H: 9S mm", "“S mm”"), ("  count: 8", "  count: B", "whole number")],
     "the inverse": [

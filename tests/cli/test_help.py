@@ -73,6 +73,9 @@ def test_the_start_leads_to_the_form_then_from_the_kinds_to_the_report(monkeypat
         monkeypatch.setenv(SPOKEN, language)
         named = re.findall(r"reportgen (\w+)", start())
         assert [name for name in named if name in COMMANDS][:5] == ["edit", "kinds", "new", "check", "build"]
+        # The list of commands has the same order.
+        first = dict.fromkeys(name for name in named if name in COMMANDS)
+        assert [*first] == [name for name in COMMANDS if name in first]
 
 
 def test_the_first_page_is_in_the_language_and_the_others_are_all_there() -> None:

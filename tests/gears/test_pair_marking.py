@@ -169,7 +169,7 @@ def test_another_way_stands_on_nothing_that_stands_on_its_result() -> None:
     """Else a wrong value would follow from what was worked out from it."""
     for name in ("pair-equal-sliding", "pair-centre-distance", "pair-least-shift"):
         case = built.case(FOLDER / f"{name}.yaml", "en")
-        for id, ways in case.misconceptions.ways.items():
+        for id, ways in case.misconceptions.alternatives.items():
             for way in ways:
                 value = np.atleast_1d(evaluate(way, {ref: case.ledger[ref].values for ref in refs(way)}))
                 # What the ledger rounds away below 1e-9 of a module.

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import cmath
+import math
 from pathlib import Path
 
 import pytest
@@ -11,6 +13,11 @@ from tests.page.browser import Browser
 from tests.page.hand import TOLD, hand_on
 from tests.page.typist import Typist, until
 
+KNOB = """
+const { left, top, width, height } = document.querySelector(".handle circle").getBoundingClientRect();
+return [left + width / 2, top + height / 2];
+"""
+SHADED = "return document.querySelector('.region')?.getBoundingClientRect().width > 20"
 BC, CD = "f:parameters.BC", "f:parameters.CD"
 
 
@@ -24,9 +31,11 @@ def test_a_pin_changes_its_lengths_and_esc_takes_them_back(browser: Browser, tmp
         until(lambda: {key for key, text in hand.values().items() if text != values[key]} == {BC, CD})
         until(lambda: hand.at("C")[0] > here[0] + 12)
         assert hand.values()[BC] in browser.run(TOLD)
+        until(lambda: browser.run(SHADED))
         Typist(browser).press("Escape")
         hand.release()
         until(lambda: hand.values() == values)
+        assert not browser.run(SHADED)
         assert hand.at("C") == pytest.approx(here)
         assert hand.file.read_bytes() == before
         hand.press(here)
@@ -59,3 +68,29 @@ def test_a_finger_pulls_and_a_second_one_takes_back(browser: Browser, tmp_path: 
         until(lambda: hand.file.read_bytes() != before)
         assert browser.run("return scrollY") == 0
         assert "lengths: [170 mm, 110 mm]" not in hand.file.read_text(encoding="utf-8")
+
+
+@proof
+def test_a_handle_turns_the_crank_and_changes_nothing(browser: Browser, tmp_path: Path) -> None:
+    """Round the centre as far as the hand goes, past the first of two turns; Esc goes back, and arrow keys turn on."""
+    with hand_on(browser, "engine-single-load.yaml", tmp_path) as hand:
+        before, begin = hand.file.read_bytes(), browser.run("return moving.angle()")
+        centre = complex(*hand.at("A"))
+        hand.press(tuple(browser.run(KNOB)))
+        arm = complex(*hand.where) - centre
+        for eighth in range(1, 11):
+            # On the screen y grows downwards; the crank of this engine turns clockwise.
+            wanted = centre + arm * cmath.rect(1.0, eighth * math.pi / 4)
+            hand.move((wanted.real - hand.where[0], wanted.imag - hand.where[1]))
+        assert browser.run("return moving.angle()") == pytest.approx(begin + 450, abs=0.5)
+        Typist(browser).press("Escape")
+        assert browser.run("return moving.angle()") == begin
+        hand.release()
+        browser.run("document.querySelector('.handle').focus()")
+        Typist(browser).press("ArrowRight")
+        assert browser.run("return moving.angle()") == begin + 1
+        assert (
+            browser.run("return document.querySelector('.handle').getAttribute('aria-valuetext')")
+            == f"{begin + 1:.1f}°"
+        )
+        assert hand.file.read_bytes() == before

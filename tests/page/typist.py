@@ -53,7 +53,7 @@ field.scrollIntoView({ block: "center" });
 const { left, top, width, height } = field.getBoundingClientRect();
 return [left + width / 2, top + height / 2];
 """
-CODES = {"Tab": 9, "Enter": 13, "Escape": 27, "End": 35, "a": 65, "y": 89, "z": 90}
+CODES = {"Tab": 9, "Enter": 13, "Escape": 27, "End": 35, "ArrowRight": 39, "a": 65, "y": 89, "z": 90}
 CONTROL, SHIFT = 2, 8
 
 

@@ -146,7 +146,7 @@ def prove(data: st.DataObject) -> None:
     friction = Friction(dict.fromkeys(pins, data.draw(made.hundredths(0, 40)) / 100), dict.fromkeys(sliders, 0.05))
     bare = solve_forces(linkage, motion, loads)
     found = solve_with_friction(friction, linkage, motion, loads, bare)
-    if not found.stands.all():
+    if not found.in_equilibrium.all():
         reject()
     losses = lost(friction, linkage, motion, found)
     power, power_without = (dot(forces.torque, motion.rate) for forces in (found.forces, bare))
@@ -181,7 +181,7 @@ def test_a_mechanism_that_locks_is_told() -> None:
     B = motion.points["B"]
     load = Load("P3", 3, -P * np.sign(B.v.real) + 0j, B.p, np.zeros(2))
     found = solve_with_friction(Friction({}, {3: 0.5}), steep, motion, [load])
-    assert list(found.stands) == [True, False]
+    assert list(found.in_equilibrium) == [True, False]
     assert list(found.held) == ["R03"]
     assert np.isnan(found.torque[1])
 
@@ -214,7 +214,7 @@ def by_hand(degrees: float, force: float, f: float) -> float:
 def test_rounds_that_do_not_settle(degrees: float, force: float) -> None:
     """f tan β = 0.99: the rounds change by nearly as much each time, and overshoot where the slider drives."""
     found = driven(Friction({}, {3: 0.4}), degrees, force)
-    assert found.stands.all()
+    assert found.in_equilibrium.all()
     assert found.torque[0] == pytest.approx(by_hand(degrees, force, 0.4), rel=AGREEMENT)
 
 
@@ -223,7 +223,7 @@ def test_what_locks_and_what_does_not() -> None:
     drives, locks = (driven(Friction({}, {3: 0.5}), -72.623, force) for force in (P, -P))
     assert drives.torque[0] == pytest.approx(by_hand(-72.623, P, 0.5), rel=AGREEMENT)
     assert list(drives.exact) == [True]
-    assert list(locks.stands) == [False]
+    assert list(locks.in_equilibrium) == [False]
     assert np.isnan(locks.torque[0])
     assert np.isnan(locks.forces.reactions["R03"].force[0])
 

@@ -20,6 +20,17 @@
       }
       if (!state.playing) draw();
     },
+    // What another script has put into the drawing of the machine moves with it, and takes the keys of the angle.
+    follow: (element, update) => {
+      drawing.parts[0].followers.push({ element, update: () => update(state.angle, () => drawing.told.textContent) });
+      element.addEventListener("keydown", key);
+      if (!state.playing) draw();
+    },
+    // Where a point is in a turn: [degrees, place] each.
+    way: (name) => {
+      const spot = animation.spots.find((one) => one.name === name);
+      return spot ? animation.knots.map((knot, index) => [knot, [sample(spot.at, index), -sample(spot.at + 1, index)]]) : [];
+    },
     spots: () => animation.spots.map(({ name }) => name),
     spotAt: (name) => {
       const spot = animation.spots.find((one) => one.name === name);

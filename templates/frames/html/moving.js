@@ -3,10 +3,6 @@
 // a track is an array over the samples, an item names the tracks that it follows.
 const panelOf = (root, panels) => {
   const TURN_SECONDS = 7, ARROW_SHARE = 0.75, SHORT = 3, NOTHING = 0.02, READABLE = 120, SLOW = 22;
-  // Where labels stand: shares of a vector, turns from the first side of a point; what a later place costs, beside a
-  // line through the label; what staying is worth; white between two (mm); half of what a point covers (mm).
-  const SHARES = [0.5, 0.38, 0.62, 0.27, 0.73], ABOUT = [0, 1, -1, 2, -2, 3, -3, 4].map((eighth) => eighth * Math.PI / 4);
-  const RANK = 0.06, STAYS = 0.3, CLEAR = 0.25, DOT = 0.3;
   // What a panel has by an id begins with its own name, as the panel itself; that of the machine has none.
   const own = root.id.slice(0, -"moving".length), byId = (name) => root.querySelector(`#${own}${name}`);
   // `run` is the motion that is played as the time goes, `clock` its time (s); null at constant speed.
@@ -98,46 +94,25 @@ const panelOf = (root, panels) => {
 
   // --- labels
 
-  // Whether a line, given by its middle and half of its way, runs through the box of half the size (w, h) at (x, y).
-  const runsThrough = ([mx, my, hx, hy], x, y, w, h) => {
-    const dx = Math.abs(mx - x), dy = Math.abs(my - y);
-    return dx < Math.abs(hx) + w && dy < Math.abs(hy) + h &&
-      Math.abs((mx - x) * hy - (my - y) * hx) < w * Math.abs(hy) + h * Math.abs(hx);
-  };
-  const line = (stage, x1, y1, x2, y2) => stage.lines.push([(x1 + x2) / 2, (y1 + y2) / 2, (x2 - x1) / 2, (y2 - y1) / 2]);
-
-  // A label stands where fewest lines run through it, of such places at the first; on no other label, and whole.
-  // Where there is no such place it is left out.  It stays where it was as long as that is hardly worse.
-  const settle = (stage, { element, places, w, h, item }) => {
-    const [left, top, right, bottom] = stage.room;
-    let best = null, least = Infinity, number = -1;
-    const attempt = (index, rank) => {
-      const [x, y] = places[index];
-      if (x - w < left || x + w > right || y - h < top || y + h > bottom) return;
-      if (stage.names.some(([a, b, c, d]) => Math.abs(x - a) < w + c + CLEAR && Math.abs(y - b) < h + d + CLEAR)) return;
-      let cost = rank;
-      for (const one of stage.lines) if (runsThrough(one, x, y, w, h) && (cost += 1) >= least) return;
-      if (cost < least) { best = places[index]; least = cost; number = index; }
-    };
-    if (item.last >= 0) attempt(item.last, RANK * item.last - STAYS);
-    for (let index = 0; index < places.length && RANK * index < least; index += 1) attempt(index, RANK * index);
+  // Where a label has no place it is left out.  While the machine moves, a label that takes another place glides there.
+  const GLIDE = 0.8;
+  const settle = (label, number) => {
+    const { element, item, size } = label, before = item.last;
     item.last = number;
-    show(element, best !== null);
-    if (!best) return;
-    stage.names.push([...best, w, h]);
-    element.setAttribute("transform", `translate(${short(best[0])} ${short(best[1])})`);
-  };
-
-  // Half the size of a label: as the report's letters have it, or the reader's if they are wider.
-  const halfSize = (element, size) => {
-    const text = element.querySelector("text");
-    return [Math.max(size[0], text ? text.getComputedTextLength() / 2 : 0), size[1]];
+    show(element, number >= 0);
+    if (number < 0) return;
+    const [x, y] = label.places[number];
+    if (!state.playing || !(before >= 0)) item.lag = null;
+    else if (item.last !== before) item.lag = [label.places[before][0] + (item.lag?.[0] ?? 0) - x, label.places[before][1] + (item.lag?.[1] ?? 0) - y];
+    else if (item.lag) item.lag = item.lag.map((one) => GLIDE * one);
+    const [dx, dy] = item.lag || [0, 0];
+    element.setAttribute("transform", `translate(${short(x + dx)} ${short(y + dy)})${size.scale}`);
   };
 
   const vector = (element, item, stage) => {
     const [shaft, ...others] = element.children;
     const head = item.head ? others[0] : null, label = item.size ? others[others.length - 1] : null;
-    const [w, h] = label ? halfSize(label, item.size) : [0, 0];
+    const sized = label && lettering.sized(label, item.size);
     return () => {
       const z = stage.zoom;
       const x1 = z * value(item.from), y1 = -z * value(item.from + 1), x2 = z * value(item.to), y2 = -z * value(item.to + 1);
@@ -154,22 +129,18 @@ const panelOf = (root, panels) => {
         end = length - 0.7 * size;
       }
       shaft.setAttribute("d", `M${short(x1)} ${short(y1)}L${short(x1 + ux * end)} ${short(y1 + uy * end)}`);
-      line(stage, x1, y1, x2, y2);
+      const own = lettering.line(stage, x1, y1, x2, y2, head && item);
       if (!label) return;
       show(label, length > SHORT);
       if (length <= SHORT) return;
-      // Beside its middle or elsewhere along it, on either side, close to it or a little off.
-      const places = [0.9, 2.2].flatMap((gap) => SHARES.flatMap((share) => [1, -1].map((side) => {
-        const off = side * (Math.abs(uy) * w + Math.abs(ux) * h + gap);
-        return [x1 + dx * share + uy * off, y1 + dy * share - ux * off];
-      })));
-      stage.labels.push({ element: label, places, w, h, item });
+      const size = sized(stage), { w, h } = size;
+      stage.labels.push({ element: label, places: lettering.beside(x1, y1, dx, dy, w, h, size.em), w, h, item, own, size });
     };
   };
 
   // A name stands on the side away from what its point is joined to, or elsewhere about it.
   const name = (element, item, stage) => {
-    const [w, h] = halfSize(element, item.size);
+    const sized = lettering.sized(element, item.size), { DOT, line } = lettering;
     return () => {
       const z = stage.zoom, x = z * value(item.label), y = -z * value(item.label + 1), there = isFinite(x + y);
       if (!there) { show(element, false); return; }
@@ -179,13 +150,13 @@ const panelOf = (root, panels) => {
         if (length > 0.5) { ux += dx / length; uy += dy / length; px = -dy / length; py = dx / length; line(stage, x, y, x - dx, y - dy); }
       }
       if (Math.hypot(ux, uy) < 0.35) { ux += px || 0.8; uy += py || -0.6; }
-      const first = Math.atan2(uy, ux);
-      const places = [0, 1.2, 3].flatMap((further) => ABOUT.map((turn) => {
-        const a = Math.cos(first + turn), b = Math.sin(first + turn), off = item.gap + further + Math.min(w / Math.abs(a), h / Math.abs(b));
-        return [x + a * off, y + b * off];
-      }));
+      const size = sized(stage), { w, h } = size, own = [x, y];
       stage.names.push([x, y, DOT, DOT]);
-      stage.labels.unshift({ element, places, w, h, item });
+      stage.points.push(own);
+      const places = lettering.about(x, y, Math.atan2(uy, ux), w, h, item.gap, size.em);
+      const [a, b] = places[item.last > 0 ? item.last : 0];
+      stage.wanted.push([a, b, w, h, item]);
+      stage.labels.push({ element, places, w, h, item, own, size });
     };
   };
 
@@ -256,6 +227,10 @@ const panelOf = (root, panels) => {
   }, { rootMargin: "100px" });
   const visible = (element) => !state.playing || seen.has(element);
 
+  const sizes = new ResizeObserver(() => {
+    if (lettering.measure(drawing.parts) && now) draw();
+  });
+
   const draw = () => {
     now = place(state.angle);
     const time = performance.now(), readable = !state.playing || time - state.told > READABLE;
@@ -268,9 +243,11 @@ const panelOf = (root, panels) => {
       part.names = [];
       part.labels = [];
       part.lines = [];
+      part.points = [];
+      part.wanted = [];
       rescale(part);
       for (const { update, layer } of part.followers) if (!layer || drawing.layers[layer]) update();
-      for (const one of part.labels) settle(part, one);
+      for (const [label, number] of lettering.place(part, !index)) settle(label, number);
     }
     // Figures that change faster than this cannot be read.
     if (readable && visible(drawing.numbers)) {
@@ -455,7 +432,7 @@ const panelOf = (root, panels) => {
       rates: { v: find('[data-of="v"]'), a: find('[data-of="a"]') },
     };
     drawing.parts = all("[data-stage]").map((element) => {
-      const part = { element, names: [], labels: [], lines: [], followers: [], zoom: 1, bars: [...element.querySelectorAll("[data-scale]")] };
+      const part = { element, names: [], labels: [], lines: [], points: [], wanted: [], pixels: 0, followers: [], zoom: 1, bars: [...element.querySelectorAll("[data-scale]")] };
       part.room = element.querySelector("svg").dataset.room.split(" ").map(Number);
       part.followers = [...element.querySelectorAll("[data-i]")].map((one) => (
         { element: one, update: follower(one, part), layer: one.dataset.ofLayer }));
@@ -510,6 +487,9 @@ const panelOf = (root, panels) => {
     });
     hold(root.classList.contains("held"));
     watcher.disconnect();
+    sizes.disconnect();
+    lettering.measure(drawing.parts);
+    for (const part of drawing.parts) sizes.observe(part.element.querySelector("svg"));
     for (const element of [root, drawing.numbers, ...all("[data-stage], [data-chart]")]) watcher.observe(element);
     choose("");
     mark();

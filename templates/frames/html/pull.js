@@ -4,7 +4,7 @@
 // the program.
 const pulls = (() => {
   const panel = typeof panels === "undefined" ? undefined : panels[0];
-  if (!panel) return undefined;
+  if (!panel?.root.querySelector('[data-stage="machine"] svg')) return undefined;
   const SLACK = 3, NEAR = 4, FINGER = 24;
   const form = document.getElementById("fields"), words = JSON.parse(document.getElementById("live").textContent).words;
   let grips = { points: {}, ground: {} }, asked = "", held = null, count = 0;
@@ -70,7 +70,10 @@ const pulls = (() => {
     }
     output.textContent = text;
   };
-  const named = (field) => field.closest(".field").querySelector("label").textContent.trim();
+  const named = (field) => {
+    const label = field.closest(".field").querySelector("label");
+    return (label.querySelector("code") || label).textContent.trim();
+  };
 
   // The nearest point under a pointer; a finger covers more than a mouse.
   const under = (event) => {
@@ -107,7 +110,7 @@ const pulls = (() => {
   };
   const move = (event) => {
     if (!held) {
-      const name = event.pointerType !== "touch" && svg()?.contains(event.target) && !panel.playing() ? under(event) : null;
+      const name = event.pointerType !== "touch" && svg()?.contains(event.target) && !event.target.closest(".handle") && !panel.playing() ? under(event) : null;
       if (svg()) ring(name && at(name));
       return;
     }
@@ -191,5 +194,5 @@ const pulls = (() => {
     learn();
   });
   learn();
-  return { at, svg, toDrawing, element, held: () => held !== null };
+  return { at, svg, toDrawing, element, noClick, held: () => held !== null };
 })();
