@@ -24,7 +24,7 @@ from reportgen.classes.roster import comparable
 from reportgen.server.database import Database
 from reportgen.server.tables import people, sessions
 
-Role = Literal["student", "instructor"]
+PersonRole = Literal["student", "instructor"]
 DESK = "desk"
 """Folder of the instructor; a student's folder is never in lower case."""
 SESSION = datetime.timedelta(days=30)
@@ -56,7 +56,7 @@ class Links:
         self._links = Signer(self.secret, salt="link", digest_method=hashlib.sha256)
         self._cookies = Signer(self.secret, salt="cookie", digest_method=hashlib.sha256)
 
-    def add(self, folder: str, role: Role, id: str, name: str, drawn: str = "") -> None:
+    def add(self, folder: str, role: PersonRole, id: str, name: str, drawn: str = "") -> None:
         """Add somebody, or renew the name and the variant of somebody known, whose link stays."""
         row = {"folder": folder, "role": role, "id": id, "name": name, "drawn": drawn, "dropped": False}
         statement = insert(people).values(nonce=secrets.token_bytes(16), **row)

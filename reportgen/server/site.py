@@ -24,7 +24,7 @@ from reportgen.marking.marking_policy import Browser
 from reportgen.server import pages
 from reportgen.server.class_folder import ClassFolder
 from reportgen.server.database import Database
-from reportgen.server.guards import LOGGER, Rates, Refusal
+from reportgen.server.guards import LOGGER, RateLimit, Refusal
 from reportgen.server.links import DESK, Links, Person
 from reportgen.server.marking_queue import MarkingQueue, Queue
 from reportgen.server.store import Store, Window
@@ -50,13 +50,13 @@ class Site:
         self.store = Store(self.database)
         self.links = Links(self.database, self.folder.server)
         self.queue: Queue = self.own_queue or MarkingQueue(self.language)
-        self.attempts = Rates(60, 60)
+        self.attempts = RateLimit(60, 60)
         """Links and codes that were wrong, for each address; a whole class may have one."""
-        self.guesses = Rates(20, 3600)
+        self.guesses = RateLimit(20, 3600)
         """Wrong codes for one id."""
-        self.requests = Rates(600, 60)
+        self.requests = RateLimit(600, 60)
         """Messages of one session."""
-        self.files = Rates(30, 60)
+        self.files = RateLimit(30, 60)
         self.reading: set[int] = set()
         """Uploads that wait to be read."""
         self.laying: dict[str, asyncio.Lock] = {}

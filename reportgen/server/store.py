@@ -24,7 +24,7 @@ class UsedUpError(Exception):
 
 
 @dataclass(frozen=True, slots=True)
-class Entry:
+class TypedCell:
     """A cell as the browser sends it."""
 
     client: str
@@ -37,7 +37,7 @@ class Entry:
 class Saved:
     """A stored cell."""
 
-    entry: Entry
+    entry: TypedCell
     at: str
     revision: int
 
@@ -62,7 +62,7 @@ class Store:
 
     # --- cells --------------------------------------------------------------------------------------
 
-    def save(self, folder: str, drawn: str, entries: Sequence[Entry], window: Window) -> list[Saved]:
+    def save(self, folder: str, drawn: str, entries: Sequence[TypedCell], window: Window) -> list[Saved]:
         """Store cells in one transaction, in their order; a `client` that was stored before is not stored again."""
         stored: list[Saved] = []
         with self.database.writing() as writing:
