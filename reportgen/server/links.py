@@ -123,7 +123,8 @@ class Links:
         if row is None or datetime.datetime.fromisoformat(row.ends) < self.database.clock.now():
             return None
         csrf = hmac.new(self.secret, b"csrf" + session.encode(), hashlib.sha256).hexdigest()
-        return Person(row.folder, row.role, row.id, row.name, row.drawn, row.closes, digest, csrf)
+        known = {name: getattr(row, name) for name in ("folder", "role", "id", "name", "drawn", "closes")}
+        return Person(**known, session=digest, csrf=csrf)
 
     def sign_out(self, person: Person) -> None:
         with self.database.writing() as writing:

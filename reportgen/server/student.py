@@ -229,7 +229,8 @@ def _stored(site: Site, person: Person, client: str, name: str, content: bytes) 
     try:
         site.window(person).check(site.database.clock.now())
         most = MOST_UPLOADS if site.browser.uploads is None else site.browser.uploads
-        if len(site.store.uploads(person.folder)) > most:
+        sent_before = site.store.uploads(person.folder)
+        if len(sent_before) >= most and client not in {row.client for row in sent_before}:
             raise UsedUpError
         site.folder.add_upload(content, sha256)
         about = {"drawn": person.drawn, "name": name, "size": len(content), "sha256": sha256}

@@ -275,7 +275,16 @@ def make_products(folder: ClassFolder, product: str, out: Path) -> list[str]:
 
 
 def make_file(folder: ClassFolder, student: str, name: str) -> bytes:
-    """Return a file of one student: `task.pdf`, `assignment.yaml`, `machine.html`, `report.pdf`."""
+    """Return a file of one student: `task.pdf`, `assignment.yaml`, `machine.html`, `report.pdf`; it is made once."""
+    content = folder.content(student)
+    if (kept := folder.kept_file(student, content, name)).is_file():
+        return contents(kept)
+    made = _made_file(folder, student, name)
+    put_file(kept, made)
+    return made
+
+
+def _made_file(folder: ClassFolder, student: str, name: str) -> bytes:
     path, policy = folder.assignment(student), folder.policy()
     if name == "assignment.yaml":
         return handed_out(path).encode()
@@ -288,8 +297,11 @@ def make_file(folder: ClassFolder, student: str, name: str) -> bytes:
 
 def grade(folder: ClassFolder) -> dict[str, Any]:
     """Mark the class as `grade` does, into `marked/`; return the marks by student and the problems."""
-    language, policy = folder.language, folder.policy()
+    language = folder.language
+    policy, mistake = folder.valid_policy()
     speak(language)
+    if mistake is not None:
+        raise mistake
     corrections = read_corrections(folder.corrections, language) if folder.corrections.exists() else ()
     graded = class_marking.grade(
         [folder.handed], folder.variants, policy, None, folder.handed_roster, corrections, out=folder.marked
