@@ -16,7 +16,7 @@ from reportgen.server.backups import back_up, forget
 from reportgen.server.class_folder import ClassFolder
 from reportgen.server.database import Clock, Database
 from reportgen.server.links import Links
-from reportgen.server.store import ClosedError, TypedCell, Store, UsedUpError, Window
+from reportgen.server.store import ClosedError, Store, TypedCell, UsedUpError, Window
 from reportgen.server.tables import metadata
 from tests.server.served import ADDRESS, Served
 
