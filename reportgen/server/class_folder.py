@@ -98,18 +98,11 @@ class ClassFolder:
 
     def valid_policy(self) -> tuple[Policy, ReportgenError | None]:
         """Return the same with the mistake; a valid policy is kept for then."""
-        file, kept = self.policy_file, self.server / "policy.yaml"
+        file = self.policy_file
         if file is None:
             return Policy(), None
-        try:
-            policy = _policy_at(file, file.stat().st_mtime_ns, file.stat().st_size)
-        except ReportgenError as error:
-            before = _policy_at(kept, kept.stat().st_mtime_ns, kept.stat().st_size) if kept.exists() else Policy()
-            return before, error
-        content = contents(file)
-        if not kept.exists() or contents(kept) != content:
-            put_file(kept, content)
-        return policy, None
+        about = file.stat()
+        return _valid_at(file, about.st_mtime_ns, about.st_size, self.server / "policy.yaml")
 
     def students(self, language: Language | None = None) -> tuple[RosterEntry, ...]:
         return read_roster(self.roster, language).students
@@ -204,9 +197,14 @@ class ClassFolder:
 
 
 @lru_cache(maxsize=4)
-def _policy_at(file: Path, changed: int, size: int) -> Policy:
-    """Return a policy as it was at the time of a change."""
-    return read_policy(file)
+def _valid_at(file: Path, changed: int, size: int, kept: Path) -> tuple[Policy, ReportgenError | None]:
+    """Return a policy as it was at the time of a change; after a mistake, the one that was `kept`, and the mistake."""
+    try:
+        policy = read_policy(file)
+    except ReportgenError as error:
+        return (read_policy(kept) if kept.exists() else Policy()), error
+    put_file(kept, contents(file))
+    return policy, None
 
 
 def synced(folder: Path) -> None:

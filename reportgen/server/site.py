@@ -150,7 +150,9 @@ class Site:
     async def person(self, request: Request, role: str) -> Person:
         """Return who asks; raise `Refusal` for a stranger, and for somebody without this role."""
         cookie = request.cookies.get(COOKIE, "")
-        person = await run_in_threadpool(self.links.of_cookie, cookie) if cookie else None
+        person = self.links.known(cookie)
+        if person is None and cookie:
+            person = await run_in_threadpool(self.links.of_cookie, cookie)
         if person is None:
             raise Refusal("signed_out")
         request.scope.setdefault("state", {})["folder"] = person.folder

@@ -192,6 +192,7 @@ class Store:
     def change_person(self, folder: str, values: Mapping[str, Any]) -> None:
         with self.database.writing() as writing:
             writing.execute(update(people).where(people.c.folder == folder).values(**values))
+        self.database.people_changes += 1
 
     def table(self) -> dict[str, dict[str, Any]]:
         """Return figures of each student's variant: the time of the last save, filled cells, hand-in, uploads."""

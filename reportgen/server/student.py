@@ -124,9 +124,10 @@ async def cells(request: Request, site: Site, person: Person) -> Response:
     if not isinstance(sent, list) or not 0 < len(sent) <= MOST_CELLS:
         raise Refusal("malformed")
     refused: list[dict[str, str]] = []
-    if await run_in_threadpool(site.sheet, person.folder) is None:
-        await sheet_of(site, person.folder, person.drawn)
     saved = await run_in_threadpool(_saved, site, person, sent, refused)
+    if saved is None:
+        await sheet_of(site, person.folder, person.drawn)
+        saved = await run_in_threadpool(_saved, site, person, sent, refused) or []
     made = [
         {
             "client": cell.entry.client,
@@ -142,8 +143,12 @@ async def cells(request: Request, site: Site, person: Person) -> Response:
     return JSONResponse({"saved": made, "refused": explained})
 
 
-def _saved(site: Site, person: Person, sent: list[Any], refused: list[dict[str, str]]) -> list[Saved]:
-    places = open_places(site.sheet(person.folder) or {"sections": []})
+def _saved(site: Site, person: Person, sent: list[Any], refused: list[dict[str, str]]) -> list[Saved] | None:
+    """Store cells; return None if the sheet with their places is not made yet."""
+    sheet = site.sheet(person.folder)
+    if sheet is None:
+        return None
+    places = open_places(sheet)
     entries = [entry for cell in sent if (entry := _entry(cell, places, refused)) is not None]
     try:
         return site.store.save(person.folder, person.drawn, entries, site.window(person))
