@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import csv
+import json
 import socket
+import sqlite3
 import subprocess
 import sys
 import time
 import urllib.request
 from collections.abc import Iterator
+from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -170,6 +173,15 @@ def marks(desk: Walk, served: Class) -> None:
     desk.press("#release")
 
 
+def notice(served: Class, id: str, classmate: str) -> None:
+    """Let the last marking have noticed that a student has values of another's sheet."""
+    with closing(sqlite3.connect(served.folder / "server" / "class.db")) as database:
+        ((content,),) = database.execute("SELECT content FROM marks WHERE folder = ?", (id,)).fetchall()
+        about = {**json.loads(content), "notices": [{"kind": "a run of values", "classmate": classmate, "count": 12}]}
+        database.execute("UPDATE marks SET content = ? WHERE folder = ?", (json.dumps(about), id))
+        database.commit()
+
+
 @pytest.mark.proof
 def test_a_class_from_the_empty_folder_to_the_released_mark(served: Class, browser: Browser, tmp_path: Path) -> None:
     source = axe()
@@ -197,6 +209,12 @@ def test_a_class_from_the_empty_folder_to_the_released_mark(served: Class, brows
     anh.press("form[action='/out'] button")
 
     marks(desks[0], served)
+    notice(served, "K02", "K01")
+    desks[0].open(f"{served.address}/desk")
+    desks[0].until("document.querySelector('#notices summary') !== null")
+    desks[0].press("#notices summary")
+    desks[0].until("document.querySelector('#notices tbody tr') !== null")
+    desks[0].look("signs of copying")
     desks[0].until("document.getElementById('release').innerText !== ''")
     desks[1].open(f"{served.address}/desk")
     desks[1].until("document.querySelectorAll('#students tbody tr').length === 3")
