@@ -281,11 +281,16 @@ class Day(Reader):
 
 @dataclass(frozen=True, slots=True)
 class Until(Reader):
-    """A moment until which something is valid, `2026-11-20 23:59`; a date alone means the end of that day."""
+    """A moment until which something is valid, `2026-11-20 23:59`; a date alone means the end of that day.
+
+    Without `end` it is a moment from which something is valid, and a date alone means the beginning.
+    """
+
+    end: bool = True
 
     def read(self, value: object) -> datetime.datetime:
         text = _text(value, "moment")
-        if (result := moment(text, end=True)) is None:
+        if (result := moment(text, end=self.end)) is None:
             raise fault("moment", text=text)
         return result
 

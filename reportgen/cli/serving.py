@@ -9,7 +9,7 @@ from typing import Annotated
 
 import typer
 
-from reportgen.cli.common import SYSTEM, LangOption, complain, ending, say
+from reportgen.cli.common import AT_FAULT, SYSTEM, LangOption, complain, ending, say
 
 NEEDED = ("starlette", "uvicorn", "multipart", "itsdangerous", "sqlalchemy", "alembic")
 """Modules of the packages that `reportgen[server]` installs."""
@@ -54,8 +54,9 @@ def serve(
             print(backups.back_up(ClassFolder(folder), backup))
             return
         if forget:
-            typer.confirm(say("serve_forget", lang, folder=folder), abort=True)
-            print(*backups.forget(ClassFolder(folder)), sep="\n")
+            if not _confirmed(say("serve_forget", lang, folder=folder)):
+                raise typer.Exit(AT_FAULT)
+            print(*serving.forget_class(folder), sep="\n")
             return
         if init:
             if spec is None or roster is None:
@@ -65,3 +66,11 @@ def serve(
             print(serving.desk_link(folder, address))
             return
         serving.run(folder, address, host, port, lambda link: print(link, flush=True))
+
+
+def _confirmed(question: str) -> bool:
+    """Return True if somebody agrees; nobody does where nobody can answer."""
+    try:
+        return typer.confirm(question)
+    except typer.Abort:
+        return False

@@ -150,7 +150,7 @@ class _Browser(Part):
     closes: Annotated[datetime.datetime, Until()] | None = None
     uploads: Annotated[int, Whole(0, 1000)] | None = None
     checks: Annotated[int, Whole(0, 100_000)] | None = None
-    checks_from: Annotated[datetime.datetime, Until()] | None = None
+    checks_from: Annotated[datetime.datetime, Until(end=False)] | None = None
     hints: Annotated[bool, Flag()] = True
     self_report: Annotated[bool, Flag()] = False
 

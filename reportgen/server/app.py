@@ -154,6 +154,8 @@ def application(site: Site) -> Starlette:
     @asynccontextmanager
     async def living(_: Starlette) -> AsyncIterator[None]:
         site.queue.warm()
+        # What was stored before the server was killed may not be in the class folder yet.
+        handed.begin(handed.lay_out_all(site))
         for row in site.store.uploads(state="queued"):
             handed.read_soon(site, row)
         yield

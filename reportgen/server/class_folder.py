@@ -12,12 +12,13 @@ import hashlib
 import json
 import os
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
 from reportgen.assignment.reading import words_beside
-from reportgen.base.errors import Fault, Location
-from reportgen.base.files import contents, leads_out, put_files, put_set, reported
+from reportgen.base.errors import Fault, Location, ReportgenError
+from reportgen.base.files import contents, leads_out, put_file, put_files, put_set, reported, version
 from reportgen.base.units import Language
 from reportgen.base.words import as_error, language_of
 from reportgen.base.yaml_source import read_source
@@ -91,9 +92,17 @@ class ClassFolder:
         file = self.path / "policy.yaml"
         return file if file.exists() else None
 
-    def policy(self, language: Language | None = None) -> Policy:
+    def policy(self) -> Policy:
+        """Return the policy of the class, or the last valid one while there is a mistake in the file."""
+        return self.valid_policy()[0]
+
+    def valid_policy(self) -> tuple[Policy, ReportgenError | None]:
+        """Return the same with the mistake; a valid policy is kept for then."""
         file = self.policy_file
-        return Policy() if file is None else read_policy(file, language)
+        if file is None:
+            return Policy(), None
+        about = file.stat()
+        return _valid_at(file, about.st_mtime_ns, about.st_size, self.server / "policy.yaml")
 
     def students(self, language: Language | None = None) -> tuple[RosterEntry, ...]:
         return read_roster(self.roster, language).students
@@ -108,10 +117,10 @@ class ClassFolder:
         return self.variants / f"{folder}.yaml"
 
     def content(self, folder: str) -> str:
-        """Return a hash of a student's assignment file, its parts and the policy; "" without a file."""
+        """Return a hash of a student's assignment file, its parts and what is asked for; "" without a file."""
         files = sorted((self.assignment(folder), *self.variants.glob(f"{folder}.*.yaml")))
-        made = hashlib.sha256()
-        for file in (*files, *filter(None, [self.policy_file])):
+        made = hashlib.sha256(str(self.policy().ask).encode())
+        for file in files:
             try:
                 made.update(file.name.encode() + b"\0" + contents(file) + b"\0")
             except OSError:
@@ -125,6 +134,10 @@ class ClassFolder:
         except (OSError, ValueError):
             return None
         return made if made["content"] == self.content(folder) else None
+
+    def kept_file(self, folder: str, content: str, name: str) -> Path:
+        """Return the path of a file that was made for a student's assignment; `content` is its hash."""
+        return self.server / "made" / folder / f"{version()}-{content[:12]}-{name}"
 
     def put_sheet(self, folder: str, sheet: dict[str, Any]) -> None:
         put_files(self.sheets, {f"{folder}.json": json.dumps(sheet, ensure_ascii=False).encode()})
@@ -181,6 +194,17 @@ class ClassFolder:
                 part.unlink(missing_ok=True)
             synced(self.uploads)
         return target
+
+
+@lru_cache(maxsize=4)
+def _valid_at(file: Path, changed: int, size: int, kept: Path) -> tuple[Policy, ReportgenError | None]:
+    """Return a policy as it was at the time of a change; after a mistake, the one that was `kept`, and the mistake."""
+    try:
+        policy = read_policy(file)
+    except ReportgenError as error:
+        return (read_policy(kept) if kept.exists() else Policy()), error
+    put_file(kept, contents(file))
+    return policy, None
 
 
 def synced(folder: Path) -> None:

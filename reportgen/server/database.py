@@ -85,6 +85,8 @@ class Database:
         with self.reading() as connection:
             last = connection.scalar(select(settings.c.value).where(settings.c.name == LAST))
         self.clock = Clock(last or "")
+        self.people_changes = 0
+        """Number of changes of people and of ends of sessions since the start."""
 
     def _migrate(self) -> None:
         config = Config()

@@ -128,10 +128,10 @@ async def gradebook(request: Request, site: Site, person: Person) -> Response:
 
 async def notices(request: Request, site: Site, person: Person) -> Response:
     """What the marking noticed, with the students that it concerns."""
-    found: list[dict[str, Any]] = []
+    seen: list[dict[str, Any]] = []
     for folder, mark in (await run_in_threadpool(site.store.marks)).items():
         for notice in mark.get("notices", []):
             mate = notice["classmate"]
             students = [folder, *([mate] if mate and mate != folder else [])]
-            found.append({"kind": notice["kind"], "count": notice["count"], "students": students})
-    return JSONResponse({"notices": found})
+            seen.append({"kind": notice["kind"], "count": notice["count"], "students": students})
+    return JSONResponse({"notices": seen})

@@ -68,7 +68,7 @@ class Refusal(Exception):
 
 
 @dataclass
-class Rates:
+class RateLimit:
     """Counts what somebody does within a time."""
 
     most: int

@@ -87,10 +87,24 @@ async def lay_out(site: Site, folder: str) -> None:
     """Write the files of one student."""
     async with site.laying.setdefault(folder, asyncio.Lock()):
         cells, when = await run_in_threadpool(counted_cells, site.store, site.drawn(folder), folder)
-        content = None
-        if cells:
+        content: bytes | None = None
+        current = bool(cells) and await run_in_threadpool(lambda: _is_current(site, folder, when))
+        if current:
+            content = await run_in_threadpool((site.folder.handed / folder / SHEET).read_bytes)
+        elif cells:
             content = await site.queue.run(work_calls.filled_sheet, site.folder, folder, cells, kind="files")
         await run_in_threadpool(_put, site, folder, content, when)
+
+
+def _is_current(site: Site, folder: str, when: str) -> bool:
+    """Return True if the sheet of a student is the one of a time, and of the present assignment and policy."""
+    policy = filter(None, [site.folder.policy_file])
+    try:
+        made = (site.folder.handed / folder / SHEET).stat()
+        newest = max(file.stat().st_mtime for file in (site.folder.assignment(folder), *policy))
+    except OSError:
+        return False
+    return abs(made.st_mtime - datetime.datetime.fromisoformat(when).timestamp()) < 1e-3 and made.st_ctime > newest
 
 
 async def lay_out_all(site: Site) -> None:
@@ -127,7 +141,8 @@ def _put(site: Site, folder: str, content: bytes | None, when: str) -> None:
     for row in kept.values():
         _put_upload(site, row)
     if content is not None:
-        put_files(target, {SHEET: content})
+        if not _is_current(site, folder, when):
+            put_files(target, {SHEET: content})
         _dated(target / SHEET, when)
 
 

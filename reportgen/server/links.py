@@ -24,10 +24,12 @@ from reportgen.classes.roster import comparable
 from reportgen.server.database import Database
 from reportgen.server.tables import people, sessions
 
-Role = Literal["student", "instructor"]
+PersonRole = Literal["student", "instructor"]
 DESK = "desk"
 """Folder of the instructor; a student's folder is never in lower case."""
 SESSION = datetime.timedelta(days=30)
+MOST_KNOWN = 5000
+"""Sessions that are kept in memory."""
 CODE = 10
 """Length of a code, 50 bits."""
 ALPHABET = str.maketrans("ABCDEFGHIJKLMNOPQRSTUVWXYZ234567", "abcdefghjkmnpqrstuvwxyz023456789")
@@ -54,14 +56,17 @@ class Links:
         self.database = database
         self.secret = _secret(folder / "secret")
         self._links = Signer(self.secret, salt="link", digest_method=hashlib.sha256)
+        self._known: dict[str, tuple[int, Person | None, datetime.datetime | None]] = {}
+        """Sessions by their cookies, as they were at a number of changes."""
         self._cookies = Signer(self.secret, salt="cookie", digest_method=hashlib.sha256)
 
-    def add(self, folder: str, role: Role, id: str, name: str, drawn: str = "") -> None:
+    def add(self, folder: str, role: PersonRole, id: str, name: str, drawn: str = "") -> None:
         """Add somebody, or renew the name and the variant of somebody known, whose link stays."""
         row = {"folder": folder, "role": role, "id": id, "name": name, "drawn": drawn, "dropped": False}
         statement = insert(people).values(nonce=secrets.token_bytes(16), **row)
         with self.database.writing() as writing:
             writing.execute(statement.on_conflict_do_update(index_elements=["folder"], set_=row))
+        self.database.people_changes += 1
 
     def token(self, folder: str) -> str:
         """Return the last part of the personal link."""
@@ -76,6 +81,7 @@ class Links:
         with self.database.writing() as writing:
             writing.execute(update(people).where(people.c.folder == folder).values(nonce=secrets.token_bytes(16)))
             writing.execute(delete(sessions).where(sessions.c.folder == folder))
+        self.database.people_changes += 1
 
     def of_token(self, token: str) -> Row[Any] | None:
         """Return who has a link; None for a forged or ended one."""
@@ -108,8 +114,15 @@ class Links:
                 writing.execute(update(people).where(people.c.folder == row.folder).values(opened_at=writing.at))
         return self._cookies.sign(session).decode()
 
+    def known(self, cookie: str) -> Person | None:
+        """Return who has a session without a look into the database; None if it has to be looked up."""
+        changes, person, ends = self._known.get(cookie, (-1, None, None))
+        current = changes == self.database.people_changes and ends is not None and self.database.clock.now() <= ends
+        return person if current else None
+
     def of_cookie(self, cookie: str) -> Person | None:
         """Return who has a session; None for a forged, ended or expired one."""
+        changes = self.database.people_changes
         try:
             session = self._cookies.unsign(cookie).decode()
         except (BadSignature, ValueError):
@@ -120,14 +133,20 @@ class Links:
         )
         with self.database.reading() as connection:
             row = connection.execute(joined.where((sessions.c.digest == digest) & ~people.c.dropped)).first()
-        if row is None or datetime.datetime.fromisoformat(row.ends) < self.database.clock.now():
+        if row is None or (ends := datetime.datetime.fromisoformat(row.ends)) < self.database.clock.now():
             return None
         csrf = hmac.new(self.secret, b"csrf" + session.encode(), hashlib.sha256).hexdigest()
-        return Person(row.folder, row.role, row.id, row.name, row.drawn, row.closes, digest, csrf)
+        about = {name: getattr(row, name) for name in ("folder", "role", "id", "name", "drawn", "closes")}
+        person = Person(**about, session=digest, csrf=csrf)
+        if len(self._known) > MOST_KNOWN:
+            self._known.clear()
+        self._known[cookie] = changes, person, ends
+        return person
 
     def sign_out(self, person: Person) -> None:
         with self.database.writing() as writing:
             writing.execute(delete(sessions).where(sessions.c.digest == person.session))
+        self.database.people_changes += 1
 
     def _nonce(self, folder: str) -> bytes:
         with self.database.reading() as connection:

@@ -20,7 +20,7 @@ from reportgen.base.units import Language
 from reportgen.server import work_calls
 
 Result = TypeVar("Result")
-NICENESS = 10
+NICENESS = 5
 """How much these processes stand back behind that of the pages."""
 
 

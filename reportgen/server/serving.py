@@ -4,16 +4,21 @@ from __future__ import annotations
 
 import logging
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 import uvicorn
+from sqlalchemy import Row
 
 from reportgen.base.errors import Fault, Location
 from reportgen.base.files import held
 from reportgen.base.units import Language
 from reportgen.base.words import as_error
+from reportgen.classes.roster import RosterEntry
 from reportgen.server.app import application
+from reportgen.server.backups import forget
 from reportgen.server.class_folder import ClassFolder
 from reportgen.server.links import DESK
 from reportgen.server.marking_queue import Queue
@@ -36,11 +41,23 @@ def open_site(path: Path, base_url: str, queue: Queue | None = None) -> Site:
     known = site.store.everybody()
     if DESK not in known:
         site.links.add(DESK, "instructor", DESK, "")
-    for student in site.folder.students(site.language):
+    students = site.folder.students(site.language)
+    if any(not site.folder.assignment(student.folder).exists() for student in students if _is_here(student, known)):
+        # Somebody was added to the roster.
+        from reportgen.server import work
+
+        work.draw(site.folder)
+    for student in students:
         row, name = known.get(student.folder), student.card.get("name", "")
         if row is None or (row.name != name and not row.dropped):
             site.links.add(student.folder, "student", student.id, name, row.drawn if row else "1")
     return site
+
+
+def _is_here(student: RosterEntry, known: Mapping[str, Row[Any]]) -> bool:
+    """Return True unless a student has left."""
+    row = known.get(student.folder)
+    return row is None or not row.dropped
 
 
 def desk_link(path: Path, base_url: str) -> str:
@@ -52,22 +69,35 @@ def desk_link(path: Path, base_url: str) -> str:
         site.database.close()
 
 
-def run(path: Path, base_url: str, host: str, port: int, tell: Callable[[str], None]) -> None:
-    """Serve a class until the program is interrupted; `tell` gets the instructor's link.
-
-    Raises `AssignmentError` if the class is served already, and for faults of its files.
-    """
+@contextmanager
+def _alone(path: Path) -> Iterator[ClassFolder]:
+    """Yield the folder of a class that nothing else serves; raise `AssignmentError` otherwise."""
     folder = ClassFolder(path)
     if not folder.spec.exists():
         raise as_error([Fault("serve-no-class", Location(str(path)))], None)
     folder.server.mkdir(parents=True, exist_ok=True, mode=0o700)
     try:
         with held(folder.server):
-            site = open_site(path, base_url)
-            tell(site.link(DESK))
-            _serve(site, host, port)
+            yield folder
     except BlockingIOError:
         raise as_error([Fault("serve-running", Location(str(path)))], None) from None
+
+
+def forget_class(path: Path) -> list[Path]:
+    """Delete all personal data of a class that is not served; return what was deleted."""
+    with _alone(path) as folder:
+        return forget(folder)
+
+
+def run(path: Path, base_url: str, host: str, port: int, tell: Callable[[str], None]) -> None:
+    """Serve a class until the program is interrupted; `tell` gets the instructor's link.
+
+    Raises `AssignmentError` if the class is served already, and for faults of its files.
+    """
+    with _alone(path):
+        site = open_site(path, base_url)
+        tell(site.link(DESK))
+        _serve(site, host, port)
 
 
 def _serve(site: Site, host: str, port: int) -> None:

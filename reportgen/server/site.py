@@ -17,14 +17,13 @@ from starlette.datastructures import FormData
 from starlette.requests import Request
 from starlette.responses import HTMLResponse, JSONResponse, Response
 
-from reportgen.base.errors import ReportgenError
 from reportgen.base.template_folders import languages
 from reportgen.base.units import Language
 from reportgen.marking.marking_policy import Browser
 from reportgen.server import pages
 from reportgen.server.class_folder import ClassFolder
 from reportgen.server.database import Database
-from reportgen.server.guards import LOGGER, Rates, Refusal
+from reportgen.server.guards import LOGGER, RateLimit, Refusal
 from reportgen.server.links import DESK, Links, Person
 from reportgen.server.marking_queue import MarkingQueue, Queue
 from reportgen.server.store import Store, Window
@@ -50,13 +49,13 @@ class Site:
         self.store = Store(self.database)
         self.links = Links(self.database, self.folder.server)
         self.queue: Queue = self.own_queue or MarkingQueue(self.language)
-        self.attempts = Rates(60, 60)
+        self.attempts = RateLimit(60, 60)
         """Links and codes that were wrong, for each address; a whole class may have one."""
-        self.guesses = Rates(20, 3600)
+        self.guesses = RateLimit(20, 3600)
         """Wrong codes for one id."""
-        self.requests = Rates(600, 60)
+        self.requests = RateLimit(600, 60)
         """Messages of one session."""
-        self.files = Rates(30, 60)
+        self.files = RateLimit(30, 60)
         self.reading: set[int] = set()
         """Uploads that wait to be read."""
         self.laying: dict[str, asyncio.Lock] = {}
@@ -64,8 +63,9 @@ class Site:
         self.changing = asyncio.Lock()
         """Held while variants or the roster change."""
         self.log = LOGGER
-        self._policy: tuple[tuple[int, int], Browser] | None = None
-        self._sheets: dict[str, tuple[tuple[int, ...], dict[str, Any]]] = {}
+        self._mistake = ""
+        """A mistake in the policy that the log has."""
+        self._sheets: dict[str, tuple[tuple[Any, ...], dict[str, Any]]] = {}
 
     @cached_property
     def language(self) -> Language:
@@ -87,26 +87,18 @@ class Site:
 
     @property
     def browser(self) -> Browser:
-        """What students may do; the policy is read again when its file has changed."""
-        file = self.folder.policy_file
-        if file is None:
-            return Browser()
-        stat = file.stat()
-        changed = stat.st_mtime_ns, stat.st_size
-        if self._policy is None or self._policy[0] != changed:
-            try:
-                self._policy = changed, self.folder.policy().browser
-            except ReportgenError as error:
-                # A mistake in the file must not stop the class: the rules stay as they were.
-                self.log.error("%s", error)
-                self._policy = changed, self._policy[1] if self._policy else Browser()
-        return self._policy[1]
+        """What students may do; after a mistake in the policy, what they could do before."""
+        policy, mistake = self.folder.valid_policy()
+        if mistake is not None and str(mistake) != self._mistake:
+            self.log.error("%s", mistake)
+        self._mistake = "" if mistake is None else str(mistake)
+        return policy.browser
 
     def sheet(self, folder: str) -> dict[str, Any] | None:
         """Return the answer sheet of a student; None if it is not made yet."""
         try:
-            files = (self.folder.assignment(folder), self.folder.sheets / f"{folder}.json", self.folder.policy_file)
-            changed = tuple(file.stat().st_mtime_ns for file in files if file is not None)
+            files = (self.folder.assignment(folder), self.folder.sheets / f"{folder}.json")
+            changed = (str(self.folder.policy().ask), *(file.stat().st_mtime_ns for file in files))
         except OSError:
             return None
         known = self._sheets.get(folder)
@@ -158,7 +150,9 @@ class Site:
     async def person(self, request: Request, role: str) -> Person:
         """Return who asks; raise `Refusal` for a stranger, and for somebody without this role."""
         cookie = request.cookies.get(COOKIE, "")
-        person = await run_in_threadpool(self.links.of_cookie, cookie) if cookie else None
+        person = self.links.known(cookie)
+        if person is None and cookie:
+            person = await run_in_threadpool(self.links.of_cookie, cookie)
         if person is None:
             raise Refusal("signed_out")
         request.scope.setdefault("state", {})["folder"] = person.folder

@@ -24,7 +24,7 @@ class UsedUpError(Exception):
 
 
 @dataclass(frozen=True, slots=True)
-class Entry:
+class TypedCell:
     """A cell as the browser sends it."""
 
     client: str
@@ -37,7 +37,7 @@ class Entry:
 class Saved:
     """A stored cell."""
 
-    entry: Entry
+    entry: TypedCell
     at: str
     revision: int
 
@@ -62,7 +62,7 @@ class Store:
 
     # --- cells --------------------------------------------------------------------------------------
 
-    def save(self, folder: str, drawn: str, entries: Sequence[Entry], window: Window) -> list[Saved]:
+    def save(self, folder: str, drawn: str, entries: Sequence[TypedCell], window: Window) -> list[Saved]:
         """Store cells in one transaction, in their order; a `client` that was stored before is not stored again."""
         stored: list[Saved] = []
         with self.database.writing() as writing:
@@ -192,6 +192,7 @@ class Store:
     def change_person(self, folder: str, values: Mapping[str, Any]) -> None:
         with self.database.writing() as writing:
             writing.execute(update(people).where(people.c.folder == folder).values(**values))
+        self.database.people_changes += 1
 
     def table(self) -> dict[str, dict[str, Any]]:
         """Return figures of each student's variant: the time of the last save, filled cells, hand-in, uploads."""

@@ -20,7 +20,7 @@ from reportgen.server.class_folder import safe_name
 from reportgen.server.guards import LARGE, Refusal, json_of
 from reportgen.server.links import Person
 from reportgen.server.site import Site, client_of
-from reportgen.server.store import ClosedError, Entry, Saved, UsedUpError
+from reportgen.server.store import ClosedError, Saved, TypedCell, UsedUpError
 
 MOST_CELLS = 200
 LONGEST = 60
@@ -89,15 +89,15 @@ def state_of(site: Site, person: Person, sheet: dict[str, Any], since: int) -> d
         "revision": last,
         "released": site.released,
         "cells": [
-            {"id": one.quantity, "position": one.position, "text": one.text, "at": one.at, "revision": one.revision}
-            for one in cells
-            if one.revision > since
+            {"id": row.quantity, "position": row.position, "text": row.text, "at": row.at, "revision": row.revision}
+            for row in cells
+            if row.revision > since
         ],
-        "filled": sum(one.text != "" for one in cells),
+        "filled": sum(row.text != "" for row in cells),
         "asked": sheet["asked"],
         "handed_in": None if handin is None else handin.at,
         "changed": handin is not None and last > handin.revision,
-        "uploads": [receipt(site, one) for one in files],
+        "uploads": [receipt(site, row) for row in files],
         "uploads_left": None if policy.uploads is None else max(policy.uploads - len(files), 0),
         "checks_left": None if policy.checks is None else max(policy.checks - checks, 0),
         "checks_from": None if policy.checks_from is None else policy.checks_from.astimezone().isoformat(),
@@ -124,27 +124,32 @@ async def cells(request: Request, site: Site, person: Person) -> Response:
     if not isinstance(sent, list) or not 0 < len(sent) <= MOST_CELLS:
         raise Refusal("malformed")
     refused: list[dict[str, str]] = []
-    if await run_in_threadpool(site.sheet, person.folder) is None:
-        await sheet_of(site, person.folder, person.drawn)
     saved = await run_in_threadpool(_saved, site, person, sent, refused)
+    if saved is None:
+        await sheet_of(site, person.folder, person.drawn)
+        saved = await run_in_threadpool(_saved, site, person, sent, refused) or []
     made = [
         {
-            "client": one.entry.client,
-            "id": one.entry.quantity,
-            "position": one.entry.position,
-            "at": one.at,
-            "revision": one.revision,
+            "client": cell.entry.client,
+            "id": cell.entry.quantity,
+            "position": cell.entry.position,
+            "at": cell.at,
+            "revision": cell.revision,
         }
-        for one in saved
+        for cell in saved
     ]
     language = site.language_of(request)
-    explained = [{**one, "message": pages.explained(language, one["error"])} for one in refused]
+    explained = [{**cell, "message": pages.explained(language, cell["error"])} for cell in refused]
     return JSONResponse({"saved": made, "refused": explained})
 
 
-def _saved(site: Site, person: Person, sent: list[Any], refused: list[dict[str, str]]) -> list[Saved]:
-    places = open_places(site.sheet(person.folder) or {"sections": []})
-    entries = [entry for one in sent if (entry := _entry(one, places, refused)) is not None]
+def _saved(site: Site, person: Person, sent: list[Any], refused: list[dict[str, str]]) -> list[Saved] | None:
+    """Store cells; return None if the sheet with their places is not made yet."""
+    sheet = site.sheet(person.folder)
+    if sheet is None:
+        return None
+    places = open_places(sheet)
+    entries = [entry for cell in sent if (entry := _entry(cell, places, refused)) is not None]
     try:
         return site.store.save(person.folder, person.drawn, entries, site.window(person))
     except ClosedError:
@@ -163,11 +168,11 @@ def open_places(sheet: dict[str, Any]) -> frozenset[tuple[str, int]]:
     return frozenset((row["id"], cell["position"]) for row in rows for cell in row["cells"] if cell["open"])
 
 
-def _entry(one: Any, places: frozenset[tuple[str, int]], refused: list[dict[str, str]]) -> Entry | None:
+def _entry(cell: Any, places: frozenset[tuple[str, int]], refused: list[dict[str, str]]) -> TypedCell | None:
     """Return a cell as sent; one that nobody asks for is refused, and does not keep the others from being saved."""
-    if not isinstance(one, dict):
+    if not isinstance(cell, dict):
         raise Refusal("malformed")
-    client, id, position, text = client_of(one), one.get("id"), one.get("position"), one.get("text")
+    client, id, position, text = client_of(cell), cell.get("id"), cell.get("position"), cell.get("text")
     if not isinstance(id, str) or type(position) is not int or not isinstance(text, str):
         raise Refusal("malformed")
     clean = "".join(sign for sign in text if sign.isprintable()).strip()
@@ -175,7 +180,7 @@ def _entry(one: Any, places: frozenset[tuple[str, int]], refused: list[dict[str,
     if code:
         refused.append({"client": client, "error": code})
         return None
-    return Entry(client, id, position, clean)
+    return TypedCell(client, id, position, clean)
 
 
 async def check(request: Request, site: Site, person: Person) -> Response:
@@ -229,7 +234,8 @@ def _stored(site: Site, person: Person, client: str, name: str, content: bytes) 
     try:
         site.window(person).check(site.database.clock.now())
         most = MOST_UPLOADS if site.browser.uploads is None else site.browser.uploads
-        if len(site.store.uploads(person.folder)) > most:
+        sent_before = site.store.uploads(person.folder)
+        if len(sent_before) >= most and client not in {row.client for row in sent_before}:
             raise UsedUpError
         site.folder.add_upload(content, sha256)
         about = {"drawn": person.drawn, "name": name, "size": len(content), "sha256": sha256}
@@ -298,10 +304,10 @@ async def own_file(request: Request, site: Site, person: Person) -> Response:
 def sent(content: bytes, name: str, attached: bool = False) -> Response:
     """Return a file; all but PDF and the moving machine are saved, not shown."""
     suffix = "." + name.rpartition(".")[2].lower()
-    shown = not attached and suffix in (".pdf", ".html")
-    how = "inline" if shown else "attachment"
+    inline = not attached and suffix in (".pdf", ".html")
+    how = "inline" if inline else "attachment"
     headers = {"Content-Disposition": f"{how}; filename*=UTF-8''{quote(name, safe='')}"}
-    if suffix == ".html" and shown:
+    if suffix == ".html" and inline:
         headers |= {"Content-Security-Policy": MOVING_POLICY, "X-Frame-Options": "SAMEORIGIN"}
     return Response(content, media_type=TYPES.get(suffix, "application/octet-stream"), headers=headers)
 

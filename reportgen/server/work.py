@@ -59,7 +59,7 @@ from reportgen.workbook import Book, Entry, read, write_xlsx
 
 SHEETS = frozenset({".xlsx", ".xlsm", ".csv"})
 """Suffixes of answer sheets."""
-Cells = Mapping[tuple[str, int], str]
+TypedTexts = Mapping[tuple[str, int], str]
 """Texts as typed, by id and position."""
 
 
@@ -131,7 +131,7 @@ def _row(key: Key, row: KeyRow, cells: frozenset[int]) -> dict[str, Any]:
     return {"id": row.id, "symbol": symbol_text(row, key), "what": what, "unit": row.unit, "cells": made}
 
 
-def filled_sheet(folder: ClassFolder, student: str, cells: Cells) -> bytes:
+def filled_sheet(folder: ClassFolder, student: str, cells: TypedTexts) -> bytes:
     """Return the student's answer sheet as a workbook with the cells as typed."""
     made = opened(folder, student)
     key, ask = made.key, made.policy.ask
@@ -159,7 +159,7 @@ SAID = {Verdict.right: "right", Verdict.follows: "right", Verdict.wrong: "wrong"
 """What a student is told; everything else is unread."""
 
 
-def check(folder: ClassFolder, student: str, cells: Cells, asked: Mapping[str, Any]) -> dict[str, Any]:
+def check(folder: ClassFolder, student: str, cells: TypedTexts, asked: Mapping[str, Any]) -> dict[str, Any]:
     """Return the verdicts on one cell, on a section or on the sheet, as `compare` gives them, and its lines."""
     made, file = opened(folder, student), Path("answers.xlsx")
     key, hints = made.scheme.key, made.policy.browser.hints
@@ -275,7 +275,16 @@ def make_products(folder: ClassFolder, product: str, out: Path) -> list[str]:
 
 
 def make_file(folder: ClassFolder, student: str, name: str) -> bytes:
-    """Return a file of one student: `task.pdf`, `assignment.yaml`, `machine.html`, `report.pdf`."""
+    """Return a file of one student: `task.pdf`, `assignment.yaml`, `machine.html`, `report.pdf`; it is made once."""
+    content = folder.content(student)
+    if (kept := folder.kept_file(student, content, name)).is_file():
+        return contents(kept)
+    made = _made_file(folder, student, name)
+    put_file(kept, made)
+    return made
+
+
+def _made_file(folder: ClassFolder, student: str, name: str) -> bytes:
     path, policy = folder.assignment(student), folder.policy()
     if name == "assignment.yaml":
         return handed_out(path).encode()
@@ -288,8 +297,11 @@ def make_file(folder: ClassFolder, student: str, name: str) -> bytes:
 
 def grade(folder: ClassFolder) -> dict[str, Any]:
     """Mark the class as `grade` does, into `marked/`; return the marks by student and the problems."""
-    language, policy = folder.language, folder.policy()
+    language = folder.language
+    policy, mistake = folder.valid_policy()
     speak(language)
+    if mistake is not None:
+        raise mistake
     corrections = read_corrections(folder.corrections, language) if folder.corrections.exists() else ()
     graded = class_marking.grade(
         [folder.handed], folder.variants, policy, None, folder.handed_roster, corrections, out=folder.marked

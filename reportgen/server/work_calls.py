@@ -8,7 +8,7 @@ from typing import Any
 
 
 @dataclass(frozen=True, slots=True)
-class Call:
+class WorkCall:
     """A function of `work`, found in the process that runs it."""
 
     name: str
@@ -20,15 +20,15 @@ class Call:
         return function(*arguments)
 
 
-make_sheet = Call("make_sheet")
-filled_sheet = Call("filled_sheet")
-check = Call("check")
-read_upload = Call("read_upload")
-draw = Call("draw")
-fix = Call("fix")
-make_products = Call("make_products")
-make_file = Call("make_file")
-grade = Call("grade")
-key_values = Call("key_values")
-fill_gradebook = Call("fill_gradebook")
-begin_reading = Call("begin_reading")
+make_sheet = WorkCall("make_sheet")
+filled_sheet = WorkCall("filled_sheet")
+check = WorkCall("check")
+read_upload = WorkCall("read_upload")
+draw = WorkCall("draw")
+fix = WorkCall("fix")
+make_products = WorkCall("make_products")
+make_file = WorkCall("make_file")
+grade = WorkCall("grade")
+key_values = WorkCall("key_values")
+fill_gradebook = WorkCall("fill_gradebook")
+begin_reading = WorkCall("begin_reading")

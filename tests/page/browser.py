@@ -187,13 +187,10 @@ class Browser:
         return found
 
     def violations(self, source: str, within: str = "html") -> list[str]:
-        """What axe-core finds on the page, or in what is chosen of it.
-
-        It leaves frames out: one in a sandbox takes no message, and the browser notes an error.
-        """
+        """What axe-core finds on the page, or in what is chosen of it."""
         self.command("Runtime.evaluate", expression=source)
         self.driver.set_script_timeout(120)
-        run = f"axe.run({json.dumps(within)}, {{resultTypes: ['violations'], iframes: false}})"
+        run = f"axe.run({json.dumps(within)}, {{resultTypes: ['violations']}})"
         found = self.driver.execute_async_script(f"{run}.then((found) => arguments[0](found.violations))")
         return [f"{one['id']}: {node['html'][:120]}" for one in found for node in one["nodes"]]
 

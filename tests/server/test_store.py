@@ -16,7 +16,7 @@ from reportgen.server.backups import back_up, forget
 from reportgen.server.class_folder import ClassFolder
 from reportgen.server.database import Clock, Database
 from reportgen.server.links import Links
-from reportgen.server.store import ClosedError, Entry, Store, UsedUpError, Window
+from reportgen.server.store import ClosedError, Store, TypedCell, UsedUpError, Window
 from reportgen.server.tables import metadata
 from tests.server.served import ADDRESS, Served
 
@@ -37,26 +37,26 @@ def texts(store: Store) -> list[str]:
 
 
 def test_a_cell_that_is_sent_again_is_stored_once(store: Store) -> None:
-    first = store.save("S1", "1", [Entry("client-1", "v.B", 2, "1.5")], ALWAYS)
-    store.save("S1", "1", [Entry("client-2", "v.B", 2, "1.6")], ALWAYS)
-    again = store.save("S1", "1", [Entry("client-1", "v.B", 2, "1.5")], ALWAYS)
+    first = store.save("S1", "1", [TypedCell("client-1", "v.B", 2, "1.5")], ALWAYS)
+    store.save("S1", "1", [TypedCell("client-2", "v.B", 2, "1.6")], ALWAYS)
+    again = store.save("S1", "1", [TypedCell("client-1", "v.B", 2, "1.5")], ALWAYS)
     assert [(one.at, one.revision) for one in again] == [(one.at, one.revision) for one in first]
     assert texts(store) == ["1.6"], "what was sent late again does not replace what was typed since"
     # The browser did not hear that it was saved: it is told so, even when the time is over.
-    assert store.save("S1", "1", [Entry("client-1", "v.B", 2, "1.5")], OVER)[0].revision == first[0].revision
+    assert store.save("S1", "1", [TypedCell("client-1", "v.B", 2, "1.5")], OVER)[0].revision == first[0].revision
 
 
 def test_the_cells_of_one_message_are_stored_together_or_not_at_all(store: Store) -> None:
-    store.save("S1", "1", [Entry("client-1", "v.B", 2, "1")], ALWAYS)
+    store.save("S1", "1", [TypedCell("client-1", "v.B", 2, "1")], ALWAYS)
     with pytest.raises(ClosedError):
-        store.save("S1", "1", [Entry("client-1", "v.B", 2, "1"), Entry("client-2", "v.C", 2, "2")], OVER)
+        store.save("S1", "1", [TypedCell("client-1", "v.B", 2, "1"), TypedCell("client-2", "v.C", 2, "2")], OVER)
     assert texts(store) == ["1"]
 
 
 def test_writers_at_once_lose_nothing(store: Store) -> None:
     def write(number: int) -> None:
         for k in range(20):
-            store.save("S1", "1", [Entry(f"client-{number}-{k}", f"v.{number}", k, str(k))], ALWAYS)
+            store.save("S1", "1", [TypedCell(f"client-{number}-{k}", f"v.{number}", k, str(k))], ALWAYS)
 
     threads = [threading.Thread(target=write, args=(number,)) for number in range(5)]
     for thread in threads:
@@ -69,10 +69,10 @@ def test_writers_at_once_lose_nothing(store: Store) -> None:
 
 
 def test_the_sheet_of_a_hand_in_is_the_one_of_its_moment(store: Store) -> None:
-    store.save("S1", "1", [Entry("client-1", "v.B", 2, "1")], ALWAYS)
+    store.save("S1", "1", [TypedCell("client-1", "v.B", 2, "1")], ALWAYS)
     sheet = {"revision": 1, "filled": 1, "sha256": "0" * 64}
     row = store.hand_in("S1", "hand-in-1", "1", sheet, ALWAYS)
-    store.save("S1", "1", [Entry("client-2", "v.B", 2, "2")], ALWAYS)
+    store.save("S1", "1", [TypedCell("client-2", "v.B", 2, "2")], ALWAYS)
     assert store.hand_in("S1", "hand-in-1", "1", sheet, OVER).number == row.number
     assert store.cells_at("S1", "1", row.revision) == {("v.B", 2): "1"}
 
@@ -91,17 +91,17 @@ def test_uploads_and_checks_are_counted_once(store: Store) -> None:
 
 
 def test_times_do_not_go_back_with_the_clock(store: Store, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    (first,) = store.save("S1", "1", [Entry("client-1", "v.B", 2, "1")], ALWAYS)
+    (first,) = store.save("S1", "1", [TypedCell("client-1", "v.B", 2, "1")], ALWAYS)
 
     yesterday = databases.wall_time() - datetime.timedelta(days=1)
     monkeypatch.setattr(databases, "wall_time", lambda: yesterday)
     reopened = Store(Database(tmp_path))
-    (second,) = reopened.save("S1", "1", [Entry("client-2", "v.B", 2, "2")], ALWAYS)
+    (second,) = reopened.save("S1", "1", [TypedCell("client-2", "v.B", 2, "2")], ALWAYS)
     assert second.at > first.at
     # Who waits for the clock to be set back gains no time.
     closed = Window(datetime.datetime.fromisoformat(first.at))
     with pytest.raises(ClosedError):
-        reopened.save("S1", "1", [Entry("client-3", "v.B", 2, "3")], closed)
+        reopened.save("S1", "1", [TypedCell("client-3", "v.B", 2, "3")], closed)
     reopened.database.close()
 
 

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import csv
+import json
 import socket
+import sqlite3
 import subprocess
 import sys
 import time
 import urllib.request
 from collections.abc import Iterator
+from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -170,6 +173,15 @@ def marks(desk: Walk, served: Class) -> None:
     desk.press("#release")
 
 
+def notice(served: Class, id: str, classmate: str) -> None:
+    """Let the last marking have noticed that a student has values of another's sheet."""
+    with closing(sqlite3.connect(served.folder / "server" / "class.db")) as database:
+        ((content,),) = database.execute("SELECT content FROM marks WHERE folder = ?", (id,)).fetchall()
+        about = {**json.loads(content), "notices": [{"kind": "a run of values", "classmate": classmate, "count": 12}]}
+        database.execute("UPDATE marks SET content = ? WHERE folder = ?", (json.dumps(about), id))
+        database.commit()
+
+
 @pytest.mark.proof
 def test_a_class_from_the_empty_folder_to_the_released_mark(served: Class, browser: Browser, tmp_path: Path) -> None:
     source = axe()
@@ -197,6 +209,12 @@ def test_a_class_from_the_empty_folder_to_the_released_mark(served: Class, brows
     anh.press("form[action='/out'] button")
 
     marks(desks[0], served)
+    notice(served, "K02", "K01")
+    desks[0].open(f"{served.address}/desk")
+    desks[0].until("document.querySelector('#notices summary') !== null")
+    desks[0].press("#notices summary")
+    desks[0].until("document.querySelector('#notices tbody tr') !== null")
+    desks[0].look("signs of copying")
     desks[0].until("document.getElementById('release').innerText !== ''")
     desks[1].open(f"{served.address}/desk")
     desks[1].until("document.querySelectorAll('#students tbody tr').length === 3")
@@ -219,7 +237,8 @@ def test_cells_outlive_a_lost_connection_and_are_the_same_in_two_tabs(served: Cl
     student = Walk(browser, "", 390, "vi")
     student.open(served.desk)
     student.until("location.pathname === '/desk'")
-    student.open(link_of(student, served, "K03")[0])
+    link, _ = link_of(student, served, "K03")
+    student.open(link)
     student.until("location.pathname === '/me'")
     # One cell can be checked alone, by its own button.
     student.fill({("v.B", 0): "1,5"})
@@ -244,3 +263,21 @@ def test_cells_outlive_a_lost_connection_and_are_the_same_in_two_tabs(served: Cl
     browser.driver.close()
     browser.driver.switch_to.window(first)
     student.until(f"document.querySelector(\"{CELL.format(id='v.CB')}\").value === '7'")
+
+    # What did not come in time can still be seen.
+    student.connect(False)
+    student.replace(CELL.format(id="v.C"), "4,4")
+    student.until("document.getElementById('saving').dataset.state === 'unsaved'")
+    student.value("location.replace('about:blank')")
+    student.connect(True)
+    student.open(served.desk)
+    student.until("location.pathname === '/desk'")
+    student.open(f"{served.address}/desk/students/K03")
+    student.value("document.getElementById('new-deadline').value = '2026-01-01T00:00'")
+    student.press("#deadline button")
+    student.until("document.getElementById('closes').innerText.includes('01/01/2026')")
+    student.open(link)
+    student.until("location.pathname === '/me'")
+    student.until("document.querySelector('.cell[data-state=refused]') !== null")
+    assert "4,4" in student.text(".cell[data-state=refused] .state")
+    assert student.value("document.querySelector('#hand-in, #upload') === null")

@@ -83,8 +83,10 @@ class Walk:
 
     def look(self, name: str) -> None:
         """Note faults of the page: by axe-core, in the console, what is wider than the screen, other hosts."""
-        faults = self.browser.violations(self.axe)
-        faults += [one for one in self.browser.messages() if "favicon" not in one]
+        faults = [one for one in self.browser.messages() if "favicon" not in one]
+        faults += self.browser.violations(self.axe)
+        # What axe-core says to the frame of the machine, which is alone in its sandbox, is not the page's.
+        self.browser.messages()
         wide = self.value("document.documentElement.scrollWidth")
         faults += [f"{wide} px wide"] if wide > self.width else []
         faults += [

@@ -87,21 +87,57 @@ async function renew() {
   timer = setTimeout(renew, table.marking || table.queue ? WHILE_MARKING : EVERY);
 }
 
+const student = (folder) => table.students.find((one) => one.folder === folder);
+const named = (folder) => element("a", student(folder)?.name || folder, { href: `/desk/students/${encodeURIComponent(folder)}` });
+
 async function notices() {
   try {
-    const found = (await send("/desk/notices")).notices;
-    const of = (folder) => table.students.find((one) => one.folder === folder);
-    by("notices").replaceChildren(...found.map((one) => element("li", [
-      ...one.lines.map((line) => element("p", line)),
-      element("p", one.students.flatMap((folder, at) => [
-        ...(at ? [" · "] : []),
-        element("a", of(folder)?.name || folder, { href: `/desk/students/${encodeURIComponent(folder)}` }),
-      ])),
-    ])));
-    if (!found.length) by("notices").replaceChildren(element("li", words.no_notices));
+    const noticed = (await send("/desk/notices")).notices;
+    by("notices").replaceChildren(...noticed.map(notice));
+    if (!noticed.length) by("notices").replaceChildren(element("li", words.no_notices));
   } catch (error) {
     by("notices").replaceChildren(element("li", error.message));
   }
+}
+
+function notice({ kind, count, students }) {
+  const made = element("li", [
+    element("p", [...students.flatMap((folder, at) => [...(at ? [" · "] : []), named(folder)]), `: ${kind}, `, fill(words.notice_values, { count })]),
+  ]);
+  if (students.length < 2) return made;
+  const details = element("details", [element("summary", words.side_by_side)]);
+  details.addEventListener("toggle", () => { if (details.open && details.children.length === 1) compareSheets(details, students); });
+  made.append(details);
+  return made;
+}
+
+// Show the values of two students beside each other, those that agree in all figures marked.
+async function compareSheets(details, students) {
+  const place = element("div", words.working);
+  details.append(place);
+  try {
+    const sheets = await Promise.all(students.map((folder) => send(`/desk/students/${encodeURIComponent(folder)}/sheet`)));
+    const [first, second] = sheets.map(valuesOf);
+    const rows = [...first].filter(([key]) => second.has(key)).map(([key, { name, text }]) => {
+      const same = second.get(key).text === text;
+      return element("tr", [
+        element("th", name, { scope: "row" }), element("td", text), element("td", second.get(key).text), element("td", same ? "=" : ""),
+      ], { className: same ? "same" : "" });
+    });
+    place.replaceChildren(element("div", [element("table", [
+      element("thead", [element("tr", ["", ...students.map((folder) => student(folder)?.name || folder), ""].map((text) => element("td", text)))]),
+      element("tbody", rows),
+    ], { className: "desk" })], { className: "scroll", tabIndex: 0, role: "group", ariaLabel: words.side_by_side }));
+  } catch (error) {
+    place.replaceChildren(error.message);
+  }
+}
+
+function valuesOf(sheet) {
+  const cells = sheet.sections.flatMap((section) => section.rows).flatMap((row) => row.cells.map((cell) => [row, cell]));
+  return new Map(cells.filter(([, cell]) => cell.open && cell.text).map(([row, cell]) => [
+    `${row.id}@${cell.position}`, { name: cell.label ? `${row.symbol} (${cell.label})` : row.symbol, text: cell.text },
+  ]));
 }
 
 async function act(path, body, place = by("acting")) {

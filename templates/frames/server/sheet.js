@@ -221,7 +221,11 @@ for (const input of inputs) {
   // A browser may have kept an older text in the field over a reload.
   input.value = input.dataset.known = input.defaultValue;
   const kept = outbox.get(input.dataset.id, input.dataset.position);
-  if (kept && !closed) {
+  if (!kept) continue;
+  if (closed) {
+    // The deadline came first: the student and the instructor can still see what was typed.
+    mark(input, "refused", fill(words.too_late, { text: kept.text }));
+  } else {
     input.value = kept.text;
     mark(input, "unsaved");
   }

@@ -1,0 +1,205 @@
+"""What an instructor changes while the class works: deadlines, variants, students; and what can be downloaded."""
+
+from __future__ import annotations
+
+import csv
+import datetime
+import io
+import os
+import re
+import time
+import zipfile
+from pathlib import Path
+
+import pytest
+
+from reportgen.server import database as databases
+from reportgen.server.handed import put_handed_roster
+from tests.server.served import POLICY, Served
+from tests.server.test_same_marks import marked, right_values
+
+
+def local(days: float) -> str:
+    return f"{datetime.datetime.now() + datetime.timedelta(days=days):%Y-%m-%d %H:%M}"
+
+
+def policy(served: Served, text: str) -> None:
+    file = served.folder.path / "policy.yaml"
+    file.write_text(POLICY + text, encoding="utf-8")
+    # Two changes within one tick of a coarse clock are two changes.
+    os.utime(file, ns=(time.time_ns(), time.time_ns()))
+
+
+def test_after_the_deadline_nothing_is_accepted_but_from_whom_it_was_extended(served: Served) -> None:
+    student, late = served.person("S1"), served.person("S2")
+    place = student.places[0]
+    assert student.save({place: "1"}).status_code == 200
+    policy(served, f"browser: {{closes: {local(-1)}}}\n")
+    for answer in (student.save({place: "2"}), student.hand_in(), student.upload("a.pdf", b"a")):
+        assert (answer.status_code, answer.json()["error"]) == (409, "closed")
+    assert served.desk.post("/desk/students/S2/deadline", {"closes": local(1)}).status_code == 200
+    assert late.save({late.places[0]: "2"}).status_code == 200
+    state = student.json("/me/state")
+    assert not state["open"]
+    assert [cell["text"] for cell in state["cells"]] == ["1"]
+    assert not served.folder.uploads.exists()
+    rows = {row["id"]: row["extended"] for row in served.desk.json("/desk/table")["students"]}
+    assert rows == {"S1": False, "S2": True, "S3": False}
+    assert served.desk.post("/desk/students/S2/deadline", {"closes": None}).status_code == 200
+    assert late.save({late.places[0]: "3"}).status_code == 409
+
+
+def test_checks_and_uploads_are_limited_by_the_policy(served: Served) -> None:
+    student = served.person("S1")
+    student.save({student.places[0]: "1"})
+    policy(served, f"browser: {{checks: 1, uploads: 1, hints: false, checks_from: {local(1)}}}\n")
+    assert student.post("/me/check", {"client": "check-01"}).json()["error"] == "too_early"
+    policy(served, "browser: {checks: 1, uploads: 1, hints: false}\n")
+    first = student.post("/me/check", {"client": "check-01"})
+    assert first.json()["checks_left"] == 0
+    assert student.post("/me/check", {"client": "check-01"}).json() == first.json()
+    assert student.post("/me/check", {"client": "check-02"}).json()["error"] == "used_up"
+    assert student.upload("a.pdf", b"a").status_code == 200
+    assert student.upload("b.pdf", b"b").json()["error"] == "used_up"
+    assert len(list(served.folder.uploads.iterdir())) == 1
+
+
+def test_a_mistake_in_the_policy_does_not_stop_the_class(served: Served) -> None:
+    student = served.person("S1")
+    policy(served, "browser: {checks: many}\n")
+    assert student.save({student.places[0]: "1"}).status_code == 200
+
+
+def test_a_student_who_comes_later_gets_a_variant_and_the_others_keep_theirs(served: Served) -> None:
+    before = {file.name: file.read_bytes() for file in served.folder.variants.glob("S*.yaml")}
+    row = served.desk.post("/desk/students", {"id": "S4", "name": "Dũng Phạm", "class": "K2"}).json()
+    assert (row["folder"], row["asked"] > 0) == ("S4", True)
+    assert served.person("S4").places
+    assert {name: (served.folder.variants / name).read_bytes() for name in before} == before
+    assert "Dũng Phạm,S4" in served.folder.roster.read_text("utf-8-sig")
+    again = served.desk.post("/desk/students", {"id": "s4", "name": "Another"})
+    assert again.status_code == 400
+    assert again.json()["lines"]
+    assert served.folder.roster.read_text("utf-8-sig").count("S4") == 1
+
+
+def test_another_variant_has_an_empty_sheet_and_the_old_cells_are_kept(served: Served) -> None:
+    student, desk = served.person("S1"), served.desk
+    place = student.places[0]
+    student.save({place: "1"})
+    student.upload("answers.csv", b"id,Value\r\n")
+    before = served.folder.assignment("S1").read_text()
+    assert desk.post("/desk/students/S1/redraw").status_code == 200
+    assert served.folder.assignment("S1").read_text() != before
+    assert student.json("/me/state")["cells"] == []
+    # A page that still shows the old sheet cannot fill in the new one.
+    sent = {"client": student.name(), "id": place[0], "position": place[1], "text": "2"}
+    assert student.post("/me/cells", {"variant": "1", "cells": [sent]}).json()["error"] == "redrawn"
+    assert [row.text for row in served.site.store.cells("S1", "1")] == ["1"]
+    assert not any((served.folder.handed / "S1").iterdir())
+
+
+def test_a_fixed_file_keeps_the_cells_and_a_wrong_one_is_not_kept(served: Served) -> None:
+    student, desk = served.person("S1"), served.desk
+    student.save({student.places[0]: "1"})
+    text = desk.json("/desk/students/S1/file")["yaml"]
+    wrong = desk.post("/desk/students/S1/fix", {"yaml": text.replace("n: 300 rpm", "n: fast")})
+    assert wrong.status_code == 400
+    assert wrong.json()["lines"]
+    assert desk.json("/desk/students/S1/file")["yaml"] == text
+    assert desk.post("/desk/students/S1/fix", {"yaml": text.replace("n: 300 rpm", "n: 310 rpm")}).status_code == 200
+    assert "310 rpm" in served.folder.assignment("S1").read_text()
+    assert [cell["text"] for cell in student.json("/me/state")["cells"]] == ["1"]
+
+
+def test_lateness_is_counted_from_the_hand_in_and_forgiven_up_to_an_extension(served: Served) -> None:
+    policy(served, f"late: {{due: {local(-2.5)}, per_day: 1}}\n")
+    for folder in ("S1", "S2"):
+        student = served.person(folder)
+        student.save(right_values(served, folder))
+        student.hand_in()
+    served.desk.post("/desk/students/S2/deadline", {"closes": local(1)})
+    table = marked(served.desk)
+    assert (table["S1"]["mark"], table["S2"]["mark"]) == (7, 10)
+    put_handed_roster(served.site)
+    rows = list(csv.DictReader(io.StringIO(served.folder.handed_roster.read_text("utf-8-sig"))))
+    assert [bool(row["handed_in"]) for row in rows] == [True, True, False]
+
+
+def test_what_can_be_downloaded(served: Served) -> None:
+    desk, student = served.desk, served.person("S1")
+    student.save(right_values(served, "S1"))
+    student.upload("bản vẽ.jpg", b"a photo")
+    student.hand_in()
+    marked(desk)
+    links = list(csv.DictReader(io.StringIO(desk.get("/desk/download/links.csv").content.decode("utf-8-sig"))))
+    assert [row["id"] for row in links] == ["S1", "S2", "S3"]
+    assert links[0]["link"] == served.site.link("S1")
+    for name in ("feedback.pdf", "class.pdf"):
+        assert desk.get(f"/desk/download/{name}").content.startswith(b"%PDF")
+    names = zipfile.ZipFile(io.BytesIO(desk.get("/desk/download/class.zip").content)).namelist()
+    assert {"spec.yaml", "roster.csv", "variants/S1.yaml", "handed/S1/answers.xlsx", "marked/grades.csv"} <= {*names}
+    assert "handed/S1/00001-bản vẽ.jpg" in names
+    assert not [name for name in names if name.startswith("server")], "no secret leaves the server"
+    worksheet = (
+        "Identifier,Full name,ID number,Status,Grade,Maximum Grade,Feedback comments\r\n"
+        "Participant 1,An Nguyễn,S1,Submitted,,10.00,\r\nParticipant 2,Bình Lê,S2,Submitted,,10.00,\r\n"
+    )
+    form = {"column": "", "csrf": desk.token}
+    filled = desk.client.post("/desk/gradebook", data=form, files={"file": ("worksheet.csv", worksheet.encode())})
+    assert filled.status_code == 200, filled.text
+    rows = list(csv.DictReader(io.StringIO(filled.content.decode("utf-8-sig"))))
+    assert [row["Grade"] for row in rows] == ["10.00", ""]
+    wrong = desk.client.post("/desk/gradebook", data=form, files={"file": ("other.csv", b"a,b\r\n1,2\r\n")})
+    assert (wrong.status_code, bool(wrong.json()["lines"])) == (400, True)
+
+
+def test_the_files_of_a_student_tell_no_answer(served: Served) -> None:
+    student = served.person("S1")
+    right = right_values(served, "S1")
+    # Where the machine stands is drawn; its velocities are not.
+    answers = {text for (id, _), text in right.items() if "v." in id and id[:4] != "dir." and len(text) > 4}
+    assert answers
+    machine = student.get("/me/files/machine.html")
+    assert machine.status_code == 200
+    assert "sandbox" in machine.headers["content-security-policy"]
+    assert "<svg" in machine.text
+    sheet = student.get("/me/sheet").text
+    data = student.get("/me/files/assignment.yaml").text
+    for answer in answers:
+        for text in (sheet, data, machine.text):
+            assert not re.search(rf"(?<![\d.]){re.escape(answer)}(?![\d])", text)
+    assert student.get("/me/files/task.pdf").content.startswith(b"%PDF")
+
+
+def test_what_waited_when_the_server_ended_is_done_by_the_next(made_class: Path, tmp_path: Path) -> None:
+    with Served.copied(made_class, tmp_path / "class") as served:
+        student = served.person("S1")
+        student.save(right_values(served, "S1"))
+        student.hand_in()
+        served.site.store.add_upload(
+            "S1",
+            "upload-01",
+            {"drawn": "1", "name": "a.pdf", "size": 1, "sha256": served.folder.add_upload(b"a", "f" * 64).name},
+            served.site.window(served.site.links.of_cookie(student.client.cookies["reportgen"])),  # type: ignore[arg-type]
+            None,
+        )
+    for file in (served.folder.handed / "S1").iterdir():
+        file.unlink()
+    with Served.of(tmp_path / "class") as again:
+        student = again.person("S1")
+        end = time.monotonic() + 20
+        while student.json("/me/uploads/1")["state"] == "queued" and time.monotonic() < end:
+            time.sleep(0.05)
+        assert student.json("/me/uploads/1")["state"] == "kept"
+        while len(list((again.folder.handed / "S1").iterdir())) < 2 and time.monotonic() < end:
+            time.sleep(0.05)
+        assert {file.name for file in (again.folder.handed / "S1").iterdir()} == {"answers.xlsx", "00001-a.pdf"}
+
+
+def test_a_time_before_the_last_is_never_on_a_receipt(served: Served, monkeypatch: pytest.MonkeyPatch) -> None:
+    student = served.person("S1")
+    first = student.upload("a.pdf", b"a").json()["at"]
+    past = databases.wall_time() - datetime.timedelta(days=3)
+    monkeypatch.setattr(databases, "wall_time", lambda: past)
+    assert student.upload("b.pdf", b"b").json()["at"] > first
