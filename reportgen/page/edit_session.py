@@ -57,7 +57,7 @@ PATIENCE = 10.0
 """Longest delay (s) of work that can wait."""
 HERE = Location("")
 FIELDS = "drafts.js", "redraw.js", "tables.js", "edit.js", "owned.js", "missing.js", "preview.js"
-PULLED = "pull.js", "handle.js", "region.js"
+PULLED = "locks.js", "pull.js", "handle.js", "region.js"
 SCRIPTS = "live.js", *FIELDS, *PULLED
 STYLES = "live.css", "edit.css", "pull.css", "preview.css"
 

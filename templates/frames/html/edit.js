@@ -435,5 +435,5 @@ const fields = (() => {
     document.body.classList.add("kept");
   }
   push(...drafts.due().map(setting));
-  return { byPlace, reach, build, type, ask, takeBack, commitAll };
+  return { keep, byPlace, reach, build, type, ask, takeBack, commitAll };
 })();
