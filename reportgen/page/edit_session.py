@@ -56,10 +56,10 @@ REST = 0.3
 PATIENCE = 10.0
 """Longest delay (s) of work that can wait."""
 HERE = Location("")
-FIELDS = "drafts.js", "redraw.js", "tables.js", "edit.js", "owned.js", "missing.js", "preview.js"
+FIELDS = "drafts.js", "redraw.js", "tables.js", "notices.js", "edit.js", "owned.js", "missing.js", "preview.js"
 PULLED = "locks.js", "pull.js", "handle.js", "region.js"
 SCRIPTS = "live.js", *FIELDS, *PULLED
-STYLES = "live.css", "edit.css", "pull.css", "preview.css"
+STYLES = "live.css", "edit.css", "notices.css", "pull.css", "preview.css"
 
 
 @dataclass(frozen=True)

@@ -158,6 +158,9 @@ class LiveSession:
 
     def _publish(self, **news: Any) -> None:
         with self.changed:
+            if "reads" in news and self.revision.making.get("state") != "running":
+                # What was made was made of an older file.
+                news["making"] = {}
             self.revision = replace(self.revision, **news)
             self.changed.notify_all()
 
