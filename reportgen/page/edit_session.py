@@ -56,7 +56,8 @@ REST = 0.3
 PATIENCE = 10.0
 """Longest delay (s) of work that can wait."""
 HERE = Location("")
-FIELDS = "drafts.js", "redraw.js", "tables.js", "notices.js", "edit.js", "owned.js", "missing.js", "preview.js"
+FIELD_TABLES = "pasting.js", "tables.js"
+FIELDS = "drafts.js", "redraw.js", *FIELD_TABLES, "notices.js", "edit.js", "owned.js", "missing.js", "preview.js"
 PULLED = "locks.js", "pull.js", "handle.js", "region.js"
 SCRIPTS = "live.js", *FIELDS, *PULLED
 STYLES = "live.css", "edit.css", "notices.css", "pull.css", "preview.css"

@@ -51,7 +51,7 @@ const fields = (() => {
 
   // --- what is shown: the newest form of the file, the drafts over it
 
-  let html = "", revision = 0, held = false, behind = false, strays = false;
+  let html = "", revision = 0, pasted = null, held = false, behind = false, strays = false;
   const elements = () => {
     const next = document.createElement("div");
     next.innerHTML = html;
@@ -84,6 +84,8 @@ const fields = (() => {
       field.value = drafts.text(key);
       if (parted) (field.closest(".box") || field).after(note(key, parted));
     }
+    const cell = pasted && ofKey(pasted.key, next);
+    if (cell) (cell.closest(".tabled") || cell.closest(".box")).after(pasting.question(pasted.doubt, words));
     next.querySelectorAll("input[data-unit], input[data-number]").forEach(slider);
     document.dispatchEvent(new CustomEvent("forming", { detail: next }));
     next.querySelector("#saved").textContent = status();
@@ -309,16 +311,31 @@ const fields = (() => {
   });
   form.addEventListener("paste", (event) => {
     const text = event.clipboardData.getData("text"), cell = event.target;
-    if (!cell.closest(".tabled") || !/[\t\n]/.test(text)) return;
+    if (!/[\t\n]/.test(text) || !cell.closest(".tabled") && !("list" in cell.dataset)) return;
     event.preventDefault();
-    const { changes, said } = tables.pasted(text, cell, typed);
+    paste({ text, key: cell.dataset.w });
+  });
+  const paste = ({ text, key }, decimal = "") => {
+    const read = pasting.read(text, decimal), cell = ofKey(key);
+    pasted = read.doubt && { text, key, doubt: read.doubt };
+    if (pasted || !cell) {
+      show();
+      return;
+    }
+    drafts.begin();
+    if (!cell.closest(".tabled")) {
+      const items = read.cells.flat().filter(Boolean).join(", ");
+      cell.setRangeText(items, cell.selectionStart, cell.selectionEnd, "end");
+      type(cell);
+      commit(cell);
+    }
+    const { changes, said } = cell.closest(".tabled") ? tables.pasted(read, cell, typed) : { changes: [], said: read.turned ? words.commas : "" };
     for (const change of changes) {
-      drafts.begin();
       drafts.typed(...change);
       drafts.commit(change[0]);
     }
     push(...drafts.due().map(setting), { make: () => { notices.say("refused", said); show(); return null; } });
-  });
+  };
   const reach = (field) => {
     for (let node = field.closest("details"); node; node = node.parentElement.closest("details")) node.open = true;
     field.focus();
@@ -337,7 +354,8 @@ const fields = (() => {
       drafts.begin();
       type(field, data.remedy);
       commit(field);
-    } else if ("settle" in data) {
+    } else if ("reading" in data && pasted) paste(pasted, data.reading);
+    else if ("settle" in data) {
       notices.say("refused");
       if (data.settle === "mine") {
         drafts.keepMine(data.of);
