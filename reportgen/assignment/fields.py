@@ -19,7 +19,16 @@ from pydantic_core import PydanticCustomError, core_schema
 from reportgen.base.template_folders import languages, school_folder, school_strays, schools, templates
 from reportgen.base.timestamps import moment
 from reportgen.base.typing_mistakes import in_quotes
-from reportgen.base.units import NUMBER, Given, QuantityFault, grouped, read_quantity, read_ratio, read_unit
+from reportgen.base.units import (
+    NUMBER,
+    Given,
+    QuantityFault,
+    grouped,
+    read_named_unit,
+    read_quantity,
+    read_ratio,
+    read_unit,
+)
 from reportgen.base.yaml_source import STRANGE, Quoted
 
 UNIT_KEY, RANGE_KEY, UNIT_NAME_KEY = "x-unit", "x-range", "x-unit-name"
@@ -150,7 +159,7 @@ class UnitOf(Reader):
     unit: str
 
     def read(self, value: object) -> Given:
-        return _measured(lambda text: Given(read_unit(text, self.unit), 1.0, text.strip(), text), value)
+        return _measured(lambda text: Given(read_named_unit(text, self.unit), 1.0, text.strip(), text), value)
 
     def schema(self) -> dict[str, Any]:
         return {"type": "string", "pattern": f"^{_UNIT_PATTERN}$", "examples": [self.unit], UNIT_NAME_KEY: self.unit}

@@ -275,6 +275,10 @@ def _telling(details: list[ErrorDetails]) -> list[ErrorDetails]:
 def _finding(key: str, detail: ErrorDetails, content: Any, schema: dict[str, Any]) -> Finding:
     """Return a pydantic fault as a finding with one of this program's codes."""
     where = (key, *_real(detail["loc"], content))
+    if where[-1] == _OF_KEY:
+        return replace(_finding(key, {**detail, "loc": detail["loc"][:-1]}, content, schema), at="key")
+    if detail["type"] not in _ABSENT:
+        where = _written(where, {key: content})
     context = detail.get("ctx", {})
     match detail["type"]:
         case "fault":
@@ -299,6 +303,22 @@ def _finding(key: str, detail: ErrorDetails, content: Any, schema: dict[str, Any
         case kind:
             expected = "list" if kind in {"list_type", "tuple_type"} else "mapping"
             return Finding("wrong-type", where, {"expected": expected})
+
+
+_OF_KEY = "[key]"
+"""Last step of the place of a fault that is one of a key, not of its value."""
+_ABSENT = frozenset({"missing", "union_tag_not_found", "extra_forbidden"})
+"""Types of faults at places that may not exist in the file."""
+
+
+def _written(where: Where, content: Any) -> Where:
+    """Return the place without last steps that are not in the file: pydantic names the member of a union there."""
+    for depth, step in enumerate(where):
+        inside = isinstance(content, dict) and step in content
+        if not inside and not (isinstance(content, list) and isinstance(step, int) and step < len(content)):
+            return where[:depth]
+        content = content[step]
+    return where
 
 
 def _unknown(where: Where, known: Sequence[str]) -> Finding:

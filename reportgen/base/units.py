@@ -175,12 +175,26 @@ def read_quantity(text: str, unit: str) -> Given:
     try:
         value, factor = float(match[1]), read_unit(match[2], unit)
     except QuantityFault as fault:
-        if close := meant_unit(match[2], unit):
-            fault.arguments |= {"hint": "unit-spelling", "fixed": f"{match[1]} {close}"}
-        raise
+        raise _spelt(fault, match[2], f"{match[1]} ") from None
     if not math.isfinite(value * factor):
         raise QuantityFault("not-finite", text=text)
     return Given(value * factor, value, match[2], text)
+
+
+def read_named_unit(text: str, unit: str) -> float:
+    """Return the same as `read_unit`; the fault of a unit in other letters or in words has the one that is meant."""
+    try:
+        return read_unit(text, unit)
+    except QuantityFault as fault:
+        raise _spelt(fault, text, "") from None
+
+
+def _spelt(fault: QuantityFault, given: str, number: str) -> QuantityFault:
+    """Return the fault of a unit with what is meant, if one unit is: MM is no known unit, although chemists have it."""
+    close = meant_unit(given, fault.arguments["unit"])
+    if not close:
+        return fault
+    return QuantityFault("unknown-unit", **fault.arguments, hint="unit-spelling", fixed=f"{number}{close}")
 
 
 def two_readings(text: str) -> tuple[str, str] | None:

@@ -45,8 +45,9 @@ from reportgen.page.live_view import PART, LiveSession, empty_document
 from reportgen.page.missing_values import MissingPanel
 from reportgen.page.preview_pages import Pages, Preview, no_pages
 from reportgen.page.pulls import Asked, Pulls, asked_place
+from reportgen.page.stray_entries import by_field, with_strays
 from reportgen.page.text_changes import changed_text, part_kinds
-from reportgen.page.typed_values import only_meaning, same_quantity
+from reportgen.page.typed_values import only_meaning
 
 MOST_STEPS = 500
 """Largest number of changes that can be undone."""
@@ -55,10 +56,11 @@ REST = 0.3
 PATIENCE = 10.0
 """Longest delay (s) of work that can wait."""
 HERE = Location("")
-FIELDS = "drafts.js", "redraw.js", "tables.js", "edit.js", "owned.js", "missing.js", "preview.js"
-PULLED = "pull.js", "handle.js", "region.js"
+FIELD_TABLES = "pasting.js", "tables.js"
+FIELDS = "drafts.js", "redraw.js", *FIELD_TABLES, "notices.js", "edit.js", "owned.js", "missing.js", "preview.js"
+PULLED = "locks.js", "pull.js", "handle.js", "region.js"
 SCRIPTS = "live.js", *FIELDS, *PULLED
-STYLES = "live.css", "edit.css", "pull.css", "preview.css"
+STYLES = "live.css", "edit.css", "notices.css", "pull.css", "preview.css"
 
 
 @dataclass(frozen=True)
@@ -237,14 +239,16 @@ class EditSession(LiveSession):
             if known and isinstance(kind, Scalar) and isinstance(given.top, MappingNode)
             else None
         )
+        faults = _by_place(problems, source)
+        groups = with_strays(form.groups, source.top, faults) if form else []
         written = html.template("form.html.j2").render(
             words=words["edit"],
-            form=form,
+            groups=groups,
             kind=kind.text if isinstance(kind, Scalar) else "",
             title=titles(language).get(kind.text, "") if isinstance(kind, Scalar) else "",
             file=self.path.name,
             problems=problems,
-            faults=_by_place(problems, source),
+            faults=by_field(groups, faults),
             can_undo=undo,
             can_redo=redo,
             # What takes something from a machine cannot be made without it.
@@ -354,8 +358,6 @@ class EditSession(LiveSession):
             raise ValueError("the whole file is no value")
         if "was" in asked and operation in ("set", "instead"):
             self._same(text, where, str(asked["was"]), str(asked["value"]))
-        if operation == "instead" and not asked.get("value"):
-            asked = {**asked, "value": same_quantity(text, where, str(asked["key"]))}
         try:
             changed = changed_text(text, operation, where, asked)
             while operation == "set" and (meant := self._meant(changed, where)):

@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager, suppress
 from functools import lru_cache, partial
 from pathlib import Path
+from queue import SimpleQueue
 from typing import Protocol, TextIO
 
 from reportgen.assignment import parts
@@ -232,15 +233,38 @@ def _follow(states: Callable[[], object], session: LiveSession, stop: threading.
     The paths are polled, because a file watcher holds on to a renamed folder, does not follow links and misses changes
     made by another computer.
     """
-    while not stop.is_set():
-        # What the form itself has written need not be waited for.
-        own = session.touched.wait(LOOKING)
-        session.touched.clear()
-        if states() != known:
-            stop.wait(0 if own else QUIET / 1000)
-            known = states()
+    with _shown(session) as checked:
+        while not stop.is_set():
+            # What the form itself has written need not be waited for.
+            own = session.touched.wait(LOOKING)
+            session.touched.clear()
+            if states() != known:
+                stop.wait(0 if own else QUIET / 1000)
+                known = states()
+                if case := session.check():
+                    checked.put(case)
+
+
+@contextmanager
+def _shown(session: LiveSession) -> Iterator[SimpleQueue[tuple[int, Case] | None]]:
+    """Yield a queue of checked cases, which another thread shows, always the newest, while more are checked."""
+    checked: SimpleQueue[tuple[int, Case] | None] = SimpleQueue()
+
+    def show() -> None:
+        while case := checked.get():
+            while not checked.empty():
+                newer = checked.get()
+                if newer is None:
+                    return
+                case = newer
             with _ONE_AT_A_TIME:
-                session.renew()
+                session.show(*case)
+
+    threading.Thread(target=show, daemon=True).start()
+    try:
+        yield checked
+    finally:
+        checked.put(None)
 
 
 def _states(path: Path, *beside: Path) -> tuple[tuple[float, ...], ...]:

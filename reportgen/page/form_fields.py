@@ -82,16 +82,16 @@ class FieldGroup:
     @property
     def present(self) -> tuple[FieldLine | FieldGroup, ...]:
         """Return the entries shown at once: those in the file, and required ones."""
-        return tuple(inner for inner in self.entries if inner.there or _is_asked(inner))
+        return tuple(inner for inner in self.entries if inner.there or self._asks_for(inner))
 
     @property
     def absent(self) -> tuple[FieldLine | FieldGroup, ...]:
         """Return the entries that may be added."""
-        return tuple(inner for inner in self.entries if not (inner.there or _is_asked(inner)))
+        return tuple(inner for inner in self.entries if not (inner.there or self._asks_for(inner)))
 
-
-def _is_asked(inner: FieldLine | FieldGroup) -> bool:
-    return isinstance(inner, FieldLine) and inner.required
+    def _asks_for(self, inner: FieldLine | FieldGroup) -> bool:
+        # A group of keys below a title is in the same table, and is never required as a whole.
+        return inner.required and inner.where != self.where
 
 
 @dataclass(frozen=True)
@@ -166,7 +166,7 @@ class Form:
 
     def _table(self, where: Where, path: str, tables: Sequence[Schema], node: Node | None) -> FieldGroup:
         """Return a table in the form that its own keys select; for a missing one, the field that selects its form."""
-        tag = _tag(tables)
+        tag = tag_of(tables)
         chosen = node.find(tag) if isinstance(node, MappingNode) and tag else None
         value = chosen[1].text if chosen and isinstance(chosen[1], Scalar) else ""
         form = next((schema for schema in tables if schema["properties"].get(tag, {}).get("const") == value), tables[0])
@@ -234,7 +234,7 @@ class Form:
             return
         for title in titles:
             inner = tuple(entry for entry in entries if self._title(entry) == title)
-            there = any(entry.there or _is_asked(entry) for entry in inner)
+            there = any(entry.there or (entry.required and isinstance(entry, FieldLine)) for entry in inner)
             if title:
                 yield FieldGroup(where, title, entries=inner, there=there, required=True)
             else:
@@ -314,7 +314,7 @@ class Form:
         allowed = list(alternatives(about, self.root))
         facts = _facts(allowed)
         choices = list(dict.fromkeys(choice for schema in allowed for choice in choices_of(schema)))
-        words = choice_words(self.language)
+        words = choice_words(self.language) if choices else {}
         free = any(_is_single(schema) and not choices_of(schema) and schema.get("type") != "null" for schema in allowed)
         if not look:
             look = "quantity" if facts.get("unit") else "choice" if choices and not free else facts.get("look", "text")
@@ -345,7 +345,7 @@ def _with_switch(entry: FieldLine, instead: tuple[tuple[str, str], ...], require
 
 
 def _called(entry: FieldLine, name: str) -> FieldLine:
-    return replace(entry, words=FieldWords(name))
+    return replace(entry, words=FieldWords(name), required=False)
 
 
 def _below(inner: Any, where: Where) -> Any:
@@ -368,7 +368,7 @@ def _by_name(schema: Schema) -> Iterator[Schema]:
         yield from schema.get("patternProperties", {}).values()
 
 
-def _tag(tables: Sequence[Schema]) -> str:
+def tag_of(tables: Sequence[Schema]) -> str:
     """Return the key whose value distinguishes tables of several forms; "" if there is one form."""
     if len(tables) < 2:
         return ""

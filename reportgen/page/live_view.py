@@ -1,7 +1,8 @@
 """Keep the page of a watched file current: revisions of the animation, of the report, and of a fault.
 
-The animation is made first and shown at once. The report of the same case follows in another thread. A change in
-between is processed at once, and results from an older file are dropped.
+A file is checked first, and its faults are shown at once, while the animation or the report of an older file may still
+be made. The animation is shown as soon as it is made. The report of the same case follows in another thread. A change
+in between is processed at once, and reports of an older file are dropped.
 """
 
 from __future__ import annotations
@@ -108,24 +109,44 @@ class LiveSession:
             return self.revision
 
     def renew(self) -> None:
-        """Make the animation of the current file, and leave the report to its thread."""
-        self._asked += 1
-        number = self._asked
-        try:
-            case = self.opens()
-            moving = panels(case)
-            language, words = case.assignment.language, case.words
-        except Exception as error:
-            self._to_write = None
-            self._publish(fault=self._in_words(error), busy=False, reads=number)
-            return
-        count = self.revision.moving + 1
-        self._publish(
-            language=language, words=words, panels=moving, case=case, moving=count, fault="", busy=True, reads=number
-        )
+        """Check the current file, make its animation, and leave the report to its thread."""
+        if checked := self.check():
+            self.show(*checked)
+
+    def check(self) -> tuple[int, Case] | None:
+        """Open the current file; return the number of this reading and its case, or show its faults and return None."""
         with self.changed:
-            self._to_write = number, case
-            self.changed.notify_all()
+            self._asked += 1
+            number = self._asked
+        try:
+            return number, self.opens()
+        except Exception as error:
+            self._fail(number, error)
+            return None
+
+    def show(self, number: int, case: Case) -> None:
+        """Make the animation of a checked case, and leave the report to its thread.
+
+        If the file has been read again meanwhile, its faults stay, and no report is written.
+        """
+        try:
+            moving = panels(case)
+        except Exception as error:
+            self._fail(number, error)
+            return
+        with self.changed:
+            count = self.revision.moving + 1
+            self._publish(language=case.assignment.language, words=case.words, panels=moving, case=case, moving=count)
+            if number == self._asked:
+                self._publish(fault="", busy=True, reads=number)
+                self._to_write = number, case
+
+    def _fail(self, number: int, error: Exception) -> None:
+        """Show the faults of a reading, unless the file has been read again."""
+        with self.changed:
+            if number == self._asked:
+                self._to_write = None
+                self._publish(fault=self._in_words(error), busy=False, reads=number)
 
     def _write_reports(self) -> None:
         """Write the report of the latest case, repeatedly, until the session is closed."""
@@ -158,6 +179,9 @@ class LiveSession:
 
     def _publish(self, **news: Any) -> None:
         with self.changed:
+            if "reads" in news and self.revision.making.get("state") != "running":
+                # What was made was made of an older file.
+                news["making"] = {}
             self.revision = replace(self.revision, **news)
             self.changed.notify_all()
 

@@ -17,10 +17,10 @@ import numpy as np
 from reportgen import catalogue
 from reportgen.assignment.fields import RANGE_KEY, UNIT_KEY
 from reportgen.assignment.schema import file_schema, places
-from reportgen.base.errors import Where
+from reportgen.base.errors import Location, Where
 from reportgen.base.units import NUMBER
 from reportgen.base.yaml_source import MappingNode, Node, Scalar, SequenceNode, Source
-from reportgen.base.yaml_values import put
+from reportgen.base.yaml_values import at, put
 from reportgen.machine import Linkage, joints
 from reportgen.machine.kinematics import solve_motion
 from reportgen.page.linkage_numbers import Course, numbers, placed, rebuilt
@@ -37,6 +37,8 @@ ROUNDS, CLOSE = 12, 1e-6
 """Largest number of improvements, and the distance (share of the linkage's size) at which a point has arrived."""
 MOST_VALUES = 120
 """Largest number of values of a file that are examined."""
+USUAL_SHARES = "0.50", "0.00"
+"""Shares of a link at which a mass centre is if the file does not say it."""
 _TYPED = re.compile(rf"\s*({NUMBER}\s*/\s*)?({NUMBER})(.*)", re.DOTALL)
 
 
@@ -106,10 +108,29 @@ def placing_values(
         return None, ()
     data = top.find("parameters")
     leaves = list(_leaves(data[1], ("parameters",)))[:MOST_VALUES] if data else []
+    leaves += [] if only else _left_out(source, path, linkage)
     if only:
         nodes = dict(leaves)
         leaves = [(where, nodes[where]) for where in only if where in nodes]
     return linkage, tuple(value for leaf in leaves if (value := _placing(source, path, linkage, *leaf)))
+
+
+def _left_out(source: Source, path: Path, linkage: Linkage) -> Iterator[tuple[Where, Scalar]]:
+    """Yield the places of mass centres that a file may give and leaves out, with the shares at which they then are."""
+    top = source.top
+    name = top.find("kind") if isinstance(top, MappingNode) else None
+    if top is None or name is None or not isinstance(name[1], Scalar):
+        return
+    heavy = {body.link for body in linkage.inertias}
+    for link in getattr(catalogue.kind(name[1].text).base, "links", {}).get("s", ()):
+        where: Where = ("parameters", f"s{link}")
+        if link not in heavy or at(top, where) is not None:
+            continue
+        for share in map(Scalar, USUAL_SHARES, [Location("")] * len(USUAL_SHARES)):
+            made = catalogue.linkage_of(replace(source, top=put(top, where, share)), path)
+            if made is not None and np.array_equal(numbers(made), numbers(linkage)):
+                yield where, share
+                break
 
 
 def _leaves(node: Node, where: Where) -> Iterator[tuple[Where, Scalar]]:

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from reportgen import catalogue
-from reportgen.base.errors import ReportgenError, Where
+from reportgen.base.errors import Location, ReportgenError, Where
 from reportgen.base.yaml_source import Node, Scalar, SequenceNode, Source
 from reportgen.base.yaml_values import at, put
 from reportgen.machine import Crank, Linkage
@@ -142,8 +142,8 @@ class Pulls:
         changed: Node = top
         for where, text in texts:
             old = at(top, where)
-            assert isinstance(old, Scalar), "a value that places a point is a number"
-            changed = put(changed, where, replace(old, text=text))
+            new = replace(old, text=text) if isinstance(old, Scalar) else Scalar(text, Location(""))
+            changed = put(changed, where, new)
         place = grabbed.pull.at(grabbed.pull.rounded(offsets)) * resident.samples.scale
         answer = {"values": _of_fields(changed, texts), "at": [place.real, -place.imag]}
         samples = self._sampled(resident, changed, **answer) if np.isfinite(place) else b""

@@ -11,9 +11,10 @@ from reportgen import catalogue
 from reportgen.base.errors import Location, Where
 from reportgen.base.kinds import kinds
 from reportgen.base.template_folders import REFERENCE
-from reportgen.base.yaml_edit import exchanged, with_key, with_value, without
+from reportgen.base.yaml_edit import exchanged, with_value, without
 from reportgen.base.yaml_source import MappingNode, Node, Scalar, SequenceNode, read_own, read_text
 from reportgen.base.yaml_values import at
+from reportgen.page.form_choices import with_choice, with_instead
 from reportgen.page.typed_values import value_node
 
 HERE = Location("")
@@ -25,11 +26,13 @@ def changed_text(text: str, operation: str, where: Where, asked: Mapping[str, An
     """Return the text with a change; raise `EditError`, `KeyError` or `ValueError`."""
     match operation:
         case "set":
-            return with_value(text, where, value_node(text, where, str(asked["value"]), bool(asked.get("list"))))
+            value, as_items = str(asked["value"]), bool(asked.get("list"))
+            chosen = None if as_items else with_choice(text, where, value)
+            return with_value(text, where, value_node(text, where, value, as_items)) if chosen is None else chosen
         case "remove":
             return without(text, where)
         case "instead":
-            return with_key(text, where, str(asked["key"]), Scalar(str(asked["value"]), HERE, null=not asked["value"]))
+            return with_instead(text, where, str(asked["key"]), str(asked.get("value", "")))
         case "add" if "name" in asked:
             return with_value(text, (*where, str(asked["name"])), _named(bool(asked.get("table"))))
         case "add":

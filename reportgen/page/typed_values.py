@@ -4,11 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from reportgen import catalogue
-from reportgen.assignment.fields import UNIT_KEY
-from reportgen.assignment.schema import file_schema, places
 from reportgen.base.errors import Location, Problem, Where
-from reportgen.base.kinds import kinds
 from reportgen.base.units import QuantityFault, read_quantity, read_unit
 from reportgen.base.yaml_edit import as_list
 from reportgen.base.yaml_source import Node, Scalar, SequenceNode, read_text
@@ -26,17 +22,6 @@ def only_meaning(problems: Iterable[Problem]) -> str:
     """
     remedies = [problem.remedies for problem in problems if problem.level == "error" and problem.code in MENDED]
     return remedies[0][0] if len(remedies) == 1 and len(remedies[0]) == 1 else ""
-
-
-def same_quantity(text: str, place: Where, key: str) -> str:
-    """Return the value at a place in the unit of another key beside it; "" if that has another dimension."""
-    top = read_text(text).top
-    old, kind = at(top, place), at(top, ("kind",))
-    if not isinstance(old, Scalar) or not isinstance(kind, Scalar) or kind.text not in kinds():
-        return ""
-    schema = file_schema(catalogue.kind(kind.text))
-    units = [schema[UNIT_KEY] for schema in places(schema, schema, (*place[:-1], key)) if UNIT_KEY in schema]
-    return next(filter(None, (converted(old.text, unit) for unit in units)), "")
 
 
 def value_node(text: str, where: Where, typed: str, as_items: bool) -> Node:

@@ -37,7 +37,7 @@ def with_line(key: str, line: str) -> str:
         ("G3", "  G3: 0.8 KN", "unknown-unit", "0.8 kN", ("0.8 kN",)),
         ("n", "  n: 5 vòng/giây", "unknown-unit", "5 rps", ("5 rps",)),
         ("n", "  n: 900 RPM", "unknown-unit", "900 rpm", ("900 rpm",)),
-        ("H", "  H: 95 MM", "wrong-unit", "95 mm", ("95 mm",)),
+        ("H", "  H: 95 MM", "unknown-unit", "95 mm", ("95 mm",)),
         ("n", "  n: 5 ngày", "unknown-unit", "write for example rpm", ()),
         ("worked_positions", "  worked_positions: tất cả", "wrong-type", "write all, or a list", ("all",)),
     ],

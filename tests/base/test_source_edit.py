@@ -9,7 +9,7 @@ import pytest
 from reportgen import catalogue
 from reportgen.base.errors import Location, Where
 from reportgen.base.kinds import kinds
-from reportgen.base.yaml_edit import EditError, as_list, exchanged, with_key, with_value, without
+from reportgen.base.yaml_edit import EditError, as_list, exchanged, with_value, without
 from reportgen.base.yaml_source import MappingNode, Node, Scalar, SequenceNode, plain, read_text
 from reportgen.base.yaml_values import at
 from tests.lanes import matrix
@@ -86,15 +86,24 @@ def test_remarks_that_are_set_deeper_stay_with_their_table() -> None:
     assert said(text, ("parts", 1), "3") == text.replace("# end", "- 3\n# end")
 
 
-def test_a_key_gives_way_to_another_that_says_the_same() -> None:
-    changed = with_key(TEXT, ("parameters", "a"), "b", Scalar("27 cm", Location("")))
-    assert changed == TEXT.replace("a: 270 mm", "b: 27 cm")
-
-
 def test_items_change_places() -> None:
     changed = plain(read_text(exchanged(TEXT, ("parts",), 0)).top)  # type: ignore[arg-type]
     assert [part.get("kind") for part in changed["parts"]] == [None, "cam"]
     assert exchanged(exchanged(TEXT, ("parts",), 0), ("parts",), 0) == TEXT
+
+
+def test_comments_of_an_item_go_with_it() -> None:
+    text = "a:\n  - b: 1\n    # c: 2\n  - b: 3\n"
+    assert without(text, ("a", 0)) == "a:\n  - b: 3\n"
+    assert exchanged(text, ("a",), 0) == "a:\n  - b: 3\n  - b: 1\n    # c: 2\n"
+
+
+def test_entries_in_braces_keep_the_comments_between_them() -> None:
+    text = "a: {b: 1,  # one\n    c: 2,  # two\n    d: 3  # three\n  }\n"
+    assert without(text, ("a", "c")) == "a: {b: 1,  # one\n      # two\n    d: 3  # three\n  }\n"
+    assert without(text, ("a", "d")) == "a: {b: 1,  # one\n    c: 2  # two\n      # three\n  }\n"
+    assert said(text, ("a", "e"), "4") == text.replace("d: 3", "d: 3, e: 4")
+    assert said("a: {b: 1, }\n", ("a", "c"), "2") == "a: {b: 1, c: 2, }\n"
 
 
 def test_lists() -> None:

@@ -820,7 +820,7 @@ CHANGED: dict[str, list[tuple[Any, ...]]] = {
             {"return: 3-4-5": "return: {x: [0, 0.6, 0.4, 1], a: [1, 1, -1, -1]}"},
             "8:45 not-increasing",
         ),
-        ("a law nobody knows", {"rise: cosine": "rise: spline"}, "8:10 choice"),
+        ("a law nobody knows", {"rise: cosine": "rise: spline"}, "8:16 choice"),
         ("steps of no phase", {"  h: 40 mm": "…\n  positions: {up: 6}"}, "7:14 unknown-key"),
         (
             "a dwell of nothing divided",

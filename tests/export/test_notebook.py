@@ -114,7 +114,7 @@ def test_a_study_is_as_files_of_their_own(shaper: Model) -> None:
             assert np.abs(found[id][k] - alone[id]).max() <= OFF * np.abs(alone[id]).max()
     with pytest.raises(AssignmentError):
         shaper.study(H=[2.0, 3.0], of=["v.E"])
-    with pytest.raises(ValueError, match="of one length"):
+    with pytest.raises(ValueError, match="of equal length"):
         shaper.study(H=[0.3, 0.4], l4=[0.1], of=["v.E"])
 
 
@@ -155,7 +155,7 @@ def test_ranges_of_two_parameters_make_a_grid() -> None:
 @pytest.mark.parametrize("ranges", [{}, {"n": []}, {"n": [10.0, 20.0], "r": [0.1]}])
 def test_a_study_without_ranges_or_with_unequal_ones_is_refused(ranges: dict[str, Any]) -> None:
     crank = reportgen.open(ASSIGNMENTS / "slider-crank-01.yaml", "en")
-    with pytest.raises(UnknownNameError, match="ranges of parameters of one length") as caught:
+    with pytest.raises(UnknownNameError, match="parameter ranges of equal length") as caught:
         crank.study(of=["v.B"], **ranges)
     # Programs that catch what zip raises go on working.
     assert isinstance(caught.value, ValueError)

@@ -18,6 +18,7 @@ const { left, top, width, height } = document.querySelector(".handle circle").ge
 return [left + width / 2, top + height / 2];
 """
 SHADED = "return document.querySelector('.region')?.getBoundingClientRect().width > 20"
+LOCK = "return document.getElementById('f:parameters.BC').parentElement.querySelector('.lock')"
 BC, CD = "f:parameters.BC", "f:parameters.CD"
 
 
@@ -94,3 +95,26 @@ def test_a_handle_turns_the_crank_and_changes_nothing(browser: Browser, tmp_path
             == f"{begin + 1:.1f}°"
         )
         assert hand.file.read_bytes() == before
+
+
+@proof
+def test_a_locked_length_stays_and_the_other_follows(browser: Browser, tmp_path: Path) -> None:
+    """The padlock is a button at the field, reached and pressed by keys; it stays when the form changes."""
+    with hand_on(browser, "four-bar-01.yaml", tmp_path) as hand:
+        before, values = hand.file.read_text(encoding="utf-8"), hand.values()
+        until(lambda: browser.run(LOCK))
+        typist = Typist(browser)
+        browser.run(f"({LOCK.removeprefix('return ')}).focus()")
+        typist.press("Enter")
+        assert browser.run(f"{LOCK}.getAttribute('aria-pressed')") == "true"
+        assert hand.file.read_text(encoding="utf-8") == before
+        hand.press(hand.at("C"))
+        # Across the rod whose length stays.
+        hand.move((14, 22))
+        until(lambda: hand.values()[CD] != values[CD])
+        assert hand.values()[BC] == values[BC]
+        hand.release()
+        until(lambda: hand.file.read_text(encoding="utf-8") != before)
+        typist.idle()
+        assert "BC: 340 mm" in hand.file.read_text(encoding="utf-8")
+        assert browser.run(f"{LOCK}.getAttribute('aria-pressed')") == "true"

@@ -36,6 +36,7 @@ def session(file: Path) -> EditSession:
         ("G3", "0,8 KN", "0.8 kN"),
         ("G3", "0.8 KN", "0.8 kN"),
         ("n", "900 RPM", "900 rpm"),
+        ("l", "98 MM", "98 mm"),
         ("n", "900 vòng/phút", "900 vòng/phút"),
         ("n", "5 vòng/giây", "5 rps"),
         ("l", "1,600 mm", "1,600 mm"),
@@ -53,6 +54,13 @@ def test_a_value_with_one_meaning_is_written_so(file: Path, key: str, typed: str
     start, end = old.span  # type: ignore[union-attr]
     in_file = f'"{written}"' if "," in written else written
     assert file.read_text(encoding="utf-8") == before[:start] + in_file + before[end:]
+
+
+@pytest.mark.parametrize(("typed", "written"), [("Mpa", "MPa"), ("n/cm2", "N/cm2"), ("Pascal", "Pascal"), ("kg", "kg")])
+def test_a_unit_in_other_letters_is_written_as_it_is_spelt(tmp_path: Path, typed: str, written: str) -> None:
+    (file := tmp_path / "twin.yaml").write_text(catalogue.sample("engine-twin", "en"), encoding="utf-8")
+    answer = session(file).edit({"op": "set", "where": ["indicator", "unit"], "value": typed})
+    assert answer["written"] == written
 
 
 def test_text_keeps_its_commas(file: Path) -> None:

@@ -25,9 +25,12 @@ from typer.testing import CliRunner
 from reportgen.base import words, yaml_source
 from reportgen.base.errors import TemplateError
 from reportgen.base.template_folders import languages, search_path
+from reportgen.case import Case
 from reportgen.cases import open_case
 from reportgen.cli import app
-from reportgen.page import local_server
+from reportgen.page import live_view, local_server
+from reportgen.page.file_watch import edited
+from reportgen.page.html import Panel
 from reportgen.page.live_view import LiveSession
 from reportgen.page.local_server import Server
 from tests.lanes import matrix, proof
@@ -260,6 +263,29 @@ def test_each_edition_is_told_and_a_late_one_dropped(file: Path, served: Server)
     session.renew()
     assert "given.yaml" in session.revision.fault
     assert session.revision.panels
+
+
+def test_a_fault_is_told_while_an_older_animation_is_made(file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """It waits for nothing that takes longer than to check the file; what was being made is shown below it."""
+    begun, going_on = threading.Event(), threading.Event()
+
+    def slow(case: Case) -> tuple[Panel, ...]:
+        begun.set()
+        assert going_on.wait(PATIENCE)
+        return ()
+
+    given = file.read_text(encoding="utf-8")
+    with edited(file, open_case) as server:
+        monkeypatch.setattr(live_view, "panels", slow)
+        file.write_text(given.replace("  r: 0.2 m", "  r: 0.21 m"), encoding="utf-8")
+        assert begun.wait(PATIENCE)
+        file.write_text(given.replace("  r: 0.2 m", "  r: 0.2 kg"), encoding="utf-8")
+        until(lambda: "wrong-unit" in server.session.revision.fault)
+        assert not going_on.is_set()
+        moving = server.session.revision.moving
+        going_on.set()
+        until(lambda: server.session.revision.moving > moving)
+        assert "wrong-unit" in server.session.revision.fault
 
 
 # --- connections that say nothing, or too little ----------------------------------------------------

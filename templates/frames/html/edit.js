@@ -51,7 +51,7 @@ const fields = (() => {
 
   // --- what is shown: the newest form of the file, the drafts over it
 
-  let html = "", revision = 0, told = "", held = false, behind = false, strays = false;
+  let html = "", revision = 0, pasted = null, held = false, behind = false, strays = false;
   const elements = () => {
     const next = document.createElement("div");
     next.innerHTML = html;
@@ -84,12 +84,13 @@ const fields = (() => {
       field.value = drafts.text(key);
       if (parted) (field.closest(".box") || field).after(note(key, parted));
     }
+    const cell = pasted && ofKey(pasted.key, next);
+    if (cell) (cell.closest(".tabled") || cell.closest(".box")).after(pasting.question(pasted.doubt, words));
     next.querySelectorAll("input[data-unit], input[data-number]").forEach(slider);
     document.dispatchEvent(new CustomEvent("forming", { detail: next }));
-    next.querySelector("#refused").textContent = told;
     next.querySelector("#saved").textContent = status();
     const active = document.activeElement, lost = form.contains(active) && active.closest(".field")?.dataset.key;
-    strays = redraw(form, next);
+    notices.inSight(() => { strays = redraw(form, next); });
     // The button of a field that is elsewhere now: its field has the focus.
     keep();
     const again = lost && !active.isConnected && document.getElementById(lost);
@@ -157,7 +158,7 @@ const fields = (() => {
       done?.(said);
       const key = JSON.stringify(body.where);
       // Beside a field that shows both values there is no more to say.
-      told = said.meanwhile !== undefined && drafts.places().some((one) => one === key && ofKey(one)) ? "" : said.refused || "";
+      notices.say("refused", said.meanwhile !== undefined && drafts.places().some((one) => one === key && ofKey(one)) ? "" : said.refused || "");
       // What waited for another change of the file can be written now.
       outbox.push(...drafts.due().map(setting));
       show();
@@ -296,6 +297,7 @@ const fields = (() => {
       drafts.begin();
     }
     if (event.key === "Escape" && drafts.isOpen(input.dataset.w)) {
+      event.preventDefault();
       drafts.drop(input.dataset.w);
       show();
     }
@@ -309,16 +311,31 @@ const fields = (() => {
   });
   form.addEventListener("paste", (event) => {
     const text = event.clipboardData.getData("text"), cell = event.target;
-    if (!cell.closest(".tabled") || !/[\t\n]/.test(text)) return;
+    if (!/[\t\n]/.test(text) || !cell.closest(".tabled") && !("list" in cell.dataset)) return;
     event.preventDefault();
-    const { changes, said } = tables.pasted(text, cell, typed);
+    paste({ text, key: cell.dataset.w });
+  });
+  const paste = ({ text, key }, decimal = "") => {
+    const read = pasting.read(text, decimal), cell = ofKey(key);
+    pasted = read.doubt && { text, key, doubt: read.doubt };
+    if (pasted || !cell) {
+      show();
+      return;
+    }
+    drafts.begin();
+    if (!cell.closest(".tabled")) {
+      const items = read.cells.flat().filter(Boolean).join(", ");
+      cell.setRangeText(items, cell.selectionStart, cell.selectionEnd, "end");
+      type(cell);
+      commit(cell);
+    }
+    const { changes, said } = cell.closest(".tabled") ? tables.pasted(read, cell, typed) : { changes: [], said: read.turned ? words.commas : "" };
     for (const change of changes) {
-      drafts.begin();
       drafts.typed(...change);
       drafts.commit(change[0]);
     }
-    push(...drafts.due().map(setting), { make: () => { told = said; show(); return null; } });
-  });
+    push(...drafts.due().map(setting), { make: () => { notices.say("refused", said); show(); return null; } });
+  };
   const reach = (field) => {
     for (let node = field.closest("details"); node; node = node.parentElement.closest("details")) node.open = true;
     field.focus();
@@ -337,8 +354,9 @@ const fields = (() => {
       drafts.begin();
       type(field, data.remedy);
       commit(field);
-    } else if ("settle" in data) {
-      told = "";
+    } else if ("reading" in data && pasted) paste(pasted, data.reading);
+    else if ("settle" in data) {
+      notices.say("refused");
       if (data.settle === "mine") {
         drafts.keepMine(data.of);
         push(...drafts.due().map(setting));
@@ -348,7 +366,7 @@ const fields = (() => {
     } else if ("remove" in data) {
       const gone = place(field || button);
       build(() => ({ op: "remove", where: gone }), ({ refused }) => { if (field && !refused) drafts.drop(field.dataset.w); });
-    } else if ("make" in data) post("make.json", { product: data.make });
+    } else if ("make" in data) notices.make({ product: data.make });
     else if ("add" in data) {
       const list = place(where);
       build(() => ({ op: "add", where: list }));
@@ -370,30 +388,16 @@ const fields = (() => {
     push({ make: () => ({ op }) });
   });
 
-  // --- what another tab or an editor has written, what is made
+  // --- what another tab or an editor has written
 
-  const tellMaking = (making) => {
-    const told = document.getElementById("making");
-    if (!making) return;
-    told.textContent = `${words.products[making.product]}: ${words.states[making.state]} ${making.step ? words.steps[making.step] : ""} `;
-    for (const [name, path] of making.files || []) {
-      const link = document.createElement("a");
-      Object.assign(link, { href: `made/${encodeURIComponent(name)}`, target: "_blank", textContent: path });
-      told.append(link, " ");
-    }
-    if (making.complaint) told.append(Object.assign(document.createElement("pre"), { textContent: making.complaint }));
-    if (making.state === "running") {
-      const end = Object.assign(document.createElement("button"), { type: "button", textContent: words.end });
-      end.addEventListener("click", () => post("make.json", { end: true }));
-      told.append(end);
-    }
-  };
   document.addEventListener("news", async ({ detail }) => {
-    tellMaking(detail.making);
     if (!detail.changed) return;
     // The answer to a change of one's own says what it has changed.
     await work;
+    const before = revision;
     receive(await (await fetch("form.json", { cache: "no-store" })).json());
+    // What was refused was so in an older file.
+    if (revision !== before) notices.say("refused");
     show();
     push(...drafts.due().map(setting));
     document.dispatchEvent(new Event("redrawn"));
@@ -435,5 +439,5 @@ const fields = (() => {
     document.body.classList.add("kept");
   }
   push(...drafts.due().map(setting));
-  return { byPlace, reach, build, type, ask, takeBack, commitAll };
+  return { keep, byPlace, reach, build, type, ask, takeBack, commitAll };
 })();

@@ -28,11 +28,12 @@ const preview = (() => {
   const show = (making) => {
     const news = making?.preview;
     if (!news) return;
-    // What is told is written anew with each revision.
+    const told = document.getElementById("making");
     const again = Object.assign(document.createElement("button"), { type: "button", textContent: words.title });
     again.dataset.preview = "";
     again.addEventListener("click", () => open());
-    document.getElementById("making").append(" ", again);
+    // A notice that is closed stays so, one that says the same is not written anew.
+    if (told.hasChildNodes() && !told.querySelector("[data-preview]")) told.append(" ", again);
     if (news.build === known.build) return;
     const first = !known.build;
     known = news;

@@ -68,17 +68,15 @@ const tables = (() => {
       table.querySelector(`[data-row="${Number(row) + down}"][data-column="${Number(column) + side}"]`)?.focus();
       return true;
     },
-    // What is pasted from a workbook: cells by tabs and lines, decimal commas turned, a unit where the column has one.
+    // What is pasted from a workbook: cells by rows, a unit where the column has one.
     // Returns what changes, [place, new text, old text] each, and what is to be said.
-    pasted: (text, target, typed) => {
+    pasted: ({ cells, turned }, target, typed) => {
       const inputs = JSON.parse(target.closest(".tabled").dataset.columns).map((id) => document.getElementById(id));
       const columns = inputs.map(values), from = Number(target.dataset.row), first = Number(target.dataset.column);
-      let turned = false;
-      text.replace(/\r/g, "").replace(/\n+$/, "").split("\n").forEach((line, index) => line.split("\t").forEach((one, offset) => {
+      cells.forEach((line, index) => line.forEach((one, offset) => {
         const column = columns[first + offset];
         if (!column) return;
-        let value = one.trim();
-        if (/^[+-]?\d+,\d+(?!\d)/.test(value)) { value = value.replace(",", "."); turned = true; }
+        let value = one;
         const parts = typed(value), own = unit(columns[first + offset][0], typed);
         if (parts && !parts.over && !parts.unit.trim() && own) value = `${value} ${own}`;
         for (const other of columns) other[from + index] ??= "0";

@@ -1,0 +1,80 @@
+"""Cells pasted from a workbook: what commas and points mean is read from all of them, or asked once."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from reportgen import catalogue
+from tests.lanes import proof
+from tests.page.browser import Browser
+from tests.page.typist import Typist, form_alone, until, value
+
+READ = """
+const read = pasting.read(arguments[0]);
+return [read.cells, read.doubt ? [read.doubt[","], read.doubt["."]] : null];
+"""
+PASTE = """
+const clipboardData = new DataTransfer();
+clipboardData.setData("text", arguments[1]);
+document.querySelector(arguments[0]).dispatchEvent(
+  new ClipboardEvent("paste", { clipboardData, bubbles: true, cancelable: true }));
+"""
+CELL = '.tabled [data-row="1"][data-column="1"]'
+QUESTION = "return [...document.querySelectorAll('[data-reading]')].map((one) => one.textContent)"
+ANSWER = "document.querySelector(`[data-reading='${arguments[0]}']`).click()"
+
+
+@pytest.fixture
+def file(tmp_path: Path) -> Path:
+    (made := tmp_path / "twin.yaml").write_text(catalogue.sample("engine-twin", "en"), encoding="utf-8")
+    return made
+
+
+@proof
+def test_what_pasted_numbers_mean(browser: Browser, file: Path) -> None:
+    with form_alone(file) as server:
+        browser.show(server.address, still=True)
+        for text, cells, doubt in (
+            ("-2,4\t24\r\n", [["-2.4", "24"]], None),
+            ("1,200\n0,5", [["1.2"], ["0.5"]], None),
+            ("0,125\n0,25", [["0.125"], ["0.25"]], None),
+            ("1.234,5\t1.234.567", [["1234.5", "1234567"]], None),
+            ("1.200\n0.5", [["1.200"], ["0.5"]], None),
+            ("90 deg\t0,5 mm\tA,B", [["90 deg", "0.5 mm", "A,B"]], None),
+            ("0,5\t1.200", None, ["1200", "1.2"]),
+            ("1,200\n2", None, ["1.2", "1200"]),
+        ):
+            read = browser.run(READ, text)
+            assert read[1] == doubt, text
+            assert cells is None or read[0] == cells, text
+
+
+@proof
+def test_pasted_numbers_of_two_readings_are_asked_about_once(browser: Browser, file: Path) -> None:
+    """Nothing is written before the answer; one step back takes all that was pasted."""
+    begun = file.read_text(encoding="utf-8")
+    where = "indicator", "intake"
+    with form_alone(file, lambda: 0.1) as server:
+        browser.show(server.address, still=True)
+        browser.run(PASTE, CELL, "-2,4\t1.200\n-2,5\t1.300\n")
+        until(lambda: browser.run(QUESTION) == ["Use 1.200 = 1200", "Use 1.200 = 1.2"])
+        assert file.read_text(encoding="utf-8") == begun
+        browser.run(ANSWER, ",")
+        Typist(browser).idle()
+        assert value(file, where).split(", ")[1] == "-2.4"
+        assert value(file, ("indicator", "compression")).split(", ")[1:3] == ["1200", "1300"]
+        assert browser.run(QUESTION) == []
+        browser.run("document.getElementById('undo').click()")
+        until(lambda: file.read_text(encoding="utf-8") == begun)
+
+
+@proof
+def test_a_column_is_pasted_into_the_field_of_a_list(browser: Browser, file: Path) -> None:
+    with form_alone(file) as server:
+        browser.show(server.address, still=True)
+        browser.run("const list = document.getElementById('f:indicator.s'); list.focus(); list.select()")
+        browser.run(PASTE, "[id='f:indicator.s']", "0\n0,5\n1\n")
+        Typist(browser).idle()
+        assert value(file, ("indicator", "s")) == "0, 0.5, 1"
