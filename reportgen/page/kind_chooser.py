@@ -34,8 +34,14 @@ class Chooser(LiveSession):
     ready: threading.Event = field(default_factory=threading.Event)
     path: Path = Path()
     _choosing: threading.Lock = field(default_factory=threading.Lock)
+    _writing: threading.Lock = field(default_factory=threading.Lock)
 
     def page(self) -> str:
+        # The first page is being made while the browser starts, and is not begun a second time.
+        with self._writing:
+            return self._page()
+
+    def _page(self) -> str:
         now = self.revision
         words, offered = now.words["edit"], cards(now.language)
         groups = [(title, offered[group]) for group, title in words["groups"].items() if group in offered]
