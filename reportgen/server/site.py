@@ -60,6 +60,8 @@ class Site:
         """Uploads that wait to be read."""
         self.laying: dict[str, asyncio.Lock] = {}
         """Each student's lock is held while the files of the student are written."""
+        self.receiving = asyncio.Semaphore(4)
+        """Held while an upload is in memory."""
         self.changing = asyncio.Lock()
         """Held while variants or the roster change."""
         self.log = LOGGER

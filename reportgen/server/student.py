@@ -220,11 +220,11 @@ async def upload(request: Request, site: Site, person: Person) -> Response:
         file, client = form.get("file"), client_of({"client": form.get("client")})
         if not isinstance(file, UploadFile):
             raise Refusal("malformed")
-        content = await file.read()
-        name = safe_name(file.filename or "")
-    if len(content) > LARGE:
-        raise Refusal("too_large")
-    row = await run_in_threadpool(_stored, site, person, client, name, content)
+        if (file.size or 0) > LARGE:
+            raise Refusal("too_large")
+        async with site.receiving:
+            content, name = await file.read(), safe_name(file.filename or "")
+            row = await run_in_threadpool(_stored, site, person, client, name, content)
     handed.read_soon(site, row)
     return JSONResponse(receipt(site, row))
 
