@@ -72,14 +72,15 @@ def typeset(
     return source, pdf
 
 
-def pages_of(source: str) -> list[bytes]:
-    """Return the pages of a typst source that was left for a preview, as SVG.
+def pages_of(source: str) -> tuple[list[bytes], list[int]]:
+    """Return the pages of a typst source that was left for a preview, as SVG, and the page of each of its headings.
 
     Raises `TypesetterError`.
     """
     from reportgen.writers import typst_compiler
 
-    return typst_compiler.compile_as(source, "svg", system=source.startswith(OF_SYSTEM))
+    system = source.startswith(OF_SYSTEM)
+    return typst_compiler.compile_as(source, "svg", system=system), typst_compiler.heading_pages(source, system)
 
 
 def typeset_sheet(

@@ -48,6 +48,7 @@ from reportgen.page.pulls import Asked, Pulls, asked_place
 from reportgen.page.stray_entries import by_field, with_strays
 from reportgen.page.text_changes import changed_text, part_kinds
 from reportgen.page.typed_values import only_meaning
+from reportgen.page.value_uses import data_of, uses
 
 MOST_STEPS = 500
 """Largest number of changes that can be undone."""
@@ -57,7 +58,8 @@ PATIENCE = 10.0
 """Longest delay (s) of work that can wait."""
 HERE = Location("")
 FIELD_TABLES = "pasting.js", "tables.js"
-FIELDS = "drafts.js", "redraw.js", *FIELD_TABLES, "notices.js", "edit.js", "owned.js", "missing.js", "preview.js"
+REPORT_PARTS = "missing.js", "preview.js", "uses.js"
+FIELDS = "drafts.js", "redraw.js", *FIELD_TABLES, "notices.js", "edit.js", "owned.js", *REPORT_PARTS
 PULLED = "locks.js", "pull.js", "handle.js", "region.js"
 SCRIPTS = "live.js", *FIELDS, *PULLED
 STYLES = "live.css", "edit.css", "notices.css", "pull.css", "preview.css"
@@ -169,10 +171,18 @@ class EditSession(LiveSession):
         return {
             "edit.json": self.edit,
             "drag.json": self.drag,
+            "uses.json": self.uses,
             "pull.json": self.pull,
             **self.pulls.takes,
             "make.json": self.make,
         }
+
+    def uses(self, asked: Asked) -> Mapping[str, Any]:
+        """Return where the report of the last valid file uses the value at a place; nothing without a report."""
+        now, top = self.revision, self._nodes()
+        if now.case is None or now.document is None or top is None:
+            return {"lines": [], "following": 0}
+        return uses(now.case, now.document, data_of(top, asked_place(asked["where"]), self.path))
 
     def below(self, name: str) -> EditSession | None:
         """Return the open form of a part's file by its number: a file that the text names now, in its folder or below.

@@ -16,14 +16,14 @@ from typing import Any
 from reportgen.base.errors import ReportgenError
 
 PDF = "pdf"
-Pages = Callable[[str], Sequence[bytes]]
-"""Returns the pages of a typst source as SVG."""
+Pages = Callable[[str], tuple[Sequence[bytes], Sequence[int]]]
+"""Returns the pages of a typst source as SVG, and the page of each heading."""
 Message = Mapping[str, Any]
 
 
-def no_pages(source: str) -> Sequence[bytes]:
+def no_pages(source: str) -> tuple[Sequence[bytes], Sequence[int]]:
     """Return no pages."""
-    return ()
+    return (), ()
 
 
 @dataclass
@@ -58,13 +58,13 @@ class Preview:
         with self._lock, suppress(OSError, ReportgenError):
             source = self.source.read_text(encoding="utf-8")
             self.source.unlink()
-            drawn = self.pages(source)
+            drawn, headings = self.pages(source)
             if not drawn:
                 return
             hashes = [sha256(page).hexdigest() for page in drawn]
             changed = first_changed(self._hashes, hashes)
             self._drawn, self._hashes, self.build = drawn, hashes, self.build + 1
-            preview = {"build": self.build, "pages": len(drawn), "changed": changed}
+            preview = {"build": self.build, "pages": len(drawn), "changed": changed, "headings": headings}
             # A later product has a message of its own.
             if self._heard is message:
                 self.tell({**message, "preview": preview})

@@ -5,6 +5,7 @@ It runs once for each source, or twice if a standard rejects it.
 
 from __future__ import annotations
 
+import json
 import tempfile
 import warnings
 from collections.abc import Mapping
@@ -93,6 +94,33 @@ def compile_as(
             raise TypesetterError(f"typst: {_first_lines(error, 4)}") from error
     # A single page is not returned as a list.
     return [pages] if isinstance(pages, bytes) else list(pages)
+
+
+HEADINGS = "\n#context [#metadata(query(heading).map(one => one.location().page())) <heading-pages>]\n"
+"""Addition to a source that makes the pages of its headings known."""
+
+
+def heading_pages(source: str, system: bool = False) -> list[int]:
+    """Return the page of each heading of a Typst source, in order.  Raises `TypesetterError`."""
+    import typst
+
+    folders, needs_system, _ = sought(source)
+    with tempfile.TemporaryDirectory(prefix="typst-") as folder:
+        path = Path(folder) / "report.typ"
+        path.write_text(source + HEADINGS, encoding="utf-8", newline="")
+        try:
+            pages = typst.query(
+                str(path),
+                "<heading-pages>",
+                field="value",
+                one=True,
+                root=folder,
+                font_paths=[*folders],
+                ignore_system_fonts=not needs_system and not system,
+            )
+        except typst.TypstError as error:
+            raise TypesetterError(f"typst: {_first_lines(error, 4)}") from error
+    return [int(page) for page in json.loads(pages)]
 
 
 def _refusal(error: Exception) -> str:

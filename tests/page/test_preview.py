@@ -14,8 +14,10 @@ from reportgen.api.typesetting import pages_of, typeset
 from reportgen.base.progress import SOURCE
 from reportgen.cases import open_case, opener
 from reportgen.cli.student import _products
+from reportgen.document import Section
 from reportgen.page.background_builds import Maker
 from reportgen.page.file_watch import edited
+from reportgen.page.html import CONTENTS_LEVEL
 from reportgen.page.preview_pages import Preview, first_changed
 from tests.lanes import proof
 from tests.page.browser import Browser, axe
@@ -38,12 +40,12 @@ def built(preview: Preview, heard: list[Any], file: Path) -> Any:
 
 def test_the_first_changed_page_is_found_after_each_build(tmp_path: Path) -> None:
     heard: list[Any] = []
-    preview = Preview(lambda source: [page.encode() for page in source.split("|")], heard.append)
+    preview = Preview(lambda source: ([page.encode() for page in source.split("|")], [1]), heard.append)
     file = tmp_path / "source"
     for build, (text, changed) in enumerate([("a|b|c", 1), ("a|x|y", 2), ("a|x|y", 0), ("a|x", 2)], start=1):
         file.write_text(text, encoding="utf-8")
         pages = text.split("|")
-        assert built(preview, heard, file) == {"build": build, "pages": len(pages), "changed": changed}
+        assert built(preview, heard, file) == {"build": build, "pages": len(pages), "changed": changed, "headings": [1]}
         assert [preview.page(f"page-{build}-{number}.svg") for number in range(len(pages) + 2)] == [
             *(None, *(page.encode() for page in pages), None)
         ]
@@ -58,13 +60,18 @@ def test_the_pages_are_those_of_the_pdf(tmp_path: Path, monkeypatch: pytest.Monk
     monkeypatch.setenv(SOURCE, str(tmp_path / "left.typ"))
     file = tmp_path / "rotor.yaml"
     file.write_text(catalogue.sample("rotor", "en"), encoding="utf-8")
-    source, pdf = typeset(open_case(file).document(), "typst")
+    document = open_case(file).document()
+    source, pdf = typeset(document, "typst")
     left = (tmp_path / "left.typ").read_text(encoding="utf-8")
     assert left == source
-    drawn = pages_of(left)
+    drawn, headings = pages_of(left)
     assert all(page.startswith(b"<svg") for page in drawn)
-    with pymupdf.open(stream=pdf) as document:
-        assert len(drawn) == document.page_count
+    with pymupdf.open(stream=pdf) as pages:
+        assert len(drawn) == pages.page_count
+        titles = [block for block in document.blocks if isinstance(block, Section) and block.level <= CONTENTS_LEVEL]
+        assert len(headings) == len(titles)
+        for page, title in zip(headings, titles, strict=True):
+            assert title.number in pages[page - 1].get_text()
 
 
 @proof
