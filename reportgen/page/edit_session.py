@@ -43,7 +43,7 @@ from reportgen.page.form_fields import Form, written_at
 from reportgen.page.html import Live
 from reportgen.page.live_view import PART, LiveSession, empty_document
 from reportgen.page.missing_values import MissingPanel
-from reportgen.page.preview_pages import Pages, Preview, no_pages
+from reportgen.page.preview_pages import Preview, Typesetting, no_pages
 from reportgen.page.pulls import Asked, Pulls, asked_place
 from reportgen.page.stray_entries import by_field, with_strays
 from reportgen.page.text_changes import changed_text, part_kinds
@@ -104,7 +104,7 @@ class EditSession(LiveSession):
     """The commands that make something of the file, by the names of their products."""
     of_part: Callable[[Path], EditSession] | None = None
     """Begins the form of a part's file; None if parts have no forms."""
-    pages: Pages = no_pages
+    pages: Typesetting = no_pages
     """Returns the pages of a typst source as pictures."""
     whole: Path | None = None
     """Coursework's file of a part, whose machine gives values to the part."""

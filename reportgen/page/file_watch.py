@@ -28,7 +28,7 @@ from reportgen.page.edit_session import EditSession
 from reportgen.page.kind_chooser import Chooser
 from reportgen.page.live_view import LiveSession
 from reportgen.page.local_server import Server
-from reportgen.page.preview_pages import Pages, no_pages
+from reportgen.page.preview_pages import Typesetting, no_pages
 
 QUIET, LONGEST = 20, 200
 """Changes are collected until none arrives for the first time (ms), but no longer than the second."""
@@ -84,7 +84,7 @@ def edit(
     opens: Opener,
     language: Language | None = None,
     products: Products = no_products,
-    pages: Pages = no_pages,
+    pages: Typesetting = no_pages,
     browser: bool = True,
     port: int = 0,
     stream: TextIO = sys.stdout,
@@ -106,7 +106,7 @@ def edited(
     opens: Opener,
     language: Language | None = None,
     products: Products = no_products,
-    pages: Pages = no_pages,
+    pages: Typesetting = no_pages,
     port: int = 0,
 ) -> Iterator[Server]:
     """Yield the server of a file's form, which answers requests and is renewed while the context is open."""
@@ -123,7 +123,7 @@ def choose(
     opens: Opener,
     language: Language | None = None,
     products: Products = no_products,
-    pages: Pages = no_pages,
+    pages: Typesetting = no_pages,
     browser: bool = True,
     stream: TextIO = sys.stdout,
 ) -> None:
@@ -145,7 +145,7 @@ def choose(
 
 @contextmanager
 def _with_parts(
-    path: Path, opens: Opener, language: Language | None, products: Products, pages: Pages
+    path: Path, opens: Opener, language: Language | None, products: Products, pages: Typesetting
 ) -> Iterator[EditSession]:
     """Yield the session of an edited file; sessions of its parts' files open on request and are renewed from then."""
     with ExitStack() as followed:

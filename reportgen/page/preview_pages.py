@@ -16,7 +16,7 @@ from typing import Any
 from reportgen.base.errors import ReportgenError
 
 PDF = "pdf"
-Pages = Callable[[str], tuple[Sequence[bytes], Sequence[int]]]
+Typesetting = Callable[[str], tuple[Sequence[bytes], Sequence[int]]]
 """Returns the pages of a typst source as SVG, and the page of each heading."""
 Message = Mapping[str, Any]
 
@@ -30,7 +30,7 @@ def no_pages(source: str) -> tuple[Sequence[bytes], Sequence[int]]:
 class Preview:
     """The pages of the PDF that was made last; `tell` is called with each message about products."""
 
-    pages: Pages
+    pages: Typesetting
     tell: Callable[[Message], None]
     build: int = 0
     """Number of the PDF whose pages are shown."""
