@@ -20,6 +20,7 @@ from tests.page.typist import SHIFT, Model, Typist, edit_beside, form_alone, pla
 KIND = "slider-crank"
 KEYS = ["r", "l", "n"]
 NOTE = "return document.querySelector('.conflict')?.firstChild.textContent || ''"
+ORPHANS = "return document.getElementById('orphans').textContent"
 SETTLE = "document.querySelector(`[data-settle=${arguments[0]}]`).click()"
 EVENTS = """
 window.unasked = [];
@@ -74,6 +75,31 @@ def test_values_typed_along_are_written_as_typed(browser: Browser, file: Path, r
         assert {key: value(file, ("parameters", key)) for key in given} == given
         assert browser.run("return window.unasked") == []
         assert browser.run("return window.before.isConnected"), "no field was replaced"
+
+
+def test_what_was_typed_for_a_key_that_is_gone_is_kept_until_discarded(browser: Browser, file: Path) -> None:
+    """It is shown with a button; when the key is back, it is written."""
+    old = file.read_text(encoding="utf-8")
+    (line,) = (line for line in old.splitlines() if line.strip().startswith("n:"))
+    new = old.replace(line, "  omega1: 9 rad/s")
+    with form_alone(file, lambda: 0.2) as server:
+        browser.show(server.address, still=True)
+        typist = Typist(browser)
+        for back in (False, True):
+            typist.replace("n", "85 rpm")
+            file.write_text(new, encoding="utf-8")
+            typist.shows("omega1", "9 rad/s")
+            typist.click("f:parameters.r")
+            until(lambda: "“85 rpm” for parameters.n" in browser.run(ORPHANS))
+            if not back:
+                browser.run("document.querySelector('#orphans button').click()")
+                typist.idle()
+                assert file.read_text(encoding="utf-8") == new
+            file.write_text(old, encoding="utf-8")
+            until(lambda: browser.run("return document.getElementById('f:parameters.n') !== null"))
+            typist.idle()
+            assert not browser.run(ORPHANS)
+            assert (value(file, ("parameters", "n")) == "85 rpm") == back
 
 
 def test_an_editor_changes_what_is_being_typed(browser: Browser, file: Path) -> None:

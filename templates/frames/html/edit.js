@@ -72,6 +72,19 @@ const fields = (() => {
     }
     return element;
   };
+  // What was typed into a field that the file no longer has is kept until it is discarded, or until the field is back.
+  const orphan = (key) => {
+    const element = document.createElement("p"), button = document.createElement("button");
+    element.textContent = words.orphan.replace("{mine}", drafts.text(key)).replace("{key}", JSON.parse(key).join("."));
+    Object.assign(button, { type: "button", textContent: words.discard });
+    button.addEventListener("click", () => {
+      drafts.drop(key);
+      notices.say("refused");
+      show();
+    });
+    element.append(" ", button);
+    return element;
+  };
   const show = () => {
     if (held) {
       behind = true;
@@ -91,6 +104,7 @@ const fields = (() => {
     next.querySelector("#saved").textContent = status();
     const active = document.activeElement, lost = form.contains(active) && active.closest(".field")?.dataset.key;
     notices.inSight(() => { strays = redraw(form, next); });
+    notices.say("orphans", ...drafts.places().filter((key) => !ofKey(key)).map(orphan));
     // The button of a field that is elsewhere now: its field has the focus.
     keep();
     const again = lost && !active.isConnected && document.getElementById(lost);
