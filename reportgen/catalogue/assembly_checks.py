@@ -18,7 +18,7 @@ from reportgen.base.units import MM, nice_down
 from reportgen.machine import GROUND, Crank, Dyad, Guide, Linkage
 from reportgen.machine.kinematics import SINGULAR, Motion, cross, solve_motion, unit
 from reportgen.machine.load_laws import FULL_TURN, STEPS, MotionAt, halved
-from reportgen.machine.loads import turning_points
+from reportgen.machine.loads import turning_count
 
 HALVINGS = 40
 SMALL_TRANSMISSION = 0.3
@@ -195,7 +195,7 @@ def too_large(linkage: Linkage, angles: Floats, drawn: float, where: Where) -> I
 
 def to_and_fro(linkage: Linkage, slider: int, motion_at: MotionAt, where: Where) -> Iterator[Finding]:
     """Yield faults unless a slider with dead centres moves to and fro once in a turn, so that it reverses twice."""
-    count = len(turning_points(linkage, slider, motion_at))
+    count = turning_count(linkage, slider, motion_at)
     if count != 2:
         yield Finding("not-to-and-fro", where, {"text": str(slider), "count": str(count)})
 

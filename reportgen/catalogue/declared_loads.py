@@ -44,7 +44,7 @@ from reportgen.machine import DRIVER, Crank, Guide, Linkage
 from reportgen.machine.kinematics import Motion
 from reportgen.machine.load_laws import AngleLaw, ConstantLaw, Law, MotionAt, Resistance, TravelLaw, opposing
 from reportgen.machine.loads import Applied, Torque, fixed
-from reportgen.machine.motion_sense import moving, pace
+from reportgen.machine.motion_sense import greatest_speed, moving
 
 MOST_LOADS = LAST_LINK = 40
 LEVEL = Given(0.0, 0.0, "deg", "0 deg")
@@ -272,8 +272,8 @@ def law_of(load: PlainLoad, motion_at: MotionAt, *, through: bool = True, span: 
 
     def rate(motion: Motion) -> Floats:
         if load.at is None:
-            return moving(motion.links[load.link].omega, pace(motion, "R")[0])
-        return moving(np.real(np.conj(direction) * motion.points[load.at].v), pace(motion, "P")[0])
+            return moving(motion.links[load.link].omega, greatest_speed(motion, "R"))
+        return moving(np.real(np.conj(direction) * motion.points[load.at].v), greatest_speed(motion, "P"))
 
     return against(abs(size.si), rate, motion_at, through=through)
 

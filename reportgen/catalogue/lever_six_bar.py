@@ -28,7 +28,7 @@ from reportgen.formula.vocabulary import drawn_length
 from reportgen.machine import Crank, Dyad, Guide, Linkage, LinkPoint
 from reportgen.machine.analysis import Machine
 from reportgen.machine.load_laws import ConstantLaw, Law, Stroke
-from reportgen.machine.loads import Applied, course, crank_motion, fixed, turning_points
+from reportgen.machine.loads import Applied, course, crank_motion, fixed, turning_count
 
 TURNS = 1
 TURN = Number(360.0, unit="°")
@@ -228,7 +228,7 @@ def machine(assignment: Assignment) -> Machine:
     q.set_out("extremes")
     motion_at = crank_motion(linkage, positions, start)
     whole = not positions.at or assembly_checks.turns(linkage)
-    to_and_fro = whole and len(turning_points(linkage, 5, motion_at)) == 2
+    to_and_fro = whole and turning_count(linkage, 5, motion_at) == 2
     sliders = (course(linkage, 5, motion_at),) if to_and_fro else ()
     fixed = {name: q.coordinates(name) for name in linkage.ground}
     loops = ClosedLoops(linkage, positions.sign, fixed, guides={5: q.coordinates("F")}, accelerates=given.acceleration)

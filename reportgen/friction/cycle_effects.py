@@ -15,7 +15,7 @@ from reportgen.machine import Joint
 from reportgen.machine.analysis import ROUNDING, Machine, analyse, breaks, motion_at, possible
 from reportgen.machine.force_analysis import Load
 from reportgen.machine.load_laws import FULL_TURN, STEPS, Stroke, halved, opposing
-from reportgen.machine.motion_sense import moving, pace
+from reportgen.machine.motion_sense import greatest_speed, moving
 from reportgen.machine.quadrature import mean_over
 
 HALVINGS = 40
@@ -29,7 +29,7 @@ def turning_back(machine: Machine, joint: Joint) -> Iterator[float]:
 
     def rate(angle: Floats) -> Floats:
         motion = motion_at(machine, angle)
-        return moving(relative_motion(joint, motion)[0], pace(motion, joint.kind)[0])
+        return moving(relative_motion(joint, motion)[0], greatest_speed(motion, joint.kind))
 
     if rate(np.linspace(0.0, FULL_TURN, 64)).any():
         for turn in range(machine.turns):

@@ -8,7 +8,7 @@ loops; positions that cannot be assembled are nan.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import TypeVar
 
 import numpy as np
@@ -396,14 +396,24 @@ class _State:
 def _take(motion: Arrays, kept: Places) -> Arrays:
     if isinstance(kept, slice):
         return motion
-    return type(motion)(*(getattr(motion, field.name)[kept] for field in fields(motion)))
+    return type(motion)(*(getattr(motion, name)[kept] for name in type(motion).__slots__))
 
 
 def _continuous(angle: Floats) -> Floats:
     """Return the angle without jumps of 2π; gaps of nan are stepped over."""
     finite = np.isfinite(angle)
     if finite.all():
+        return _unwrapped(angle)
+    result = angle.copy()
+    result[finite] = _unwrapped(angle[finite])
+    return result
+
+
+def _unwrapped(angle: Floats) -> Floats:
+    """Return what `np.unwrap` does, sooner for an angle without jumps."""
+    if (np.abs(angle[1:] - angle[:-1]) >= np.pi).any():
         return np.unwrap(angle)
     result = angle.copy()
-    result[finite] = np.unwrap(angle[finite])
+    # As there, −0 becomes 0.
+    result[1:] += 0.0
     return result

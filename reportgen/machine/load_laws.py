@@ -14,6 +14,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 import numpy as np
+from numpy.typing import NDArray
 
 from reportgen.base.arrays import Flags, Floats
 from reportgen.formula import Expression, Symbol, ids
@@ -414,9 +415,7 @@ def opposing(size: float, rate: Callable[[Floats], Floats]) -> Opposing:
     `rate` returns the rate [N] (m/s or rad/s) at cycle angles [N] (rad) of one turn; the sizes of its values do not
     matter, only their signs.
     """
-    edges = np.linspace(0.0, FULL_TURN, STEPS + 1) - FULL_TURN / STEPS / np.pi
-    signs = np.sign(rate(edges))
-    changes = np.flatnonzero(signs[1:] != signs[:-1])
+    edges, signs, changes = _changes(rate)
     first = signs[changes]
     halvings = HALVINGS if changes.size else 0
 
@@ -428,6 +427,18 @@ def opposing(size: float, rate: Callable[[Floats], Floats]) -> Opposing:
     # The first of them in the turn is where the sign before it ends.
     after = rate(np.array([(reversals[0] + reversals[1]) / 2])) if reversals.size > 1 else -rate(np.array([0.0]))
     return Opposing(size, tuple(map(float, reversals)), -float(np.sign(after[0])))
+
+
+def reversal_count(rate: Callable[[Floats], Floats]) -> int:
+    """Return how often a rate, as in `opposing`, changes its sign in a turn; the places are not computed."""
+    return int(_changes(rate)[2].size)
+
+
+def _changes(rate: Callable[[Floats], Floats]) -> tuple[Floats, Floats, NDArray[np.int64]]:
+    """Return the samples (rad) of a turn, the signs of the rate there, and after which of them the sign changes."""
+    edges = np.linspace(0.0, FULL_TURN, STEPS + 1) - FULL_TURN / STEPS / np.pi
+    signs = np.sign(rate(edges))
+    return edges, signs, np.flatnonzero(signs[1:] != signs[:-1])
 
 
 def halved(low: Floats, high: Floats, before: Callable[[Floats], Flags], times: int) -> tuple[Floats, Floats]:

@@ -15,8 +15,17 @@ from reportgen.machine import GROUND, Dyad, Guide, Linkage
 from reportgen.machine.force_analysis import Load
 from reportgen.machine.gas_pressure import IndicatorTable
 from reportgen.machine.kinematics import Motion, solve_motion
-from reportgen.machine.load_laws import BEFORE_A_TURN, FULL_TURN, GasLaw, Law, MotionAt, Stroke, opposing
-from reportgen.machine.motion_sense import moving, pace
+from reportgen.machine.load_laws import (
+    BEFORE_A_TURN,
+    FULL_TURN,
+    GasLaw,
+    Law,
+    MotionAt,
+    Stroke,
+    opposing,
+    reversal_count,
+)
+from reportgen.machine.motion_sense import greatest_speed, moving
 
 # --- sliders of a linkage ---------------------------------------------------------------------------
 
@@ -52,14 +61,24 @@ def carriers(linkage: Linkage) -> dict[int, int]:
 
 def turning_points(linkage: Linkage, link: int, motion_at: MotionAt) -> tuple[float, ...]:
     """Return the cycle angles (rad) of one turn, rising, at which a slider on the frame turns back."""
+    return opposing(1.0, _rate_along(linkage, link, motion_at)).reversals
+
+
+def turning_count(linkage: Linkage, link: int, motion_at: MotionAt) -> int:
+    """Return how often a slider on the frame turns back in a turn: the number of its `turning_points`, found sooner."""
+    return reversal_count(_rate_along(linkage, link, motion_at))
+
+
+def _rate_along(linkage: Linkage, link: int, motion_at: MotionAt) -> Callable[[Floats], Floats]:
+    """Return the function that gives a slider's speed along its guide [N] at cycle angles [N] (rad)."""
     dyad, guide = rails(linkage)[link]
     along = cmath.exp(1j * guide.angle)
 
     def rate(angle: Floats) -> Floats:
         motion = motion_at(angle)
-        return moving(np.real(np.conj(along) * motion.points[dyad.middle].v), pace(motion, "P")[0])
+        return moving(np.real(np.conj(along) * motion.points[dyad.middle].v), greatest_speed(motion, "P"))
 
-    return opposing(1.0, rate).reversals
+    return rate
 
 
 def course(linkage: Linkage, link: int, motion_at: MotionAt, turns: int = 1, top: int = 1) -> Stroke:

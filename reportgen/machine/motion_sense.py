@@ -31,11 +31,17 @@ def pace(motion: Motion, kind: str) -> tuple[float, float]:
     For pins ("R") they are those of links (rad/s, rad/s²), for guides ("P") those of points (m/s, m/s²).  The change is
     at least the one by ω² of the fastest link: a mechanism that turns steadily changes its directions.
     """
-    turning = largest(*(link.omega for link in motion.links.values()))
+    turning, fastest = greatest_speed(motion, "R"), greatest_speed(motion, kind)
     if kind == "R":
         return turning, max(largest(*(link.epsilon for link in motion.links.values())), turning**2)
-    moving = largest(*(point.v for point in motion.points.values()))
-    return moving, max(largest(*(point.a for point in motion.points.values())), turning * moving)
+    return fastest, max(largest(*(point.a for point in motion.points.values())), turning * fastest)
+
+
+def greatest_speed(motion: Motion, kind: str) -> float:
+    """Return the greatest speed of a mechanism: of links (rad/s) for pins ("R"), of points (m/s) for guides ("P")."""
+    if kind == "R":
+        return largest(*(link.omega for link in motion.links.values()))
+    return largest(*(point.v for point in motion.points.values()))
 
 
 def largest(*values: Floats | Complexes) -> float:

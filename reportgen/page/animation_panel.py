@@ -71,10 +71,15 @@ def samples(track: Track) -> tuple[np.ndarray, ...]:
     They are in the track's unit (mm, or SI). They are `settled`: otherwise samples would be most of what differs
     between the pages of two processors.
     """
-    values = np.asarray(track.values)
-    parts = (values.real, values.imag) if np.iscomplexobj(values) else (np.asarray(values, dtype=np.float64),)
-    greatest = max(float(np.max(np.abs(part), initial=0.0, where=np.isfinite(part))) for part in parts)
-    return tuple(np.asarray(settled(part, _step(greatest)), dtype="<f4") for part in parts)
+    plane = np.iscomplexobj(track.values)
+    # Both parts together: real and imaginary parts alternate.
+    numbers = np.ascontiguousarray(track.values, dtype=np.complex128 if plane else np.float64).view(np.float64)
+    sizes = np.abs(numbers)
+    greatest = float(sizes.max(initial=0.0))
+    if not math.isfinite(greatest):
+        greatest = float(sizes.max(initial=0.0, where=np.isfinite(sizes)))
+    written = settled(numbers, _step(greatest)).astype("<f4")
+    return (written[::2], written[1::2]) if plane else (written,)
 
 
 def _step(greatest: float) -> float:

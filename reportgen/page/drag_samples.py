@@ -67,14 +67,17 @@ class Resident:
         sampling = Samples(case, self.samples.kept)
         if not sampling.analysis.motion.reachable.all():
             return b""
-        values, written = self.values.copy(), set[int]()
+        values, written, placed = self.values.copy(), set[int](), set[tuple[int, str, bytes]]()
         panes = tuple(sampling.panes())
         moved = list(tracks(panes, tuple(sampling.values())))
         if len(moved) != len(self.numbers):
             return b""
         for number, track in zip(self.numbers, moved, strict=True):
-            if not self._put(values, written, number, track):
+            # Most tracks are repeated: many arrows start at the same point.
+            place = number, track.values.dtype.char, track.values.tobytes()
+            if place not in placed and not self._put(values, written, number, track):
                 return b""
+            placed.add(place)
         bodies = self.bodies(panes[0])
         if list(map(bool, bodies)) != list(map(bool, self.drawn)):
             return b""

@@ -10,6 +10,7 @@ import math
 import re
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from pathlib import Path
 
 import numpy as np
@@ -231,17 +232,18 @@ class Pull:
             total += value.course.change(by)
         return rebuilt(self.linkage, total)
 
-    @property
+    @cached_property
     def here(self) -> np.ndarray:
+        """The numbers of the linkage [N]."""
         return numbers(self.linkage)
 
     def at(self, offsets: np.ndarray) -> complex:
         """Return the place of the point (m) for such values [values]; nan if the linkage does not assemble there."""
         return place_of(self.made(offsets), self.point, self.driver)
 
-    def ways(self, offsets: np.ndarray) -> np.ndarray:
-        """Return how far the point goes (m) for a unit of each value [values]."""
-        here, ways = self.at(offsets), []
+    def ways(self, offsets: np.ndarray, here: complex | None = None) -> np.ndarray:
+        """Return how far the point goes (m) for a unit of each value [values]; `here` is its place, if known."""
+        here, ways = self.at(offsets) if here is None else here, []
         for index, value in enumerate(self.values):
             by = np.zeros(len(self.values))
             by[index] = value.course.step * SHARE
@@ -256,7 +258,7 @@ class Pull:
             offsets = np.zeros(len(self.values))
             here = self.at(offsets)
         for _ in range(ROUNDS):
-            ways = self.ways(offsets)
+            ways = self.ways(offsets, here)
             if not np.isfinite(ways).all():
                 break
             equations = np.array([ways.real, ways.imag])

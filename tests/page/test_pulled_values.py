@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from functools import partial
 from pathlib import Path
+from unittest.mock import Mock
 
 import numpy as np
 import pytest
@@ -14,7 +15,9 @@ from reportgen.base.errors import Location, Where
 from reportgen.base.yaml_source import Scalar, Source, read_source, read_text
 from reportgen.base.yaml_values import at, put
 from reportgen.cases import open_case
-from reportgen.machine import Linkage
+from reportgen.machine import Linkage, load_laws
+from reportgen.page import animation_panel
+from reportgen.page.drag_samples import Resident
 from reportgen.page.edit_session import EditSession
 from reportgen.page.pulled_values import PlacingValue, Pull, TypedNumber, place_of, placing_values
 from tests.lanes import matrix
@@ -153,3 +156,19 @@ def test_a_released_point_is_one_change(tmp_path: Path) -> None:
         assert file.read_bytes() == before
     finally:
         edited.close()
+
+
+def test_a_frame_of_a_pull_computes_nothing_twice(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Only loads search for turning points, not the checks; tracks that are repeated are sampled once."""
+    resident = Resident.of(open_case(FOLDER / "linkage-8.yaml"))
+    assert resident is not None
+    searches, sampled = Mock(wraps=load_laws.halved), Mock(wraps=animation_panel.samples)
+    monkeypatch.setattr(load_laws, "halved", searches)
+    monkeypatch.setattr("reportgen.page.drag_samples.samples", sampled)
+    assignment, faults = catalogue.understood(read_source(FOLDER / "linkage-8.yaml"), FOLDER / "linkage-8.yaml")
+    assert assignment is not None
+    assert not faults
+    assert not searches.called
+    assert resident.sampled(assignment)
+    assert searches.call_count == 2, "two loads follow a sense of motion"
+    assert sampled.call_count < len(resident.numbers) / 2, "most tracks are repeated"
