@@ -57,7 +57,7 @@ def test_what_is_double_clicked_lets_choose_a_kind(
 ) -> None:
     kernel, chosen = Kernel(*programs), []
     monkeypatch.setattr(ctypes, "windll", SimpleNamespace(kernel32=kernel), raising=False)
-    monkeypatch.setattr(file_watch, "choose", lambda *_, browser: chosen.append((Path.cwd(), browser)))
+    monkeypatch.setattr(file_watch, "choose", lambda *_, browser, **more: chosen.append((Path.cwd(), browser)))
     # The working folder of a program that is double-clicked is its own, which is no place for a coursework.
     (scripts := tmp_path / "Scripts").mkdir()
     (home := tmp_path / "home").mkdir()

@@ -240,7 +240,7 @@ def test_a_gap_of_a_schools_words_names_a_value(school: School, gap: str, langua
         api.document(api.load(file))
 
 
-FILLED = {"en": "unknown placeholder in", "vi": "không có gì để điền"}
+FILLED = {"en": "unknown placeholder in", "vi": "chỗ trống trong"}
 UNFILLED = (
     'header: "{nobody}"',
     'variant: "{variant.nothing}"',
