@@ -12,7 +12,7 @@ from itertools import chain, count
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from reportgen.base.stable_digits import first_greatest, first_least, settled
+from reportgen.base.stable_digits import ALIKE, first_greatest, first_least, settled
 from reportgen.base.units import nice_up
 from reportgen.drawing import (
     Arc,
@@ -190,13 +190,14 @@ def polar(diagram: Diagram, *, size: float = POLAR_SIZE, area: Area | None = Non
     """Draw hodographs of vectors (x, y) about the pole at equal scales, with their marks and the names of the axes.
 
     The longer side inside the axes is `size` mm; with an `area`, which replaces `size`, the scale is round and printed.
-    Curves of `dots` have only their marks.
+    Curves of `dots` have only their marks.  A load that is zero throughout is a dot at the pole.
     """
     x, y = (
         np.concatenate([np.asarray(getattr(curve, axis), dtype=np.float64) for curve in diagram.curves])
         for axis in "xy"
     )
-    step = nice_up(float(np.nanmax([0.0, *x, *y]) - np.nanmin([0.0, *x, *y])) / TICKS, (1, 2, 5))
+    extent = float(np.nanmax([0.0, *x, *y]) - np.nanmin([0.0, *x, *y]))
+    step = nice_up(extent / TICKS, (1, 2, 5)) if extent > 0 else 1.0
     x_ticks, y_ticks = (_around(min(0.0, float(np.nanmin(of))), max(0.0, float(np.nanmax(of))), step) for of in (x, y))
     (x0, *_, x1), (y0, *_, y1) = x_ticks, y_ticks
     per = size / max(x1 - x0, y1 - y0)
@@ -278,8 +279,15 @@ def _beside(x_ticks: Sequence[float], y_ticks: Sequence[float]) -> float:
 
 
 def _ticks(low: float, high: float, most: int) -> list[float]:
-    """Return ticks at round steps that enclose a range, with about `most` steps at most."""
-    return _around(low, high, nice_up((high - low) / most, STEPS) if high > low else 1.0)
+    """Return ticks at round steps that enclose a range, with about `most` steps at most.
+
+    Ends that differ only by rounding are a single value, which gets one step of its size.
+    """
+    size = max(abs(low), abs(high))
+    if high - low > ALIKE * size:
+        return _around(low, high, nice_up((high - low) / most, STEPS))
+    level = (low + high) / 2
+    return _around(level, level, nice_up(size / most, STEPS) if size > 0 else 1.0)
 
 
 def angle_ticks(low: float, high: float, most: int) -> list[float]:

@@ -152,7 +152,9 @@ def test_what_a_curve_leaves_out_lies_close_to_what_it_keeps(turns: int) -> None
         assert -CLOSE <= along.min() <= along.max() <= abs(chord) + CLOSE + 1e-9
 
 
-@pytest.mark.parametrize(("low", "high"), [(-3.1, 47.0), (0.0, 1e-4), (-2e6, -1e6), (7.0, 7.0), (0.0, 0.0)])
+@pytest.mark.parametrize(
+    ("low", "high"), [(-3.1, 47.0), (0.0, 1e-4), (-2e6, -1e6), (7.0, 7.0), (0.0, 0.0), (2e-3, 2e-3)]
+)
 def test_ticks_are_round_and_hold_the_range(low: float, high: float) -> None:
     ticks = _ticks(low, high, 7)
     steps = np.diff(ticks)
@@ -160,6 +162,23 @@ def test_ticks_are_round_and_hold_the_range(low: float, high: float) -> None:
     assert 2 <= len(ticks) <= 9
     assert np.ptp(steps) < 1e-9 * steps[0]
     assert f"{steps[0]:.1e}"[:3] in {"1.0", "2.0", "2.5", "5.0"}
+
+
+@pytest.mark.parametrize("value", [2.5e-3, 31.4159, -7e4])
+def test_rounding_is_no_range(value: float) -> None:
+    """A range in the last digits of its ends has the ticks of a single value, one step of that value's size."""
+    ticks = _ticks(value, value + abs(value) * 4e-16, 7)
+    assert ticks == _ticks(value, value, 7)
+    assert len(ticks) == 2
+    assert abs(value) / 7 <= ticks[1] - ticks[0] <= abs(value) / 2
+
+
+def test_a_load_of_zero_is_a_dot_at_the_pole() -> None:
+    """A link without mass and load may share a crank pin with a loaded one."""
+    nothing = np.zeros(9)
+    scene = polar(Diagram((PlottedCurve("", nothing, nothing, (0, 4), ("1", "5")),), "N", turn=False, equal=True))
+    (pole,) = {item.centre for item in scene.items if isinstance(item, Circle)}
+    assert np.isfinite(pole)
 
 
 # --- bars and histograms ---------------------------------------------------------------------------
