@@ -117,6 +117,17 @@ def linkage_of(source: Source, path: Path) -> Linkage | None:
         return None
 
 
+def machine_of(source: Source, path: Path) -> Machine | None:
+    """Return the machine of nodes that may fail the checks; None if a value is faulty or there is no machine."""
+    assignment = reading.unchecked(source, path, kinds(), kind)
+    make = None if assignment is None else getattr(module(assignment.kind), "machine", None)
+    try:
+        machine: Machine | None = make and make(assignment)
+    except (ReportgenError, ArithmeticError, ValueError, LookupError, np.linalg.LinAlgError):
+        return None
+    return machine
+
+
 def _misplaced(assignment: Assignment, machine: Machine) -> Iterator[Finding]:
     """Yield faults for instants at places of another sort of driver, and for loads on missing links and points."""
     slides = bool(machine.span)

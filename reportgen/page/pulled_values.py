@@ -12,6 +12,7 @@ from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
+from typing import Protocol
 
 import numpy as np
 
@@ -108,12 +109,12 @@ def placing_values(
     if linkage is None or not isinstance(top, MappingNode):
         return None, ()
     data = top.find("parameters")
-    leaves = list(_leaves(data[1], ("parameters",)))[:MOST_VALUES] if data else []
-    leaves += [] if only else _left_out(source, path, linkage)
+    given = list(leaves(data[1], ("parameters",)))[:MOST_VALUES] if data else []
+    given += [] if only else _left_out(source, path, linkage)
     if only:
-        nodes = dict(leaves)
-        leaves = [(where, nodes[where]) for where in only if where in nodes]
-    return linkage, tuple(value for leaf in leaves if (value := _placing(source, path, linkage, *leaf)))
+        nodes = dict(given)
+        given = [(where, nodes[where]) for where in only if where in nodes]
+    return linkage, tuple(value for leaf in given if (value := _placing(source, path, linkage, *leaf)))
 
 
 def _left_out(source: Source, path: Path, linkage: Linkage) -> Iterator[tuple[Where, Scalar]]:
@@ -134,16 +135,17 @@ def _left_out(source: Source, path: Path, linkage: Linkage) -> Iterator[tuple[Wh
                 break
 
 
-def _leaves(node: Node, where: Where) -> Iterator[tuple[Where, Scalar]]:
+def leaves(node: Node, where: Where) -> Iterator[tuple[Where, Scalar]]:
+    """Yield the values at and below a node with their places."""
     match node:
         case Scalar(null=False):
             yield where, node
         case SequenceNode(items):
             for index, item in enumerate(items):
-                yield from _leaves(item, (*where, index))
+                yield from leaves(item, (*where, index))
         case MappingNode(entries):
             for key, value in entries:
-                yield from _leaves(value, (*where, key.text))
+                yield from leaves(value, (*where, key.text))
 
 
 def _placing(source: Source, path: Path, linkage: Linkage, where: Where, scalar: Scalar) -> PlacingValue | None:
@@ -171,10 +173,10 @@ def _placing(source: Source, path: Path, linkage: Linkage, where: Where, scalar:
     pins = followed & {joint.point for joint in joints(linkage)}
     if not followed:
         return None
-    return PlacingValue(where, typed, frozenset(pins or followed), course, *_bounds(source, where, typed))
+    return PlacingValue(where, typed, frozenset(pins or followed), course, *bounds(source, where, typed))
 
 
-def _bounds(source: Source, where: Where, typed: TypedNumber) -> tuple[float, float]:
+def bounds(source: Source, where: Where, typed: TypedNumber) -> tuple[float, float]:
     """Return the bounds of the key at a place in the unit that is typed; infinite if that is another unit."""
     kind = source.top.find("kind") if isinstance(source.top, MappingNode) else None
     assert kind is not None, "a linkage has a kind"
@@ -286,13 +288,29 @@ class Pull:
 
     def rounded(self, offsets: np.ndarray) -> np.ndarray:
         """Return the differences [values] of numbers in whole steps within their bounds."""
-        rounded = [
-            value.typed.stepped(value.typed.number + by, value.low, value.high) - value.typed.number
-            if abs(by) >= value.typed.step / 2
-            else 0.0
-            for value, by in zip(self.values, offsets.tolist(), strict=True)
-        ]
-        return np.array(rounded)
+        return rounded(self.values, offsets)
+
+
+class Stepped(Protocol):
+    """A value whose number, as `typed`, has bounds."""
+
+    @property
+    def typed(self) -> TypedNumber: ...
+    @property
+    def low(self) -> float: ...
+    @property
+    def high(self) -> float: ...
+
+
+def rounded(values: Sequence[Stepped], offsets: np.ndarray) -> np.ndarray:
+    """Return the differences [values] of numbers in whole steps within their bounds."""
+    steps = [
+        value.typed.stepped(value.typed.number + by, value.low, value.high) - value.typed.number
+        if abs(by) >= value.typed.step / 2
+        else 0.0
+        for value, by in zip(values, offsets.tolist(), strict=True)
+    ]
+    return np.array(steps)
 
 
 def place_of(linkage: Linkage, point: str, driver: float) -> complex:

@@ -1,6 +1,6 @@
-"""Points that are pulled on the machine of a form: which there are, the values that follow, and the machine with them.
+"""Points and loads that are pulled on the machine of a form: which there are, the values that follow, the machine.
 
-Nothing is written. The page puts the values into their fields, and sends them as one change when the point is released.
+Nothing is written. The page puts the values into their fields, and sends them as one change at the release.
 """
 
 from __future__ import annotations
@@ -19,10 +19,11 @@ from reportgen.base.errors import Location, ReportgenError, Where
 from reportgen.base.yaml_source import Node, Scalar, SequenceNode, Source
 from reportgen.base.yaml_values import at, put
 from reportgen.machine import Crank, Linkage
-from reportgen.machine.analysis import Machine
+from reportgen.machine.analysis import Machine, motion_at
 from reportgen.page.drag_samples import Resident
 from reportgen.page.form_fields import written_at
 from reportgen.page.pull_regions import REACH, Requirement, region
+from reportgen.page.pulled_loads import LoadPull, LoadValue, load_values
 from reportgen.page.pulled_values import FAR, PlacingValue, Pull, placing_values
 
 MOST_STEPS = 32
@@ -31,6 +32,7 @@ PAUSE = 0.002
 """Time (s) after which a region looks again whether the pulled machine is ready."""
 Asked = Mapping[str, Any]
 PlacedBy = tuple[Linkage | None, tuple[PlacingValue, ...]]
+LoadedBy = Mapping[str, tuple[LoadValue, ...]]
 
 
 @dataclass
@@ -43,8 +45,16 @@ class PulledPoint:
 
 
 @dataclass
+class PulledLoad:
+    """The arrow of a load while its tip is pulled, and the last differences of its values that gave a machine."""
+
+    pull: LoadPull
+    offsets: np.ndarray
+
+
+@dataclass
 class Pulls:
-    """Answers of a form about points that are pulled on the machine of the file at `path`.
+    """Answers of a form about points and loads that are pulled on the machine of the file at `path`.
 
     `resident` returns the machine that the page shows, `read` the nodes of the file.
     """
@@ -53,15 +63,16 @@ class Pulls:
     resident: Callable[[], Resident | None]
     read: Callable[[], Node | None]
     known_of: tuple[Node | None, PlacedBy] | None = None
-    pulled: tuple[tuple[Any, ...], PulledPoint] | None = None
-    """The point that is pulled, by the number of the pull, the point, the place of the driver and what is locked."""
+    loads_of: tuple[Node | None, LoadedBy] | None = None
+    pulled: tuple[tuple[Any, ...], PulledPoint | PulledLoad] | None = None
+    """What is pulled, by the number of the pull, the point or load, the place of the driver and what is locked."""
     lock: threading.Lock = field(default_factory=threading.Lock)
     grabbing: threading.Lock = field(default_factory=threading.Lock)
     working: bool = False
     """True while the machine of a pulled point is computed."""
 
     def grips(self) -> Mapping[str, Any]:
-        """Return the places of the values of each point that can be pulled, and the driver that a handle turns.
+        """Return the places of the values of each point and load that can be pulled, and the driver that is turned.
 
         Points of the frame are in mm of the drawing. The driver has the sense in which its angle grows with the cycle,
         +1 anticlockwise.
@@ -70,7 +81,8 @@ class Pulls:
         if resident is None:
             return {}
         machine, scale = resident.samples.machine, resident.samples.scale
-        _, values = self._known(self.read())
+        top = self.read()
+        _, values = self._known(top)
         points: dict[str, list[list[str | int]]] = {}
         for value in values:
             for point in value.points:
@@ -80,6 +92,7 @@ class Pulls:
         turning = {"centre": driver.centre} if isinstance(driver, Crank) else {}
         return {
             "points": points,
+            "loads": {name: [list(value.where) for value in of_load] for name, of_load in self._loads(top).items()},
             "ground": ground,
             "driver": {**turning, "pin": driver.pin, "turn": machine.turn, "instants": machine.instants},
         }
@@ -90,6 +103,13 @@ class Pulls:
             if self.known_of is None or self.known_of[0] != top:
                 self.known_of = top, placing_values(self._source(top), self.path)
             return self.known_of[1]
+
+    def _loads(self, top: Node | None) -> LoadedBy:
+        """Return the values of the loads whose arrows can be pulled, found once for each content."""
+        with self.lock:
+            if self.loads_of is None or self.loads_of[0] != top:
+                self.loads_of = top, load_values(self._source(top), self.path)
+            return self.loads_of[1]
 
     def _source(self, top: Node | None) -> Source:
         return Source(str(self.path), top=top)
@@ -115,7 +135,7 @@ class Pulls:
             return b""
 
     def pull(self, asked: Asked) -> Mapping[str, Any] | bytes:
-        """Return the machine whose point is as near as possible to a place, as `drag` does, with the `values` for it.
+        """Return the machine whose point or tip is as near as possible to a place, as `drag` does, with the `values`.
 
         The values are in whole steps of their fields and within their bounds. Where no machine has them, the answer has
         no values. It is empty for a kind that is not a machine.
@@ -125,7 +145,7 @@ class Pulls:
             return {}
         top = self.read()
         with self.grabbing:
-            grabbed = self.grabbed(asked, resident.samples.machine, top)
+            grabbed = self.grabbed(asked, resident, top)
         if grabbed is None or top is None:
             return {"values": []}
         self.working = True
@@ -134,7 +154,9 @@ class Pulls:
         finally:
             self.working = False
 
-    def _pulled(self, asked: Asked, resident: Resident, grabbed: PulledPoint, top: Node) -> Mapping[str, Any] | bytes:
+    def _pulled(
+        self, asked: Asked, resident: Resident, grabbed: PulledPoint | PulledLoad, top: Node
+    ) -> Mapping[str, Any] | bytes:
         x, y = (float(number) for number in asked["to"])
         target = complex(x, -y) / resident.samples.scale
         offsets = grabbed.pull.to(target, grabbed.offsets)
@@ -149,7 +171,8 @@ class Pulls:
         samples = self._sampled(resident, changed, **answer) if np.isfinite(place) else b""
         if samples:
             grabbed.offsets = offsets
-            self._recentre(grabbed, changed)
+            if isinstance(grabbed, PulledPoint):
+                self._recentre(grabbed, changed)
         return samples or {"values": []}
 
     @property
@@ -165,8 +188,8 @@ class Pulls:
         """
         resident, grab, count = self.resident(), asked["grab"], min(int(asked["count"]), MOST_STEPS)
         with self.grabbing:
-            grabbed = self.grabbed(asked, resident.samples.machine, self.read()) if resident else None
-            if resident is None or grabbed is None:
+            grabbed = self.grabbed(asked, resident, self.read()) if resident else None
+            if resident is None or not isinstance(grabbed, PulledPoint):
                 return {}
             begun, machine, scale = grabbed.begun, resident.samples.machine, resident.samples.scale
 
@@ -189,18 +212,37 @@ class Pulls:
             self.pulled = None
         return {}
 
-    def grabbed(self, asked: Asked, machine: Machine, top: Node | None) -> PulledPoint | None:
-        """Return the point that a page pulls; None if no value that is not locked moves it."""
-        point, locked = str(asked["point"]), [asked_place(where) for where in asked.get("locked", ())]
-        key = asked["grab"], point, float(asked["angle"]), tuple(locked)
-        if self.pulled is not None and self.pulled[0] == key:
-            return self.pulled[1] if self.pulled[1].pull.values else None
+    def grabbed(self, asked: Asked, resident: Resident, top: Node | None) -> PulledPoint | PulledLoad | None:
+        """Return the point or load that a page pulls; None if no value that is not locked moves it."""
+        locked = [asked_place(where) for where in asked.get("locked", ())]
+        key = asked["grab"], asked.get("point"), asked.get("load"), float(asked["angle"]), tuple(locked)
+        if self.pulled is None or self.pulled[0] != key:
+            grab = self._load if "load" in asked else self._point
+            grabbed = grab(asked, resident, top, locked)
+            if grabbed is None:
+                return None
+            self.pulled = key, grabbed
+        grabbed = self.pulled[1]
+        return grabbed if grabbed.pull.values else None
+
+    def _point(self, asked: Asked, resident: Resident, top: Node | None, locked: list[Where]) -> PulledPoint | None:
         linkage, values = self._known(top)
         if linkage is None:
             return None
-        pull = Pull.of(linkage, values, point, _coordinate(machine, float(asked["angle"])), locked)
-        self.pulled = key, PulledPoint(pull, np.zeros(len(pull.values)), pull)
-        return self.pulled[1] if pull.values else None
+        driver = _coordinate(resident.samples.machine, float(asked["angle"]))
+        pull = Pull.of(linkage, values, str(asked["point"]), driver, locked)
+        return PulledPoint(pull, np.zeros(len(pull.values)), pull)
+
+    def _load(self, asked: Asked, resident: Resident, top: Node | None, locked: list[Where]) -> PulledLoad | None:
+        samples, name = resident.samples, str(asked["load"])
+        load = next((load for load in samples.machine.applied if load.name == name), None)
+        per = samples.kept.get("arrows of forces")
+        if load is None or per is None:
+            return None
+        free = [value for value in self._loads(top).get(name, ()) if value.where not in locked]
+        angle = np.array([_cycle_angle(samples.machine, float(asked["angle"]))])
+        pull = LoadPull.of(load, free, (angle, motion_at(samples.machine, angle)), per * samples.scale)
+        return PulledLoad(pull, np.zeros(len(pull.values)))
 
     def _recentre(self, grabbed: PulledPoint, changed: Node) -> None:
         """Find anew how the linkage follows the values when they are far from where that was found."""
@@ -219,11 +261,15 @@ class Pulls:
 
 def _coordinate(machine: Machine, degrees: float) -> float:
     """Return the driver's coordinate (rad, or m of a slide) at a cycle angle of the page (degrees)."""
-    angle = np.radians(degrees)
-    if machine.instants:
-        count = machine.cycle_angles.size
-        angle = machine.cycle_angles[round(float(degrees) / 360 * count) % count]
-    return float(machine.angles(np.asarray(angle)))
+    return float(machine.angles(np.asarray(_cycle_angle(machine, degrees))))
+
+
+def _cycle_angle(machine: Machine, degrees: float) -> float:
+    """Return the cycle angle (rad) of one of the page (degrees); of single instants, that of the nearest."""
+    if not machine.instants:
+        return float(np.radians(degrees))
+    count = machine.cycle_angles.size
+    return float(machine.cycle_angles[round(degrees / 360 * count) % count])
 
 
 def _drawn(corners: np.ndarray, end: str) -> str:

@@ -19,6 +19,13 @@ return [left + width / 2, top + height / 2];
 """
 SHADED = "return document.querySelector('.region')?.getBoundingClientRect().width > 20"
 LOCK = "return document.getElementById('f:parameters.BC').parentElement.querySelector('.lock')"
+TIP = """
+const place = pulls.placeOf({ load: arguments[0] });
+if (!place) return null;
+const { x, y } = new DOMPoint(...place).matrixTransform(pulls.svg().getScreenCTM());
+return [x, y];
+"""
+SHOW_LOADS = "document.querySelector('[data-layer=loads]').click()"
 BC, CD = "f:parameters.BC", "f:parameters.CD"
 
 
@@ -118,3 +125,38 @@ def test_a_locked_length_stays_and_the_other_follows(browser: Browser, tmp_path:
         typist.idle()
         assert "BC: 340 mm" in hand.file.read_text(encoding="utf-8")
         assert browser.run(f"{LOCK}.getAttribute('aria-pressed')") == "true"
+
+
+@proof
+def test_the_tip_of_a_load_changes_its_size_and_esc_takes_it_back(browser: Browser, tmp_path: Path) -> None:
+    """Only an arrow that is shown has a tip; it goes with the pointer, and its release is one change."""
+    with hand_on(browser, "slider-crank-02.yaml", tmp_path) as hand:
+        before, values = hand.file.read_text(encoding="utf-8"), hand.values()
+        until(lambda: browser.run("return document.querySelectorAll('[data-layer=loads]').length"))
+        browser.run("moving.seek(90)")
+        assert browser.run(TIP, "P3") is None
+        browser.run(SHOW_LOADS)
+        here = browser.run(TIP, "P3")
+        field = "f:parameters.force.F"
+        assert browser.run(f"return document.getElementById('{field}').parentElement.querySelector('.lock') !== null")
+        hand.press(tuple(here))
+        hand.move((20, 6))
+        until(lambda: {key for key, text in hand.values().items() if text != values[key]} == {field})
+        until(lambda: abs(browser.run(TIP, "P3")[0] - here[0] - 20) < 6)
+        assert browser.run(TIP, "P3")[1] == pytest.approx(here[1], abs=0.5)
+        assert hand.values()[field] in browser.run(TOLD)
+        Typist(browser).press("Escape")
+        hand.release()
+        until(lambda: hand.values() == values)
+        assert browser.run(TIP, "P3") == pytest.approx(here)
+        assert hand.file.read_text(encoding="utf-8") == before
+        hand.press(tuple(here))
+        hand.move((20, 6))
+        until(lambda: hand.values() != values)
+        hand.release()
+        until(lambda: hand.file.read_text(encoding="utf-8") != before)
+        assert hand.file.read_text(encoding="utf-8").replace(f"F: {hand.values()[field]}", "F: 50 N") == before
+        Typist(browser).idle()
+        browser.run("document.getElementById('undo').click()")
+        until(lambda: hand.file.read_text(encoding="utf-8") == before)
+        assert browser.messages() == []

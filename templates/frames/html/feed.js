@@ -36,4 +36,10 @@
       const spot = animation.spots.find((one) => one.name === name);
       return spot && [value(spot.at), -value(spot.at + 1)];
     },
+    // Where the arrow of a load ends, if it is shown.
+    tipAt: (name) => {
+      const arrows = [...drawing.parts[0].element.querySelectorAll('[data-of-layer="loads"]:not([hidden], [display="none"])')];
+      const item = arrows.map((one) => animation.items[one.dataset.i]).find((one) => one.name === name);
+      return item && [value(item.to), -value(item.to + 1)];
+    },
   });

@@ -1,5 +1,5 @@
 "use strict";
-// A padlock at each value that may follow a pulled point: a locked one stays, and another value follows.  Locks are known
+// A padlock at each value that may follow a pulled point or load: a locked one stays, and another value follows.  Locks are known
 // to the browser alone.
 const locks = (() => {
   const KEEP = `reportgen-locks${location.pathname}`, form = document.getElementById("fields");
@@ -33,7 +33,8 @@ const locks = (() => {
   });
   document.addEventListener("forming", ({ detail }) => put(detail));
   document.addEventListener("gripped", ({ detail }) => {
-    places = [...new Map(Object.values(detail.points).flat().map((where) => [JSON.stringify(where), where])).values()];
+    const lists = [...Object.values(detail.points), ...Object.values(detail.loads)];
+    places = [...new Map(lists.flat().map((where) => [JSON.stringify(where), where])).values()];
     put(form);
     fields.keep();
   });

@@ -1,16 +1,17 @@
 "use strict";
-// Points of the machine are pulled with the pointer: the fields that place them follow, and are written when the point is
-// released.  Esc, a second finger and a lost pointer take back.  Which points there are, and their values, is asked of
-// the program.
+// Points of the machine and tips of its loads are pulled with the pointer: the fields that give them follow, and are
+// written at the release.  Esc, a second finger and a lost pointer take back.  What there is, and its values, is asked
+// of the program.
 const pulls = (() => {
   const panel = typeof panels === "undefined" ? undefined : panels[0];
   if (!panel?.root.querySelector('[data-stage="machine"] svg')) return undefined;
   const SLACK = 3, NEAR = 4, FINGER = 24;
   const form = document.getElementById("fields"), words = JSON.parse(document.getElementById("live").textContent).words;
-  let grips = { points: {}, ground: {} }, asked = "", held = null, count = 0;
+  let grips = { points: {}, ground: {}, loads: {} }, asked = "", held = null, count = 0;
 
   const svg = () => panel.root.querySelector('[data-stage="machine"] svg');
   const at = (name) => extended.get(panel.root).spotAt(name) || grips.ground[name];
+  const placeOf = ({ point, load }) => load ? extended.get(panel.root).tipAt(load) : at(point);
   const toDrawing = ({ clientX, clientY }) => {
     const { x, y } = new DOMPoint(clientX, clientY).matrixTransform(svg().getScreenCTM().inverse());
     return [x, y];
@@ -47,7 +48,7 @@ const pulls = (() => {
     asked = of;
     const found = await (await fetch("grips.json", { cache: "no-store" })).json();
     if (asked !== of) return;
-    grips = { points: {}, ground: {}, ...found };
+    grips = { points: {}, ground: {}, loads: {}, ...found };
     mark();
   };
 
@@ -75,14 +76,15 @@ const pulls = (() => {
     return (label.querySelector("code") || label).textContent.trim();
   };
 
-  // The nearest point under a pointer; a finger covers more than a mouse.
+  // The nearest point or tip under a pointer; a finger covers more than a mouse.
   const under = (event) => {
     const [x, y] = toDrawing(event), { a } = svg().getScreenCTM();
     const reach = event.pointerType === "touch" ? Math.max(NEAR, FINGER / a) : NEAR;
     let best = null, least = reach;
-    for (const name of Object.keys(grips.points)) {
-      const place = at(name), off = place ? Math.hypot(x - place[0], y - place[1]) : Infinity;
-      if (off < least) { best = name; least = off; }
+    const all = [...Object.keys(grips.points).map((point) => ({ point })), ...Object.keys(grips.loads).map((load) => ({ load }))];
+    for (const grip of all) {
+      const place = placeOf(grip), off = place ? Math.hypot(x - place[0], y - place[1]) : Infinity;
+      if (off < least) { best = grip; least = off; }
     }
     return best;
   };
@@ -91,18 +93,18 @@ const pulls = (() => {
 
   const press = (event) => {
     if (held || event.button || !svg()?.contains(event.target) || event.target.closest(".handle")) return;
-    const name = under(event);
-    if (!name) return;
+    const grip = under(event);
+    if (!grip) return;
     const playing = panel.playing();
     if (playing) panel.pause();
-    const [x, y] = toDrawing(event), place = at(name);
-    held = { name, playing, id: event.pointerId, from: [event.clientX, event.clientY], off: [place[0] - x, place[1] - y], moved: false, fields: new Set() };
+    const [x, y] = toDrawing(event), place = placeOf(grip);
+    held = { grip, playing, id: event.pointerId, from: [event.clientX, event.clientY], off: [place[0] - x, place[1] - y], moved: false, fields: new Set() };
     ring(place);
   };
   const begin = () => {
     held.moved = true;
     count += 1;
-    held.body = { grab: count, point: held.name, angle: panel.angle(), locked: typeof locks === "undefined" ? [] : locks.places() };
+    held.body = { grab: count, ...held.grip, angle: panel.angle(), locked: typeof locks === "undefined" ? [] : locks.places() };
     drafts.begin();
     panel.root.setPointerCapture(held.id);
     document.body.classList.add("pulling");
@@ -110,8 +112,10 @@ const pulls = (() => {
   };
   const move = (event) => {
     if (!held) {
-      const name = event.pointerType !== "touch" && svg()?.contains(event.target) && !event.target.closest(".handle") && !panel.playing() ? under(event) : null;
-      if (svg()) ring(name && at(name));
+      const grip = event.pointerType !== "touch" && svg()?.contains(event.target) && !event.target.closest(".handle") && !panel.playing() ? under(event) : null;
+      if (!svg()) return;
+      ring(grip && placeOf(grip));
+      svg().classList.toggle("on-tip", Boolean(grip?.load));
       return;
     }
     if (event.pointerId !== held.id) return;
@@ -157,10 +161,10 @@ const pulls = (() => {
   };
   const release = (event) => {
     if (!held || event.pointerId !== held.id) return;
-    const { fields: changed, moved, name } = held;
+    const { fields: changed, moved, grip } = held;
     end();
     if (!moved) {
-      if (event.pointerType === "touch") svg().querySelectorAll(".spot")[extended.get(panel.root).spots().indexOf(name)]?.dispatchEvent(new MouseEvent("click"));
+      if (event.pointerType === "touch") svg().querySelectorAll(".spot")[extended.get(panel.root).spots().indexOf(grip.point)]?.dispatchEvent(new MouseEvent("click"));
       return;
     }
     noClick();
@@ -194,5 +198,5 @@ const pulls = (() => {
     learn();
   });
   learn();
-  return { at, svg, toDrawing, element, noClick, held: () => held !== null };
+  return { at, placeOf, svg, toDrawing, element, noClick, held: () => held !== null };
 })();
