@@ -36,6 +36,8 @@ STYLES, SCRIPTS = ("page.css",), ("page.js", "save.js")
 """Style sheets and scripts that every page has."""
 FEED, GIVES, EXTENDED = "feed.js", "  return { root, own,", "const extended = new Map();"
 """Script that a form needs of each panel, its place in the panel's script, and the line by which panels get it."""
+LOOKS = ("looks.js",)
+"""Script of a page whose rules of style change."""
 MOVING_STYLES, MOVING_SCRIPTS = ("moving.css",), ("labels.js", "moving.js")
 """Styles and scripts for panels."""
 
@@ -126,7 +128,7 @@ def write(
     rules = {"moving": rules_of(panels), "report": written.rules}
     # Rules that change while the page is read are the script's to put in.
     styles += [live.rules] if live else rules.values()
-    scripts = [read(name) for name in (*SCRIPTS, *moving_scripts)]
+    scripts = [read(name) for name in (*SCRIPTS, *(LOOKS if live else ()), *moving_scripts)]
     if live and live.form:
         scripts = [EXTENDED, *(script.replace(GIVES, f"{minified(FEED)}{GIVES}") for script in scripts)]
     scripts += [minified(name) if live.form else read(name) for name in live.scripts] if live else []

@@ -4,14 +4,18 @@ from __future__ import annotations
 
 import math
 import re
+from pathlib import Path
 from typing import Any
 
 import pytest
 
+from reportgen import catalogue
+from reportgen.cases import opener
 from reportgen.drawing import Label
 from reportgen.drawing.label_size import POINT, box
 from reportgen.drawing.style import SMALL
 from reportgen.formula import Symbol
+from reportgen.page.file_watch import edited
 from reportgen.page.svg_elements import Painter, Pens
 from tests.lanes import proof
 from tests.page.browser import Browser
@@ -89,6 +93,20 @@ def test_letters_can_be_read_and_stand_beside_their_own_arrow(name: str, browser
                 labels += [belongs(number, edges, arrows) for number, _, edges in arrows if edges]
         assert sum(labels) >= 0.85 * len(labels), (width, sum(labels), len(labels))
     browser.leave()
+
+
+@proof
+def test_letters_of_a_form_are_measured_in_their_own_font(browser: Browser, tmp_path: Path) -> None:
+    """Also those measured first, before the server has said anything: no label is far from its arrow."""
+    (file := tmp_path / "mine.yaml").write_text(catalogue.sample("shaper", "en"), encoding="utf-8")
+    with edited(file, opener(), "en") as server:
+        browser.show(server.address, width=1280, height=800, still=True)
+        for stages in browser.run(SEEN, [30, 200]):
+            for key, arrows, size in stages:
+                assert size >= READABLE - 0.05, (key, size)
+                for number, ends, edges in arrows:
+                    assert not edges or distance(edges, ends) <= 2 * READABLE, (key, number)
+        browser.leave()
 
 
 @proof

@@ -11,16 +11,7 @@
     document.dispatchEvent(new Event("showing"));
   };
   showing(given.moving);
-  const looks = { moving: new CSSStyleSheet(), report: new CSSStyleSheet() };
   const moves = typeof panels === "undefined" ? [] : panels;
-  document.adoptedStyleSheets = Object.values(looks);
-  // Other rules have the whole page laid out anew, which takes longer than all the rest: the same are left.
-  const ruled = {};
-  const rule = (part, rules) => {
-    if (ruled[part] !== rules) looks[part].replaceSync(rules);
-    ruled[part] = rules;
-  };
-  for (const [part, rules] of Object.entries(given.rules)) rule(part, rules);
 
   // After a page is loaded anew it goes on where it was.
   const KEEP = "reportgen" + location.pathname;
@@ -52,7 +43,7 @@
   const renewMoving = async () => {
     const news = await ask("moving.json");
     if (news.panels.length !== moves.length) return;
-    rule("moving", news.rules);
+    looks.rule("moving", news.rules);
     const place = anchor();
     news.panels.forEach(({ body, data }, index) => moves[index].renew(body, data));
     stay(place);
@@ -61,7 +52,7 @@
     const news = await ask("report.json");
     if (!news.body) return;
     const place = anchor(), folded = [...report.querySelectorAll("details")].map((one) => one.open);
-    rule("report", news.rules);
+    looks.rule("report", news.rules);
     report.innerHTML = news.body;
     document.title = news.title;
     report.querySelectorAll("details").forEach((one, index) => { if (index in folded) one.open = folded[index]; });
