@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from reportgen.base.stable_digits import ALIKE
 from reportgen.document.figure_placement import FigureScenes
 from reportgen.drawing import Content, Diagram, PlottedCurve, Scene, charts
 from reportgen.drawing.geometry import moved
@@ -143,8 +144,12 @@ def energy(report: ReportContext) -> FigureScenes:
     steady = motion.alone
     run, kept = steady.run, _thinned(steady.run)
     low, high = float(run.inertia.min()), float(run.inertia.max())
-    # A loop that would be a dot beside the origin fills the diagram.
-    begin = 0.0 if high - low >= SEEN * high else low - (high - low) / 4
+    span = high - low
+    if span <= ALIKE * high:
+        # At a constant J the loop is upright: the share of T that it covers counts.
+        span = high * (1 - float(run.energy.min()) / float(run.energy.max()))
+    # A loop that would be a dot beside the origin fills the diagram; a single point has its line from the origin.
+    begin = low - span / 4 if ALIKE * high < span < SEEN * high else 0.0
     ends = np.array([begin, high])
     curves: list[Curve] = [(Symbol("T"), run.inertia[kept], run.energy[kept])]
     for id, extreme in (("run.max", steady.fastest), ("run.min", steady.slowest)):
