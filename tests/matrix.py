@@ -49,8 +49,8 @@ CONTENT = {".pdf": b"%PDF-", ".xlsx": b"PK", ".docx": b"PK", ".html": b"<!DOCTYP
     ".eps": b"%!PS-Adobe-3.0 EPSF-3.0",
 }
 """First bytes of each type of file."""
-LONGEST_FORM = 64_000
-"""Largest size (bytes) of a form, of which 4 kB are keys by which a newer form finds unchanged elements."""
+LONGEST_FORM = 70_000
+"""Largest size (bytes) of a form, of which 4 kB are keys by which a newer form finds unchanged elements; Cyrillic has two bytes a letter."""
 MOST = 8
 """Number of cached cases: those of one coursework and its parts."""
 
