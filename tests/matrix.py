@@ -50,7 +50,10 @@ CONTENT = {".pdf": b"%PDF-", ".xlsx": b"PK", ".docx": b"PK", ".html": b"<!DOCTYP
 }
 """First bytes of each type of file."""
 LONGEST_FORM = 70_000
-"""Largest size (bytes) of a form, of which 4 kB are keys by which a newer form finds unchanged elements; Cyrillic has two bytes a letter."""
+"""Largest size (bytes) of a form, of which 4 kB are keys by which a newer form finds unchanged elements.
+
+A letter of the Russian one has two bytes.
+"""
 MOST = 8
 """Number of cached cases: those of one coursework and its parts."""
 
