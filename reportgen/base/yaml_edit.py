@@ -90,7 +90,10 @@ def without(text: str, where: Where) -> str:
             # Nothing is left: an empty list says so, an empty table is an empty key.
             empty = " []" if isinstance(above, SequenceNode) else ""
             key_end = text.rindex(":", 0, above.span[0]) + 1
-            return _agreeing(text[:key_end] + empty + text[content_end(text, above.span[1]) :], wanted)
+            end = content_end(text, above.span[1])
+            if isinstance(above, SequenceNode):
+                end = max(end, content_end(text, ends))
+            return _agreeing(text[:key_end] + empty + text[end:], wanted)
         if head.strip(" -"):
             raise EditError("same_line", place=path_text(where))
         if head.strip() and isinstance(above, MappingNode):

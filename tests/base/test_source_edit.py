@@ -96,6 +96,7 @@ def test_comments_of_an_item_go_with_it() -> None:
     text = "a:\n  - b: 1\n    # c: 2\n  - b: 3\n"
     assert without(text, ("a", 0)) == "a:\n  - b: 3\n"
     assert exchanged(text, ("a",), 0) == "a:\n  - b: 3\n  - b: 1\n    # c: 2\n"
+    assert without("a:\n  - {b: 1}\n    # c: 2\n# end\n", ("a", 0)) == "a: []\n# end\n"
 
 
 def test_entries_in_braces_keep_the_comments_between_them() -> None:
