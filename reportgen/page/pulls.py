@@ -253,6 +253,10 @@ class Pulls:
         linkage, values = placing_values(self._source(changed), self.path, [value.where for value in pull.values])
         if linkage is None or len(values) != len(pull.values):
             return
+        values = tuple(
+            replace(value, typed=replace(value.typed, begun=old.typed.begun))
+            for value, old in zip(values, pull.values, strict=True)
+        )
         # The numbers are typed in whole steps; what was asked for lies between them.
         moved = [value.typed.number + by for value, by in zip(pull.values, grabbed.offsets.tolist(), strict=True)]
         grabbed.pull = replace(pull, linkage=linkage, values=values)
