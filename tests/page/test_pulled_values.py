@@ -20,7 +20,7 @@ from reportgen.page import animation_panel
 from reportgen.page.drag_samples import Resident
 from reportgen.page.edit_session import EditSession
 from reportgen.page.pulled_values import PlacingValue, Pull, TypedNumber, place_of, placing_values
-from reportgen.page.pulls import PulledPoint
+from reportgen.page.pulls import PulledPoint, Pulls
 from tests.lanes import matrix
 
 FOLDER = Path(__file__).parents[2] / "assignments"
@@ -137,6 +137,20 @@ def test_a_value_that_is_pulled_back_is_written_as_it_was_typed(tmp_path: Path, 
         assert dict(grabbed.pull.texts(grabbed.offsets))[place("BC")] == "340.125 mm"
     finally:
         edited.close()
+
+
+def test_a_pull_begins_anew_when_the_file_changes_meanwhile() -> None:
+    file = FOLDER / "four-bar-01.yaml"
+    case, asked = open_case(file), {"grab": 1, "point": "C", "angle": 30.0}
+    first, later = (Resident.of(case, number) for number in (1, 2))
+    assert first is not None
+    assert later is not None
+    pulls = Pulls(file, lambda: later, lambda: None)
+    top = read_source(file).top
+    grabbed = pulls.grabbed(asked, first, top)
+    assert grabbed is not None
+    assert pulls.grabbed(asked, first, top) is grabbed
+    assert pulls.grabbed(asked, later, top) is not grabbed
 
 
 def test_a_released_point_is_one_change(tmp_path: Path) -> None:
