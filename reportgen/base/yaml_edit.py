@@ -222,8 +222,8 @@ def _from_remark(text: str, top: MappingNode, table: MappingNode, rest: Where, v
     if is_flow(text, table):
         return None
     for start, match in _remarks(text, top, table):
-        # What is set aside for another choice is left to that.
-        if match["key"] != rest[0] or unmarked(match[0])[1]:
+        # What is set aside for another choice is left to that; the choice is a key of the table.
+        if match["key"] != rest[0] or table.find(unmarked(match[0])[1].partition(":")[0]):
             continue
         try:
             entry = with_value(match["entry"], rest, value)
