@@ -90,7 +90,10 @@ def without(text: str, where: Where) -> str:
             # Nothing is left: an empty list says so, an empty table is an empty key.
             empty = " []" if isinstance(above, SequenceNode) else ""
             key_end = text.rindex(":", 0, above.span[0]) + 1
-            return _agreeing(text[:key_end] + empty + text[content_end(text, above.span[1]) :], wanted)
+            end = content_end(text, above.span[1])
+            if isinstance(above, SequenceNode):
+                end = max(end, content_end(text, ends))
+            return _agreeing(text[:key_end] + empty + text[end:], wanted)
         if head.strip(" -"):
             raise EditError("same_line", place=path_text(where))
         if head.strip() and isinstance(above, MappingNode):
@@ -219,8 +222,8 @@ def _from_remark(text: str, top: MappingNode, table: MappingNode, rest: Where, v
     if is_flow(text, table):
         return None
     for start, match in _remarks(text, top, table):
-        # What is set aside for another choice is left to that.
-        if match["key"] != rest[0] or unmarked(match[0])[1]:
+        # What is set aside for another choice is left to that; the choice is a key of the table.
+        if match["key"] != rest[0] or table.find(unmarked(match[0])[1].partition(":")[0]):
             continue
         try:
             entry = with_value(match["entry"], rest, value)

@@ -7,7 +7,7 @@ An optional mark (`# F: 500 N  # by: constant`) names the choice that the entry 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -23,7 +23,7 @@ from reportgen.base.yaml_places import (
     unmarked,
     without_in_braces,
 )
-from reportgen.base.yaml_source import MappingNode, Node, Span, plain
+from reportgen.base.yaml_source import MappingNode, Node, SequenceNode, Span, plain
 from reportgen.base.yaml_values import at, flow, path_text, quoted
 
 LONGEST = 3000
@@ -90,6 +90,24 @@ def restored(text: str, where: Where, remark: CommentedEntry, mark: str = "") ->
         changed = "\n".join([f"{bare}{said}{first[len(bare) :]}", *others])
         return _more(text, text[:start] + changed + text[end:], (*where, remark.key), remark.value)
     return with_value(text[:start] + text[end:], (*where, remark.key), remark.value)
+
+
+def renumbered(text: str, where: Where, number: Callable[[int], int | None]) -> str:
+    """Return the text in which what is set aside from the items of a list in brackets follows them.
+
+    `number` returns the new number of an item; None deletes what is set aside from it.
+    """
+    top = read_nodes(text).top
+    listed = at(top, where)
+    if not isinstance(listed, SequenceNode) or not is_flow(text, listed):
+        return text
+    for name, (start, end) in reversed([*_comments(text, top, where)]):
+        place = re.compile(rf"[ ]*#[ \t]?{re.escape(name)}(\d+)(?=\.)").match(text, start, end)
+        if place is None:
+            continue
+        new = number(int(place[1]))
+        text = text[:start] + text[end:] if new is None else f"{text[: place.start(1)]}{new}{text[place.end(1) :]}"
+    return text
 
 
 # --- entries to comments ----------------------------------------------------------------------------------
@@ -247,15 +265,10 @@ def _goes_on(first: str, depth: int) -> bool:
 
 
 def _below(text: str, top: Node | None, where: Where) -> Iterator[CommentedEntry]:
-    """Yield the comments of a table in braces, which are below the line on which the outermost braces end."""
-    outer, depth = _outermost(text, top, (*where, ""))
-    node = at(top, outer)
-    assert node is not None, "its braces have been found"
-    name = "".join(f"{step}." for step in where[len(outer) :])
-    for start, end in _lines(text, line_end(text, content_end(text, node.span[1]))):
+    """Yield the comments of a table in braces."""
+    for name, (start, end) in _comments(text, top, where):
         match = _BEGINS.fullmatch(text[start:end].strip())
-        if match is None or _column(text, start, end) != depth:
-            return
+        assert match is not None, "it is a comment"
         line, mark = unmarked(match["entry"])
         if not line.startswith(name):
             continue
@@ -263,6 +276,18 @@ def _below(text: str, top: Node | None, where: Where) -> Iterator[CommentedEntry
         if isinstance(table, MappingNode) and len(table.entries) == 1:
             key, value = table.entries[0]
             yield CommentedEntry(key.text, value, mark, (start, end), line, False)
+
+
+def _comments(text: str, top: Node | None, where: Where) -> Iterator[tuple[str, Span]]:
+    """Yield the comments below the line on which the outermost braces around a place end, and how those of it begin."""
+    outer, depth = _outermost(text, top, (*where, ""))
+    node = at(top, outer)
+    assert node is not None, "its braces have been found"
+    name = "".join(f"{step}." for step in where[len(outer) :])
+    for start, end in _lines(text, line_end(text, content_end(text, node.span[1]))):
+        if _BEGINS.fullmatch(text[start:end].strip()) is None or _column(text, start, end) != depth:
+            return
+        yield name, (start, end)
 
 
 # --- checking the result ----------------------------------------------------------------------------------

@@ -102,12 +102,17 @@ def understood(source: Source, path: Path) -> tuple[Assignment | None, list[Faul
     return reading.assess(source, path, kinds(), kind)
 
 
+def unchecked(source: Source, path: Path) -> Assignment | None:
+    """Return the assignment of nodes that may fail the checks, without its parts; None if a value is faulty."""
+    return reading.unchecked(source, path, kinds(), kind)
+
+
 def linkage_of(source: Source, path: Path) -> Linkage | None:
     """Return the linkage of nodes that may fail the checks; None if a value is faulty or no machine has these values.
 
     Parameters with a property `linkage` give it at once; of another kind the whole machine is made.
     """
-    assignment = reading.unchecked(source, path, kinds(), kind)
+    assignment = unchecked(source, path)
     if assignment is None:
         return None
     try:
@@ -119,7 +124,7 @@ def linkage_of(source: Source, path: Path) -> Linkage | None:
 
 def machine_of(source: Source, path: Path) -> Machine | None:
     """Return the machine of nodes that may fail the checks; None if a value is faulty or there is no machine."""
-    assignment = reading.unchecked(source, path, kinds(), kind)
+    assignment = unchecked(source, path)
     make = None if assignment is None else getattr(module(assignment.kind), "machine", None)
     try:
         machine: Machine | None = make and make(assignment)

@@ -15,7 +15,6 @@ from typing import Any
 import numpy as np
 
 from reportgen import catalogue
-from reportgen.assignment import Assignment
 from reportgen.base.errors import Where
 from reportgen.base.units import NUMBER
 from reportgen.base.yaml_source import MappingNode, Node, Scalar, SequenceNode, Source
@@ -55,18 +54,11 @@ def owners(machine: Machine, top: MappingNode, source: Source) -> Iterator[tuple
     data = top.find("parameters")
     leaves = _leaves(data[1], ("parameters",)) if data else iter(())
     for (where, scalar), _ in zip(leaves, range(MOST_VALUES), strict=False):
-        if (text := moved(scalar.text)) is None:
-            continue
-        changed = replace(source, top=put(top, where, replace(scalar, text=text)))
-        assignment, faults = catalogue.understood(changed, Path(source.file))
-        if assignment is None or faults:
-            continue
-        yield where, difference(machine, _machine(assignment))
-
-
-def _machine(assignment: Assignment) -> Machine:
-    machine: Machine = catalogue.module(assignment.kind).machine(replace(assignment, parts=()))
-    return machine
+        for text in variations(scalar.text):
+            varied = put(top, where, replace(scalar, text=text))
+            if (changed := catalogue.machine_of(replace(source, top=varied), Path(source.file))) is not None:
+                yield where, difference(machine, changed)
+                break
 
 
 def _leaves(node: Node, where: Where) -> Iterator[tuple[Where, Scalar]]:
@@ -81,13 +73,19 @@ def _leaves(node: Node, where: Where) -> Iterator[tuple[Where, Scalar]]:
                 yield from _leaves(value, (*where, key.text))
 
 
-def moved(text: str) -> str | None:
-    """Return a value larger by a hundredth, in its own unit; None for a text that is not a number."""
+def variations(text: str) -> Iterator[str]:
+    """Yield values a little different from one, in its own unit: the next is for a kind that refuses the first.
+
+    The first is larger by a hundredth, that of a whole number then by one, the last smaller by a hundredth. There are
+    none of a text that is not a number.
+    """
     typed = _NUMBER.fullmatch(text)
     if typed is None:
-        return None
+        return
     number = float(typed[1])
-    return f"{number * SHARE if number else STEP:.9g}{typed[2]}"
+    more = [number + 1] if number.is_integer() else []
+    for new in (number * SHARE, *more, number / SHARE) if number else (STEP, *more, -STEP):
+        yield f"{new:.9g}{typed[2]}"
 
 
 def difference(machine: Machine, changed: Machine) -> ControlledParts:

@@ -37,6 +37,8 @@ ALONG = 0.1
 """Sine of the angle between the ways of a point below which two values move it along one line."""
 ROUNDS, CLOSE = 12, 1e-6
 """Largest number of improvements, and the distance (share of the linkage's size) at which a point has arrived."""
+SAME = 1e-6
+"""Share of a step below which two numbers are equal."""
 MOST_VALUES = 120
 """Largest number of values of a file that are examined."""
 USUAL_SHARES = "0.50", "0.00"
@@ -53,6 +55,8 @@ class TypedNumber:
     decimals: int
     """Decimals of the steps: those typed, but more for a value of few steps, and not more than four figures."""
     unit: str
+    begun: tuple[float, str]
+    """The number with which a pull began, and its text."""
 
     @classmethod
     def of(cls, text: str) -> TypedNumber | None:
@@ -66,7 +70,7 @@ class TypedNumber:
             decimals = min(decimals, max(size + FINEST - 1, 0))
             while abs(number) < FEWEST * 10.0**-decimals:
                 decimals += 1
-        return cls(typed[1] or "", number, decimals, typed[3])
+        return cls(typed[1] or "", number, decimals, typed[3], (number, text))
 
     @property
     def step(self) -> float:
@@ -75,11 +79,16 @@ class TypedNumber:
         return float(10.0**-self.decimals * (5 if large else 1))
 
     def text(self, number: float) -> str:
-        """Return another number in the same form."""
+        """Return a number in the same form; that with which the pull began, as it was typed."""
+        begun, typed = self.begun
+        if abs(number - begun) < SAME * self.step:
+            return typed
         return f"{self.over}{number:.{self.decimals}f}{self.unit}"
 
     def stepped(self, number: float, low: float, high: float) -> float:
-        """Return the number of whole steps within bounds that is nearest to a number."""
+        """Return the number of whole steps within bounds that is nearest to a number, or the first one if it is."""
+        if abs(number - self.begun[0]) < self.step / 2:
+            return self.begun[0]
         whole = round(number / self.step) * self.step
         inward = whole + self.step * ((whole < low) - (whole > high))
         return min(max(inward, low), high)
@@ -306,7 +315,7 @@ def rounded(values: Sequence[Stepped], offsets: np.ndarray) -> np.ndarray:
     """Return the differences [values] of numbers in whole steps within their bounds."""
     steps = [
         value.typed.stepped(value.typed.number + by, value.low, value.high) - value.typed.number
-        if abs(by) >= value.typed.step / 2
+        if abs(by) >= value.typed.step / 2 or value.typed.number != value.typed.begun[0]
         else 0.0
         for value, by in zip(values, offsets.tolist(), strict=True)
     ]

@@ -65,7 +65,7 @@ class Pulls:
     known_of: tuple[Node | None, PlacedBy] | None = None
     loads_of: tuple[Node | None, LoadedBy] | None = None
     pulled: tuple[tuple[Any, ...], PulledPoint | PulledLoad] | None = None
-    """What is pulled, by the number of the pull, the point or load, the place of the driver and what is locked."""
+    """What is pulled, by the number of the pull, the point or load, the driver's place, the locked, the revision."""
     lock: threading.Lock = field(default_factory=threading.Lock)
     grabbing: threading.Lock = field(default_factory=threading.Lock)
     working: bool = False
@@ -215,7 +215,8 @@ class Pulls:
     def grabbed(self, asked: Asked, resident: Resident, top: Node | None) -> PulledPoint | PulledLoad | None:
         """Return the point or load that a page pulls; None if no value that is not locked moves it."""
         locked = [asked_place(where) for where in asked.get("locked", ())]
-        key = asked["grab"], asked.get("point"), asked.get("load"), float(asked["angle"]), tuple(locked)
+        pulled = asked.get("point"), asked.get("load"), float(asked["angle"])
+        key = asked["grab"], *pulled, tuple(locked), resident.number
         if self.pulled is None or self.pulled[0] != key:
             grab = self._load if "load" in asked else self._point
             grabbed = grab(asked, resident, top, locked)
@@ -253,6 +254,10 @@ class Pulls:
         linkage, values = placing_values(self._source(changed), self.path, [value.where for value in pull.values])
         if linkage is None or len(values) != len(pull.values):
             return
+        values = tuple(
+            replace(value, typed=replace(value.typed, begun=old.typed.begun))
+            for value, old in zip(values, pull.values, strict=True)
+        )
         # The numbers are typed in whole steps; what was asked for lies between them.
         moved = [value.typed.number + by for value, by in zip(pull.values, grabbed.offsets.tolist(), strict=True)]
         grabbed.pull = replace(pull, linkage=linkage, values=values)

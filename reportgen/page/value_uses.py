@@ -11,7 +11,7 @@ import numpy as np
 
 from reportgen import catalogue
 from reportgen.assignment import Assignment
-from reportgen.base.errors import Where
+from reportgen.base.errors import ReportgenError, Where
 from reportgen.base.yaml_source import Node, Scalar, Source
 from reportgen.base.yaml_values import at, put
 from reportgen.case import Case
@@ -20,7 +20,7 @@ from reportgen.document.used_symbols import used_symbols
 from reportgen.formula import Chain, refs
 from reportgen.formula.calculation import Family
 from reportgen.formula.plain_text import formula
-from reportgen.page.controlled_parts import moved
+from reportgen.page.controlled_parts import variations
 from reportgen.page.html import CONTENTS_LEVEL
 
 Families = Mapping[str, Family]
@@ -66,23 +66,25 @@ def _placed(blocks: Sequence[Block]) -> Iterator[tuple[int, Section | None, Equa
 def data_of(top: Node, where: Where, path: Path) -> frozenset[str]:
     """Return the ids of the data that change with the value at a place of a valid file."""
     old = at(top, where)
-    text = moved(old.text) if isinstance(old, Scalar) else None
-    if text is None or not isinstance(old, Scalar):
+    if not isinstance(old, Scalar):
         return frozenset()
-    sheets = [_data(nodes, path) for nodes in (top, put(top, where, replace(old, text=text)))]
-    if not all(sheets):
-        return frozenset()
-    before, after = sheets
-    return frozenset(id for id, family in before.items() if id not in after or not _same(family, after[id]))
+    before = _data(top, path)
+    for text in variations(old.text) if before else ():
+        if after := _data(put(top, where, replace(old, text=text)), path):
+            return frozenset(id for id, family in before.items() if id not in after or not _same(family, after[id]))
+    return frozenset()
 
 
 def _data(top: Node, path: Path) -> Families:
-    """Return the data of a file: quantities that no other quantity defines; {} for a faulty one."""
-    assignment, faults = catalogue.understood(Source(str(path), top=top), path)
-    if assignment is None or faults:
+    """Return the data of a file, which may fail the checks: quantities that no other quantity defines; {} for a
+    faulty value.
+    """
+    assignment = catalogue.unchecked(Source(str(path), top=top), path)
+    try:
+        families = {} if assignment is None else _families(assignment)
+    except (ReportgenError, ArithmeticError, ValueError, LookupError, np.linalg.LinAlgError):
         return {}
-    families = _families(replace(assignment, parts=()))
-    return {id: one for id, one in families.items() if one.definition is None or not refs(one.definition)}
+    return {id: family for id, family in families.items() if family.definition is None or not refs(family.definition)}
 
 
 def _families(assignment: Assignment) -> Families:

@@ -77,6 +77,12 @@ def test_what_was_taken_out_comes_back_as_it_was() -> None:
     assert said(without(TEXT, ("parameters", "H")), ("parameters", "H"), "420 mm") == TEXT
 
 
+def test_only_a_choice_of_its_table_keeps_a_comment_aside() -> None:
+    text = "a:\n  by: b\n  # G3: 200 N  # source: book\n  # F: 5 N  # by: c\n"
+    assert said(text, ("a", "G3"), "210 N") == text.replace("# G3: 200", "G3: 210")
+    assert said(text, ("a", "F"), "7 N") == text.replace("by: b\n", "by: b\n  F: 7 N\n")
+
+
 def test_remarks_that_are_set_deeper_stay_with_their_table() -> None:
     """A new section, a new item stand behind them; a remark of the whole file, and a blank line, is no table's."""
     text = "parameters:\n  a: 270 mm\n\n  # G3: 200 N\n\n# end\n"
@@ -96,6 +102,7 @@ def test_comments_of_an_item_go_with_it() -> None:
     text = "a:\n  - b: 1\n    # c: 2\n  - b: 3\n"
     assert without(text, ("a", 0)) == "a:\n  - b: 3\n"
     assert exchanged(text, ("a",), 0) == "a:\n  - b: 3\n  - b: 1\n    # c: 2\n"
+    assert without("a:\n  - {b: 1}\n    # c: 2\n# end\n", ("a", 0)) == "a: []\n# end\n"
 
 
 def test_entries_in_braces_keep_the_comments_between_them() -> None:

@@ -23,7 +23,7 @@ from reportgen import catalogue
 from reportgen.base.yaml_source import MappingNode, Scalar, Source, read_source
 from reportgen.base.yaml_values import at, path_text, put
 from reportgen.cases import open_case, opener
-from reportgen.page.controlled_parts import moved
+from reportgen.page.controlled_parts import variations
 from reportgen.page.drag_samples import Resident
 from reportgen.page.file_watch import edited
 from tests.bench.page import ROOT, browser
@@ -98,7 +98,7 @@ def drawn(file: Path, where: tuple[str, ...], times: int = TIMES) -> Drawn:
     assert resident is not None
     assert isinstance(source.top, MappingNode)
     assert isinstance(old, Scalar)
-    top = put(source.top, where, replace(old, text=moved(old.text) or ""))
+    top = put(source.top, where, replace(old, text=next(variations(old.text))))
     taken, sent = [], b""
     for _ in range(times):
         begun = process_time()
@@ -135,7 +135,7 @@ def felt(driver: Any, name: str, where: tuple[str, ...], times: int = TIMES) -> 
         for _ in range(5):
             sleep(SETTLED)
             old = driver.execute_script("return document.getElementById(arguments[0]).dataset.was", field)
-            typed, shown = driver.execute_async_script(TYPE, field, moved(old))
+            typed, shown = driver.execute_async_script(TYPE, field, next(variations(old)))
             files.append(file.stat().st_ctime_ns / 1e6 - typed)
             machines.append(shown - typed)
         middle, slow = np.quantile(frames, (0.5, 0.95))

@@ -15,7 +15,7 @@ from reportgen.base.yaml_values import at, put
 from reportgen.case import MachineAnalysis
 from reportgen.cases import open_case, opened
 from reportgen.page.animation_panel import PanelWriter
-from reportgen.page.controlled_parts import ControlledParts, moved, owners
+from reportgen.page.controlled_parts import ControlledParts, owners, variations
 from reportgen.page.drag_samples import Resident, tracks
 from reportgen.page.motion_samples import Samples
 from tests.lanes import matrix
@@ -103,4 +103,7 @@ def test_each_value_leads_to_what_it_moves() -> None:
     assert owned["H"] == ControlledParts(bars=(("A", "B"),))
     assert "D" in owned["l3"].points
     assert owned["b"] == owned["F"] == ControlledParts(points=("E",))
-    assert [moved(text) for text in ("1/3.6", "0 mm", "50 mm", "left")] == ["1.01/3.6", "0.5 mm", "50.5 mm", None]
+    assert [next(variations(text), None) for text in ("1/3.6", "0 mm", "50 mm", "left")] == [
+        *("1.01/3.6", "0.5 mm", "50.5 mm"),
+        None,
+    ]

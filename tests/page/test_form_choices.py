@@ -121,6 +121,34 @@ def test_the_first_entry_after_a_dash_is_set_aside_below_the_next(tmp_path: Path
     ]
 
 
+TWO_LOADS = "  loads: [{by: constant, link: 2, at: C, F: 100 N}, {by: constant, link: 3, at: C, F: 7 N}]\n"
+
+
+@pytest.mark.parametrize(
+    ("change", "expected"),
+    [
+        ({"op": "remove", "where": ["parameters", "loads", 0]}, ["7 N"]),
+        ({"op": "remove", "where": ["parameters", "loads", 1]}, ["100 N"]),
+        ({"op": "move", "where": ["parameters", "loads"], "first": 0}, ["7 N", "100 N"]),
+    ],
+)
+@pytest.mark.parametrize("outer", [False, True])
+def test_what_is_set_aside_in_brackets_follows_its_item(
+    tmp_path: Path, change: dict[str, object], expected: list[str], outer: bool
+) -> None:
+    text = f"kind: slider-crank\nparameters: {{{TWO_LOADS.strip()}}}\n" if outer else crank(TWO_LOADS)
+    edited = session(tmp_path / "a.yaml", text)
+    for index in range(2):
+        choose(edited, ("parameters", "loads", index, "by"), "angle")
+    edited.edit(change)
+    for index in range(len(expected)):
+        choose(edited, ("parameters", "loads", index, "by"), "constant")
+    changed = edited.path.read_text(encoding="utf-8")
+    content: object = plain(read_text(changed).top)  # type: ignore[arg-type]
+    assert [load["F"] for load in content["parameters"]["loads"]] == expected  # type: ignore[index]
+    assert "# " not in changed[changed.rindex("loads: ") :], "nothing is left aside"
+
+
 # --- keys with the same meaning -----------------------------------------------------------------------
 
 

@@ -20,6 +20,7 @@ from reportgen.page import animation_panel
 from reportgen.page.drag_samples import Resident
 from reportgen.page.edit_session import EditSession
 from reportgen.page.pulled_values import PlacingValue, Pull, TypedNumber, place_of, placing_values
+from reportgen.page.pulls import PulledPoint, Pulls
 from tests.lanes import matrix
 
 FOLDER = Path(__file__).parents[2] / "assignments"
@@ -113,6 +114,43 @@ def test_values_follow_in_the_steps_of_their_fields(text: str, to: float, writte
     assert typed is not None
     assert typed.text(typed.stepped(to, -1e9, 1e9)) == written
     assert typed.stepped(1e12, -1e9, 500.0) <= 500.0
+
+
+@pytest.mark.parametrize("far", [0.4, 20.0])
+def test_a_value_that_is_pulled_back_is_written_as_it_was_typed(tmp_path: Path, far: float) -> None:
+    """Also from so far that the linkage was made anew on the way."""
+    file = tmp_path / "mine.yaml"
+    text = (FOLDER / "four-bar-01.yaml").read_text(encoding="utf-8")
+    file.write_text(text.replace("BC: 340 mm", "BC: 340.125 mm"), encoding="utf-8")
+    edited = EditSession(partial(open_case, file), "en", path=file)
+    try:
+        edited.renew()
+        resident = edited.pulls.resident()
+        assert resident is not None
+        spot = place_of(resident.samples.machine.linkage, "C", np.radians(30.0)) * resident.samples.scale
+        asked, top = {"grab": 1, "point": "C", "angle": 30.0}, edited.pulls.read()
+        for by in (far, 0.0):
+            edited.pull({**asked, "to": [spot.real + by, -spot.imag - by]})
+        grabbed = edited.pulls.grabbed(asked, resident, top)
+        assert isinstance(grabbed, PulledPoint)
+        assert (grabbed.pull is not grabbed.begun) == (far > 1.0)
+        assert dict(grabbed.pull.texts(grabbed.offsets))[place("BC")] == "340.125 mm"
+    finally:
+        edited.close()
+
+
+def test_a_pull_begins_anew_when_the_file_changes_meanwhile() -> None:
+    file = FOLDER / "four-bar-01.yaml"
+    case, asked = open_case(file), {"grab": 1, "point": "C", "angle": 30.0}
+    first, later = (Resident.of(case, number) for number in (1, 2))
+    assert first is not None
+    assert later is not None
+    pulls = Pulls(file, lambda: later, lambda: None)
+    top = read_source(file).top
+    grabbed = pulls.grabbed(asked, first, top)
+    assert grabbed is not None
+    assert pulls.grabbed(asked, first, top) is grabbed
+    assert pulls.grabbed(asked, later, top) is not grabbed
 
 
 def test_a_released_point_is_one_change(tmp_path: Path) -> None:

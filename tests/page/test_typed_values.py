@@ -11,6 +11,7 @@ from reportgen import catalogue
 from reportgen.base.yaml_source import read_text
 from reportgen.base.yaml_values import at
 from reportgen.page.edit_session import EditSession
+from reportgen.page.text_changes import changed_text
 from tests.page.browser import Browser
 from tests.page.typist import Typist, form_alone, value
 
@@ -25,6 +26,21 @@ def file(tmp_path: Path) -> Path:
 
 def session(file: Path) -> EditSession:
     return EditSession(lambda: pytest.fail("not opened"), "en", path=file)
+
+
+@pytest.mark.parametrize(
+    ("old", "typed", "new"),
+    [
+        ("[ 300 mm,   # measured on site\n  -40 mm ]", "305 mm, -40 mm", "[ 305 mm,   # measured on site\n  -40 mm ]"),
+        ("[ [0, 1],  # low\n  [2, 3] ]", "[0, 1], [2, 4]", "[ [0, 1],  # low\n  [2, 4] ]"),
+        ("\n  - 1  # low\n  - 2  # high", "1, 3", "\n  - 1  # low\n  - 3  # high"),
+        ("[ 1,  2 ]", "1, 2", "[ 1,  2 ]"),
+        ("[ 1,  2 ]", "1, 2, 3", "[1, 2, 3]"),
+    ],
+)
+def test_only_the_items_that_differ_are_written(old: str, typed: str, new: str) -> None:
+    changed = changed_text(f"a: {old}\nb: 1\n", "set", ("a",), {"value": typed, "list": True})
+    assert changed == f"a: {new}\nb: 1\n"
 
 
 @pytest.mark.parametrize(

@@ -48,6 +48,22 @@ def test_the_lines_with_a_value_are_found(kind: str, expected: dict[str, set[str
     assert of_nothing == {"lines": [], "following": 0}
 
 
+@pytest.mark.parametrize(
+    ("kind", "key", "data"),
+    [
+        ("gear-pair", "z1", "gears.z.1"),
+        ("gear-pair", "z2", "gears.z.2"),
+        ("cam", "phases.rise", "cam.phase.rise"),
+        ("cam", "phases.far", "cam.phase.far"),
+    ],
+)
+def test_a_value_is_used_that_a_hundredth_more_makes_faulty(kind: str, key: str, data: str, tmp_path: Path) -> None:
+    """Numbers of teeth are whole, and the phases of a cam make a full turn."""
+    top = read_text(catalogue.sample(kind, "en")).top
+    assert top is not None
+    assert data in data_of(top, ("parameters", *key.split(".")), tmp_path / f"{kind}.yaml")
+
+
 @proof
 def test_a_line_leads_to_its_section_or_page(browser: Browser, tmp_path: Path) -> None:
     file = tmp_path / "shaper.yaml"
