@@ -11,6 +11,7 @@ import datetime
 import hashlib
 import json
 import os
+from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -132,18 +133,39 @@ def _put(site: Site, folder: str, content: bytes | None, when: str) -> None:
     """Write the files of a student with their times, and remove what no longer counts."""
     target = site.folder.handed / folder
     drawn = site.drawn(folder)
-    kept = {upload_name(row): row for row in site.store.uploads(folder) if row.drawn == drawn}
+    rows = site.store.uploads(folder)
+    kept = {upload_name(row): row for row in rows if row.drawn == drawn}
     target.mkdir(parents=True, exist_ok=True)
-    stale = [file for file in target.iterdir() if file.is_file() and file.name not in {*kept, SHEET}]
-    if content is None and (target / SHEET).exists():
+    # Whatever the server did not write itself is an instructor's, or from the command line.
+    stale = [target / name for row in rows if (name := upload_name(row)) not in kept and (target / name).exists()]
+    if content is None and _is_own_sheet(site, folder):
         stale.append(target / SHEET)
     put_set({}, stale)
     for row in kept.values():
         _put_upload(site, row)
     if content is not None:
         if not _is_current(site, folder, when):
+            _put_aside(site, folder, content)
             put_files(target, {SHEET: content})
         _dated(target / SHEET, when)
+
+
+def _is_own_sheet(site: Site, folder: str) -> bool:
+    """Return True if the server wrote the sheet of a student: such a sheet has the time of a save or a hand-in."""
+    try:
+        made = (site.folder.handed / folder / SHEET).stat().st_mtime
+    except OSError:
+        return False
+    times = map(datetime.datetime.fromisoformat, site.store.times(folder))
+    return any(abs(made - at.timestamp()) < 1e-3 for at in times)
+
+
+def _put_aside(site: Site, folder: str, content: bytes) -> None:
+    """Give the sheet that somebody else put into the folder of a student a free name."""
+    sheet: Path = site.folder.handed / folder / SHEET
+    if sheet.exists() and not _is_own_sheet(site, folder) and sheet.read_bytes() != content:
+        names = (sheet.with_stem(f"{sheet.stem}-{number}") for number in count(1))
+        sheet.rename(next(name for name in names if not name.exists()))
 
 
 def _put_upload(site: Site, row: Row[Any]) -> Path:

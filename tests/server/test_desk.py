@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import csv
 import datetime
 import io
@@ -14,6 +15,7 @@ from pathlib import Path
 import pytest
 
 from reportgen.server import database as databases
+from reportgen.server import handed
 from reportgen.server.handed import put_handed_roster
 from tests.server.served import POLICY, Served
 from tests.server.test_same_marks import marked, right_values
@@ -195,6 +197,27 @@ def test_what_waited_when_the_server_ended_is_done_by_the_next(made_class: Path,
         while len(list((again.folder.handed / "S1").iterdir())) < 2 and time.monotonic() < end:
             time.sleep(0.05)
         assert {file.name for file in (again.folder.handed / "S1").iterdir()} == {"answers.xlsx", "00001-a.pdf"}
+
+
+def test_files_that_the_server_did_not_write_stay(served: Served) -> None:
+    student, own = served.person("S1"), served.folder.handed / "S1"
+    own.mkdir(parents=True, exist_ok=True)
+    (own / "answers.xlsx").write_bytes(b"from the command line")
+    (own / "late.pdf").write_bytes(b"from the instructor")
+    asyncio.run(handed.lay_out(served.site, "S1"))
+    assert {file.name for file in own.iterdir()} == {"answers.xlsx", "late.pdf"}
+    student.save({student.places[0]: "1"})
+    for _ in range(2):
+        asyncio.run(handed.lay_out(served.site, "S1"))
+    assert {file.name for file in own.iterdir()} == {"answers.xlsx", "answers-1.xlsx", "late.pdf"}
+    assert (own / "answers-1.xlsx").read_bytes() == b"from the command line"
+    # The server replaces and removes its own sheet.
+    student.save({student.places[0]: "2"})
+    asyncio.run(handed.lay_out(served.site, "S1"))
+    assert len(list(own.iterdir())) == 3
+    served.site.store.change_person("S1", {"drawn": "2"})
+    asyncio.run(handed.lay_out(served.site, "S1"))
+    assert {file.name for file in own.iterdir()} == {"answers-1.xlsx", "late.pdf"}
 
 
 def test_a_time_before_the_last_is_never_on_a_receipt(served: Served, monkeypatch: pytest.MonkeyPatch) -> None:
