@@ -27,7 +27,8 @@ LONGEST = 60
 """Characters of a cell."""
 MOST_UPLOADS = 100
 """Uploads of a student where the policy does not say."""
-TASKS = ("task.pdf", "answers.xlsx", "assignment.yaml", "machine.html")
+DATA = "assignment.yaml"
+TASKS = ("task.pdf", "answers.xlsx", DATA, "machine.html")
 TYPES = {
     ".pdf": "application/pdf",
     ".xlsx": "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet",
@@ -47,8 +48,14 @@ MOVING_POLICY = (
 async def page(request: Request, site: Site, person: Person) -> Response:
     sheet = await sheet_of(site, person.folder, person.drawn)
     state = await run_in_threadpool(state_of, site, person, sheet, 0)
-    tasks = [*TASKS, *(["report.pdf"] if state["self_report"] else [])]
+    tasks = await run_in_threadpool(_tasks, site)
     return site.page(request, "student", person, student=_about(person), sheet=sheet, state=state, tasks=tasks)
+
+
+def _tasks(site: Site) -> list[str]:
+    """Return the names of the files that a student may have. Whoever has the data can compute every answer."""
+    tasks = [name for name in TASKS if name != DATA or site.folder.policy().ask.self_check]
+    return [*tasks, *(["report.pdf"] if site.browser.self_report else [])]
 
 
 def _about(person: Person) -> dict[str, str]:
@@ -290,7 +297,7 @@ async def hand_in(request: Request, site: Site, person: Person) -> Response:
 
 async def own_file(request: Request, site: Site, person: Person) -> Response:
     name = request.path_params["name"]
-    if name not in TASKS and not (name == "report.pdf" and site.browser.self_report):
+    if name not in await run_in_threadpool(_tasks, site):
         raise Refusal("unknown")
     if name == "answers.xlsx":
         rows = await run_in_threadpool(site.store.cells, person.folder, person.drawn)

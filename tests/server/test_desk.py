@@ -174,6 +174,15 @@ def test_the_files_of_a_student_tell_no_answer(served: Served) -> None:
     assert student.get("/me/files/task.pdf").content.startswith(b"%PDF")
 
 
+def test_without_self_check_a_student_does_not_get_the_data(served: Served) -> None:
+    student = served.person("S1")
+    assert "/me/files/assignment.yaml" in student.open("/me").text
+    assert student.get("/me/files/assignment.yaml").status_code == 200
+    policy(served, "self_check: false\n")
+    assert "/me/files/assignment.yaml" not in student.open("/me").text
+    assert student.get("/me/files/assignment.yaml").status_code == 404
+
+
 def test_what_waited_when_the_server_ended_is_done_by_the_next(made_class: Path, tmp_path: Path) -> None:
     with Served.copied(made_class, tmp_path / "class") as served:
         student = served.person("S1")
