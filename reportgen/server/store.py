@@ -252,6 +252,12 @@ class Store:
         with self.database.writing() as writing:
             self._set(writing, name, value)
 
+    def release(self, released: bool) -> None:
+        """Release the marks, or take the release back."""
+        with self.database.writing() as writing:
+            self._set(writing, "released", "yes" if released else "no")
+            self._set(writing, "released_at", writing.at)
+
     def note(self, who: str, what: str, folder: str = "", detail: str = "") -> None:
         """Add a line to the log of the class."""
         with self.database.writing() as writing:

@@ -94,7 +94,7 @@ def state_of(site: Site, person: Person, sheet: dict[str, Any], since: int) -> d
         "closes": None if window.closes is None else window.closes.isoformat(),
         "open": window.closes is None or now <= window.closes,
         "revision": last,
-        "released": site.released,
+        "released": site.shows_result(person),
         "cells": [
             {"id": row.quantity, "position": row.position, "text": row.text, "at": row.at, "revision": row.revision}
             for row in cells
@@ -320,7 +320,7 @@ def sent(content: bytes, name: str, attached: bool = False) -> Response:
 
 
 async def result(request: Request, site: Site, person: Person) -> Response:
-    if not site.released:
+    if not site.shows_result(person):
         raise Refusal("not_released")
     marks = await run_in_threadpool(site.store.marks)
     mark = marks.get(person.folder)
@@ -330,7 +330,7 @@ async def result(request: Request, site: Site, person: Person) -> Response:
 
 
 async def result_file(request: Request, site: Site, person: Person) -> Response:
-    if not site.released:
+    if not site.shows_result(person):
         raise Refusal("not_released")
     name = request.path_params["name"]
     mark = (await run_in_threadpool(site.store.marks)).get(person.folder)

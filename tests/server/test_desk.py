@@ -183,6 +183,27 @@ def test_without_self_check_a_student_does_not_get_the_data(served: Served) -> N
     assert student.get("/me/files/assignment.yaml").status_code == 404
 
 
+def test_who_can_still_hand_in_does_not_see_the_marks(served: Served) -> None:
+    student, late, desk = served.person("S1"), served.person("S2"), served.desk
+    served.site.store.put_marks({name: ("10", {"mark": 10, "files": []}) for name in ("S1", "S2")})
+    desk.post("/desk/students/S2/deadline", {"closes": local(1)})
+    desk.post("/desk/release", {"released": True})
+    assert (student.get("/me/result").status_code, student.json("/me/state")["open"]) == (200, False)
+    assert student.save({student.places[0]: "1"}).json()["error"] == "closed"
+    assert late.save({late.places[0]: "1"}).status_code == 200
+    assert not late.json("/me/state")["released"]
+    for path in ("/me/result", "/me/result/feedback.pdf"):
+        assert late.get(path).json()["error"] == "not_released"
+    policy(served, f"browser: {{closes: {local(1)}}}\n")
+    assert student.get("/me/result").json()["error"] == "not_released"
+    policy(served, f"browser: {{closes: {local(-1)}}}\n")
+    desk.post("/desk/students/S2/deadline", {"closes": None})
+    assert late.json("/me/result")["mark"] == 10
+    policy(served, "")
+    desk.post("/desk/release", {"released": False})
+    assert student.save({student.places[0]: "1"}).status_code == 200
+
+
 def test_what_waited_when_the_server_ended_is_done_by_the_next(made_class: Path, tmp_path: Path) -> None:
     with Served.copied(made_class, tmp_path / "class") as served:
         student = served.person("S1")
