@@ -1,7 +1,7 @@
 """What students hand in as files of the class folder, in `handed/ID/`: the sheet as typed, and the uploads.
 
-`grade` reads the same files. The sheet counts as it was handed in; of a student who handed in and uploaded nothing, the
-cells count as they were saved last.
+`grade` reads the same files. The sheet counts as it was handed in; of a student who neither handed it in nor uploaded
+values, the cells count as they were saved last.
 """
 
 from __future__ import annotations
@@ -29,6 +29,8 @@ if TYPE_CHECKING:
     from reportgen.server.site import Site
 
 SHEET = "answers.xlsx"
+VALUED = frozenset({"queued", "read"})
+"""States of uploads that have values, or may have."""
 _running: set[asyncio.Task[None]] = set()
 """Tasks that are not finished: the loop itself would forget them."""
 
@@ -118,13 +120,17 @@ async def lay_out_all(site: Site) -> None:
 
 
 def counted_cells(store: Store, drawn: str, folder: str) -> tuple[dict[tuple[str, int], str], str]:
-    """Return the cells that count, with their time: those handed in, or without any hand-in those saved."""
+    """Return the cells that count, with their time: those handed in, or without any hand-in those saved.
+
+    Saved cells give way to an upload with values, not to a photo.
+    """
     handin = store.handin(folder, drawn)
     if handin is not None:
         cells = store.cells_at(folder, drawn, handin.revision)
         return {place: text for place, text in cells.items() if text}, handin.at
     rows = store.cells(folder, drawn)
-    if not rows or any(row.drawn == drawn for row in store.uploads(folder)):
+    uploads = (row.state for row in store.uploads(folder) if row.drawn == drawn)
+    if not rows or not VALUED.isdisjoint(uploads):
         return {}, ""
     return {(row.quantity, row.position): row.text for row in rows if row.text}, rows[-1].at
 
@@ -191,7 +197,8 @@ def put_handed_roster(site: Site) -> None:
     rows: list[list[str]] = [[*PERSONAL, HANDED_IN]]
     for student in site.folder.students(site.language):
         figures = table.get(student.folder, {})
-        handed = max(filter(None, (figures.get("handed_in"), figures.get("uploaded"))), default=figures.get("saved"))
+        _, counted = counted_cells(site.store, site.drawn(student.folder), student.folder)
+        handed = max(filter(None, (counted, figures.get("uploaded"))), default=None)
         at = None if handed is None else datetime.datetime.fromisoformat(handed).astimezone().replace(tzinfo=None)
         person = people.get(student.folder)
         if at is not None and due is not None and person is not None and person.closes:

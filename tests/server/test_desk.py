@@ -17,6 +17,7 @@ import pytest
 from reportgen.server import database as databases
 from reportgen.server import handed
 from reportgen.server.handed import put_handed_roster
+from reportgen.server.store import TypedCell, Window
 from tests.server.served import POLICY, Served
 from tests.server.test_same_marks import marked, right_values
 
@@ -202,6 +203,23 @@ def test_who_can_still_hand_in_does_not_see_the_marks(served: Served) -> None:
     policy(served, "")
     desk.post("/desk/release", {"released": False})
     assert student.save({student.places[0]: "1"}).status_code == 200
+
+
+def test_a_photo_does_not_outweigh_saved_cells(served: Served) -> None:
+    store, about = served.site.store, {"drawn": "1", "size": 1, "sha256": "0" * 64}
+    served.folder.add_upload(b"a", "0" * 64)
+    store.add_upload("S1", "upload-01", {**about, "name": "photo.jpg"}, Window(None), None)
+    (saved,) = store.save("S1", "1", [TypedCell("client-01", "v.B", 2, "1")], Window(None))
+    assert handed.counted_cells(store, "1", "S1") == ({}, ""), "it may have values"
+    store.settle_upload(1, "kept", 0, [])
+    assert handed.counted_cells(store, "1", "S1") == ({("v.B", 2): "1"}, saved.at)
+    # What counts was saved after the photo came.
+    put_handed_roster(served.site)
+    rows = list(csv.DictReader(io.StringIO(served.folder.handed_roster.read_text("utf-8-sig"))))
+    local_time = datetime.datetime.fromisoformat(saved.at).astimezone()
+    assert rows[0]["handed_in"] == f"{local_time:%Y-%m-%d %H:%M:%S}"
+    store.settle_upload(1, "read", 3, [])
+    assert handed.counted_cells(store, "1", "S1") == ({}, "")
 
 
 def test_what_waited_when_the_server_ended_is_done_by_the_next(made_class: Path, tmp_path: Path) -> None:
