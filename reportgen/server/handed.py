@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any
 from sqlalchemy import Row
 from starlette.concurrency import run_in_threadpool
 
+from reportgen.base.errors import ReportgenError
 from reportgen.base.files import put_files, put_set
 from reportgen.classes.roster import HANDED_IN, PERSONAL
 from reportgen.server import work_calls
@@ -110,13 +111,19 @@ def _is_current(site: Site, folder: str, when: str) -> bool:
     return abs(made.st_mtime - datetime.datetime.fromisoformat(when).timestamp()) < 1e-3 and made.st_ctime > newest
 
 
-async def lay_out_all(site: Site) -> None:
-    """Write the files of all students, and the times of their hand-ins."""
+async def lay_out_all(site: Site) -> list[str]:
+    """Write the files of all students, and the times of their hand-ins; return what is wrong with single students."""
     people = await run_in_threadpool(site.store.people)
+    problems: list[str] = []
     for folder, row in people.items():
         if row.role == "student":
-            await lay_out(site, folder)
+            try:
+                await lay_out(site, folder)
+            except ReportgenError as error:
+                site.log.error("files of %s not written: %s", folder, error)
+                problems.append(str(error))
     await run_in_threadpool(put_handed_roster, site)
+    return problems
 
 
 def counted_cells(store: Store, drawn: str, folder: str) -> tuple[dict[tuple[str, int], str], str]:

@@ -14,11 +14,13 @@ from pathlib import Path
 
 import pytest
 
+from reportgen.classes.variants import make_variants
 from reportgen.server import database as databases
 from reportgen.server import handed
 from reportgen.server.handed import put_handed_roster
+from reportgen.server.links import DESK
 from reportgen.server.store import TypedCell, Window
-from tests.server.served import POLICY, Served
+from tests.server.served import ADDRESS, POLICY, ROSTER, Served
 from tests.server.test_same_marks import marked, right_values
 
 
@@ -220,6 +222,36 @@ def test_a_photo_does_not_outweigh_saved_cells(served: Served) -> None:
     assert rows[0]["handed_in"] == f"{local_time:%Y-%m-%d %H:%M:%S}"
     store.settle_upload(1, "read", 3, [])
     assert handed.counted_cells(store, "1", "S1") == ({}, "")
+
+
+@pytest.mark.parametrize("text", [None, "kind: slider-crank\n"], ids=["missing", "invalid"])
+def test_one_bad_variant_does_not_stop_the_marking_of_the_others(served: Served, text: str | None) -> None:
+    for folder in ("S1", "S2"):
+        served.person(folder).save(right_values(served, folder))
+    served.folder.assignment("S1").unlink()
+    if text is not None:
+        served.folder.assignment("S1").write_text(text, "utf-8")
+    table = marked(served.desk)
+    assert table["S2"]["mark"] == 10
+    assert any("S1" in problem for problem in table["problems"])
+
+
+def test_who_left_the_class_outside_of_the_server_cannot_sign_in(made_class: Path, tmp_path: Path) -> None:
+    with Served.copied(made_class, tmp_path / "class") as served:
+        gone, off = served.site.link("S1"), served.site.link("S3")
+        folder = served.folder
+    make_variants(folder.spec, folder.roster, folder.variants, language="en", drop=["S1"])
+    folder.roster.write_text("".join(line for line in ROSTER.splitlines(True) if "S3" not in line), "utf-8")
+    with Served.of(tmp_path / "class") as again:
+        assert set(again.site.store.people()) == {DESK, "S2"}
+        for link in (gone, off):
+            assert "/me" not in again.stranger().get(link.removeprefix(ADDRESS)).text
+        assert again.person("S2").places
+    # Who is in the roster again has the old link.
+    folder.roster.write_text(ROSTER, "utf-8")
+    with Served.of(tmp_path / "class") as again:
+        assert set(again.site.store.people()) == {DESK, "S2", "S3"}
+        assert again.site.link("S3") == off
 
 
 def test_what_waited_when_the_server_ended_is_done_by_the_next(made_class: Path, tmp_path: Path) -> None:
