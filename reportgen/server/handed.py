@@ -16,9 +16,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from sqlalchemy import Row
+from sqlalchemy.exc import OperationalError
 from starlette.concurrency import run_in_threadpool
 
-from reportgen.base.errors import ReportgenError
+from reportgen.base.errors import OutputError, ReportgenError
 from reportgen.base.files import put_files, put_set
 from reportgen.classes.roster import HANDED_IN, PERSONAL
 from reportgen.server import work_calls
@@ -32,6 +33,8 @@ if TYPE_CHECKING:
 SHEET = "answers.xlsx"
 VALUED = frozenset({"queued", "read"})
 """States of uploads that have values, or may have."""
+AGAIN = 30.0
+"""Seconds until a file that the disk did not take is written again."""
 _running: set[asyncio.Task[None]] = set()
 """Tasks that are not finished: the loop itself would forget them."""
 
@@ -69,17 +72,36 @@ def lay_out_soon(site: Site, folder: str) -> None:
 
 async def _read(site: Site, row: Row[Any]) -> None:
     try:
-        file = await run_in_threadpool(_put_upload, site, row)
+        while not await _was_read(site, row):
+            await asyncio.sleep(AGAIN)
+    finally:
+        site.reading.discard(row.number)
+
+
+async def _was_read(site: Site, row: Row[Any]) -> bool:
+    """Read an upload; return False if the disk does not take what belongs to it."""
+    state, values, lines = "kept", 0, []
+    try:
+        # The files of the student may be written at the same time.
+        async with _laying(site, row.folder):
+            file = await run_in_threadpool(_put_upload, site, row)
+    except (OSError, OutputError) as error:
+        site.log.error("upload %s not written: %s", row.number, error)
+        if (site.folder.uploads / row.sha256).exists():
+            return False
+    else:
         try:
             state, values, lines = await site.queue.run(
                 work_calls.read_upload, site.folder, row.folder, file, kind="reading"
             )
         except Exception as error:
             site.log.error("upload %s not read: %s", row.number, type(error).__name__, exc_info=error)
-            state, values, lines = "kept", 0, []
+    try:
         await run_in_threadpool(site.store.settle_upload, row.number, state, values, lines)
-    finally:
-        site.reading.discard(row.number)
+    except OperationalError as error:
+        site.log.error("upload %s not settled: %s", row.number, error)
+        return False
+    return True
 
 
 def upload_name(row: Row[Any]) -> str:
@@ -87,9 +109,13 @@ def upload_name(row: Row[Any]) -> str:
     return f"{row.number:05}-{row.name}"
 
 
+def _laying(site: Site, folder: str) -> asyncio.Lock:
+    return site.laying.setdefault(folder, asyncio.Lock())
+
+
 async def lay_out(site: Site, folder: str) -> None:
     """Write the files of one student."""
-    async with site.laying.setdefault(folder, asyncio.Lock()):
+    async with _laying(site, folder):
         cells, when = await run_in_threadpool(counted_cells, site.store, site.drawn(folder), folder)
         content: bytes | None = None
         current = bool(cells) and await run_in_threadpool(lambda: _is_current(site, folder, when))

@@ -11,14 +11,17 @@ import re
 import time
 import zipfile
 from pathlib import Path
+from typing import Any
 
 import pytest
+from sqlalchemy import Row
 
 from reportgen.classes.variants import make_variants
 from reportgen.server import database as databases
 from reportgen.server import handed
 from reportgen.server.handed import put_handed_roster
 from reportgen.server.links import DESK
+from reportgen.server.site import Site
 from reportgen.server.store import TypedCell, Window
 from tests.server.served import ADDRESS, POLICY, ROSTER, Served
 from tests.server.test_same_marks import marked, right_values
@@ -298,6 +301,40 @@ def test_files_that_the_server_did_not_write_stay(served: Served) -> None:
     served.site.store.change_person("S1", {"drawn": "2"})
     asyncio.run(handed.lay_out(served.site, "S1"))
     assert {file.name for file in own.iterdir()} == {"answers-1.xlsx", "late.pdf"}
+
+
+def test_an_upload_that_the_disk_did_not_take_is_read_later(served: Served, monkeypatch: pytest.MonkeyPatch) -> None:
+    student, put = served.person("S1"), handed._put_upload
+    failed, locked = [], []
+
+    def full_once(site: Site, row: Row[Any]) -> Path:
+        locked.append(site.laying["S1"].locked())
+        if not failed:
+            failed.append(row)
+            raise OSError(28, "No space left on device")
+        return put(site, row)
+
+    monkeypatch.setattr(handed, "_put_upload", full_once)
+    monkeypatch.setattr(handed, "AGAIN", 0.01, raising=False)
+    student.upload("photo.jpg", b"a photo")
+    end = time.monotonic() + 10
+    while student.json("/me/state")["uploads"][0]["state"] == "queued" and time.monotonic() < end:
+        time.sleep(0.02)
+    assert student.json("/me/state")["uploads"][0]["state"] == "kept"
+    assert (served.folder.handed / "S1" / "00001-photo.jpg").read_bytes() == b"a photo"
+    assert locked == [True, True]
+
+
+def test_a_receipt_that_was_lost_is_given_again_after_the_deadline(served: Served) -> None:
+    student = served.person("S1")
+    first = student.upload("a.pdf", b"a", "upload-01").json()
+    policy(served, f"browser: {{closes: {local(-1)}}}\n")
+    again = student.upload("a.pdf", b"a", "upload-01")
+    assert again.status_code == 200
+    assert [again.json()[name] for name in ("number", "at", "sha256")] == [
+        first[name] for name in ("number", "at", "sha256")
+    ]
+    assert student.upload("a.pdf", b"a", "upload-02").json()["error"] == "closed"
 
 
 def test_a_time_before_the_last_is_never_on_a_receipt(served: Served, monkeypatch: pytest.MonkeyPatch) -> None:
