@@ -48,10 +48,11 @@ A student
                              "kept" (for the instructor's eyes) | "refused" (damaged), "values": K, "lines": [TEXT],
                              "queue": K}
   POST /me/hand-in           {"client"} → {"at", "filled", "asked", "sha256"}; again until it closes, the last counts
-  GET  /me/files/{name}      task.pdf, answers.xlsx (with the own cells), assignment.yaml, machine.html (the own machine
-                             moving, for a frame with sandbox="allow-scripts"), report.pdf (with self_report)
-  GET  /me/result            after the release: {"mark" (null: no mark, the lines say why), "highest", "points",
-                             "out_of", "lines": [TEXT], "files": [NAME]}
+  GET  /me/files/{name}      task.pdf, answers.xlsx (with the own cells), assignment.yaml (with self_check),
+                             machine.html (the own machine moving, for a frame with sandbox="allow-scripts"),
+                             report.pdf (with self_report)
+  GET  /me/result            after the release, when the own time is over: {"mark" (null: no mark, the lines say why),
+                             "highest", "points", "out_of", "lines": [TEXT], "files": [NAME]}
   GET  /me/result/{name}     feedback.pdf, feedback.xlsx, a marked copy
 
 An instructor

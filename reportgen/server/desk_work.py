@@ -145,7 +145,7 @@ def add_correction(site: Site, row: Mapping[str, str]) -> None:
 async def mark_class(site: Site) -> None:
     """Mark the class as `grade` does, and store the marks."""
     try:
-        await handed.lay_out_all(site)
+        unwritten = await handed.lay_out_all(site)
         people = await run_in_threadpool(site.store.people)
         made = await site.queue.run(work_calls.grade, site.folder, kind="class")
         folders = {folder.casefold(): folder for folder in people}
@@ -155,12 +155,13 @@ async def mark_class(site: Site) -> None:
             if name.casefold() in folders
         }
         await run_in_threadpool(site.store.put_marks, marks)
-        problems = made["problems"]
+        problems = [*dict.fromkeys([*unwritten, *made["problems"]])]
     except ReportgenError as error:
         problems = [str(error)]
     except Exception as error:
         site.log.error("marking failed: %s", type(error).__name__, exc_info=error)
         problems = [type(error).__name__]
+    try:
+        await run_in_threadpool(site.store.put_setting, "problems", json.dumps(problems, ensure_ascii=False))
     finally:
         site.marking = False
-    await run_in_threadpool(site.store.put_setting, "problems", json.dumps(problems, ensure_ascii=False))

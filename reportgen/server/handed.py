@@ -1,7 +1,7 @@
 """What students hand in as files of the class folder, in `handed/ID/`: the sheet as typed, and the uploads.
 
-`grade` reads the same files. The sheet counts as it was handed in; of a student who handed in and uploaded nothing, the
-cells count as they were saved last.
+`grade` reads the same files. The sheet counts as it was handed in; of a student who neither handed it in nor uploaded
+values, the cells count as they were saved last.
 """
 
 from __future__ import annotations
@@ -11,12 +11,15 @@ import datetime
 import hashlib
 import json
 import os
+from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from sqlalchemy import Row
+from sqlalchemy.exc import OperationalError
 from starlette.concurrency import run_in_threadpool
 
+from reportgen.base.errors import OutputError, ReportgenError
 from reportgen.base.files import put_files, put_set
 from reportgen.classes.roster import HANDED_IN, PERSONAL
 from reportgen.server import work_calls
@@ -28,6 +31,10 @@ if TYPE_CHECKING:
     from reportgen.server.site import Site
 
 SHEET = "answers.xlsx"
+VALUED = frozenset({"queued", "read"})
+"""States of uploads that have values, or may have."""
+AGAIN = 30.0
+"""Seconds until a file that the disk did not take is written again."""
 _running: set[asyncio.Task[None]] = set()
 """Tasks that are not finished: the loop itself would forget them."""
 
@@ -65,17 +72,36 @@ def lay_out_soon(site: Site, folder: str) -> None:
 
 async def _read(site: Site, row: Row[Any]) -> None:
     try:
-        file = await run_in_threadpool(_put_upload, site, row)
+        while not await _was_read(site, row):
+            await asyncio.sleep(AGAIN)
+    finally:
+        site.reading.discard(row.number)
+
+
+async def _was_read(site: Site, row: Row[Any]) -> bool:
+    """Read an upload; return False if the disk does not take what belongs to it."""
+    state, values, lines = "kept", 0, []
+    try:
+        # The files of the student may be written at the same time.
+        async with _laying(site, row.folder):
+            file = await run_in_threadpool(_put_upload, site, row)
+    except (OSError, OutputError) as error:
+        site.log.error("upload %s not written: %s", row.number, error)
+        if (site.folder.uploads / row.sha256).exists():
+            return False
+    else:
         try:
             state, values, lines = await site.queue.run(
                 work_calls.read_upload, site.folder, row.folder, file, kind="reading"
             )
         except Exception as error:
             site.log.error("upload %s not read: %s", row.number, type(error).__name__, exc_info=error)
-            state, values, lines = "kept", 0, []
+    try:
         await run_in_threadpool(site.store.settle_upload, row.number, state, values, lines)
-    finally:
-        site.reading.discard(row.number)
+    except OperationalError as error:
+        site.log.error("upload %s not settled: %s", row.number, error)
+        return False
+    return True
 
 
 def upload_name(row: Row[Any]) -> str:
@@ -83,9 +109,13 @@ def upload_name(row: Row[Any]) -> str:
     return f"{row.number:05}-{row.name}"
 
 
+def _laying(site: Site, folder: str) -> asyncio.Lock:
+    return site.laying.setdefault(folder, asyncio.Lock())
+
+
 async def lay_out(site: Site, folder: str) -> None:
     """Write the files of one student."""
-    async with site.laying.setdefault(folder, asyncio.Lock()):
+    async with _laying(site, folder):
         cells, when = await run_in_threadpool(counted_cells, site.store, site.drawn(folder), folder)
         content: bytes | None = None
         current = bool(cells) and await run_in_threadpool(lambda: _is_current(site, folder, when))
@@ -107,23 +137,33 @@ def _is_current(site: Site, folder: str, when: str) -> bool:
     return abs(made.st_mtime - datetime.datetime.fromisoformat(when).timestamp()) < 1e-3 and made.st_ctime > newest
 
 
-async def lay_out_all(site: Site) -> None:
-    """Write the files of all students, and the times of their hand-ins."""
+async def lay_out_all(site: Site) -> list[str]:
+    """Write the files of all students, and the times of their hand-ins; return what is wrong with single students."""
     people = await run_in_threadpool(site.store.people)
+    problems: list[str] = []
     for folder, row in people.items():
         if row.role == "student":
-            await lay_out(site, folder)
+            try:
+                await lay_out(site, folder)
+            except ReportgenError as error:
+                site.log.error("files of %s not written: %s", folder, error)
+                problems.append(str(error))
     await run_in_threadpool(put_handed_roster, site)
+    return problems
 
 
 def counted_cells(store: Store, drawn: str, folder: str) -> tuple[dict[tuple[str, int], str], str]:
-    """Return the cells that count, with their time: those handed in, or without any hand-in those saved."""
+    """Return the cells that count, with their time: those handed in, or without any hand-in those saved.
+
+    Saved cells give way to an upload with values, not to a photo.
+    """
     handin = store.handin(folder, drawn)
     if handin is not None:
         cells = store.cells_at(folder, drawn, handin.revision)
         return {place: text for place, text in cells.items() if text}, handin.at
     rows = store.cells(folder, drawn)
-    if not rows or any(row.drawn == drawn for row in store.uploads(folder)):
+    uploads = (row.state for row in store.uploads(folder) if row.drawn == drawn)
+    if not rows or not VALUED.isdisjoint(uploads):
         return {}, ""
     return {(row.quantity, row.position): row.text for row in rows if row.text}, rows[-1].at
 
@@ -132,18 +172,39 @@ def _put(site: Site, folder: str, content: bytes | None, when: str) -> None:
     """Write the files of a student with their times, and remove what no longer counts."""
     target = site.folder.handed / folder
     drawn = site.drawn(folder)
-    kept = {upload_name(row): row for row in site.store.uploads(folder) if row.drawn == drawn}
+    rows = site.store.uploads(folder)
+    kept = {upload_name(row): row for row in rows if row.drawn == drawn}
     target.mkdir(parents=True, exist_ok=True)
-    stale = [file for file in target.iterdir() if file.is_file() and file.name not in {*kept, SHEET}]
-    if content is None and (target / SHEET).exists():
+    # Whatever the server did not write itself is an instructor's, or from the command line.
+    stale = [target / name for row in rows if (name := upload_name(row)) not in kept and (target / name).exists()]
+    if content is None and _is_own_sheet(site, folder):
         stale.append(target / SHEET)
     put_set({}, stale)
     for row in kept.values():
         _put_upload(site, row)
     if content is not None:
         if not _is_current(site, folder, when):
+            _put_aside(site, folder, content)
             put_files(target, {SHEET: content})
         _dated(target / SHEET, when)
+
+
+def _is_own_sheet(site: Site, folder: str) -> bool:
+    """Return True if the server wrote the sheet of a student: such a sheet has the time of a save or a hand-in."""
+    try:
+        made = (site.folder.handed / folder / SHEET).stat().st_mtime
+    except OSError:
+        return False
+    times = map(datetime.datetime.fromisoformat, site.store.times(folder))
+    return any(abs(made - at.timestamp()) < 1e-3 for at in times)
+
+
+def _put_aside(site: Site, folder: str, content: bytes) -> None:
+    """Give the sheet that somebody else put into the folder of a student a free name."""
+    sheet: Path = site.folder.handed / folder / SHEET
+    if sheet.exists() and not _is_own_sheet(site, folder) and sheet.read_bytes() != content:
+        names = (sheet.with_stem(f"{sheet.stem}-{number}") for number in count(1))
+        sheet.rename(next(name for name in names if not name.exists()))
 
 
 def _put_upload(site: Site, row: Row[Any]) -> Path:
@@ -169,7 +230,8 @@ def put_handed_roster(site: Site) -> None:
     rows: list[list[str]] = [[*PERSONAL, HANDED_IN]]
     for student in site.folder.students(site.language):
         figures = table.get(student.folder, {})
-        handed = max(filter(None, (figures.get("handed_in"), figures.get("uploaded"))), default=figures.get("saved"))
+        _, counted = counted_cells(site.store, site.drawn(student.folder), student.folder)
+        handed = max(filter(None, (counted, figures.get("uploaded"))), default=None)
         at = None if handed is None else datetime.datetime.fromisoformat(handed).astimezone().replace(tzinfo=None)
         person = people.get(student.folder)
         if at is not None and due is not None and person is not None and person.closes:

@@ -181,7 +181,7 @@ async def release(request: Request, site: Site, person: Person) -> Response:
     released = content.get("released")
     if not isinstance(released, bool):
         raise Refusal("malformed")
-    await run_in_threadpool(site.store.put_setting, "released", "yes" if released else "no")
+    await run_in_threadpool(site.store.release, released)
     await _note(site, "release", "", str(released))
     return JSONResponse({"released": released})
 

@@ -4,19 +4,18 @@ from __future__ import annotations
 
 import logging
 import sys
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
 
 import uvicorn
-from sqlalchemy import Row
 
 from reportgen.base.errors import Fault, Location
 from reportgen.base.files import held
 from reportgen.base.units import Language
 from reportgen.base.words import as_error
-from reportgen.classes.roster import RosterEntry
+from reportgen.classes.earlier_draw import read_earlier
+from reportgen.classes.roster import RosterEntry, comparable
 from reportgen.server.app import application
 from reportgen.server.backups import forget
 from reportgen.server.class_folder import ClassFolder
@@ -41,23 +40,32 @@ def open_site(path: Path, base_url: str, queue: Queue | None = None) -> Site:
     known = site.store.everybody()
     if DESK not in known:
         site.links.add(DESK, "instructor", DESK, "")
-    students = site.folder.students(site.language)
-    if any(not site.folder.assignment(student.folder).exists() for student in students if _is_here(student, known)):
+    students = _present(site)
+    if any(not site.folder.assignment(student.folder).exists() for student in students):
         # Somebody was added to the roster.
         from reportgen.server import work
 
         work.draw(site.folder)
     for student in students:
         row, name = known.get(student.folder), student.card.get("name", "")
-        if row is None or (row.name != name and not row.dropped):
+        if row is None or row.name != name or row.dropped:
             site.links.add(student.folder, "student", student.id, name, row.drawn if row else "1")
     return site
 
 
-def _is_here(student: RosterEntry, known: Mapping[str, Row[Any]]) -> bool:
-    """Return True unless a student has left."""
-    row = known.get(student.folder)
-    return row is None or not row.dropped
+def _present(site: Site) -> list[RosterEntry]:
+    """Return the students who have not left, and let no others sign in.
+
+    Who has left is not in the roster any more, or was dropped, here or with `variants`.
+    """
+    dropped = read_earlier(site.folder.variants / "variants.csv", site.language).dropped
+    listed = site.folder.students(site.language)
+    present = [student for student in listed if comparable(student.id) not in dropped]
+    folders = {student.folder for student in present}
+    for folder, row in site.store.people().items():
+        if row.role == "student" and folder not in folders:
+            site.store.change_person(folder, {"dropped": True})
+    return present
 
 
 def desk_link(path: Path, base_url: str) -> str:

@@ -112,11 +112,19 @@ class Site:
         return known[1]
 
     def window(self, person: Person) -> Window:
-        """Return until when a student may work: the own deadline, or that of the class."""
+        """Return until when a student may work: the own deadline, or that of the class, or the release of the marks."""
         if person.closes:
             return Window(datetime.datetime.fromisoformat(person.closes))
         closes = self.browser.closes
-        return Window(None if closes is None else closes.astimezone())
+        if closes is not None:
+            return Window(closes.astimezone())
+        at = self.store.setting("released_at") or self.store.setting("marked_at")
+        return Window(datetime.datetime.fromisoformat(at) if self.released and at else None)
+
+    def shows_result(self, person: Person) -> bool:
+        """Return True if a student may see the marks, and with them right values: whose time is not over may not."""
+        closes = self.window(person).closes
+        return self.released and closes is not None and self.database.clock.now() > closes
 
     def link(self, folder: str) -> str:
         """Return a personal link."""

@@ -102,6 +102,12 @@ class Store:
             rows = connection.execute(select(saves).where(wanted).order_by(saves.c.revision)).all()
         return {(row.quantity, row.position): row.text for row in rows}
 
+    def times(self, folder: str) -> set[str]:
+        """Return the times of all saves and hand-ins of a student."""
+        with self.database.reading() as connection:
+            made = (select(table.c.at).where(table.c.folder == folder) for table in (saves, handins))
+            return {at for statement in made for at in connection.scalars(statement)}
+
     # --- uploads ------------------------------------------------------------------------------------
 
     def add_upload(
@@ -245,6 +251,12 @@ class Store:
     def put_setting(self, name: str, value: str) -> None:
         with self.database.writing() as writing:
             self._set(writing, name, value)
+
+    def release(self, released: bool) -> None:
+        """Release the marks, or take the release back."""
+        with self.database.writing() as writing:
+            self._set(writing, "released", "yes" if released else "no")
+            self._set(writing, "released_at", writing.at)
 
     def note(self, who: str, what: str, folder: str = "", detail: str = "") -> None:
         """Add a line to the log of the class."""

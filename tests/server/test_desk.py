@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import csv
 import datetime
 import io
@@ -10,12 +11,19 @@ import re
 import time
 import zipfile
 from pathlib import Path
+from typing import Any
 
 import pytest
+from sqlalchemy import Row
 
+from reportgen.classes.variants import make_variants
 from reportgen.server import database as databases
+from reportgen.server import handed
 from reportgen.server.handed import put_handed_roster
-from tests.server.served import POLICY, Served
+from reportgen.server.links import DESK
+from reportgen.server.site import Site
+from reportgen.server.store import TypedCell, Window
+from tests.server.served import ADDRESS, POLICY, ROSTER, Served
 from tests.server.test_same_marks import marked, right_values
 
 
@@ -172,6 +180,83 @@ def test_the_files_of_a_student_tell_no_answer(served: Served) -> None:
     assert student.get("/me/files/task.pdf").content.startswith(b"%PDF")
 
 
+def test_without_self_check_a_student_does_not_get_the_data(served: Served) -> None:
+    student = served.person("S1")
+    assert "/me/files/assignment.yaml" in student.open("/me").text
+    assert student.get("/me/files/assignment.yaml").status_code == 200
+    policy(served, "self_check: false\n")
+    assert "/me/files/assignment.yaml" not in student.open("/me").text
+    assert student.get("/me/files/assignment.yaml").status_code == 404
+
+
+def test_who_can_still_hand_in_does_not_see_the_marks(served: Served) -> None:
+    student, late, desk = served.person("S1"), served.person("S2"), served.desk
+    served.site.store.put_marks({name: ("10", {"mark": 10, "files": []}) for name in ("S1", "S2")})
+    desk.post("/desk/students/S2/deadline", {"closes": local(1)})
+    desk.post("/desk/release", {"released": True})
+    assert (student.get("/me/result").status_code, student.json("/me/state")["open"]) == (200, False)
+    assert student.save({student.places[0]: "1"}).json()["error"] == "closed"
+    assert late.save({late.places[0]: "1"}).status_code == 200
+    assert not late.json("/me/state")["released"]
+    for path in ("/me/result", "/me/result/feedback.pdf"):
+        assert late.get(path).json()["error"] == "not_released"
+    policy(served, f"browser: {{closes: {local(1)}}}\n")
+    assert student.get("/me/result").json()["error"] == "not_released"
+    policy(served, f"browser: {{closes: {local(-1)}}}\n")
+    desk.post("/desk/students/S2/deadline", {"closes": None})
+    assert late.json("/me/result")["mark"] == 10
+    policy(served, "")
+    desk.post("/desk/release", {"released": False})
+    assert student.save({student.places[0]: "1"}).status_code == 200
+
+
+def test_a_photo_does_not_outweigh_saved_cells(served: Served) -> None:
+    store, about = served.site.store, {"drawn": "1", "size": 1, "sha256": "0" * 64}
+    served.folder.add_upload(b"a", "0" * 64)
+    store.add_upload("S1", "upload-01", {**about, "name": "photo.jpg"}, Window(None), None)
+    (saved,) = store.save("S1", "1", [TypedCell("client-01", "v.B", 2, "1")], Window(None))
+    assert handed.counted_cells(store, "1", "S1") == ({}, ""), "it may have values"
+    store.settle_upload(1, "kept", 0, [])
+    assert handed.counted_cells(store, "1", "S1") == ({("v.B", 2): "1"}, saved.at)
+    # What counts was saved after the photo came.
+    put_handed_roster(served.site)
+    rows = list(csv.DictReader(io.StringIO(served.folder.handed_roster.read_text("utf-8-sig"))))
+    local_time = datetime.datetime.fromisoformat(saved.at).astimezone()
+    assert rows[0]["handed_in"] == f"{local_time:%Y-%m-%d %H:%M:%S}"
+    store.settle_upload(1, "read", 3, [])
+    assert handed.counted_cells(store, "1", "S1") == ({}, "")
+
+
+@pytest.mark.parametrize("text", [None, "kind: slider-crank\n"], ids=["missing", "invalid"])
+def test_one_bad_variant_does_not_stop_the_marking_of_the_others(served: Served, text: str | None) -> None:
+    for folder in ("S1", "S2"):
+        served.person(folder).save(right_values(served, folder))
+    served.folder.assignment("S1").unlink()
+    if text is not None:
+        served.folder.assignment("S1").write_text(text, "utf-8")
+    table = marked(served.desk)
+    assert table["S2"]["mark"] == 10
+    assert any("S1" in problem for problem in table["problems"])
+
+
+def test_who_left_the_class_outside_of_the_server_cannot_sign_in(made_class: Path, tmp_path: Path) -> None:
+    with Served.copied(made_class, tmp_path / "class") as served:
+        gone, off = served.site.link("S1"), served.site.link("S3")
+        folder = served.folder
+    make_variants(folder.spec, folder.roster, folder.variants, language="en", drop=["S1"])
+    folder.roster.write_text("".join(line for line in ROSTER.splitlines(True) if "S3" not in line), "utf-8")
+    with Served.of(tmp_path / "class") as again:
+        assert set(again.site.store.people()) == {DESK, "S2"}
+        for link in (gone, off):
+            assert "/me" not in again.stranger().get(link.removeprefix(ADDRESS)).text
+        assert again.person("S2").places
+    # Who is in the roster again has the old link.
+    folder.roster.write_text(ROSTER, "utf-8")
+    with Served.of(tmp_path / "class") as again:
+        assert set(again.site.store.people()) == {DESK, "S2", "S3"}
+        assert again.site.link("S3") == off
+
+
 def test_what_waited_when_the_server_ended_is_done_by_the_next(made_class: Path, tmp_path: Path) -> None:
     with Served.copied(made_class, tmp_path / "class") as served:
         student = served.person("S1")
@@ -195,6 +280,61 @@ def test_what_waited_when_the_server_ended_is_done_by_the_next(made_class: Path,
         while len(list((again.folder.handed / "S1").iterdir())) < 2 and time.monotonic() < end:
             time.sleep(0.05)
         assert {file.name for file in (again.folder.handed / "S1").iterdir()} == {"answers.xlsx", "00001-a.pdf"}
+
+
+def test_files_that_the_server_did_not_write_stay(served: Served) -> None:
+    student, own = served.person("S1"), served.folder.handed / "S1"
+    own.mkdir(parents=True, exist_ok=True)
+    (own / "answers.xlsx").write_bytes(b"from the command line")
+    (own / "late.pdf").write_bytes(b"from the instructor")
+    asyncio.run(handed.lay_out(served.site, "S1"))
+    assert {file.name for file in own.iterdir()} == {"answers.xlsx", "late.pdf"}
+    student.save({student.places[0]: "1"})
+    for _ in range(2):
+        asyncio.run(handed.lay_out(served.site, "S1"))
+    assert {file.name for file in own.iterdir()} == {"answers.xlsx", "answers-1.xlsx", "late.pdf"}
+    assert (own / "answers-1.xlsx").read_bytes() == b"from the command line"
+    # The server replaces and removes its own sheet.
+    student.save({student.places[0]: "2"})
+    asyncio.run(handed.lay_out(served.site, "S1"))
+    assert len(list(own.iterdir())) == 3
+    served.site.store.change_person("S1", {"drawn": "2"})
+    asyncio.run(handed.lay_out(served.site, "S1"))
+    assert {file.name for file in own.iterdir()} == {"answers-1.xlsx", "late.pdf"}
+
+
+def test_an_upload_that_the_disk_did_not_take_is_read_later(served: Served, monkeypatch: pytest.MonkeyPatch) -> None:
+    student, put = served.person("S1"), handed._put_upload
+    failed, locked = [], []
+
+    def full_once(site: Site, row: Row[Any]) -> Path:
+        locked.append(site.laying["S1"].locked())
+        if not failed:
+            failed.append(row)
+            raise OSError(28, "No space left on device")
+        return put(site, row)
+
+    monkeypatch.setattr(handed, "_put_upload", full_once)
+    monkeypatch.setattr(handed, "AGAIN", 0.01, raising=False)
+    student.upload("photo.jpg", b"a photo")
+    end = time.monotonic() + 10
+    while student.json("/me/state")["uploads"][0]["state"] == "queued" and time.monotonic() < end:
+        time.sleep(0.02)
+    assert student.json("/me/state")["uploads"][0]["state"] == "kept"
+    assert (served.folder.handed / "S1" / "00001-photo.jpg").read_bytes() == b"a photo"
+    assert locked == [True, True]
+
+
+def test_a_receipt_that_was_lost_is_given_again_after_the_deadline(served: Served) -> None:
+    student = served.person("S1")
+    first = student.upload("a.pdf", b"a", "upload-01").json()
+    policy(served, f"browser: {{closes: {local(-1)}}}\n")
+    again = student.upload("a.pdf", b"a", "upload-01")
+    assert again.status_code == 200
+    assert [again.json()[name] for name in ("number", "at", "sha256")] == [
+        first[name] for name in ("number", "at", "sha256")
+    ]
+    assert student.upload("a.pdf", b"a", "upload-02").json()["error"] == "closed"
 
 
 def test_a_time_before_the_last_is_never_on_a_receipt(served: Served, monkeypatch: pytest.MonkeyPatch) -> None:
