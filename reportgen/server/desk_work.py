@@ -145,9 +145,11 @@ def add_correction(site: Site, row: Mapping[str, str]) -> None:
 async def mark_class(site: Site) -> None:
     """Mark the class as `grade` does, and store the marks."""
     try:
-        await handed.lay_out_all(site)
-        people = await run_in_threadpool(site.store.people)
-        made = await site.queue.run(work_calls.grade, site.folder, kind="class")
+        async with site.changing:
+            # No variant changes between its sheet and its marks.
+            await handed.lay_out_all(site)
+            people = await run_in_threadpool(site.store.people)
+            made = await site.queue.run(work_calls.grade, site.folder, kind="class")
         folders = {folder.casefold(): folder for folder in people}
         marks = {
             folders[name.casefold()]: (str(content.get("mark")), content)
