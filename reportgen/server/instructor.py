@@ -172,6 +172,7 @@ async def link(request: Request, site: Site, person: Person) -> Response:
 async def correct(request: Request, site: Site, person: Person) -> Response:
     student, content = _student(request, site), await json_of(request)
     row = desk_work.correction(student, content, site.database.clock.now())
+    row["value"] = await run_in_threadpool(desk_work.judged_text, site, student, content)
     async with site.changing:
         await run_in_threadpool(desk_work.add_correction, site, row)
     await _note(site, "correct", student.folder, f"{row['quantity']} {row['position']} {row['judgement']}")
