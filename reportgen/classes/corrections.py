@@ -228,7 +228,7 @@ def _other_value(marking: Marking, cells: Iterable[Marked], value: str) -> str |
         if answer is None:
             return "–"
         plain = write(answer.value, None, marking.key.language)
-        if value not in (answer.text.strip(), plain, f"{answer.value:g}"):
+        if value not in (" ".join(answer.text.split()), plain, f"{answer.value:g}"):
             return answer.text.strip()
     return None
 

@@ -74,7 +74,8 @@ An instructor
   POST /desk/students/{folder}/fix      {"yaml": TEXT} → {"folder"} or 400 with "lines": [TEXT]
   POST /desk/students/{folder}/drop     {} → {"folder"}
   POST /desk/students/{folder}/link     {"renew": false} → {"link", "code"}; with true, earlier links end
-  POST /desk/students/{folder}/correct  {"id", "position", "judgement": "right" | "wrong" | NUMBER, "reason", "name"}
+  POST /desk/students/{folder}/correct  {"id", "position", "judgement": "right" | "wrong" | NUMBER, "reason", "name",
+                                        "text": the text judged, if it is shown}
   POST /desk/mark                       {} → {"marking": true}; /desk/table tells when it is done
   POST /desk/release                    {"released": true} → {"released"}
   POST /desk/backup                     {} → {"file": TEXT}

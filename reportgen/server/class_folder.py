@@ -22,7 +22,8 @@ from reportgen.base.files import contents, leads_out, put_file, put_files, put_s
 from reportgen.base.units import Language
 from reportgen.base.words import as_error, language_of
 from reportgen.base.yaml_source import read_source
-from reportgen.classes.roster import PERSONAL, Roster, RosterEntry, read_roster
+from reportgen.classes.earlier_draw import read_earlier
+from reportgen.classes.roster import PERSONAL, Roster, RosterEntry, comparable, read_roster
 from reportgen.classes.variant_spec import read_spec
 from reportgen.marking.marking_policy import Policy, read_policy
 from reportgen.workbook import write_csv
@@ -126,6 +127,16 @@ class ClassFolder:
             except OSError:
                 return ""
         return made.hexdigest()[:32]
+
+    def draws(self, language: Language | None = None) -> dict[str, str]:
+        """Return for each student the number of the redrawn variant, "0" without one, and a hash of the files."""
+        redrawn = read_earlier(self.variants / "variants.csv", language).redrawn
+        made: dict[str, str] = {}
+        for student in self.students(language):
+            files = sorted((self.assignment(student.folder), *self.variants.glob(f"{student.folder}.*.yaml")))
+            hashed = hashlib.sha256(b"\0".join(contents(file) for file in files if file.exists())).hexdigest()
+            made[student.folder] = f"{redrawn.get(comparable(student.id), 0)} {hashed}"
+        return made
 
     def sheet(self, folder: str) -> dict[str, Any] | None:
         """Return the answer sheet of a student's variant for a browser; None if it is not made yet."""

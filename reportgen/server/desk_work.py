@@ -115,8 +115,26 @@ def corrections(site: Site) -> list[dict[str, str]]:
     return [dict(zip(CORRECTED, [*row, *[""] * len(CORRECTED)], strict=False)) for row in rows[1:]]
 
 
+def judged_text(site: Site, student: Row[Any], content: Mapping[str, Any]) -> str:
+    """Return the value that a correction judges, so that it holds for no other; "" if no number can be told.
+
+    It is the text that the page showed, if any. With uploads it is the value that was marked: it may be theirs.
+    """
+    place: tuple[str, int] = content["id"], content["position"]
+    mark: dict[str, Any] = site.store.marks().get(student.folder, {})
+    marked = next((str(text) for id, position, text in mark.get("values", []) if (id, position) == place), "")
+    if marked and any(row.drawn == student.drawn for row in site.store.uploads(student.folder)):
+        return marked
+    verdict = next((rest[0] for id, position, *rest in mark.get("cells", []) if (id, position) == place), "")
+    seen = content.get("text")
+    if seen is None:
+        seen = handed.counted_cells(site.store, student.drawn, student.folder)[0].get(place, "")
+    readable = isinstance(seen, str) and any(sign.isdecimal() for sign in seen) and verdict != "unread"
+    return " ".join(seen[:500].split()) if readable else marked
+
+
 def correction(student: Row[Any], content: Mapping[str, Any], now: datetime.datetime) -> dict[str, str]:
-    """Return a correction as a row; raise `Refusal` for a malformed one."""
+    """Return a correction as a row, without its value; raise `Refusal` for a malformed one."""
     id, position, judgement = content.get("id"), content.get("position"), content.get("judgement")
     reason, name = content.get("reason"), content.get("name")
     texts = (id, reason, name)
@@ -145,9 +163,11 @@ def add_correction(site: Site, row: Mapping[str, str]) -> None:
 async def mark_class(site: Site) -> None:
     """Mark the class as `grade` does, and store the marks."""
     try:
-        unwritten = await handed.lay_out_all(site)
-        people = await run_in_threadpool(site.store.people)
-        made = await site.queue.run(work_calls.grade, site.folder, kind="class")
+        async with site.changing:
+            # No variant changes between its sheet and its marks.
+            unwritten = await handed.lay_out_all(site)
+            people = await run_in_threadpool(site.store.people)
+            made = await site.queue.run(work_calls.grade, site.folder, kind="class")
         folders = {folder.casefold(): folder for folder in people}
         marks = {
             folders[name.casefold()]: (str(content.get("mark")), content)

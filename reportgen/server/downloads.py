@@ -105,7 +105,8 @@ def _zipped(site: Site, name: str) -> Response:
 
 
 async def backup(request: Request, site: Site, person: Person) -> Response:
-    made = await run_in_threadpool(back_up, site.folder, site.folder.server / "backups")
+    async with site.backing_up:
+        made = await run_in_threadpool(back_up, site.folder, site.folder.server / "backups")
     return JSONResponse({"file": made.name})
 
 

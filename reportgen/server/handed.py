@@ -11,6 +11,8 @@ import datetime
 import hashlib
 import json
 import os
+import shutil
+import tempfile
 from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -212,7 +214,16 @@ def _put_upload(site: Site, row: Row[Any]) -> Path:
     target: Path = site.folder.handed / row.folder
     file = target / upload_name(row)
     if not file.exists():
-        put_files(target, {file.name: (site.folder.uploads / row.sha256).read_bytes()})
+        target.mkdir(parents=True, exist_ok=True)
+        handle, part = tempfile.mkstemp(prefix=f"{row.sha256}.", suffix=".part", dir=site.folder.uploads)
+        try:
+            with open(handle, "wb") as copied, open(site.folder.uploads / row.sha256, "rb") as upload:
+                shutil.copyfileobj(upload, copied)
+                copied.flush()
+                os.fsync(handle)
+            os.replace(part, file)
+        finally:
+            Path(part).unlink(missing_ok=True)
     _dated(file, row.at)
     return file
 

@@ -113,17 +113,25 @@ def _moment(text: object) -> datetime.datetime:
 
 
 async def redraw(request: Request, site: Site, person: Person) -> Response:
-    student = _student(request, site)
     async with site.changing:
+        await run_in_threadpool(_match_draw, site, _student(request, site))
+        student = _student(request, site)
         try:
-            await site.queue.run(work_calls.draw, site.folder, [student.id], kind="class")
+            remarks = await site.queue.run(work_calls.draw, site.folder, [student.id], kind="class")
         except ReportgenError as error:
             raise with_lines(error) from None
-        drawn = str(int(student.drawn or "0") + 1)
-        await run_in_threadpool(site.store.change_person, student.folder, {"drawn": drawn})
+        await run_in_threadpool(_match_draw, site, student)
+        if await run_in_threadpool(site.drawn, student.folder) == student.drawn:
+            # The file was edited and is kept.
+            about = [line for line in remarks if str(site.folder.assignment(student.folder)) in line]
+            raise Refusal("malformed", lines=about or remarks)
     await handed.lay_out(site, student.folder)
     await _note(site, "redraw", student.folder)
     return JSONResponse({"folder": student.folder})
+
+
+def _match_draw(site: Site, student: Any) -> None:
+    site.store.match_draw(student, site.folder.draws(site.language)[student.folder])
 
 
 async def fix(request: Request, site: Site, person: Person) -> Response:
@@ -133,6 +141,7 @@ async def fix(request: Request, site: Site, person: Person) -> Response:
         raise Refusal("malformed")
     async with site.changing:
         problems = await site.queue.run(work_calls.fix, site.folder, student.folder, text, kind="class")
+        await run_in_threadpool(_match_draw, site, student)
     if problems:
         raise Refusal("malformed", lines=problems)
     await _note(site, "fix", student.folder)
@@ -163,6 +172,7 @@ async def link(request: Request, site: Site, person: Person) -> Response:
 async def correct(request: Request, site: Site, person: Person) -> Response:
     student, content = _student(request, site), await json_of(request)
     row = desk_work.correction(student, content, site.database.clock.now())
+    row["value"] = await run_in_threadpool(desk_work.judged_text, site, student, content)
     async with site.changing:
         await run_in_threadpool(desk_work.add_correction, site, row)
     await _note(site, "correct", student.folder, f"{row['quantity']} {row['position']} {row['judgement']}")

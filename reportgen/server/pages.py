@@ -44,13 +44,19 @@ def address(name: str) -> str:
     return f"/static/{name}?{hashlib.sha256(content[0]).hexdigest()[:12]}"
 
 
-@cache
 def static(name: str) -> tuple[bytes, str] | None:
     """Return a file that pages load, with its type; None for any other name."""
-    file = _folder() / name
-    if Path(name).name != name or file.suffix not in STATIC or not file.is_file():
-        return None
-    return file.read_bytes(), mimetypes.guess_type(name)[0] or "application/octet-stream"
+    return _static_files().get(name)
+
+
+@cache
+def _static_files() -> Mapping[str, tuple[bytes, str]]:
+    """Return all files that pages load: what strangers ask for is looked up, and never kept."""
+    return {
+        file.name: (file.read_bytes(), mimetypes.guess_type(file.name)[0] or "application/octet-stream")
+        for file in _folder().iterdir()
+        if file.suffix in STATIC and file.is_file()
+    }
 
 
 def _folder() -> Path:

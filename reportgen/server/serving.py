@@ -50,6 +50,11 @@ def open_site(path: Path, base_url: str, queue: Queue | None = None) -> Site:
         row, name = known.get(student.folder), student.card.get("name", "")
         if row is None or row.name != name or row.dropped:
             site.links.add(student.folder, "student", student.id, name, row.drawn if row else "1")
+    draws = site.folder.draws(site.language)
+    for folder, row in site.store.people().items():
+        if folder in draws:
+            # Somebody may have redrawn the variant while nothing served the class.
+            site.store.match_draw(row, draws[folder])
     return site
 
 

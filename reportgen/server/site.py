@@ -64,6 +64,8 @@ class Site:
         """Held while an upload is in memory."""
         self.changing = asyncio.Lock()
         """Held while variants or the roster change."""
+        self.backing_up = asyncio.Lock()
+        """Held while a copy of the class is made."""
         self.log = LOGGER
         self._mistake = ""
         """A mistake in the policy that the log has."""

@@ -200,6 +200,21 @@ class Store:
             writing.execute(update(people).where(people.c.folder == folder).values(**values))
         self.database.people_changes += 1
 
+    def put_draw(self, folder: str, draw: str, drawn: str | None = None) -> None:
+        """Store which variant the files of a student have, and the name of a new one."""
+        with self.database.writing() as writing:
+            self._set(writing, f"redrawn:{folder}", draw)
+            if drawn is not None:
+                writing.execute(update(people).where(people.c.folder == folder).values(drawn=drawn))
+        self.database.people_changes += 1
+
+    def match_draw(self, row: Row[Any], draw: str) -> None:
+        """Give a student's variant a new name if it was redrawn since `put_draw`; an edited file is no new variant."""
+        known = self.setting(f"redrawn:{row.folder}")
+        if known != draw:
+            anew = known and all(was != now for was, now in zip(known.split(), draw.split(), strict=True))
+            self.put_draw(row.folder, draw, str(int(row.drawn or "0") + 1) if anew else None)
+
     def table(self) -> dict[str, dict[str, Any]]:
         """Return figures of each student's variant: the time of the last save, filled cells, hand-in, uploads."""
         table: dict[str, dict[str, Any]] = {}

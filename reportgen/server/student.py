@@ -13,7 +13,7 @@ from sqlalchemy import Row
 from starlette.concurrency import run_in_threadpool
 from starlette.datastructures import UploadFile
 from starlette.requests import Request
-from starlette.responses import JSONResponse, Response
+from starlette.responses import FileResponse, JSONResponse, Response
 
 from reportgen.server import handed, pages, work_calls
 from reportgen.server.class_folder import safe_name
@@ -27,6 +27,8 @@ LONGEST = 60
 """Characters of a cell."""
 MOST_UPLOADS = 100
 """Uploads of a student where the policy does not say."""
+MOST_BYTES = 500_000_000
+"""Bytes of all uploads of a student together."""
 DATA = "assignment.yaml"
 TASKS = ("task.pdf", "answers.xlsx", DATA, "machine.html")
 TYPES = {
@@ -221,9 +223,9 @@ async def check(request: Request, site: Site, person: Person) -> Response:
 
 
 async def upload(request: Request, site: Site, person: Person) -> Response:
+    site.files.count(person.session)
     async with request.form(max_files=1, max_fields=5) as form:
         site.check_token(request, person, form)
-        site.files.count(person.session)
         file, client = form.get("file"), client_of({"client": form.get("client")})
         if not isinstance(file, UploadFile):
             raise Refusal("malformed")
@@ -248,6 +250,8 @@ def _stored(site: Site, person: Person, client: str, name: str, content: bytes) 
         most = MOST_UPLOADS if site.browser.uploads is None else site.browser.uploads
         if len(sent_before) >= most:
             raise UsedUpError
+        if sum(row.size for row in sent_before) + len(content) > MOST_BYTES:
+            raise Refusal("too_large")
         site.folder.add_upload(content, sha256)
         about = {"drawn": person.drawn, "name": name, "size": len(content), "sha256": sha256}
         return site.store.add_upload(person.folder, client, about, site.window(person), most)
@@ -268,11 +272,9 @@ async def uploaded_file(request: Request, site: Site, person: Person) -> Respons
 
 def sent_upload(site: Site, row: Row[Any]) -> Response:
     """Return an uploaded file, to be saved: a browser never shows it as a page."""
-    content = (site.folder.uploads / row.sha256).read_bytes()
-    answer = sent(content, row.name, attached=True)
     # Whatever its name says, nothing in a browser opens it.
-    answer.headers["Content-Type"] = "application/octet-stream"
-    return answer
+    headers = _named(row.name, attached=True)
+    return FileResponse(site.folder.uploads / row.sha256, media_type="application/octet-stream", headers=headers)
 
 
 async def _own_upload(request: Request, site: Site, person: Person) -> Row[Any]:
@@ -314,13 +316,25 @@ async def own_file(request: Request, site: Site, person: Person) -> Response:
 
 def sent(content: bytes, name: str, attached: bool = False) -> Response:
     """Return a file; all but PDF and the moving machine are saved, not shown."""
-    suffix = "." + name.rpartition(".")[2].lower()
+    return Response(content, media_type=_type(name), headers=_named(name, attached))
+
+
+def _type(name: str) -> str:
+    return TYPES.get(_suffix(name), "application/octet-stream")
+
+
+def _suffix(name: str) -> str:
+    return "." + name.rpartition(".")[2].lower()
+
+
+def _named(name: str, attached: bool = False) -> dict[str, str]:
+    suffix = _suffix(name)
     inline = not attached and suffix in (".pdf", ".html")
     how = "inline" if inline else "attachment"
     headers = {"Content-Disposition": f"{how}; filename*=UTF-8''{quote(name, safe='')}"}
     if suffix == ".html" and inline:
         headers |= {"Content-Security-Policy": MOVING_POLICY, "X-Frame-Options": "SAMEORIGIN"}
-    return Response(content, media_type=TYPES.get(suffix, "application/octet-stream"), headers=headers)
+    return headers
 
 
 async def result(request: Request, site: Site, person: Person) -> Response:
@@ -340,4 +354,5 @@ async def result_file(request: Request, site: Site, person: Person) -> Response:
     mark = (await run_in_threadpool(site.store.marks)).get(person.folder)
     if mark is None or name not in mark.get("files", []):
         raise Refusal("unknown")
-    return sent((site.folder.marked / person.folder / name).read_bytes(), name)
+    file = site.folder.marked / person.folder / name
+    return FileResponse(file, media_type=_type(name), headers=_named(name))

@@ -336,6 +336,7 @@ def _marked(marking: Marking, policy: Policy, names: Mapping[str, str]) -> dict[
             [cell.id, cell.position, str(cell.verdict), round(cell.points, 9), round(cell.worth, 9)]
             for cell in marking.cells
         ],
+        "values": [[id, k, " ".join(answer.text.split())] for (id, k), answer in marking.submission.values.items()],
     }
 
 

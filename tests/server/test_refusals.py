@@ -83,6 +83,7 @@ PATHS: dict[str, tuple[int, Try]] = {
     "up from the scripts": (404, lambda served, own: own.get("/static/..%2f..%2fpyproject.toml")),
     "a template": (404, lambda served, own: own.get("/static/base.html.j2")),
     "a folder": (404, lambda served, own: own.get("/static/")),
+    "a script with a long name": (404, lambda served, own: own.get(f"/static/{'x' * 300}.js")),
     "up from the own files": (404, lambda served, own: own.get("/me/files/..%2f..%2froster.csv")),
     "up from the result": (404, lambda served, own: own.get("/me/result/..%2f..%2froster.csv")),
     "up from a student": (404, lambda served, own: served.desk.get("/desk/students/..%2f..%2fetc/file")),

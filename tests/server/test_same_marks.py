@@ -11,6 +11,7 @@ from typing import Any
 from reportgen.classes.class_marking import Graded, grade
 from reportgen.classes.roster import folder_name
 from reportgen.marking.marking_policy import read_policy
+from reportgen.server.desk_work import corrections
 from reportgen.server.serving import make_class
 from reportgen.workbook import write_csv
 from tests.lanes import proof
@@ -113,6 +114,19 @@ def test_a_correction_counts_in_every_later_marking(served: Served) -> None:
     (row,) = desk.json("/desk/students/S1/sheet")["corrections"]
     assert (row["quantity"], row["judgement"], row["judged_by"]) == (place[0], "right", "Dr. Hà")
     assert row["judged_on"]
+
+
+def test_a_correction_is_for_the_value_that_was_judged(served: Served) -> None:
+    student, desk, place = served.person("S1"), served.desk, ("v.B", 0)
+    student.save({**right_values(served, "S1"), place: "-999,5"})
+    made = {"id": place[0], "position": place[1], "judgement": "right", "reason": "misread", "name": "Dr. Hà"}
+    assert desk.post("/desk/students/S1/correct", made).status_code == 200
+    assert [row["value"] for row in corrections(served.site)] == ["-999,5"]
+    full = marked(desk)["S1"]["points"]
+    student.save({place: "-5"})
+    table = marked(desk)
+    assert table["S1"]["points"] < full
+    assert table["problems"]
 
 
 def test_cells_that_were_never_handed_in_count_as_they_were_saved(served: Served) -> None:

@@ -168,7 +168,9 @@ by("mark").addEventListener("click", async () => {
 });
 by("release").addEventListener("click", () => act("/desk/release", { released: !table.released }));
 by("backup").addEventListener("click", async () => {
+  by("backup").disabled = true;
   const answer = await act("/desk/backup", {}, by("backed"));
+  by("backup").disabled = false;
   if (answer) by("backed").textContent = `${answer.file} (${clock()})`;
 });
 by("add").addEventListener("submit", async (event) => {

@@ -96,7 +96,7 @@ dialog.querySelector("form").addEventListener("submit", async (event) => {
   } catch {
     // The name is asked for again.
   }
-  if (await act("correct", { id, position: Number(position), judgement, reason, name }, said)) {
+  if (await act("correct", { id, position: Number(position), judgement, reason, name, text: judged.cells[1].textContent.trim() }, said)) {
     judged.querySelector(".verdict").textContent = `${words.verdicts[judgement]} (${words.at_next_marking})`;
     dialog.close();
   }
