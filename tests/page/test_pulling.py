@@ -128,6 +128,26 @@ def test_a_locked_length_stays_and_the_other_follows(browser: Browser, tmp_path:
 
 
 @proof
+def test_what_is_not_saved_stays_when_a_point_is_pulled(browser: Browser, tmp_path: Path) -> None:
+    """The text typed is neither overwritten by the pull nor deleted when the pull is taken back."""
+    with hand_on(browser, "four-bar-01.yaml", tmp_path) as hand:
+        values = hand.values()
+        edit, refused = hand.session.edit, {"refused": "not now", "revision": 0}
+        hand.session.edit = lambda asked: refused
+        typist = Typist(browser)
+        typist.replace("BC", "34")
+        hand.press(hand.at("C"))
+        hand.move((14, 22))
+        until(lambda: hand.values()[CD] != values[CD])
+        assert hand.values()[BC] == "34"
+        typist.press("Escape")
+        hand.release()
+        until(lambda: hand.values()[CD] == values[CD])
+        assert hand.values()[BC] == "34"
+        hand.session.edit = edit
+
+
+@proof
 def test_the_tip_of_a_load_changes_its_size_and_esc_takes_it_back(browser: Browser, tmp_path: Path) -> None:
     """Only an arrow that is shown has a tip; it goes with the pointer, and its release is one change."""
     with hand_on(browser, "slider-crank-02.yaml", tmp_path) as hand:

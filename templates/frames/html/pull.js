@@ -104,7 +104,9 @@ const pulls = (() => {
   const begin = () => {
     held.moved = true;
     count += 1;
-    held.body = { grab: count, ...held.grip, angle: panel.angle(), locked: typeof locks === "undefined" ? [] : locks.places() };
+    // What is typed and not yet in the file stays as it is typed.
+    const locked = [...typeof locks === "undefined" ? [] : locks.places(), ...drafts.places().map((one) => JSON.parse(one))];
+    held.body = { grab: count, ...held.grip, angle: panel.angle(), locked };
     drafts.begin();
     panel.root.setPointerCapture(held.id);
     document.body.classList.add("pulling");
