@@ -5,6 +5,8 @@ from __future__ import annotations
 import cmath
 import math
 from pathlib import Path
+from threading import Event
+from typing import Any
 
 import pytest
 
@@ -145,6 +147,27 @@ def test_what_is_not_saved_stays_when_a_point_is_pulled(browser: Browser, tmp_pa
         until(lambda: hand.values()[CD] == values[CD])
         assert hand.values()[BC] == "34"
         hand.session.edit = edit
+
+
+@proof
+def test_a_pull_released_before_its_answer_is_written(browser: Browser, tmp_path: Path) -> None:
+    with hand_on(browser, "four-bar-01.yaml", tmp_path) as hand:
+        before, pull, released = hand.file.read_bytes(), hand.session.pull, Event()
+
+        def late(asked: Any) -> Any:
+            released.wait(10.0)
+            return pull(asked)
+
+        hand.session.pull = late
+        hand.press(hand.at("C"))
+        hand.move((24, -18))
+        hand.release()
+        released.set()
+        until(lambda: hand.file.read_bytes() != before)
+        Typist(browser).idle()
+        assert not browser.run("return document.querySelector('.pulled, .pull-ring, .pull-values')")
+        browser.run("document.getElementById('undo').click()")
+        until(lambda: hand.file.read_bytes() == before)
 
 
 @proof

@@ -236,10 +236,14 @@ const fields = (() => {
 
   // While a slider is drawn or a point is pulled, only what moves follows: the newest value is asked for when the last
   // one is there.
-  let wanted = null, asking = false, turn = 0;
-  const ask = async (name, body, took = () => {}) => {
+  let wanted = null, asking = false, turn = 0, answered;
+  const ask = (name, body, took = () => {}) => {
     wanted = { name, body, took, of: turn };
-    if (asking) return;
+    // Settled when there is no more to ask.
+    if (!asking) answered = follow();
+    return answered;
+  };
+  const follow = async () => {
     asking = true;
     while (wanted) {
       const { name, body, took, of } = wanted;
