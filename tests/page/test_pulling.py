@@ -7,12 +7,13 @@ import math
 from pathlib import Path
 from threading import Event
 from typing import Any
+from unittest.mock import Mock
 
 import pytest
 
 from tests.lanes import proof
 from tests.page.browser import Browser
-from tests.page.hand import TOLD, hand_on
+from tests.page.hand import READY, TOLD, hand_on
 from tests.page.typist import Typist, until
 
 KNOB = """
@@ -168,6 +169,23 @@ def test_a_pull_released_before_its_answer_is_written(browser: Browser, tmp_path
         assert not browser.run("return document.querySelector('.pulled, .pull-ring, .pull-values')")
         browser.run("document.getElementById('undo').click()")
         until(lambda: hand.file.read_bytes() == before)
+
+
+@proof
+def test_a_page_loaded_anew_in_the_middle_of_a_pull_writes_nothing(browser: Browser, tmp_path: Path) -> None:
+    with hand_on(browser, "four-bar-01.yaml", tmp_path) as hand:
+        before, values = hand.file.read_bytes(), hand.values()
+        hand.session.edit = asked = Mock(wraps=hand.session.edit)
+        hand.press(hand.at("C"))
+        hand.move((24, -18))
+        until(lambda: hand.values() != values)
+        browser.run("window.old = true; location.reload()")
+        until(lambda: browser.run("return !window.old && document.getElementById('saved') !== null"))
+        until(lambda: browser.run(READY))
+        Typist(browser).idle()
+        assert not asked.called
+        assert hand.values() == values
+        assert hand.file.read_bytes() == before
 
 
 @proof

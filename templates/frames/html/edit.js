@@ -438,6 +438,8 @@ const fields = (() => {
   const resting = async () => { while (sending || Date.now() - last < PAUSE) await new Promise((done) => setTimeout(done, 50)); };
   document.addEventListener("leaving", ({ detail }) => detail.push(resting()));
   addEventListener("pagehide", () => {
+    // What is still pulled is taken back first.
+    document.dispatchEvent(new Event("closing"));
     const { id, selectionStart: from, selectionEnd: to } = form.contains(document.activeElement) ? document.activeElement : {};
     try { sessionStorage.setItem(KEEP, JSON.stringify({ drafts: drafts.kept(), id, from, to })); } catch { /* no memory */ }
     for (const key of drafts.places()) {

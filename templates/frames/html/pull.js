@@ -189,6 +189,7 @@ const pulls = (() => {
   }, true);
   addEventListener("pointerup", release);
   addEventListener("pointercancel", (event) => { if (held && event.pointerId === held.id) cancel(); });
+  document.addEventListener("closing", () => { if (held?.moved) cancel(); });
   addEventListener("keydown", (event) => {
     if (event.key !== "Escape" || !held) return;
     event.preventDefault();
