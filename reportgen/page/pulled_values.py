@@ -220,7 +220,7 @@ class Pull:
 
         It has no values if none can move the point at this place of the driver.
         """
-        free = [value for value in known if point in value.points and value.where not in locked]
+        free = [value for value in known if point in value.points and not is_locked(value.where, locked)]
         for count in sorted({len(value.points) for value in free}):
             alike = tuple(value for value in free if len(value.points) == count)
             ways = cls(linkage, point, driver, alike).ways(np.zeros(len(alike)))
@@ -320,6 +320,11 @@ def rounded(values: Sequence[Stepped], offsets: np.ndarray) -> np.ndarray:
         for value, by in zip(values, offsets.tolist(), strict=True)
     ]
     return np.array(steps)
+
+
+def is_locked(where: Where, locked: Collection[Where]) -> bool:
+    """Return whether a value stays as it is: it, or the list in which it stands, is locked."""
+    return any(where[: len(place)] == place for place in locked)
 
 
 def place_of(linkage: Linkage, point: str, driver: float) -> complex:

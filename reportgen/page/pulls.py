@@ -24,7 +24,7 @@ from reportgen.page.drag_samples import Resident
 from reportgen.page.form_fields import written_at
 from reportgen.page.pull_regions import REACH, Requirement, region
 from reportgen.page.pulled_loads import LoadPull, LoadValue, load_values
-from reportgen.page.pulled_values import FAR, PlacingValue, Pull, placing_values
+from reportgen.page.pulled_values import FAR, PlacingValue, Pull, is_locked, placing_values
 
 MOST_STEPS = 32
 """Largest number of steps of a region in each direction."""
@@ -240,7 +240,7 @@ class Pulls:
         per = samples.kept.get("arrows of forces")
         if load is None or per is None:
             return None
-        free = [value for value in self._loads(top).get(name, ()) if value.where not in locked]
+        free = [value for value in self._loads(top).get(name, ()) if not is_locked(value.where, locked)]
         angle = np.array([_cycle_angle(samples.machine, float(asked["angle"]))])
         pull = LoadPull.of(load, free, (angle, motion_at(samples.machine, angle)), per * samples.scale)
         return PulledLoad(pull, np.zeros(len(pull.values)))

@@ -34,6 +34,7 @@ class Hand:
 
     browser: Browser
     file: Path
+    session: Any
     finger: bool = False
     where: Place = (0.0, 0.0)
 
@@ -93,7 +94,7 @@ def hand_on(browser: Browser, name: str, folder: Path, finger: bool = False) -> 
         browser.command("Emulation.setTouchEmulationEnabled", enabled=finger)
         try:
             until(lambda: browser.run(READY))
-            yield Hand(browser, file, finger)
+            yield Hand(browser, file, server.session, finger)
         finally:
             browser.command("Emulation.setTouchEmulationEnabled", enabled=False)
             browser.leave()

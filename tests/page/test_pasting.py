@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from reportgen import catalogue
+from reportgen.page.edit_session import EditSession
 from tests.lanes import proof
 from tests.page.browser import Browser
 from tests.page.typist import Typist, form_alone, until, value
@@ -68,6 +70,29 @@ def test_pasted_numbers_of_two_readings_are_asked_about_once(browser: Browser, f
         assert browser.run(QUESTION) == []
         browser.run("document.getElementById('undo').click()")
         until(lambda: file.read_text(encoding="utf-8") == begun)
+
+
+@proof
+def test_pasted_cells_are_written_all_or_none(browser: Browser, file: Path) -> None:
+    """What was refused is tried again as one change when the file has changed."""
+    with form_alone(file) as server:
+        session, asked = server.session, []
+        assert isinstance(session, EditSession)
+        edit = session.edit
+
+        def later(body: Any) -> Any:
+            asked.append(body)
+            return edit(body) if len(asked) > 1 else {**session.numbered_form(), "refused": "not now"}
+
+        session.edit = later  # type: ignore[method-assign, assignment]
+        browser.show(server.address, still=True)
+        browser.run(PASTE, CELL, "-2.4\t24\n-2.5\t25\n")
+        until(lambda: browser.run("return document.getElementById('refused').textContent") == "not now")
+        file.write_text("# more\n" + file.read_text(encoding="utf-8"), encoding="utf-8")
+        Typist(browser).idle()
+        assert [(body["op"], len(body["changes"])) for body in asked] == [("set all", 2)] * 2
+        assert value(file, ("indicator", "intake")).split(", ")[1:3] == ["-2.4", "-2.5"]
+        assert value(file, ("indicator", "compression")).split(", ")[1:3] == ["24", "25"]
 
 
 @proof

@@ -46,6 +46,7 @@ FOLLOWING = (
     ("lever-six-bar-01", "F", (), ("EF", "guide")),
     ("linkage-8", "C", (), ("groups.0.lengths.0", "groups.0.lengths.1")),
     ("linkage-8", "C", ("groups.0.lengths.0",), ("groups.0.lengths.1",)),
+    ("linkage-8", "C", ("groups.0.lengths",), ()),
     ("linkage-8", "H", (), ("points.H.at.0", "points.H.at.1")),
     ("linkage-slide", "D", (), ("frame.D.0", "frame.D.1")),
 )

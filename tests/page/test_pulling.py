@@ -5,12 +5,15 @@ from __future__ import annotations
 import cmath
 import math
 from pathlib import Path
+from threading import Event
+from typing import Any
+from unittest.mock import Mock
 
 import pytest
 
 from tests.lanes import proof
 from tests.page.browser import Browser
-from tests.page.hand import TOLD, hand_on
+from tests.page.hand import READY, TOLD, hand_on
 from tests.page.typist import Typist, until
 
 KNOB = """
@@ -125,6 +128,64 @@ def test_a_locked_length_stays_and_the_other_follows(browser: Browser, tmp_path:
         typist.idle()
         assert "BC: 340 mm" in hand.file.read_text(encoding="utf-8")
         assert browser.run(f"{LOCK}.getAttribute('aria-pressed')") == "true"
+
+
+@proof
+def test_what_is_not_saved_stays_when_a_point_is_pulled(browser: Browser, tmp_path: Path) -> None:
+    """The text typed is neither overwritten by the pull nor deleted when the pull is taken back."""
+    with hand_on(browser, "four-bar-01.yaml", tmp_path) as hand:
+        values = hand.values()
+        edit, refused = hand.session.edit, {"refused": "not now", "revision": 0}
+        hand.session.edit = lambda asked: refused
+        typist = Typist(browser)
+        typist.replace("BC", "34")
+        hand.press(hand.at("C"))
+        hand.move((14, 22))
+        until(lambda: hand.values()[CD] != values[CD])
+        assert hand.values()[BC] == "34"
+        typist.press("Escape")
+        hand.release()
+        until(lambda: hand.values()[CD] == values[CD])
+        assert hand.values()[BC] == "34"
+        hand.session.edit = edit
+
+
+@proof
+def test_a_pull_released_before_its_answer_is_written(browser: Browser, tmp_path: Path) -> None:
+    with hand_on(browser, "four-bar-01.yaml", tmp_path) as hand:
+        before, pull, released = hand.file.read_bytes(), hand.session.pull, Event()
+
+        def late(asked: Any) -> Any:
+            released.wait(10.0)
+            return pull(asked)
+
+        hand.session.pull = late
+        hand.press(hand.at("C"))
+        hand.move((24, -18))
+        hand.release()
+        released.set()
+        until(lambda: hand.file.read_bytes() != before)
+        Typist(browser).idle()
+        assert not browser.run("return document.querySelector('.pulled, .pull-ring, .pull-values')")
+        browser.run("document.getElementById('undo').click()")
+        until(lambda: hand.file.read_bytes() == before)
+
+
+@proof
+def test_a_page_loaded_anew_in_the_middle_of_a_pull_writes_nothing(browser: Browser, tmp_path: Path) -> None:
+    with hand_on(browser, "four-bar-01.yaml", tmp_path) as hand:
+        before, values = hand.file.read_bytes(), hand.values()
+        hand.session.edit = asked = Mock(wraps=hand.session.edit)
+        hand.press(hand.at("C"))
+        hand.move((24, -18))
+        until(lambda: hand.values() != values)
+        browser.run("window.old = true; location.reload()")
+        until(lambda: browser.run("return !window.old && document.getElementById('saved') !== null"))
+        until(lambda: browser.run(READY))
+        Typist(browser).idle()
+        assert not asked.called
+        assert hand.values() == values
+        assert hand.file.read_bytes() == before
 
 
 @proof

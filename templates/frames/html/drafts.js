@@ -4,11 +4,11 @@
 // order; sent: what is on its way to the file.  Each bears the typing that it belongs to, which is undone as a whole.
 const drafts = (() => {
   const all = new Map(), page = Math.random().toString(36).slice(2);
-  let file = new Map(), count = 0, sure = () => true;
+  let file = new Map(), count = 0, commits = 0, sure = () => true;
 
-  const typed = (place, text, shown) => {
+  const typed = (place, text, shown, typing = `${page}.${count}`) => {
     const draft = all.get(place) || { base: shown, due: [], sent: null };
-    Object.assign(draft, { text, typing: `${page}.${count}` });
+    Object.assign(draft, { text, typing });
     all.set(place, draft);
     if (isVain(place)) all.delete(place);
   };
@@ -36,7 +36,7 @@ const drafts = (() => {
       all.delete(place);
       return null;
     }
-    due.push({ text, typing });
+    due.push({ text, typing, order: commits += 1 });
     return due.at(-1);
   };
   const send = (place, entry) => {
@@ -87,10 +87,10 @@ const drafts = (() => {
     text: (place) => all.get(place)?.text,
     isOpen: (place) => all.has(place) && !all.get(place).due.length && !all.get(place).sent,
     places: () => [...all.keys()],
-    // What is to be written, [place, entry] each.
-    due: () => [...all].flatMap(([place, { due, refused }]) => (refused ? [] : due.map((entry) => [place, entry]))),
+    // What is to be written, [place, entry] each, in the order in which it was typed.
+    due: () => [...all].flatMap(([place, { due, refused }]) => (refused ? [] : due.map((entry) => [place, entry]))).sort(([, one], [, next]) => one.order - next.order),
     // What outlives a page that is loaded anew.
-    kept: () => [...all].map(([place, { base, text }]) => [place, base, text]),
-    restore: (kept) => kept.forEach(([place, base, text]) => { typed(place, text, base); commit(place); }),
+    kept: () => [...all].map(([place, { base, text, typing }]) => [place, base, text, typing]),
+    restore: (kept) => kept.forEach(([place, base, text, typing]) => { typed(place, text, base, typing); commit(place); }),
   };
 })();

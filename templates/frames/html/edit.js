@@ -174,7 +174,7 @@ const fields = (() => {
       // Beside a field that shows both values there is no more to say.
       notices.say("refused", said.meanwhile !== undefined && drafts.places().some((one) => one === key && ofKey(one)) ? "" : said.refused || "");
       // What waited for another change of the file can be written now.
-      outbox.push(...drafts.due().map(setting));
+      outbox.push(...settings(drafts.due()));
       show();
     }
     sending = false;
@@ -184,13 +184,30 @@ const fields = (() => {
     outbox.push(...changes);
     if (!sending) work = send();
   };
+  const altering = (key, entry) => {
+    const change = drafts.send(key, entry), field = ofKey(key);
+    return change && { where: JSON.parse(key), ...change, ...(field && "list" in field.dataset ? { list: true } : {}) };
+  };
   const setting = ([key, entry]) => ({
     make: () => {
-      const change = drafts.send(key, entry), field = ofKey(key);
-      return change && { op: "set", where: JSON.parse(key), ...change, ...(field && "list" in field.dataset ? { list: true } : {}) };
+      const change = altering(key, entry);
+      return change && { op: "set", ...change };
     },
     done: ({ refused, written: there }) => (refused ? drafts.unwritten(key) : drafts.written(key, there)),
   });
+  // What belongs together is written, and undone, as one change, or not at all.
+  const together = (due) => {
+    let sent = [];
+    return {
+      make: () => {
+        if (due.some(([key]) => drafts.conflict(key))) return null;
+        sent = due.map(([key, entry]) => [key, altering(key, entry)]).filter(([, change]) => change);
+        return sent.length && { op: "set all", typing: sent[0][1].typing, changes: sent.map(([, change]) => change) };
+      },
+      done: ({ refused, written: there }) => sent.forEach(([key], index) => (refused ? drafts.unwritten(key) : drafts.written(key, there[index]))),
+    };
+  };
+  const settings = (due) => [...Map.groupBy(due, ([, { typing }]) => typing).values()].map((all) => all.length > 1 ? together(all) : setting(all[0]));
   // What changes which fields there are is asked for by what is shown: a second click before the answer is no second change.
   const build = (make, done = () => {}) => {
     if (building) return;
@@ -219,10 +236,14 @@ const fields = (() => {
 
   // While a slider is drawn or a point is pulled, only what moves follows: the newest value is asked for when the last
   // one is there.
-  let wanted = null, asking = false, turn = 0;
-  const ask = async (name, body, took = () => {}) => {
+  let wanted = null, asking = false, turn = 0, answered;
+  const ask = (name, body, took = () => {}) => {
     wanted = { name, body, took, of: turn };
-    if (asking) return;
+    // Settled when there is no more to ask.
+    if (!asking) answered = follow();
+    return answered;
+  };
+  const follow = async () => {
     asking = true;
     while (wanted) {
       const { name, body, took, of } = wanted;
@@ -258,19 +279,9 @@ const fields = (() => {
     extended.get(machine.root).feed(new Float32Array(0), { bodies: {}, runs: [] });
     show();
   };
-  // What belongs together is written, and undone, as one change.
   const commitAll = (list) => {
-    const entries = list.map((field) => [field, drafts.commit(field.dataset.w)]).filter(([, entry]) => entry);
-    let sent = [];
-    if (entries.length) push({
-      make: () => {
-        sent = entries.map(([field, entry]) => [field, drafts.send(field.dataset.w, entry)]).filter(([, change]) => change);
-        const changes = sent.map(([field, change]) => ({ where: place(field), ...change, ...("list" in field.dataset ? { list: true } : {}) }));
-        return changes.length && { op: "set all", typing: changes[0].typing, changes };
-      },
-      done: ({ refused, written: there }) => sent.forEach(([{ dataset }], index) => (
-        refused ? drafts.unwritten(dataset.w) : drafts.written(dataset.w, there[index]))),
-    });
+    const due = list.map(({ dataset }) => [dataset.w, drafts.commit(dataset.w)]).filter(([, entry]) => entry);
+    if (due.length) push(together(due));
   };
 
   // --- what is done
@@ -348,7 +359,7 @@ const fields = (() => {
       drafts.typed(...change);
       drafts.commit(change[0]);
     }
-    push(...drafts.due().map(setting), { make: () => { notices.say("refused", said); show(); return null; } });
+    push(...settings(drafts.due()), { make: () => { if (said) notices.say("refused", said); show(); return null; } });
   };
   const reach = (field) => {
     for (let node = field.closest("details"); node; node = node.parentElement.closest("details")) node.open = true;
@@ -373,7 +384,7 @@ const fields = (() => {
       notices.say("refused");
       if (data.settle === "mine") {
         drafts.keepMine(data.of);
-        push(...drafts.due().map(setting));
+        push(...settings(drafts.due()));
       } else drafts.drop(data.of);
       ofKey(data.of)?.focus();
       show();
@@ -413,7 +424,7 @@ const fields = (() => {
     // What was refused was so in an older file.
     if (revision !== before) notices.say("refused");
     show();
-    push(...drafts.due().map(setting));
+    push(...settings(drafts.due()));
     document.dispatchEvent(new Event("redrawn"));
   });
 
@@ -427,6 +438,8 @@ const fields = (() => {
   const resting = async () => { while (sending || Date.now() - last < PAUSE) await new Promise((done) => setTimeout(done, 50)); };
   document.addEventListener("leaving", ({ detail }) => detail.push(resting()));
   addEventListener("pagehide", () => {
+    // What is still pulled is taken back first.
+    document.dispatchEvent(new Event("closing"));
     const { id, selectionStart: from, selectionEnd: to } = form.contains(document.activeElement) ? document.activeElement : {};
     try { sessionStorage.setItem(KEEP, JSON.stringify({ drafts: drafts.kept(), id, from, to })); } catch { /* no memory */ }
     for (const key of drafts.places()) {
@@ -452,6 +465,6 @@ const fields = (() => {
     machine.hold(true);
     document.body.classList.add("kept");
   }
-  push(...drafts.due().map(setting));
+  push(...settings(drafts.due()));
   return { keep, byPlace, reach, build, type, ask, takeBack, commitAll };
 })();

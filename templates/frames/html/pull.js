@@ -104,7 +104,9 @@ const pulls = (() => {
   const begin = () => {
     held.moved = true;
     count += 1;
-    held.body = { grab: count, ...held.grip, angle: panel.angle(), locked: typeof locks === "undefined" ? [] : locks.places() };
+    // What is typed and not yet in the file stays as it is typed.
+    const locked = [...typeof locks === "undefined" ? [] : locks.places(), ...drafts.places().map((one) => JSON.parse(one))];
+    held.body = { grab: count, ...held.grip, angle: panel.angle(), locked };
     drafts.begin();
     panel.root.setPointerCapture(held.id);
     document.body.classList.add("pulling");
@@ -122,20 +124,21 @@ const pulls = (() => {
     if (!held.moved && Math.hypot(event.clientX - held.from[0], event.clientY - held.from[1]) < SLACK) return;
     if (!held.moved) begin();
     const [x, y] = toDrawing(event), mine = held;
-    fields.ask("pull.json", { ...mine.body, to: [x + mine.off[0], y + mine.off[1]] }, ({ values, at: place }) => {
-      if (held !== mine) return;
-      if (place) ring(place);
-      document.body.classList.toggle("pull-stopped", !place);
+    mine.answered = fields.ask("pull.json", { ...mine.body, to: [x + mine.off[0], y + mine.off[1]] }, ({ values, at: place }) => {
+      // The last answer may come after the release.
+      if (held !== mine && !mine.released) return;
+      if (place && !mine.released) ring(place);
+      if (!mine.released) document.body.classList.toggle("pull-stopped", !place);
       for (const [where, text] of values) {
         const field = fieldOf(where);
         if (!field || field.value === text) continue;
         fields.type(field, text);
         mine.fields.add(field);
-        field.closest(".field").classList.add("pulled");
+        field.closest(".field").classList.toggle("pulled", !mine.released);
         const bar = field.closest(".field").querySelector("input[type=range]");
         if (bar) bar.value = parseFloat(text.split("/").pop());
       }
-      say([...mine.fields].map((field) => `${named(field)}: ${field.value}`).join(" · ") || (place ? "" : words.pull_none));
+      if (!mine.released) say([...mine.fields].map((field) => `${named(field)}: ${field.value}`).join(" · ") || (place ? "" : words.pull_none));
     });
   };
   const end = () => {
@@ -161,14 +164,15 @@ const pulls = (() => {
   };
   const release = (event) => {
     if (!held || event.pointerId !== held.id) return;
-    const { fields: changed, moved, grip } = held;
+    const mine = held, { moved, grip } = mine;
+    mine.released = moved;
     end();
     if (!moved) {
       if (event.pointerType === "touch") svg().querySelectorAll(".spot")[extended.get(panel.root).spots().indexOf(grip.point)]?.dispatchEvent(new MouseEvent("click"));
       return;
     }
     noClick();
-    fields.commitAll([...changed]);
+    mine.answered?.then(() => fields.commitAll([...mine.fields]));
   };
   // A finger that comes down beside a point pulls it, and does not move the page.
   panel.root.addEventListener("touchstart", (event) => {
@@ -185,6 +189,7 @@ const pulls = (() => {
   }, true);
   addEventListener("pointerup", release);
   addEventListener("pointercancel", (event) => { if (held && event.pointerId === held.id) cancel(); });
+  document.addEventListener("closing", () => { if (held?.moved) cancel(); });
   addEventListener("keydown", (event) => {
     if (event.key !== "Escape" || !held) return;
     event.preventDefault();
