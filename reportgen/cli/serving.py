@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import os
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Annotated
@@ -49,7 +52,7 @@ def serve(
     from reportgen.server.class_folder import ClassFolder
 
     address = base_url or f"http://{host}:{port}"
-    with ending(lang):
+    with ending(lang), _private():
         if backup is not None:
             print(backups.back_up(ClassFolder(folder), backup))
             return
@@ -66,6 +69,16 @@ def serve(
             print(serving.desk_link(folder, address))
             return
         serving.run(folder, address, host, port, lambda link: print(link, flush=True))
+
+
+@contextmanager
+def _private() -> Iterator[None]:
+    """Make all files for their owner alone: they name students and have their work."""
+    before = os.umask(0o077)
+    try:
+        yield
+    finally:
+        os.umask(before)
 
 
 def _confirmed(question: str) -> bool:

@@ -10,7 +10,7 @@ import datetime
 import os
 import threading
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
@@ -67,12 +67,16 @@ class Database:
 
     def __init__(self, folder: Path) -> None:
         folder.mkdir(parents=True, exist_ok=True, mode=0o700)
+        with suppress(PermissionError):
+            folder.chmod(0o700)
         self.path = folder / NAME
         self._lock = threading.Lock()
         # The file has the data of a class: only its owner may read it.
         os.close(os.open(self.path, os.O_CREAT | os.O_RDWR, 0o600))
         self.engine = create_engine(
             f"sqlite:///{self.path}",
+            # What students typed is in no error message.
+            hide_parameters=True,
             poolclass=QueuePool,
             pool_size=8,
             max_overflow=40,

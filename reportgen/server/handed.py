@@ -215,7 +215,7 @@ def _put_upload(site: Site, row: Row[Any]) -> Path:
     file = target / upload_name(row)
     if not file.exists():
         target.mkdir(parents=True, exist_ok=True)
-        handle, part = tempfile.mkstemp(prefix=f"{row.sha256}.", suffix=".part", dir=site.folder.uploads)
+        handle, part = tempfile.mkstemp(prefix=f"{row.sha256}.", suffix=".part", dir=target)
         try:
             with open(handle, "wb") as copied, open(site.folder.uploads / row.sha256, "rb") as upload:
                 shutil.copyfileobj(upload, copied)

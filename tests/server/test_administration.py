@@ -38,6 +38,7 @@ def test_the_unit_starts_the_server() -> None:
     assert str(call["folder"]) == unit["Service"]["ReadWritePaths"]
     assert str(call["base_url"]).startswith("https://")
     assert unit["Service"]["User"] in text_of(PAGE)
+    assert unit["Service"]["UMask"] == "0077"
 
 
 def test_the_container_starts_the_server() -> None:

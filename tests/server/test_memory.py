@@ -33,7 +33,7 @@ def test_an_upload_is_never_read_whole_from_the_disk(served: Served, monkeypatch
     assert (answer.content, answer.headers["content-type"]) == (b"%PDF", "application/pdf")
     assert answer.headers["content-disposition"].startswith("inline")
     assert not large
-    assert [file.name for file in served.folder.uploads.iterdir() if file.suffix == ".part"] == []
+    assert [file.name for file in served.folder.path.rglob("*.part")] == []
 
 
 def test_uploads_of_a_student_are_limited_together(served: Served, monkeypatch: pytest.MonkeyPatch) -> None:
