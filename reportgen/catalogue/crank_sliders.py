@@ -31,6 +31,8 @@ from reportgen.formula import (
     Ref,
     Symbol,
     asin,
+    atan,
+    atan2,
     cos,
     ids,
     minus,
@@ -109,6 +111,24 @@ def components(
     along = q.define(ids.formula_component("x", point, what), x, Symbol(what, point + axes[0]), kind, scale=1.0)
     across = q.define(ids.formula_component("y", point, what), y, Symbol(what, point + axes[1]), kind, scale=1.0)
     return along, across, q.define(ids.formula(ids.POINT_RATE[what](point)), sqrt(along**2 + across**2))
+
+
+def arm_of(q: Calculation, start: str, name: str, φ: Expression, turn: int) -> tuple[Expression, Expression]:
+    """Return the distance (m) of a rod's point from its joint `start`, and the angle of the line to it.
+
+    φ is the angle of the rod in the direction of rotation `turn`.  A point beside the rod adds its angle χ, which is
+    set out as `slopes`; a point on the rod's line behind the joint has a negative distance.
+    """
+    x, y = q.find(ids.along_link(name)), q.find(ids.across_link(name))
+    reach: Expression = q[ids.length(start, name)]
+    if x is None or y is None:
+        return reach, φ
+    if not q.si(y):
+        return -reach if q.si(x) < 0 else reach, φ
+    slope = atan(y / x) if q.si(x) > 0 else atan2(y, x)
+    χ = q.define(ids.slope(name), slope if turn > 0 else -slope, Symbol("χ", name), "angle", scale=1.0)
+    q.set_out("slopes", χ)
+    return reach, φ + χ
 
 
 # --- the second cylinder of a V engine --------------------------------------------------------------
@@ -247,8 +267,8 @@ class OffsetSlider:
         """The point (m) of the guide's line that is nearest to A."""
         return self._placed(1j * self.e)
 
-    def linkage(self, inertias: Sequence[Inertia], gravity: float, centre: float | None = None) -> Linkage:
-        """Return the mechanism (gravity in m/s²), with S2 on the rod at `centre` (m) from B if that is given."""
+    def linkage(self, inertias: Sequence[Inertia], gravity: float, centre: complex | None = None) -> Linkage:
+        """Return the mechanism (gravity in m/s²), with S2 at the point `centre` (m) of the rod if that is given."""
         return Linkage(
             ground={"A": 0j},
             driver=Crank("A", "B", self.r),
@@ -268,19 +288,20 @@ def offset_slider(q: Calculation, turn: int, angle: Floats, offset: Expression |
     r, l, ω1 = q["l.AB"], q["l.BC"], q["omega.1"]  # noqa: E741 - the length's own letter
     line = partial(q.define, scale=1.0)
     φ = q.angle("phi.3", angle, "φ")
-    β = line("beta.2", asin(-r * sin(φ) / l if offset is None else (offset - r * sin(φ)) / l), "β")
+    β: Expression = line("beta.2", asin(-r * sin(φ) / l if offset is None else (offset - r * sin(φ)) / l), "β")
     s_C = line("x.C", r * cos(φ) + l * cos(β), Symbol("s", "C"), "length")
     ω2 = line("f.omega.2", signed(-turn, ω1 * r * cos(φ) / (l * cos(β))))
     v_C = line("f.v.C", -ω1 * r * sin(φ - β) / cos(β))
     evenly = signed(turn, (ω1**2 * (r * sin(φ)) + ω2**2 * l * sin(β)) / (l * cos(β)))
     ε2 = line("f.eps.2", accelerated(q, turn, evenly, ω2))
     a_C = line("f.a.C", accelerated(q, turn, -((ω1**2 * r * cos(φ - β) + ω2**2 * l) / cos(β)), v_C))
-    q.set_out("velocity", β, s_C, ω2, v_C)
+    q.set_out("velocity", "beta.2", s_C, ω2, v_C)
     q.set_out("acceleration", ε2, a_C)
     if centre:
-        s, v, a = q["l.BS2"], signed(turn, ω2), signed(turn, ε2)
+        v, a = signed(turn, ω2), signed(turn, ε2)
+        s, β = arm_of(q, "B", "S2", β, turn)
         v_x, v_y = -(ω1 * r * sin(φ) + v * s * sin(β)), ω1 * r * cos(φ) + v * s * cos(β)
-        q.set_out("velocity", *components(q, "v", "S2", v_x, v_y))
+        q.set_out("velocity", *q.lines.get("slopes", ()), *components(q, "v", "S2", v_x, v_y))
         ε1 = driver_acceleration(q, turn)
         a_x = plus(-(ω1**2 * r * cos(φ) + s * (a * sin(β) + ω2**2 * cos(β))), minus(times(ε1, r, sin(φ))))
         a_y = plus(s * (a * cos(β) - ω2**2 * sin(β)) - ω1**2 * r * sin(φ), times(ε1, r, cos(φ)))

@@ -69,16 +69,20 @@ def with_crank(q: GivenData, linkage: Linkage) -> Linkage:
     centre = f"S{DRIVER}"
     placed = any(point.name == centre for point in linkage.points)
     assert given is not None, "a sheet without parameters has no links"
-    if placed or not isinstance(driver, Crank) or not any(q.of_link(letter, DRIVER) for letter in "GmJs"):
+    if placed or not isinstance(driver, Crank) or not any(q.of_link(letter, DRIVER) for letter in "GmJsS"):
         return linkage
     share = q.of_link("s", DRIVER)
     weightless = not any(q.of_link(letter, DRIVER) for letter in "Gm")
-    if (given.crank_on_axis or weightless) if share is None else share.si == 0:
+    beside = q.centre_of(DRIVER)
+    known = None if share is None else share.si
+    if beside is not None:
+        known = max(abs(size.si) for size in beside)
+    if (given.crank_on_axis or weightless) if known is None else known == 0:
         # A body on its own axis is not a rod: its moment of inertia is given, or it has none.
         q.mass(DRIVER)
         q.moment(DRIVER, None)
         centre = next(
-            (body.centre for body in linkage.inertias if body.link == DRIVER and share is None), driver.centre
+            (body.centre for body in linkage.inertias if body.link == DRIVER and known is None), driver.centre
         )
     else:
         q.bar(DRIVER, driver.centre, driver.pin)

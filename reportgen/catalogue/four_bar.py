@@ -22,7 +22,7 @@ from reportgen.base.arrays import Floats
 from reportgen.base.errors import Finding
 from reportgen.base.units import Given
 from reportgen.catalogue import assembly_checks
-from reportgen.catalogue.crank_sliders import compared, components
+from reportgen.catalogue.crank_sliders import arm_of, compared, components
 from reportgen.catalogue.driven_machine import driven
 from reportgen.catalogue.given_data import GivenData, accelerated, accelerating, cycle_angles, driver_acceleration
 from reportgen.catalogue.given_loads import LinkTorque, torque_on
@@ -38,7 +38,6 @@ from reportgen.formula import (
     acos,
     atan,
     atan2,
-    cis,
     column,
     cos,
     ids,
@@ -55,8 +54,6 @@ from reportgen.machine.analysis import Machine
 from reportgen.machine.load_laws import ConstantLaw
 from reportgen.machine.loads import Applied, fixed
 
-FLAT = 0.01
-"""A coupler point this share of its distance beside the rod makes a triangle too flat to be drawn from its sides."""
 STRAIGHT = Number(180.0, None, "°")
 
 
@@ -121,20 +118,6 @@ def extremes(
     q.set_out("extremes", *lengths, *α, *ψ)
     K = q.define("K", (STRAIGHT + θ) / (STRAIGHT - θ))
     q.set_out("swing", angle("swing", ψ[0] - ψ[1], "ψ"), θ, K)
-
-
-def triangle(q: Calculation, name: str) -> None:
-    """Enter l_BE² = x² + y² of a coupler point given by x along BC and y across it; off BC, l_CE² = (l − x)² + y²."""
-    x, y, BC = q[ids.along_link(name)], q[ids.across_link(name)], q["l.BC"]
-    BE = q.define(ids.length("B", name), sqrt(x**2 + y**2) if q.si(y) else abs(x))
-    q.set_out("places", BE)
-    if q.si(y):
-        CE = q.define(ids.length("C", name), sqrt((BC - x) ** 2 + y**2))
-        q.set_out("places", CE)
-        if abs(q.si(y)) > FLAT * q.si(BE):
-            # It is drawn as the triangle of these sides.
-            angle = cis(acos((BE**2 + BC**2 - CE**2) / (2 * BE * BC)))
-            q.construct(ids.point_turn(name), angle if q.si(y) > 0 else 1 / angle)
 
 
 # --- the analytic method --------------------------------------------------------------------------
@@ -208,15 +191,9 @@ def _entries(
 
 def _coupler_point(q: Calculation, point: LinkPoint, turn: int) -> None:
     """Enter v and a of a point P of the coupler by components, BP at the angle φ₂ + η from x."""
-    name, AB, BP, φ1, ω1 = point.name, q["l.AB"], q[ids.length("B", point.name)], q["f.phi.1"], q["omega.1"]
+    name, AB, φ1, ω1 = point.name, q["l.AB"], q["f.phi.1"], q["omega.1"]
     ω2, ε2 = q["f.omega.2"], q["f.eps.2"]
-    φ: Expression = q["f.phi.2"]
-    if point.local.imag:
-        x, y = q[ids.along_link(name)], q[ids.across_link(name)]
-        slope = atan(y / x) if point.local.real > 0 else atan2(y, x)
-        η = q.define(ids.slope(name), slope if turn > 0 else -slope, Symbol("η", name), "angle", scale=1.0)
-        φ = φ + η
-        q.set_out("slopes", η)
+    BP, φ = arm_of(q, "B", name, q["f.phi.2"], turn)
     v, a = signed(turn, ω2), signed(turn, ε2)
     v_x, v_y = -(ω1 * AB * sin(φ1) + v * BP * sin(φ)), ω1 * AB * cos(φ1) + v * BP * cos(φ)
     q.set_out("coupler_velocity", *components(q, "v", name, v_x, v_y))
@@ -322,9 +299,9 @@ def _calculation(given: Parameters, crank: Given | None = None) -> GivenData:
     q.speed()
     q.drawn("A", "B", crank)
     if given.E is not None:
-        q.datum("E.along", given.E.along, Symbol("ξ", "E"), "length")
-        q.datum("E.across", given.E.across, Symbol("η", "E"), "length")
-        triangle(q, "E")
+        q.datum("E.along", given.E.along)
+        q.datum("E.across", given.E.across)
+        q.point_of_link("E", "B", "C")
     if given.BF is not None:
         q.datum("l.BF", given.BF)
     q.gravity("GmJ")

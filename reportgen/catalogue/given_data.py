@@ -15,7 +15,22 @@ from reportgen.base.units import Given
 from reportgen.catalogue.parameters import Driven, FixedPoint
 from reportgen.catalogue.topic_sections import TopicParameters, sections_of
 from reportgen.catalogue.typed_quantities import as_typed, size_of
-from reportgen.formula import NOTHING, PI, Expression, Number, Operand, Ref, Symbol, ids, signed, turned, vocabulary
+from reportgen.formula import (
+    NOTHING,
+    PI,
+    Expression,
+    Number,
+    Operand,
+    Ref,
+    Symbol,
+    acos,
+    cis,
+    ids,
+    signed,
+    sqrt,
+    turned,
+    vocabulary,
+)
 from reportgen.formula.calculation import Calculation
 from reportgen.formula.vocabulary import KINDS, drawn_length
 from reportgen.machine import DRIVER, Inertia, LinkPoint
@@ -25,6 +40,8 @@ CRANK_DRAWN = 0.04
 """Default of the drawn length of the crank (m on paper)."""
 MIDDLE = 0.5
 """Place of the mass centre of a uniform bar, as a share of its length."""
+FLAT = 0.01
+"""A point this share of its distance beside the rod makes a triangle too flat to be drawn from its sides."""
 
 
 MOST_FIGURES = 6
@@ -98,6 +115,11 @@ class GivenData(Calculation):
         given: Given | None = getattr(self.given, f"{letter}{link}", None)
         return given
 
+    def centre_of(self, link: int) -> tuple[Given, ...] | None:
+        """Return the two coordinates `S` of a link's mass centre if the file gives them; else None."""
+        given: tuple[Given, ...] | None = getattr(self.given, f"S{link}", None)
+        return given
+
     def gravity(self, letters: str = "Gm") -> None:
         """Enter g if one of these letters is given for any link; not in a horizontal plane."""
         assert self.given is not None, "a sheet without parameters has no links"
@@ -137,21 +159,56 @@ class GivenData(Calculation):
         elif default is not None:
             self.define(ids.inertia(link), default)
 
-    def bar(self, link: int, start: str, end: str, always: bool = False) -> None:
+    def bar(self, link: int, start: str, end: str, always: bool = False, rod: bool = True) -> None:
         """Enter a straight link from pin `start` to pin `end`: the place of its mass centre l_AS = s·l, its mass, its
         J.
 
+        A centre `S` given by coordinates may lie beside the link; its distance from `end` is entered on a `rod`.
         The centre of a massless link is entered only if its place is given, or `always`.
         """
         self.set_out("places")
-        if not (always or any(self.of_link(letter, link) for letter in "sGmJ")):
+        if not (always or self.centre_of(link) or any(self.of_link(letter, link) for letter in "sGmJ")):
             return
         length, share = self[ids.length(start, end)], self.of_link("s", link)
-        s = self.give(ids.mass_centre(link), MIDDLE if share is None else share.si, kind="ratio")
-        self.set_out("places", self.define(ids.length(start, f"S{link}"), s * length))
+        if not self.centre_beside(link, start, end if rod and link != DRIVER else ""):
+            s = self.give(ids.mass_centre(link), MIDDLE if share is None else share.si, kind="ratio")
+            self.set_out("places", self.define(ids.length(start, f"S{link}"), s * length))
         self.mass(link)
         m = self.find(ids.mass(link))
         self.moment(link, None if m is None else m * length**2 / 12)
+
+    def centre_beside(self, link: int, start: str, end: str, lines: str = "places") -> bool:
+        """Enter the mass centre of a link with pins `start` and `end` by its coordinates `S`, and its distances.
+
+        The distances are set out as `lines`; without an `end` there is only the first.  Returns False if the file does
+        not give these coordinates.
+        """
+        if (place := self.centre_of(link)) is None:
+            return False
+        name = f"S{link}"
+        for id, size in zip((ids.along_link, ids.across_link), place, strict=True):
+            self.datum(id(name), size)
+        self.point_of_link(name, start, end, lines)
+        return True
+
+    def point_of_link(self, name: str, start: str, end: str, lines: str = "places") -> None:
+        """Enter l_AP² = x² + y² of a point P of the rod AB given by x along it and y across it; off the rod also
+        l_BP² = (l − x)² + y².
+
+        Without an `end` the link is no rod, and only the first distance is entered.
+        """
+        x, y = self[ids.along_link(name)], self[ids.across_link(name)]
+        reach = self.define(ids.length(start, name), sqrt(x**2 + y**2) if self.si(y) else abs(x))
+        self.set_out(lines, reach)
+        if not end or not self.si(y):
+            return
+        rod = self[ids.length(start, end)]
+        rest = self.define(ids.length(end, name), sqrt((rod - x) ** 2 + y**2))
+        self.set_out(lines, rest)
+        if abs(self.si(y)) > FLAT * self.si(reach):
+            # It is drawn as the triangle of these sides.
+            angle = cis(acos((reach**2 + rod**2 - rest**2) / (2 * reach * rod)))
+            self.construct(ids.point_turn(name), angle if self.si(y) > 0 else 1 / angle)
 
     def point(self, name: str, place: FixedPoint) -> None:
         """Enter the coordinates of a fixed point as typed."""
@@ -180,7 +237,12 @@ class GivenData(Calculation):
     def centre_points(self, pins: Mapping[int, str]) -> tuple[LinkPoint, ...]:
         """Return the entered mass centres S2, … by their links and the pins from which they are measured."""
         arms = {link: self.find(ids.length(pin, f"S{link}")) for link, pin in pins.items()}
-        return tuple(LinkPoint(f"S{link}", link, complex(self.si(arm))) for link, arm in arms.items() if arm)
+        return tuple(LinkPoint(f"S{link}", link, self._centre(link, arm)) for link, arm in arms.items() if arm)
+
+    def _centre(self, link: int, arm: Ref) -> complex:
+        """Return the place of a mass centre in its link's frame (m), at the distance `arm` if it lies on the link."""
+        x, y = (self.find(id(f"S{link}")) for id in (ids.along_link, ids.across_link))
+        return complex(self.si(x), self.si(y)) if x and y else complex(self.si(arm))
 
     def inertias(self, centres: Mapping[int, str]) -> tuple[Inertia, ...]:
         """Return the links with a mass or a moment of inertia, by their mass centres."""

@@ -20,6 +20,7 @@ from reportgen.assignment.fields import (
     Mass,
     MomentOfInertia,
     NodeValues,
+    PointCoordinates,
     RotationalSpeed,
     Weight,
     Whole,
@@ -41,7 +42,6 @@ DriverSpeed = Annotated[Given, quantity("m/s", least=1e-6, most=1e3)]
 NOWHERE = Given(0.0, 0.0, "mm", "0 mm")
 
 
-PointCoordinates = Annotated[tuple[Coordinate, ...], Field(min_length=2, max_length=2)]
 TwoGroupLinks = Annotated[tuple[GroupLink, ...], Field(min_length=2, max_length=2)]
 Two = Annotated[tuple[Name, ...], Field(min_length=2, max_length=2)]
 Three = Annotated[tuple[Name, ...], Field(min_length=3, max_length=3)]

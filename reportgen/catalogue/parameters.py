@@ -1,7 +1,8 @@
 """Parameters that machines with a crank share: speed, gravity, masses, loads, and their checks.
 
 A kind declares which of them it has: `class Parameters(Driven, masses=(2, 3), moments=(2,), shares=(2,))` reads the
-weight `G2` or the mass `m2`, the moment of inertia `J2` and the place `s2` of the mass centre, with their checks.
+weight `G2` or the mass `m2`, the moment of inertia `J2` and the place of the mass centre, as a share `s2` of the
+link or by two coordinates `S2`, with their checks.
 """
 
 from __future__ import annotations
@@ -20,6 +21,7 @@ from reportgen.assignment.fields import (
     Gravity,
     Mass,
     MomentOfInertia,
+    PointCoordinates,
     RotationalSpeed,
     Share,
     Weight,
@@ -38,7 +40,7 @@ class FixedPoint(Part):
     y: Coordinate
 
 
-OF_LINK: Mapping[str, Any] = {"G": Weight, "m": Mass, "J": MomentOfInertia, "s": Share}
+OF_LINK: Mapping[str, Any] = {"G": Weight, "m": Mass, "J": MomentOfInertia, "s": Share, "S": PointCoordinates}
 """Types of the values that a file may give for a link, by the letter before its number."""
 
 
@@ -58,7 +60,8 @@ class Driven(UnderGravity):
     """The crank's speed in one of two forms and its acceleration; masses if declared.
 
     The weight or the mass of the crank and of the links `masses` may be given, and must be for the links `required`;
-    `moments` and `shares` are the links with J and s; the keys `loads` give loads of the kind.
+    `moments` are the links with J, `shares` those with s or S; `centres` are further links with S.  The keys `loads`
+    give loads of the kind.
     """
 
     n: RotationalSpeed | None = None
@@ -78,6 +81,7 @@ class Driven(UnderGravity):
         required: Iterable[int] = (),
         moments: Iterable[int] = (),
         shares: Iterable[int] = (),
+        centres: Iterable[int] = (),
         loads: Iterable[str] = (),
         **rest: Any,
     ) -> None:
@@ -85,8 +89,9 @@ class Driven(UnderGravity):
         if cls.topic_names:
             # Everything else belongs to the class below, to which sections of topics are added.
             return
-        of_masses, of_moments, of_shares = (tuple(sorted({DRIVER, *links})) for links in (masses, moments, shares))
-        cls.links = {"G": of_masses, "m": of_masses, "J": of_moments, "s": of_shares}
+        given = masses, moments, shares, (*shares, *centres)
+        of_masses, of_moments, of_shares, of_centres = (tuple(sorted({DRIVER, *links})) for links in given)
+        cls.links = {"G": of_masses, "m": of_masses, "J": of_moments, "s": of_shares, "S": of_centres}
         cls.required = tuple(required)
         cls.mass_keys = tuple(f"{letter}{link}" for letter in "GmJ" for link in cls.links[letter])
         cls.moment_keys = tuple(f"J{link}" for link in cls.links["J"])
@@ -111,12 +116,13 @@ class Driven(UnderGravity):
 
     @classmethod
     def checks(cls) -> tuple[Check, ...]:
-        """Return the checks that there is one speed, and one of weight and mass for each link."""
+        """Return the checks that each link has one speed, one of weight and mass, and one place of its mass centre."""
         one_mass = (
             one_of("parameters", f"G{link}", f"m{link}", required=link in cls.required) for link in cls.links["G"]
         )
+        one_place = (one_of("parameters", f"s{link}", f"S{link}", required=False) for link in cls.links["s"])
         weights = [("parameters", f"G{link}") for link in cls.links["G"]]
-        return one_of("parameters", "n", "omega1"), *one_mass, weightless(weights)
+        return one_of("parameters", "n", "omega1"), *one_mass, *one_place, weightless(weights)
 
 
 def weightless(weights: Iterable[Where]) -> Check:

@@ -8,7 +8,7 @@ from __future__ import annotations
 import cmath
 from collections.abc import Iterator
 
-from reportgen.assignment.checks import of_parameters
+from reportgen.assignment.checks import of_parameters, one_of
 from reportgen.assignment.common import Assignment
 from reportgen.assignment.fields import Angle, Coordinate, Length, Share
 from reportgen.base.errors import Finding
@@ -32,7 +32,7 @@ from reportgen.machine.loads import Applied, fixed
 TURNS = 1
 
 
-class Parameters(Driven, masses=(2, 3), moments=(2,), loads=("force",)):
+class Parameters(Driven, masses=(2, 3), moments=(2,), centres=(2,), loads=("force",)):
     """Lengths, the guide, the speed; a moving link has mass only if it is given."""
 
     r: Length
@@ -51,7 +51,7 @@ def _check_turning(given: Parameters) -> Iterator[Finding]:
         yield Finding("out-of-range", ("parameters", "l"), {"text": given.l.text, "range": least})
 
 
-CHECKS = (*given_loads.FORCE_CHECKS, _check_turning)
+CHECKS = (one_of("parameters", "s", "S2", required=False), *given_loads.FORCE_CHECKS, _check_turning)
 
 
 def machine(assignment: Assignment) -> Machine:
@@ -59,7 +59,7 @@ def machine(assignment: Assignment) -> Machine:
     given: Parameters = assignment.parameters
     positions, turn = assignment.positions, assignment.positions.sign
     q = GivenData(given)
-    has_centre = given.s is not None or any(q.of_link(letter, 2) for letter in "GmJ")
+    has_centre = bool(given.s or q.centre_of(2)) or any(q.of_link(letter, 2) for letter in "GmJ")
     r, l = q.datum("l.AB", given.r), q.datum("l.BC", given.l)  # noqa: E741
     e = q.datum("e", given.e) if given.e.si else None
     if given.guide.si:
@@ -67,7 +67,7 @@ def machine(assignment: Assignment) -> Machine:
     q.speed()
     q.drawn("A", "B", assignment.drawing.crank)
     q.set_out("rod")
-    if has_centre:
+    if has_centre and not q.centre_beside(2, "B", "C", lines="rod"):
         q.set_out("rod", q.define("l.BS2", q.give("s", MIDDLE if given.s is None else given.s.si) * l))
     if isinstance(given.force, given_loads.ConstantForce):
         q.datum("P.given", given.force.F, "P", "force")
@@ -80,7 +80,7 @@ def machine(assignment: Assignment) -> Machine:
 
     geometry = OffsetSlider(q.si(r), q.si(l), turn * given.e.si, given.guide.si, turn)
     start = geometry.stretched if positions.first is None else geometry.phi(positions.first.si)
-    centre = q.si("l.BS2") if has_centre else None
+    centre = next((point.local for point in q.centre_points({2: "B"})), None)
     linkage = geometry.linkage(q.inertias({2: "S2", 3: "C"}), given.gravity, centre)
     if e is not None:
         q.fix("guide.3.at", geometry.line, e)
@@ -101,5 +101,9 @@ def machine(assignment: Assignment) -> Machine:
         paths=("S2",) if has_centre else (),
         compared=compared((*OFFSET_PLANS, *(CENTRE_PLANS if has_centre else ()))),
         equations=loop_equations(turn, offset is not None, given.acceleration),
-        facts={"form": "inline" if e is None else "offset", "stroke": given_loads.stroke_of(given.force)},
+        facts={
+            "form": "inline" if e is None else "offset",
+            "stroke": given_loads.stroke_of(given.force),
+            "centre": "share" if "s" in q else "place" if has_centre else "none",
+        },
     )

@@ -284,7 +284,9 @@ def ram_torque(q: Calculation, turn: int) -> None:
         powers += [-(G4 * v_y), -(m4 * (a_x * v_x + a_y * v_y))]
     s1, ε1 = q.find("l.AS1"), signed(turn, driver_acceleration(q, turn))
     if (G1 := q.find(ids.weight(1))) and s1:
-        powers.append(-(G1 * ω1 * s1 * cos(φ1)))
+        x1, y1 = (q.find(id("S1")) for id in (ids.along_link, ids.across_link))
+        lever = plus(x1 * cos(φ1), signed(-turn, y1 * sin(φ1))) if x1 and y1 else s1 * cos(φ1)
+        powers.append(-(G1 * ω1 * lever))
     if (J1 := q.find(ids.inertia(1))) and ε1 is not NOTHING:
         powers.append(minus(times(J1, signed(turn, ω1), ε1)))
     if (m1 := q.find(ids.mass(1))) and s1 and ε1 is not NOTHING:

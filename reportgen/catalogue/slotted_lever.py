@@ -74,9 +74,9 @@ def machine(assignment: Assignment) -> Machine:
     q.speed()
     height = max(q.si(l), q.si(d) + q.si(r)) + max(q.si(r) - q.si(d), 0.0)
     q.drawn("A", "B", crank, slotted.drawn_crank(q.si(r), height))
-    q.gravity("sGmJ")
+    q.gravity("SsGmJ")
     q.mass(2)
-    q.bar(3, "C", "D")
+    q.bar(3, "C", "D", rod=False)
     if given.torque is not None:
         q.datum("M.given", given.torque.M, Symbol("M", "3"))
     q.set_out("lengths", r, d, l, "l.CS3")

@@ -210,8 +210,7 @@ class VocabularyRow:
 
     The index below the `letter` is the text `below`, else the word in the last place. Above it is the text `above`,
     else the `part`. `plan` is the id of the scale that lengths on paper are measured with. A word in braces is
-    replaced by that place of the id. Values that go `around` the circle are directions. `name` is the family's name
-    in `words.yaml`.
+    replaced by that place of the id. Values that go `around` the circle are directions. `words.yaml` uses the `name`.
     """
 
     ids: Name
@@ -242,6 +241,8 @@ ROWS: tuple[VocabularyRow, ...] = (
     VocabularyRow(ids.length, "l", "length", _G, name="length"),
     VocabularyRow(ids.drawn, "", "segment", _G, "mu.l", name="drawn length"),
     VocabularyRow(ids.scale.only(plan="l"), "μ", "length scale", _G, below="l"),
+    VocabularyRow(ids.along_link, "ξ", "length", name="point along link"),
+    VocabularyRow(ids.across_link, "η", "length", name="point across link"),
     VocabularyRow(Name("R"), "R", "length", _G),
     VocabularyRow(Name("L"), "L", "length", _G),
     VocabularyRow(Name("H"), "H", "length"),

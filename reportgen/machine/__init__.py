@@ -125,6 +125,23 @@ class Linkage:
         return (DRIVER, *(link for dyad in self.dyads for link in dyad.links))
 
 
+def rods(linkage: Linkage) -> Mapping[int, tuple[str, str]]:
+    """Return the pins that define the axis of each link that turns about one: the link's origin, and the other pin.
+
+    A link that slides on another one has its axis through the block's pin.
+    """
+    driver, ends = linkage.driver, dict[int, tuple[str, str]]()
+    if isinstance(driver, Crank):
+        ends[DRIVER] = driver.centre, driver.pin
+    for dyad in linkage.dyads:
+        (i, j), (first, last) = dyad.links, (dyad.start, dyad.end)
+        if isinstance(first, str) and dyad.kind in {"RRR", "RRP"}:
+            ends[i] = first, dyad.middle
+        if isinstance(last, str):
+            ends[j] = last, str(first) if dyad.kind == "RPR" else dyad.middle
+    return ends
+
+
 def under(name: str, link: int, taken: Collection[str]) -> str:
     """Return the name of the point of a link that lies under a pin now: B on link 3 → B3, B′3 where B3 is taken."""
     plain = f"{name}{link}"

@@ -19,7 +19,7 @@ from reportgen.catalogue.topic_sections import sections_of
 from reportgen.derivation.equation_sides import scheme
 from reportgen.derivation.kinematic_entries import links_in_plane_motion
 from reportgen.derivation.load_entries import Polygon
-from reportgen.document.template_rendering import Prose, subscripted
+from reportgen.document.template_rendering import Prose
 from reportgen.drawing.charts import Area
 from reportgen.formula import Symbol, ids, vocabulary
 from reportgen.formula.ledger import Ledger
@@ -28,6 +28,7 @@ from reportgen.machine.analysis import Analysis, Machine, Position, analyse
 from reportgen.machine.cycle_torque import SAME_ANGLE
 from reportgen.machine.load_laws import FULL_TURN
 from reportgen.machine.loads import Applied, Piston, Torque
+from reportgen.report.given_names import given_names
 from reportgen.report.link_views import BodyView, DriverView, GroupView, PlaneLink, displaced_inertia
 from reportgen.report.report_extents import LEFT_OUT, OF_A_TURN, OPENING
 
@@ -268,21 +269,8 @@ class ReportContext:
 
     @property
     def given_names(self) -> Mapping[str, str]:
-        """Descriptions of the given quantities by their ids.  A declared linkage describes its own quantities."""
-        if "quantities" not in self.own:
-            names = dict(self.words.get("given", {}))
-            beside = {**self.words["given_of_crank"], **self.words["given_of_topics"]}
-            further = {id: name for id, name in beside.items() if id not in names}
-            # The acceleration of the crank follows its speed in the list.
-            places = [*names].index("omega.1") + 1 if "omega.1" in names else len(names)
-            ordered = list(names.items())
-            return dict((*ordered[:places], *further.items(), *ordered[places:]))
-        words = self.words["linkage"]["given"]
-        declared = {
-            id: words[what] + (subscripted(of) if what == "length" else of) for id, what, of in self.own["quantities"]
-        }
-        named = {id: name for id, name in words.items() if id in self.ledger and id not in declared}
-        return {**declared, **named, **self.words["given_of_topics"]}
+        """Descriptions of the given quantities by their ids."""
+        return given_names(self.words, self.own, self.ledger.families, self.machine.linkage)
 
     @property
     def mobility(self) -> Mobility:
