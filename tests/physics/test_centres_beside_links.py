@@ -16,6 +16,8 @@ from reportgen.base.yaml_source import read_source
 from reportgen.cases import open_case
 from reportgen.page.pulled_values import placing_values
 from reportgen.report.context import ReportContext
+from tests.report import trees
+from tests.report.calculator import misses
 
 SAME = 1e-9
 """Of the greatest value over the turn; positions are well conditioned."""
@@ -131,3 +133,14 @@ def test_a_pulled_centre_changes_its_coordinates(tmp_path: Path) -> None:
     _, values = placing_values(read_source(path), path)
     followed = [value.where for value in values if "S2" in value.points]
     assert followed == [("parameters", "S2", 0), ("parameters", "S2", 1)]
+
+
+@pytest.mark.parametrize("kind", ["four-bar", "slider-crank"])
+def test_printed_lines_recompute(kind: str, tmp_path: Path) -> None:
+    """The printed formulas give the printed results, so a student's own values are followed through them, too."""
+    parameters, links = KINDS[kind]
+    bodies = "".join(f", S{link}: [7{link} mm, {30 - 7 * link} mm], m{link}: 2 kg" for link in links)
+    case = open_case(written(tmp_path, kind, parameters + bodies, "clockwise"), "en")
+    lines = trees.lines(trees.every_chain(case.printed), "en")
+    assert len(lines) > 100
+    assert misses(lines) == []
