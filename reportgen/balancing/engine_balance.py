@@ -38,6 +38,10 @@ def table_rows(position: Mapping[str, Any]) -> dict[str, dict[str, float]]:
     return {
         "forces": {f"F_{order}": entry["force"] for order, entry in orders},
         "couples": {f"M_{order}": entry["couple"] for order, entry in orders if "couple" in entry},
+        "least_forces": {f"F_{order},min": entry["least_force"] for order, entry in orders if "least_force" in entry},
+        "least_couples": {
+            f"M_{order},min": entry["least_couple"] for order, entry in orders if "least_couple" in entry
+        },
         "counterweight": {"U_c": counterweight["unbalance"]},
     }
 

@@ -158,19 +158,27 @@ class EngineCalculation:
     # --- forces and couples
 
     def _enter_forces(self) -> None:
-        """Enter F = K A f, or K A (f + g)/2 if the cylinders are in several banks."""
+        """Enter F = K A f, or K A (f + g)/2 if the cylinders are in several banks, whose least force is K A |f − g|/2.
+
+        In line, the force of an order passes through zero.
+        """
         q = self.q
         for what, stars in self.stars.items():
-            family, line = (names.force, "forces") if what == "forces" else (names.couple, "couples")
+            family, least = names.force, names.least_force
+            if what == "couples":
+                family, least = names.couple, names.least_couple
             for order in ORDERS:
                 parts = [q[names.resultant(star, order)] for star in stars]
                 mean = parts[0] if len(parts) == 1 else (parts[0] + parts[1]) / 2
                 K = q["orders.K"]
-                size = K * mean if order == 1 else K * q[names.factor(order)] * mean
+                amplitude = K if order == 1 else K * q[names.factor(order)]
                 A = 1.0 if order == 1 else abs(q.si(names.factor(order)))
                 of_all = q.si(K) * A * sum(q.families[part.id].scale for part in parts) / len(parts)
                 # A₄ is negative, but the report needs the size.
-                q.set_out(line, q.define(family(order), abs_of(order, size), scale=of_all))
+                q.set_out(what, q.define(family(order), abs_of(order, amplitude * mean), scale=of_all))
+                if len(parts) > 1:
+                    difference = amplitude * (parts[0] - parts[1]) / 2
+                    q.set_out(f"least_{what}", q.define(least(order), size(difference), scale=of_all))
 
     def _enter_counterweight(self) -> None:
         """Enter the counterweight (m_A + ½ m_rec) r f₁ opposite to the star f₁, which balances all force that turns

@@ -113,7 +113,10 @@ class EnginePage(PlacesPage[SolvedEngine]):
         for what, letters in case.stars.items():
             families += [orders_ids.resultant.only(star=letter) for letter in letters]
             families.append(orders_ids.force if what == "forces" else orders_ids.couple)
-        heads = [(Symbol(printed.symbol(of(1)).base), printed.number(of(1)).unit) for of in families]
+            if not case.given.is_inline:
+                families.append(orders_ids.least_force if what == "forces" else orders_ids.least_couple)
+        symbols = [(printed.symbol(of(1)), printed.number(of(1)).unit) for of in families]
+        heads = [(Symbol(symbol.base, symbol.sub.partition(",")[2]), unit) for symbol, unit in symbols]
         rows: list[tuple[Inlines, ...]] = [
             ((Text(str(order)),), *(bare(printed.number(family(order))) for family in families)) for order in ORDERS
         ]
@@ -148,6 +151,8 @@ class EngineCase(SolvedEngine):
             entry = {"force": ledger[orders_ids.force(order)].at(1)}
             if "couples" in self.stars:
                 entry["couple"] = ledger[orders_ids.couple(order)].at(1)
+            least = {"least_force": orders_ids.least_force(order), "least_couple": orders_ids.least_couple(order)}
+            entry |= {name: ledger[id].at(1) for name, id in least.items() if id in ledger}
             orders[str(order)] = entry
         counterweight = {"unbalance": ledger["orders.U"].at(1), "left": ledger["orders.left"].at(1)}
         if "couples" in self.stars:

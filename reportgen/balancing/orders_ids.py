@@ -25,6 +25,8 @@ measured = Name("orders.seg.{star}.{order}")
 resultant = Name("orders.star.{star}.{order}")
 force = Name("orders.F.{order}")
 couple = Name("orders.M.{order}")
+least_force = Name("orders.least.F.{order}")
+least_couple = Name("orders.least.M.{order}")
 
 KINDS: Mapping[str, QuantityKind] = {
     "star on paper": QuantityKind("mm⁻¹", 1e3, digits=6),
@@ -74,6 +76,8 @@ ROWS: tuple[VocabularyRow, ...] = (
     ),
     VocabularyRow(force, "F", "force", _F, below="{order}", name="orders force"),
     VocabularyRow(couple, "M", "torque", _F, below="{order}", name="orders couple"),
+    VocabularyRow(least_force, "F", "force", _F, below="{order},min", name="orders least force"),
+    VocabularyRow(least_couple, "M", "torque", _F, below="{order},min", name="orders least couple"),
     VocabularyRow(Name("orders.rotating"), "F", "force", KeyChapter.torque, below="rot"),
     VocabularyRow(Name("orders.U"), "U", "product of mass and radius", KeyChapter.torque, below="c"),
     VocabularyRow(Name("orders.left"), "F", "force", KeyChapter.torque, below="1", above="′"),

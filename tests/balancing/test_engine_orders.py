@@ -89,8 +89,8 @@ def test_a_counterweight_takes_the_first_order_of_a_right_angled_v() -> None:
 SAMPLES = 256
 
 
-def greatest(layout: Layout, l: float, arms: bool) -> dict[int, float]:  # noqa: E741
-    """The greatest force, or couple about the middle, of each order (N, N·m), from exact positions of all pistons."""
+def extremes(layout: Layout, l: float, arms: bool) -> dict[int, tuple[float, float]]:  # noqa: E741
+    """The greatest and the least force, or couple about the middle, of each order (N, N·m), from exact positions."""
     r, ω, m = 0.04, 3000 * math.pi / 30, 0.71
     φ = np.arange(SAMPLES) * math.tau / SAMPLES
     middle = (min(z for _, z, _ in layout) + max(z for _, z, _ in layout)) / 2
@@ -103,7 +103,8 @@ def greatest(layout: Layout, l: float, arms: bool) -> dict[int, float]:  # noqa:
         acceleration = np.fft.ifft(-((orders * ω) ** 2) * np.fft.fft(x)).real
         whole += -m * acceleration * np.exp(1j * math.radians(ψ)) * ((z - middle) * PITCH if arms else 1.0)
     spectrum = np.fft.fft(whole) / SAMPLES
-    return {n: float(abs(spectrum[n]) + abs(spectrum[-n])) for n in ORDERS}
+    turning = {n: (float(abs(spectrum[n])), float(abs(spectrum[-n]))) for n in ORDERS}
+    return {n: (one + other, abs(one - other)) for n, (one, other) in turning.items()}
 
 
 def layouts(many: int) -> list[Layout]:
@@ -132,12 +133,18 @@ def test_layouts_against_exact_piston_forces(many: int) -> None:
     for layout in layouts(many):
         l = float(round(rng.uniform(120, 220), 3))  # noqa: E741
         sheet = sheet_of(layout, l)
-        forces, couples = greatest(layout, l, False), greatest(layout, l, True)
+        forces, couples = extremes(layout, l, False), extremes(layout, l, True)
         most = len(layout) * sheet.si("orders.K")
         for n in ORDERS:
-            assert abs(sheet.si(orders_ids.force(n)) - forces[n]) <= 1e-9 * most
-            if orders_ids.couple(n) in sheet:
-                assert abs(sheet.si(orders_ids.couple(n)) - couples[n]) <= 1e-9 * most * len(layout) * PITCH
+            of_couples = orders_ids.couple(n), orders_ids.least_couple(n)
+            inline = len({ψ for _, _, ψ in layout}) == 1
+            for ids, values, off in (
+                ((orders_ids.force(n), orders_ids.least_force(n)), forces[n], 1e-9 * most),
+                (of_couples, couples[n], 1e-9 * most * len(layout) * PITCH),
+            ):
+                for id, value in zip(ids, values, strict=True):
+                    assert abs((sheet.si(id) if id in sheet else 0.0) - value) <= off
+                assert ids[0] not in sheet or (ids[1] in sheet) is not inline
 
 
 V8: Layout = [(θ, z, ψ) for θ, z in ((0, 0), (90, 1), (270, 2), (180, 3)) for ψ in (45, -45)]

@@ -1,0 +1,51 @@
+"""Published engines: greatest and least forces of V twins, by the books' factor A₂ = λ.
+
+Sources: Khurmi, Gupta, Theory of Machines, chapter 22 (a V twin of 60°); books take the first term of each factor,
+which the exact one exceeds by λ²/4 of itself.
+"""
+
+from __future__ import annotations
+
+import pytest
+
+from reportgen.balancing import orders_ids
+from reportgen.balancing.engine_calculation import EngineCalculation
+from reportgen.balancing.engine_file import Parameters
+from reportgen.formula.calculation import Calculation
+
+
+def calculation(**given: object) -> Calculation:
+    return EngineCalculation(Parameters.model_validate(given)).written()
+
+
+def test_a_v_twin_of_sixty_degrees() -> None:
+    """1.5 kg, stroke 100 mm, rods 250 mm, 2500 rpm: primary force 7710.7 N and 2570.2 N, secondary force 890.3 N."""
+    sheet = calculation(
+        r="50 mm",
+        l="250 mm",
+        n="2500 rpm",
+        m3="1.5 kg",
+        cylinders=[{"crank": "0 deg", "bank": "30 deg"}, {"crank": "0 deg", "bank": "-30 deg"}],
+    )
+    assert sheet.si(orders_ids.force(1)) == pytest.approx(7710.7, abs=0.6)
+    assert sheet.si(orders_ids.least_force(1)) == pytest.approx(2570.2, abs=0.2)
+    λ, exact = sheet.si("orders.lambda"), sheet.si(orders_ids.factor(2))
+    assert sheet.si(orders_ids.force(2)) * λ / exact == pytest.approx(890.3, abs=0.1)
+    assert exact / λ - 1 == pytest.approx(λ**2 / 4, rel=0.05)
+
+
+def test_the_first_order_of_a_right_angled_v_turns_at_constant_size() -> None:
+    """m r ω², at every angle of the crank; the second order moves along one line."""
+    sheet = calculation(
+        r="75 mm",
+        l="300 mm",
+        n="500 rpm",
+        m3="11.5 kg",
+        cylinders=[{"crank": "0 deg", "bank": "45 deg"}, {"crank": "0 deg", "bank": "-45 deg"}],
+    )
+    assert sheet.si(orders_ids.force(1)) == pytest.approx(sheet.si("orders.K"))
+    assert sheet.si(orders_ids.least_force(1)) == pytest.approx(sheet.si("orders.K"))
+    assert sheet.families[orders_ids.least_force(2)].at(1) == 0
+    λ, exact = sheet.si("orders.lambda"), sheet.si(orders_ids.factor(2))
+    # √2 m r² ω²/l, the book's 836 N.
+    assert sheet.si(orders_ids.force(2)) * λ / exact == pytest.approx(836, abs=0.5)
