@@ -25,7 +25,7 @@ from PIL import Image
 from screens import Screen, first_report
 
 from reportgen import api, catalogue
-from reportgen.base.kinds import kinds
+from reportgen.base.kinds import program_kinds
 from reportgen.document import Document, Figure
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -331,7 +331,7 @@ def main() -> None:
         class_of_60(language)
     notebook_study()
     curves()
-    for kind in kinds():
+    for kind in program_kinds():
         file = SHOWN.get(kind) or min(SAMPLE.parent.glob(f"{kind}-*.yaml"))
         page = typeset(scheme_alone(document(file)))[0]
         save(page, kind, SCHEME_DPI, drawn(page) + pymupdf.Rect(0, 0, 0, BELOW.get(kind, 0.0)))

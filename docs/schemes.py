@@ -53,7 +53,7 @@ def drawn(kind: str) -> str:
     labels = [frame(item)[0] for item in scene if isinstance(item, Label)]
     items = [item for item in scene if not isinstance(item, Label) and not _is_around(item, labels)]
     low, high = bounds(items)
-    pens, size = Pens(f"{kind}-"), high - low + complex(2 * MARGIN, 2 * MARGIN)
+    pens, size = Pens(f"{kind.replace('/', '-')}-"), high - low + complex(2 * MARGIN, 2 * MARGIN)
     moved_items = (moved(item, complex(MARGIN, MARGIN) - low) for item in items)
     elements = Painter(REFERENCE, pens).items(moved_items, size.imag).replace("><", ">\n<")
     return (
@@ -73,7 +73,7 @@ def main() -> None:
     """Write the scheme of every kind."""
     for kind in kinds():
         file = scheme_file(kind)
-        file.parent.mkdir(exist_ok=True)
+        file.parent.mkdir(parents=True, exist_ok=True)
         file.write_text(drawn(kind), encoding="utf-8")
 
 

@@ -14,7 +14,7 @@ import yaml
 
 from reportgen import api, catalogue
 from reportgen.base import documentation
-from reportgen.base.kinds import kinds
+from reportgen.base.kinds import program_kinds
 from reportgen.base.template_folders import search_path
 from reportgen.base.words import load_words
 from reportgen.cli import app
@@ -72,7 +72,7 @@ def test_every_command_is_explained_and_leads_to_its_options(suffix: str) -> Non
 
 def test_every_machine_is_shown_and_all_its_keys_are_explained() -> None:
     text, keys = text_of("docs/reference/machines.md"), text_of("docs/reference/keys.md")
-    for kind in kinds():
+    for kind in program_kinds():
         row = rf"^\| \[`{kind}`\]\(#{kind}\) \| !\[[^\]]+\]\(\.\./pictures/{kind}\.png\) \| "
         assert re.search(row, text, re.MULTILINE)
         assert f"keys.md#{kind})" in section(text, f"## `{kind}`")
@@ -80,7 +80,7 @@ def test_every_machine_is_shown_and_all_its_keys_are_explained() -> None:
         for name, field in catalogue.kind(kind).parameters.model_fields.items():
             assert f"`{field.alias or name}`" in explained, (kind, name)
     (row,) = [line for line in text.splitlines() if line.startswith("| `flywheel` |")]
-    with_flywheel = {kind for kind in kinds() if "flywheel" in catalogue.kind(kind).parameters.model_fields}
+    with_flywheel = {kind for kind in program_kinds() if "flywheel" in catalogue.kind(kind).parameters.model_fields}
     assert set(re.findall(r"`([a-z-]+)`", row)) - {"flywheel"} == with_flywheel
 
 

@@ -10,7 +10,7 @@ import pytest
 
 from reportgen import api
 from reportgen.assignment.common import Extent
-from reportgen.base.kinds import kinds
+from reportgen.base.kinds import program_kinds
 from reportgen.base.units import Language
 from tests import matrix
 from tests.lanes import matrix as lanes
@@ -25,9 +25,8 @@ SOON = {"build", "compare", "edit"}
 """Commands that each kind runs there: together they make the report, the key, a sheet, its marks and the form."""
 WHOLE = {("whole-shaper-whole", command) for command in ("check", "solve_json", "compare")}
 """Commands that a coursework with a part of each kind runs there."""
-TELLING = [
-    case for case in BRIEF if case[0] in WITH_ALL or case[:2] in WHOLE or (case[0] in kinds() and case[1] in SOON)
-]
+KINDS = (*program_kinds(), matrix.ATLAS_MACHINE)
+TELLING = [case for case in BRIEF if case[0] in WITH_ALL or case[:2] in WHOLE or (case[0] in KINDS and case[1] in SOON)]
 CASES = [case for case in ALL if case[2] != matrix.OWN or case in TELLING]
 """Those that the first lane runs, and every one that names its language: with all formats, it proves the brief one."""
 
@@ -70,7 +69,7 @@ def test_every_command_answers(
 def test_a_kind_enters_by_being_there() -> None:
     """Each kind has some commands in the first lane and each command a kind; the second lane has all of both."""
     told = {case[:2] for case in TELLING}
-    assert told >= {(kind, command) for kind in kinds() for command in SOON}
+    assert told >= {(kind, command) for kind in KINDS for command in SOON}
     assert told >= {(kind, command) for kind in WITH_ALL for command in COMMANDS}
     assert {case[:2] for case in CASES} == {(subject, command) for subject in matrix.subjects() for command in COMMANDS}
-    assert {path.stem for name, path in matrix.subjects().items() if name not in kinds()} >= {"shaper", "engine-twin"}
+    assert {path.stem for name, path in matrix.subjects().items() if name not in KINDS} >= {"shaper", "engine-twin"}

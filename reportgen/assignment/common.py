@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -175,7 +176,7 @@ class Kind:
     section of that name, None for a machine without one; `checks` examine several values together. `labels` exists for
     a kind that adds positions to the evenly spaced ones. A kind that is a single instant of a motion has no positions
     and no chosen drawn length. `part` is the prefix of the ids of a kind that can be a part of a coursework; "" for
-    other kinds.
+    other kinds. `positions` and `drawing` are the sections of these names, in which a kind may have its own defaults.
     """
 
     name: str
@@ -187,6 +188,8 @@ class Kind:
     indicator_optional: bool = False
     has_positions: bool = True
     part: str = ""
+    positions: type[Positions] = Positions
+    drawing: type[Drawing] = Drawing
     topics: tuple[str, ...] = ()
     extended: Callable[[type[Part], tuple[str, ...]], Extended] | None = None
 
@@ -370,6 +373,7 @@ def sections(kind: Kind | None) -> dict[str, tuple[Any, Any]]:
     }
     if kind is None:
         return common
+    common["positions"], common["drawing"] = (kind.positions, kind.positions()), (kind.drawing, kind.drawing())
     if not kind.has_positions:
         shared = {name: common[name] for name in ("variant", "report", "sheet")}
         return {**shared, "parameters": (kind.parameters, ...)}
@@ -382,7 +386,7 @@ def sections(kind: Kind | None) -> dict[str, tuple[Any, Any]]:
 
 def file_model(kind: Kind) -> type[Part]:
     """Return the model of a whole file of one kind, for its JSON Schema."""
-    name = "".join(word.title() for word in kind.name.split("-"))
+    name = "".join(word.title() for word in re.split("[-/]", kind.name))
     fields: dict[str, Any] = {"kind": (Literal[kind.name], ...), **sections(kind)}
     return create_model(f"{name}File", __base__=Part, **fields)
 

@@ -131,14 +131,26 @@ def read_model(path: Path, model: type[Model], language: Language | None = None)
     Raises `AssignmentError` with every fault of the file.
     """
     source = read_source(path)
-    top, faults = _top(source)
-    value: Model | None = None
-    if top is not None:
-        value, findings = _section(_WHOLE, model, plain(top), lambda: {_WHOLE: (model, ...)})
-        faults += [_placed(replace(finding, where=finding.where[1:]), top) for finding in findings]
+    value, faults = model_of(source, model)
     if faults or value is None:
         raise as_error(faults, language or language_of(source))
     return value
+
+
+def model_of(source: Source, model: type[Model]) -> tuple[Model | None, list[Fault]]:
+    """Return the content of nodes that are not an assignment, and their faults."""
+    top, faults = _top(source)
+    if top is None:
+        return None, faults
+    value, findings = read_section(_WHOLE, model, plain(top))
+    return value, [*faults, *(_placed(replace(finding, where=finding.where[1:]), top) for finding in findings)]
+
+
+def read_section(key: str, model: type[Model], content: Any) -> tuple[Model | None, list[Finding]]:
+    """Return plain content as a model, and its faults at places below `key`."""
+    value: Model | None
+    value, findings = _section(key, model, content, lambda: {key: (model, ...)})
+    return value, findings
 
 
 def placed(source: Source, findings: Iterable[Finding]) -> list[Fault]:

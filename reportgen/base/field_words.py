@@ -15,9 +15,10 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
+from reportgen.base.atlas_words import machine_parameters, machine_words
 from reportgen.base.errors import TemplateError
 from reportgen.base.languages import setting_of
-from reportgen.base.template_folders import MACHINES, languages, topic_file, words_file
+from reportgen.base.template_folders import kind_words, languages, machine_files, topic_file, words_file
 from reportgen.base.topics import topics
 from reportgen.base.units import Language
 from reportgen.base.words import sections
@@ -53,9 +54,30 @@ def field_words(kind: str, language: Language) -> Mapping[str, FieldWords]:
 
     A kind without the section has only the common ones.  Raises `TemplateError` for a section that is not a table.
     """
-    own, common = words_file(language, f"{MACHINES}/{kind}.md"), words_file(language, FILE)
+    own, common = kind_words(language, kind), words_file(language, FILE)
     of_topics = _of_topics(language)
-    return _words_by_path(own, common, of_topics, *(file.stat().st_mtime_ns for file in (own, common, *of_topics)))
+    times = [file.stat().st_mtime_ns for file in (own, common, *of_topics)]
+    if (machine := next(iter(machine_files(kind)), None)) is None:
+        return _words_by_path(own, common, of_topics, *times)
+    shared = _words_by_path(None, common, of_topics, *times)
+    groups: Mapping[str, str] = _common(common, common.stat().st_mtime_ns)["groups"]
+    own_words = _of_machine(machine, language, groups, shared)
+    return own_words | {path: said for path, said in shared.items() if path not in own_words}
+
+
+def _of_machine(
+    file: Path, language: Language, groups: Mapping[str, str], shared: Mapping[str, FieldWords]
+) -> dict[str, FieldWords]:
+    """Return the labels of the parameters of a machine of the atlas, with their bounds, by their paths.
+
+    A parameter that the machine does not name has the label that it has in other kinds, else its key.
+    """
+    names, labels = machine_words(file, language).get(PARAMETERS, {}), dict[str, FieldWords]()
+    for key, about in machine_parameters(file).items():
+        path = f"{PARAMETERS}.{key}"
+        usual = shared[path].name if path in shared else key
+        labels[path] = FieldWords(str(names.get(key, usual)), about.range, groups[about.group])
+    return labels
 
 
 def shared_keys(language: Language) -> frozenset[str]:
@@ -93,11 +115,11 @@ def _of_topics(language: Language) -> tuple[Path, ...]:
 
 
 @lru_cache(maxsize=64)
-def _words_by_path(own: Path, common: Path, of_topics: tuple[Path, ...], *_: int) -> Mapping[str, FieldWords]:
+def _words_by_path(own: Path | None, common: Path, of_topics: tuple[Path, ...], *_: int) -> Mapping[str, FieldWords]:
     shared = _common(common, common.stat().st_mtime_ns)
     groups: Mapping[str, str] = shared["groups"]
     words = {path: _words(said) for path, said in shared["file"].items()}
-    tables = (_own(own), shared[PARAMETERS], *map(_own, of_topics))
+    tables = (*([] if own is None else [_own(own)]), shared[PARAMETERS], *map(_own, of_topics))
     parameters = [entry for table in tables for entry in _grouped(table, groups)]
     # The kind's own words for a key take precedence over the common ones.
     return words | {f"{PARAMETERS}.{path}": said for path, said in reversed(dict(reversed(parameters)).items())}

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
 
-from reportgen.base.template_folders import MACHINES, REFERENCE, kind_file, templates, words_file
+from reportgen.base.template_folders import ATLAS_BASE, REFERENCE, atlas_files, kind_file, kind_places, templates
 from reportgen.base.units import Language
 from reportgen.base.words import load_words
 
@@ -14,9 +14,19 @@ SAMPLE = "new"
 """The section of a kind's words with the file to begin with."""
 
 
-@cache
 def kinds() -> Mapping[str, str]:
     """Return the dotted module name of every kind, by the kind's name in a file, in alphabetical order.
+
+    Behind them are the machines of the atlas, which share a module. `REPORTGEN_ATLAS` may name further ones; their
+    files may be faulty.
+    """
+    shared = program_kinds()[ATLAS_BASE]
+    return {**program_kinds(), **dict.fromkeys(sorted(atlas_files()), shared)}
+
+
+@cache
+def program_kinds() -> Mapping[str, str]:
+    """Return the same as `kinds` without the machines of the atlas.
 
     A kind is a module in a package folder that has the same name as its file of words. The catalogue comes before
     other folders.
@@ -30,7 +40,7 @@ def kinds() -> Mapping[str, str]:
 
 def title(name: str, language: Language) -> str:
     """Return the line of description of a kind, from its words."""
-    return str(load_words((words_file(language, f"{MACHINES}/{name}.md"),))["title"])
+    return str(load_words(kind_places(language, name))["title"])
 
 
 def titles(language: Language) -> dict[str, str]:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import os
-from functools import cache
+import re
+from collections.abc import Mapping
+from functools import cache, lru_cache
 from pathlib import Path
 
 from reportgen.base.files import leads_out
@@ -21,6 +23,15 @@ MACHINES = "catalogue"
 """The folder beside `report.md` with a file for each kind of machine or exercise."""
 TOPICS = "topics"
 """The folder beside `report.md` with a file for each topic of a machine."""
+ATLAS = "atlas"
+"""The folder beside the languages with a file for each machine of the atlas; its kind is `atlas/NAME`."""
+ATLAS_BASE = "linkage"
+"""The kind whose reports, words and checks the machines of the atlas have."""
+ATLAS_VARIABLE = "REPORTGEN_ATLAS"
+"""The variable of the environment that names a further folder of machines, for all files of a run."""
+MOST_MACHINES = 200
+"""Largest number of machines that are read from a folder."""
+_MACHINE_NAME = re.compile(r"[a-z0-9][a-z0-9-]{0,60}")
 
 
 def templates() -> Path:
@@ -93,20 +104,85 @@ def search_path(
 ) -> tuple[Path, ...]:
     """Return the places in which sections and words are looked up; the first that has a name wins.
 
-    The places are the file of a school (its folder, or its name among the templates), the file of the kind, and the
-    folder of the language.
+    The places are the file of a school (its folder, or its name among the templates), the file of a machine of the
+    atlas, the file of the kind, and the folder of the language.
     """
     root = root or templates()
     return (
         *((root / school / f"{language}.md",) if school else ()),
+        *machine_files(kind),
         *((kind_file(language, kind, root),) if kind else ()),
         root / language,
     )
 
 
 def kind_file(language: Language, kind: str, root: Path | None = None) -> Path:
-    """Return the file with all words of one kind of machine."""
-    return (root or templates()) / language / MACHINES / f"{kind}.md"
+    """Return the file with all words of a kind of machine; all machines of the atlas share one."""
+    return (root or templates()) / language / MACHINES / f"{_words_of(kind)}.md"
+
+
+def _words_of(kind: str) -> str:
+    return ATLAS_BASE if is_of_atlas(kind) else kind
+
+
+def kind_places(language: Language, kind: str) -> tuple[Path, ...]:
+    """Return the places of the words of a kind alone, in a language or in the reference language."""
+    return *machine_files(kind), kind_words(language, kind)
+
+
+def kind_words(language: Language, kind: str) -> Path:
+    """Return the file of `kind_file`; that of the reference language if the language has none."""
+    return words_file(language, f"{MACHINES}/{_words_of(kind)}.md")
+
+
+# --- the atlas ------------------------------------------------------------------------------------
+
+
+def is_of_atlas(kind: str) -> bool:
+    """Return True for a kind that is a machine of the atlas, whether its file exists or not."""
+    return kind.startswith(f"{ATLAS}/")
+
+
+def atlas_files() -> Mapping[str, Path]:
+    """Return the files of the machines of the atlas, by kind: the program's, then those of the user's folder.
+
+    A machine of the user's folder replaces one of the same name.
+    """
+    own = os.environ.get(ATLAS_VARIABLE, "")
+    folders = (templates() / ATLAS, *((Path(own).absolute(),) if own else ()))
+    return {kind: file for folder in folders for kind, file in _machines_in(folder, _changed(folder)).items()}
+
+
+def machine_files(kind: str) -> tuple[Path, ...]:
+    """Return the file of a machine of the atlas; () for any other kind."""
+    file = atlas_files().get(kind) if is_of_atlas(kind) else None
+    return () if file is None else (file,)
+
+
+def is_own_machine(file: Path) -> bool:
+    """Return True if a machine's file is not the program's, so that it is read with care."""
+    return not file.is_relative_to(templates())
+
+
+def _changed(folder: Path) -> int:
+    try:
+        return folder.stat().st_mtime_ns
+    except (OSError, ValueError):
+        return 0
+
+
+@lru_cache(maxsize=8)
+def _machines_in(folder: Path, _changed: int) -> Mapping[str, Path]:
+    """Return the first machines of a folder by kind, cached while its list of files is unchanged.
+
+    Files with other names, and links that lead out of the folder, are left out.
+    """
+    try:
+        files = sorted(folder.glob("*.yaml"))
+    except (OSError, ValueError):
+        return {}
+    named = [file for file in files if _MACHINE_NAME.fullmatch(file.stem) and not leads_out(file, folder)]
+    return {f"{ATLAS}/{file.stem}": file for file in named[:MOST_MACHINES]}
 
 
 def topic_files(language: Path) -> list[Path]:

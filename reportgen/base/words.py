@@ -20,6 +20,7 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
+from reportgen.base.atlas_words import over_linkage
 from reportgen.base.errors import AssignmentError, Fault, Level, Location, Problem, TemplateError, Where
 from reportgen.base.placeholders import FILLS, filled, gaps, plain_gaps
 from reportgen.base.template_folders import (
@@ -100,18 +101,20 @@ def load_words(places: Sequence[Path]) -> Mapping[str, Any]:
     """
     merged: Mapping[str, Any] | None = None
     for place in reversed(places):
-        if (table := _words_in(place, not place.is_relative_to(places[-1]))) is not None:
+        if (table := _words_in(place, places[-1])) is not None:
             merged = table if merged is None else _over(merged, table, place)
     if merged is None:
         raise TemplateError(f"{places[-1]}: there are no words here")
     return merged
 
 
-def _words_in(place: Path, of_others: bool) -> Mapping[str, Any] | None:
-    """Return the words of a file of sections, which may not be the program's own, or of a folder."""
+def _words_in(place: Path, last: Path) -> Mapping[str, Any] | None:
+    """Return the words of a file of sections, of a machine of the atlas, or of a folder, with the `last` place."""
+    if place.suffix == ".yaml":
+        return over_linkage(place, of_file(last))
     if place.suffix == ".md":
         section = sections(place).get(SECTION)
-        return None if section is None else _as_written(section, place, of_others)
+        return None if section is None else _as_written(section, place, not place.is_relative_to(last))
     return _with_topics(place, FILE, SECTION) if (place / FILE).is_file() else None
 
 
@@ -430,6 +433,8 @@ def homes(name: str, place: Path) -> Iterator[tuple[Path, str]]:
     """
     if place.suffix == ".md":
         yield place, name
+    if place.suffix:
+        # The text of a machine of the atlas, in YAML, is not divided into sections.
         return
     file, _, section = name.rpartition("/")
     yield place / f"{file or 'report'}.md", section
@@ -438,7 +443,7 @@ def homes(name: str, place: Path) -> Iterator[tuple[Path, str]]:
 
 def of_school(places: Sequence[Path]) -> list[Path]:
     """Return the places that a school wrote; the others are in the folder of the language, the last one."""
-    return [place for place in places if not place.is_relative_to(places[-1])]
+    return [place for place in places if place.suffix == ".md" and not place.is_relative_to(places[-1])]
 
 
 def refuse_strangers(places: Sequence[Path]) -> None:

@@ -22,19 +22,18 @@ from contextlib import suppress
 from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
-from types import ModuleType
 from typing import Any
 
 import numpy as np
 
 from reportgen.assignment import parts, reading
-from reportgen.assignment.common import Assignment, Extended, Kind, Part, named_worked
+from reportgen.assignment.common import Assignment, Drawing, Extended, Kind, Part, Positions, named_worked
 from reportgen.assignment.fields import UNIT_KEY
 from reportgen.assignment.schema import alternatives_to, choices_of, file_schema, places, schema_of
 from reportgen.base.errors import AssignmentError, Fault, Finding, Level, Problem, ReportgenError, TemplateError
 from reportgen.base.field_words import also, choice_words, field_words, remarked
 from reportgen.base.kinds import SAMPLE, kinds
-from reportgen.base.template_folders import MACHINES, samples, words_file
+from reportgen.base.template_folders import is_of_atlas, kind_words, samples
 from reportgen.base.topics import topics
 from reportgen.base.translation_coverage import is_topic_whole, is_whole, offered
 from reportgen.base.units import Language, QuantityFault, measures, read_quantity, read_unit
@@ -42,7 +41,7 @@ from reportgen.base.words import as_error, as_problem, language_of, sections, sp
 from reportgen.base.yaml_source import MappingNode, Scalar, Source, read_source
 from reportgen.base.yaml_values import at as node_at
 from reportgen.base.yaml_values import put, text_of
-from reportgen.catalogue import assembly_checks, declared_loads
+from reportgen.catalogue import assembly_checks, atlas, declared_loads
 from reportgen.catalogue.parameters import Driven
 from reportgen.catalogue.topic_sections import TopicParameters, sections_of, topic_checks, with_topics
 from reportgen.machine import Linkage
@@ -52,9 +51,17 @@ from reportgen.machine.load_laws import FULL_TURN, STEPS
 _KIND = re.compile(r"(?m)^kind: (\S+)$")
 
 
-def module(kind: str) -> ModuleType:
-    """Return the module of a kind; raises `KeyError` for an unknown kind."""
-    return import_module(kinds()[kind])
+def module(kind: str) -> Any:
+    """Return the module of a kind, or the machine of the atlas that takes its place.
+
+    Raises `KeyError` for an unknown kind, and `AssignmentError` for a machine of the atlas whose file is faulty.
+    """
+    return atlas.machine_of(kind) if is_of_atlas(kind) else import_module(kinds()[kind])
+
+
+def sound_kinds() -> list[str]:
+    """Return the kinds without the machines of the atlas whose files are faulty."""
+    return [name for name in kinds() if not atlas.faults_of(name)]
 
 
 def kind(name: str) -> Kind:
@@ -72,6 +79,8 @@ def kind(name: str) -> Kind:
         indicator_optional=getattr(machine, "INDICATOR_OPTIONAL", False),
         has_positions=getattr(machine, "HAS_POSITIONS", True),
         part=getattr(machine, "PART", ""),
+        positions=getattr(machine, "PositionsModel", Positions),
+        drawing=getattr(machine, "DrawingModel", Drawing),
         topics=topics() if takes_topics else (),
         extended=_extended if takes_topics else None,
     )
@@ -99,11 +108,21 @@ def understood(source: Source, path: Path) -> tuple[Assignment | None, list[Faul
     """Return the same as `assess`, without the slow check that the machine reaches all positions, for assessed
     nodes.
     """
+    if faults := _of_machine(source):
+        return None, list(faults)
     return reading.assess(source, path, kinds(), kind)
+
+
+def _of_machine(source: Source) -> tuple[Fault, ...]:
+    """Return the faults of the machine of the atlas that nodes name."""
+    name = node_at(source.top, ("kind",))
+    return atlas.faults_of(name.text) if isinstance(name, Scalar) else ()
 
 
 def unchecked(source: Source, path: Path) -> Assignment | None:
     """Return the assignment of nodes that may fail the checks, without its parts; None if a value is faulty."""
+    if _of_machine(source):
+        return None
     return reading.unchecked(source, path, kinds(), kind)
 
 
@@ -291,7 +310,7 @@ def schema(language: Language | None = None) -> dict[str, Any]:
     language.
     """
     spoken_in = language or spoken()
-    return schema_of(map(kind, kinds()), lambda name: field_words(name, spoken_in))
+    return schema_of(map(kind, sound_kinds()), lambda name: field_words(name, spoken_in))
 
 
 # --- starter files ----------------------------------------------------------------------------------
@@ -300,11 +319,13 @@ def schema(language: Language | None = None) -> dict[str, Any]:
 def sample(name: str, language: Language) -> str:
     """Return the commented starter file of a kind; raises `KeyError`, or `TemplateError` if the kind has none."""
     known = kind(name)
-    file = words_file(language, f"{MACHINES}/{name}.md")
+    file = kind_words(language, name)
     if (section := sections(file).get(SAMPLE)) is None:
         raise TemplateError(f"{file}:1: there is no section {SAMPLE}")
-    words = field_words(name, language)
-    return remarked(section.text, words, lambda path, value: _more(known, path.split("."), value, language))
+    words, text = field_words(name, language), section.text
+    if is_of_atlas(name):
+        text = atlas.starter(name, text, language)
+    return remarked(text, words, lambda path, value: _more(known, path.split("."), value, language))
 
 
 def _more(known: Kind, path: Sequence[str], value: str, language: Language) -> str:

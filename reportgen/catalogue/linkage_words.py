@@ -66,11 +66,14 @@ class PointRow:
 class MotionRow:
     """Motion of a link: "rotation" about a fixed point, "translation" along a fixed guide, "shift" without
     rotation, or "plane" motion.
+
+    `called` is the name of the link in a machine of the atlas.
     """
 
     link: int
     kind: str
     point: str = ""
+    called: str = ""
 
 
 def facts(given: file.Parameters, loads: tuple[str, ...], acting: Container[str]) -> dict[str, Any]:
@@ -82,6 +85,9 @@ def facts(given: file.Parameters, loads: tuple[str, ...], acting: Container[str]
     axes = _axes(given)
     acting_loads = tuple(_load(load, name) for load, name in zip(given.loads, loads, strict=True) if name in acting)
     return {
+        "about": "",
+        "task": "",
+        "called": {},
         "frame": [(vocabulary.point(name), *map(as_typed, at)) for name, at in given.frame.items()],
         "quantities": tuple(_quantities(given, rows)),
         "groups": rows,
@@ -100,12 +106,17 @@ def facts(given: file.Parameters, loads: tuple[str, ...], acting: Container[str]
     }
 
 
+def rods(group: file.GroupSection) -> tuple[str, ...]:
+    """Return the rods of a group that have a length, by their ends."""
+    return tuple(rod for rod, _ in _group(group).lengths)
+
+
 def arms(given: file.Parameters) -> Iterator[str]:
     """Yield the lengths that do not change, by their ends: crank, rods, points of the links."""
     if isinstance(given.driver, file.CrankDriver):
         yield f"{given.driver.centre}{given.driver.pin}"
     for group in given.groups:
-        yield from (rod for rod, _ in _group(group).lengths)
+        yield from rods(group)
     axes = _axes(given)
     yield from (f"{axes[point.link][0]}{name}" for name, point in given.points.items())
 

@@ -42,6 +42,8 @@ class TopicParameters(Part):
     """Those of them that give a mass or a moment of inertia."""
     moment_keys: ClassVar[tuple[str, ...]] = ()
     """Those of them that give a moment of inertia alone."""
+    is_loaded: ClassVar[bool] = False
+    """True if the machine has a mass or a load whatever the file gives."""
     topic_names: ClassVar[tuple[str, ...]] = ()
     """The topics whose sections have been added."""
 

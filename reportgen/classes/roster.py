@@ -27,7 +27,7 @@ from reportgen.assignment.fields import RESERVED, TypedText
 from reportgen.base import chinese
 from reportgen.base.errors import Fault, Location, Problem
 from reportgen.base.files import contents
-from reportgen.base.kinds import kinds
+from reportgen.base.kinds import kinds, program_kinds
 from reportgen.base.template_folders import languages
 from reportgen.base.units import NUMBER, UNIT, Language
 from reportgen.base.words import as_error, as_problem, close_or_known, messages
@@ -412,7 +412,7 @@ def _is_frozen(path: Path) -> bool:
 @cache
 def _heads() -> frozenset[str]:
     """Return the prefixes of the names of parts."""
-    return frozenset(filter(None, (catalogue.kind(name).part for name in kinds())))
+    return frozenset(filter(None, (catalogue.kind(name).part for name in program_kinds())))
 
 
 def _may_be_part(path: Path) -> bool:

@@ -173,7 +173,8 @@ def edit(
 
     def begin(kind: str, sample: str) -> Path:
         """Return a new file of a kind, or a copy of its sample: the file that was named, or the first free name."""
-        names = (Path(f"{kind}{f'-{number}' if number else ''}.yaml") for number in itertools.count())
+        name = Path(kind).name
+        names = (Path(f"{name}{f'-{number}' if number else ''}.yaml") for number in itertools.count())
         file = output or next(name for name in names if not os.path.lexists(name))
         _begin(kind, file, lang, sample)
         return file
@@ -192,7 +193,7 @@ def edit(
             raise typer.BadParameter(unknown("no_kind", what, list(kinds()), lang), param_hint="KIND")
         file = Path(what)
         if begins:
-            file = output or Path(f"{what}.yaml")
+            file = output or Path(f"{Path(what).name}.yaml")
             _begin(what, file, lang)
         serving.edit(file, products, lang, browser=not no_open)
 

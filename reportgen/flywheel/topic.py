@@ -37,7 +37,7 @@ def checks(parameters: type[TopicParameters]) -> tuple[Check, ...]:
 
     def loaded(draft: Draft) -> Iterator[Finding]:
         given = [topic for topic in topics() if draft.at("parameters", topic)]
-        loads = any(draft.at("parameters", key) for key in parameters.load_keys)
+        loads = parameters.is_loaded or any(draft.at("parameters", key) for key in parameters.load_keys)
         if not loads and not any(section.acts for section in sections_of(given)):
             yield Finding("flywheel-without-loads", ("parameters", "flywheel"), at="key")
 

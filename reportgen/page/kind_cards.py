@@ -13,8 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from reportgen import catalogue
-from reportgen.base.kinds import kinds
-from reportgen.base.template_folders import DEFAULT_LANGUAGE, MACHINES, REFERENCE, templates, words_file
+from reportgen.base.template_folders import DEFAULT_LANGUAGE, REFERENCE, kind_places, templates
 from reportgen.base.units import Language
 from reportgen.base.words import load_words
 
@@ -91,7 +90,7 @@ def _first_sentence(text: str) -> str:
 def cards(language: Language) -> Mapping[str, tuple[Card, ...]]:
     """Return the cards of all kinds by the keys of their groups, in a language."""
     grouped: dict[str, list[Card]] = {}
-    for kind in kinds():
+    for kind in catalogue.sound_kinds():
         words = _words(kind, language)
         card = Card(kind, words["title"], words.get("uses", ""), scheme(kind), samples_of().get(kind, ()), _terms(kind))
         grouped.setdefault(words.get("group", REST), []).append(card)
@@ -99,7 +98,7 @@ def cards(language: Language) -> Mapping[str, tuple[Card, ...]]:
 
 
 def _words(kind: str, language: Language) -> Mapping[str, Any]:
-    return load_words((words_file(language, f"{MACHINES}/{kind}.md"),))
+    return load_words(kind_places(language, kind))
 
 
 def _terms(kind: str) -> str:

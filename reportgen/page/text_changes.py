@@ -9,7 +9,7 @@ from typing import Any
 
 from reportgen import catalogue
 from reportgen.base.errors import Location, Where
-from reportgen.base.kinds import kinds
+from reportgen.base.kinds import program_kinds
 from reportgen.base.template_folders import REFERENCE
 from reportgen.base.yaml_edit import exchanged, with_value, without
 from reportgen.base.yaml_remarks import renumbered
@@ -88,4 +88,4 @@ def _named(table: bool) -> Node:
 @cache
 def part_kinds() -> tuple[str, ...]:
     """Return the kinds that can be a part of a coursework."""
-    return tuple(kind for kind in kinds() if catalogue.kind(kind).part)
+    return tuple(kind for kind in program_kinds() if catalogue.kind(kind).part)

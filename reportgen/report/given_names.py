@@ -16,7 +16,7 @@ def given_names(
     """Return descriptions by the ids of given quantities.
 
     `own` are the facts of the machine, `entered` the ids that its ledger has.  A declared linkage describes its own
-    quantities.
+    quantities; a machine of the atlas has names for some of them.
     """
     if "quantities" not in own:
         names = dict(words.get("given", {}))
@@ -29,7 +29,7 @@ def given_names(
     of_kind = words["linkage"]["given"]
     declared = {id: of_kind[what] + (subscripted(of) if what == "length" else of) for id, what, of in own["quantities"]}
     named = {id: name for id, name in of_kind.items() if id in entered and id not in declared}
-    return {**declared, **named, **words["given_of_topics"]}
+    return {**declared, **own["called"], **named, **words["given_of_topics"]}
 
 
 def _centres(words: Mapping[str, Any], linkage: Linkage) -> Iterator[tuple[str, str]]:

@@ -19,7 +19,7 @@ import pytest
 from reportgen import api
 from reportgen.assignment import Assignment
 from reportgen.assignment.common import Extent
-from reportgen.base.kinds import kinds
+from reportgen.base.kinds import program_kinds
 from reportgen.base.units import Language
 from reportgen.base.words import language_of
 from reportgen.base.yaml_source import Source
@@ -67,7 +67,7 @@ def _first_of_each_kind(files: Iterable[Path]) -> list[Path]:
 
 TYPESET = _first_of_each_kind(FILES)
 """One file a kind is made by both writers."""
-OF_EACH_KIND = {next(iter(api.examples(kind).values())).resolve() for kind in kinds()}
+OF_EACH_KIND = {next(iter(api.examples(kind).values())).resolve() for kind in program_kinds()}
 """The first file of every kind; the words of a draft are proved with them."""
 SAMPLE = ROOT / "assignments" / "engine-twin-05.yaml"
 SIBLINGS = _first_of_each_kind(path for path in FILES if path not in TYPESET)

@@ -9,7 +9,7 @@ import pytest
 
 import reportgen
 from reportgen import catalogue
-from reportgen.base.kinds import kinds
+from reportgen.base.kinds import program_kinds
 from reportgen.cases import MachineCase
 from reportgen.catalogue.topic_sections import TopicParameters
 from reportgen.drawing import Label, Scene
@@ -19,7 +19,7 @@ from reportgen.motion.true_motion import motion_in
 from reportgen.report.context import ReportContext
 from tests.topics.test_topic_pairs import sample
 
-MACHINES = [kind for kind in kinds() if issubclass(catalogue.kind(kind).base, TopicParameters)]
+MACHINES = [kind for kind in program_kinds() if issubclass(catalogue.kind(kind).base, TopicParameters)]
 MASS = re.compile("[GmJ][0-9]")
 LOADS = {"cutting", "force", "loads", "torque"}
 KEEP_MASSES = {"engine-single", "engine-twin", "linkage"}

@@ -14,7 +14,7 @@ import yaml
 import reportgen
 from reportgen import catalogue
 from reportgen.base.errors import AssignmentError
-from reportgen.base.kinds import kinds
+from reportgen.base.kinds import program_kinds
 from reportgen.base.topics import topics
 from reportgen.cases import MachineCase
 from reportgen.catalogue.declared_loads import pins
@@ -28,7 +28,7 @@ from reportgen.notebook import Model
 from reportgen.report.context import ReportContext
 from tests.lanes import matrix
 
-MACHINES = [kind for kind in kinds() if issubclass(catalogue.kind(kind).base, TopicParameters)]
+MACHINES = [kind for kind in program_kinds() if issubclass(catalogue.kind(kind).base, TopicParameters)]
 PAIRS = list(combinations(topics(), 2))
 SEEN_TOGETHER = {
     ("flywheel", "friction"): lambda case: "friction.reduced" in case.ledger,

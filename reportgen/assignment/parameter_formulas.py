@@ -1,0 +1,182 @@
+"""Formulas of a machine's parameters, such as `a/2` or `L*sin(beta) + 20 mm`: parsed without being executed.
+
+A formula has numbers, quantities with a simple unit, names of parameters, `+ - * / ^`, parentheses and the functions of
+`FUNCTIONS`. Its value has a dimension, which must be that of the place where the formula is written.
+"""
+
+from __future__ import annotations
+
+import ast
+import math
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+
+from reportgen.base.units import NUMBER, Dimension, Given, scale
+
+LONGEST_FORMULA = 120
+"""Largest number of characters of a formula."""
+LARGEST_POWER = 4
+UNITS = ("mm", "cm", "m", "deg", "rad", "N", "kN", "kg", "rpm", "s")
+"""Units that a number of a formula may have; no parameter has such a name."""
+_QUANTITY = re.compile(rf"(?<![\w.])({NUMBER.removeprefix('[+-]?')})\s*({'|'.join(UNITS)})(?![\w(])")
+_SIGNS = {"·": "*", "×": "*", "⋅": "*", "\N{MINUS SIGN}": "-", "^": "**"}
+
+PLAIN: Dimension = ()
+"""The dimension of a pure number."""
+ANGLE = scale("rad")[1]
+
+
+@dataclass(frozen=True, slots=True)
+class Amount:
+    """A value in SI units with its dimension."""
+
+    si: float
+    dimension: Dimension = PLAIN
+
+    @classmethod
+    def of(cls, given: Given) -> Amount:
+        """Return a quantity as typed; one without a unit is a pure number."""
+        return cls(given.si, scale(given.unit)[1] if given.unit else PLAIN)
+
+
+OF_ANGLES, TO_ANGLES = ("sin", "cos", "tan"), ("asin", "acos", "atan")
+FUNCTIONS: Mapping[str, Callable[[float], float]] = {
+    **{name: getattr(math, name) for name in (*OF_ANGLES, *TO_ANGLES)},
+    "sqrt": math.sqrt,
+    "abs": abs,
+}
+"""Functions of a formula; those of angles take a value in deg or rad."""
+_POWERS = {"sqrt": 0.5, "abs": 1.0}
+"""Functions of values with any unit, and the power of the unit that they return."""
+
+
+class FormulaError(ValueError):
+    """A text that is not a formula, or has no value; `code` and `arguments` name a message."""
+
+    def __init__(self, code: str, **arguments: str) -> None:
+        super().__init__(code)
+        self.code = code
+        self.arguments = arguments
+
+
+@dataclass(frozen=True, slots=True)
+class Formula:
+    """A parsed formula: its text, its tree, the values of its quantities, and the names of its parameters."""
+
+    text: str
+    tree: ast.expr
+    constants: Mapping[str, Amount]
+    names: tuple[str, ...]
+
+    @property
+    def bare(self) -> str:
+        """The parameter whose value this is, unchanged; "" if something is calculated."""
+        return self.tree.id if isinstance(self.tree, ast.Name) and self.tree.id in self.names else ""
+
+    def value(self, parameters: Mapping[str, Amount]) -> Amount:
+        """Return the value for some parameters; raises `FormulaError` for units that do not fit and for no value."""
+        try:
+            value = self._value(self.tree, parameters)
+        except (ArithmeticError, ValueError) as error:
+            if isinstance(error, FormulaError):
+                raise
+            raise FormulaError("formula-value", text=self.text) from None
+        if not math.isfinite(value.si):
+            raise FormulaError("formula-value", text=self.text)
+        return value
+
+    def _value(self, node: ast.expr, parameters: Mapping[str, Amount]) -> Amount:
+        match node:
+            case ast.Constant(value=int(number) | float(number)):
+                return Amount(float(number))
+            case ast.Name(id=name):
+                return self.constants[name] if name in self.constants else parameters[name]
+            case ast.UnaryOp(op=op, operand=inner):
+                value = self._value(inner, parameters)
+                return Amount(-value.si, value.dimension) if isinstance(op, ast.USub) else value
+            case ast.Call(func=ast.Name(id=name), args=[argument]):
+                return self._called(name, self._value(argument, parameters))
+            case ast.BinOp(left=base, op=ast.Pow(), right=ast.Constant(value=int(power))):
+                value = self._value(base, parameters)
+                return Amount(value.si**power, _power(value.dimension, power))
+            case ast.BinOp(left=left, op=op, right=right):
+                return self._combined(op, self._value(left, parameters), self._value(right, parameters))
+        raise AssertionError("a formula is checked when it is parsed")
+
+    def _called(self, name: str, value: Amount) -> Amount:
+        result = FUNCTIONS[name](value.si)
+        if name in _POWERS:
+            return Amount(result, _power(value.dimension, _POWERS[name]))
+        if value.dimension != (ANGLE if name in OF_ANGLES else PLAIN):
+            raise FormulaError("formula-units", text=self.text)
+        return Amount(result, PLAIN if name in OF_ANGLES else ANGLE)
+
+    def _combined(self, op: ast.operator, left: Amount, right: Amount) -> Amount:
+        if isinstance(op, ast.Mult):
+            return Amount(left.si * right.si, _product(left.dimension, right.dimension))
+        if isinstance(op, ast.Div):
+            return Amount(left.si / right.si, _product(left.dimension, _power(right.dimension, -1)))
+        if left.dimension != right.dimension:
+            raise FormulaError("formula-units", text=self.text)
+        return Amount(left.si + (right.si if isinstance(op, ast.Add) else -right.si), left.dimension)
+
+
+@lru_cache(maxsize=2000)
+def formula(text: str, known: frozenset[str]) -> Formula:
+    """Return the formula of a text whose parameters are among the `known` names.  Raises `FormulaError`."""
+    if len(text) > LONGEST_FORMULA:
+        raise FormulaError("formula-syntax", text=text)
+    plain = "".join(_SIGNS.get(letter, letter) for letter in text.strip())
+    constants: dict[str, Amount] = {}
+
+    def named(match: re.Match[str]) -> str:
+        factor, dimension = scale(match[2])
+        name = f"_{len(constants)}"
+        constants[name] = Amount(float(match[1]) * factor, dimension)
+        return name
+
+    try:
+        tree = ast.parse(_QUANTITY.sub(named, plain), mode="eval").body
+    except (SyntaxError, ValueError, MemoryError, RecursionError):
+        raise FormulaError("formula-syntax", text=text) from None
+    names: list[str] = []
+    _check(tree, text, known | constants.keys(), names)
+    return Formula(text, tree, constants, tuple(dict.fromkeys(name for name in names if name not in constants)))
+
+
+def _check(node: ast.expr, text: str, known: frozenset[str], names: list[str]) -> None:
+    """Raise `FormulaError` for anything that no formula has; collect the names in it."""
+    match node:
+        case ast.Constant(value=bool()):
+            pass
+        case ast.Constant(value=int() | float()):
+            return None
+        case ast.Name(id=name):
+            if name not in known:
+                listed = ", ".join(sorted(one for one in known if not one.startswith("_")))
+                raise FormulaError("formula-name", text=name, known=listed or "–")
+            names.append(name)
+            return None
+        case ast.UnaryOp(op=ast.USub() | ast.UAdd(), operand=inner):
+            return _check(inner, text, known, names)
+        case ast.Call(func=ast.Name(id=name), args=[argument], keywords=[]) if name in FUNCTIONS:
+            return _check(argument, text, known, names)
+        case ast.BinOp(left=base, op=ast.Pow(), right=ast.Constant(value=int(power))) if 0 < power <= LARGEST_POWER:
+            return _check(base, text, known, names)
+        case ast.BinOp(left=left, op=ast.Add() | ast.Sub() | ast.Mult() | ast.Div(), right=right):
+            _check(left, text, known, names)
+            return _check(right, text, known, names)
+    raise FormulaError("formula-syntax", text=text)
+
+
+def _power(dimension: Dimension, power: float) -> Dimension:
+    return tuple((unit, exponent * power) for unit, exponent in dimension)
+
+
+def _product(left: Dimension, right: Dimension) -> Dimension:
+    powers = dict(left)
+    for unit, power in right:
+        powers[unit] = powers.get(unit, 0.0) + power
+    return tuple(sorted((unit, power) for unit, power in powers.items() if power))

@@ -1,0 +1,207 @@
+"""Machines of the atlas: every machine of the program in memory, files of a department, formulas, and their faults."""
+
+from __future__ import annotations
+
+import pickle
+from pathlib import Path
+
+import pytest
+
+from reportgen import catalogue
+from reportgen.assignment.parameter_formulas import Amount, FormulaError, formula
+from reportgen.base.atlas_words import machine_source
+from reportgen.base.field_words import field_words
+from reportgen.base.kinds import kinds, title, titles
+from reportgen.base.template_folders import ATLAS_VARIABLE, atlas_files, languages
+from reportgen.base.yaml_source import read_text
+from reportgen.cases import open_case
+from reportgen.catalogue import atlas, linkage
+from reportgen.catalogue.atlas_file import checked
+from reportgen.marking.task_paper import task_of
+from reportgen.marking.toleranced_key import key_of
+from reportgen.results import results
+
+MACHINES = sorted(atlas_files())
+SLOTTER = """
+words:
+  en:
+    title: A slotter <b>& more</b> %% given
+    description: "Crank *1* turns {{ own.about }} steadily; $x$ is said."
+    parameters: {a: length of the crank}
+    links: {3: the slotted link}
+parameters:
+  a: {default: 50 mm, least: 20 mm, most: 90 mm}
+  h: {default: 150 mm, least: 100 mm}
+  w: {default: 60 rpm}
+linkage:
+  frame: {A: [0 mm, 0 mm], D: [0 mm, -h]}
+  driver: {type: crank, centre: A, pin: B, length: a, n: w}
+  groups:
+    - {type: RPR, links: [2, 3], joints: [B, C, D]}
+  points: {E: {link: 3, at: [h + a + 20 mm, 0 mm]}}
+"""
+
+
+@pytest.fixture
+def department(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The folder of a department with a slotter, named by the environment."""
+    folder = tmp_path / "machines"
+    folder.mkdir()
+    (folder / "slotter.yaml").write_text(SLOTTER, "utf-8")
+    monkeypatch.setenv(ATLAS_VARIABLE, str(folder))
+    return folder
+
+
+def examined(kind: str, parameters: str, folder: Path) -> list[str]:
+    """Return the errors of an assignment with some parameters, as they are printed."""
+    file = folder / "mine.yaml"
+    file.write_text(f"kind: {kind}\nreport: {{language: en}}\nparameters: {parameters}\n", "utf-8")
+    return [str(problem) for problem in catalogue.check(file)]
+
+
+@pytest.mark.parametrize("kind", MACHINES)
+def test_a_machine_of_the_program_is_right_and_complete_in_memory(kind: str) -> None:
+    """Its file, its words, its starter file, its key, its task and its report in both languages; nothing is typeset."""
+    machine = atlas.machine_of(kind)
+    assert checked(machine.compiled, machine_source(atlas_files()[kind]), linkage.CHECKS) == []
+    for language in ("vi", "en"):
+        words = machine.compiled.content.words[language]
+        assert words.uses
+        assert words.parameters.keys() == machine.compiled.parameters.keys()
+        assert words.links.keys() <= {
+            str(link) for group in machine.compiled.content.linkage["groups"] for link in group["links"]
+        } | {"1"}
+    for language in languages():
+        assert catalogue.understood(read_text(catalogue.sample(kind, language)), Path("x.yaml"))[1] == []
+    (sample, *_) = catalogue.examples(kind).values()
+    assert catalogue.check(sample) == []
+    for language in ("vi", "en"):
+        case = open_case(sample, language)
+        key = key_of(case)
+        assert key.kind == kind
+        assert len(key.asked) > 20
+        assert results(case)["kind"] == kind
+        assert len(task_of(case, key).blocks) > 5
+        assert len(case.document().blocks) > 100
+        assert pickle.loads(pickle.dumps(case.assignment)) == case.assignment
+    assert machine.compiled.content.words["en"].description[:20] in str(case.document().blocks)
+
+
+def test_a_machine_of_a_department_is_served_as_any_kind(department: Path, tmp_path: Path) -> None:
+    assert list(kinds())[-2:] == [MACHINES[-1], "atlas/slotter"]
+    assert examined("atlas/slotter", "{a: 45 mm}", tmp_path) == []
+    made = catalogue.machine_of(catalogue.read_source(tmp_path / "mine.yaml"), tmp_path / "mine.yaml")
+    assert made is not None
+    assert made.linkage.driver.length == pytest.approx(0.045)
+    assert made.linkage.points[0].local == pytest.approx(0.215)
+    assert made.facts["called"] == {"l.AB": "length of the crank"}
+    words = field_words("atlas/slotter", "vi")["parameters.a"]
+    assert (words.name, words.remark) == ("length of the crank", "20 mm … 90 mm")
+    about = next(
+        one["properties"]["a"]
+        for one in catalogue.schema("en")["definitions"].values()
+        if {"h", "w"} <= one["properties"].keys()
+    )
+    assert (about["x-unit"], about["x-range"]) == ("mm", {"minimum": 20.0, "maximum": 90.0})
+    assert about["description"] == "length of the crank, 20 mm … 90 mm"
+
+
+def test_text_of_a_machine_is_never_markup_nor_a_template(department: Path, tmp_path: Path) -> None:
+    examined("atlas/slotter", "{}", tmp_path)
+    case = open_case(tmp_path / "mine.yaml")
+    assert case.title == "A slotter <b>& more</b> %% given"
+    assert "Text(text='Crank *1* turns {{ own.about }} steadily; $x$ is said.'" in str(case.document().blocks)
+
+
+@pytest.mark.parametrize(
+    ("change", "at", "code"),
+    [
+        (("h + a + 20 mm", "h + aa"), "h + aa", "formula-name"),
+        (("h + a + 20 mm", "h + w"), "h + w", "formula-units"),
+        (("h + a + 20 mm", "h*a"), "h*a", "formula-units"),
+        (("h + a + 20 mm", "h/(a - a)"), "h/(a", "formula-value"),
+        (("h + a + 20 mm", "h.si"), "h.si", "formula-syntax"),
+        (("h + a + 20 mm", "sin(h)"), "sin(h)", "formula-units"),
+        (("w: {", "m: {"), "m: {", "parameter-name"),
+        (("n: w", "n: 60 rpm"), "w: {", "parameter-unused"),
+        (("least: 20 mm, most", "least: 60 mm, most"), "50 mm", "out-of-range"),
+        (("least: 20 mm, most", "least: 20 N, most"), "20 N", "wrong-unit"),
+        (("links: {3", "links: {x"), "x: the", "no-such-link"),
+        (("  en:", "  xx:"), "xx:", "choice"),
+        (("title: A", "titel: A"), "titel", "unknown-key"),
+        (("joints: [B, C, D]", "joints: [B, C, X]"), "X]", "no-such-point"),
+        (("type: RPR", "type: RPX"), "RPX", "choice"),
+        (("[h + a + 20 mm", "[h: ["), ", 0 mm]}}", "syntax"),
+        (
+            ("RPR, links: [2, 3],", "RRR, lengths: [a, a/2], side: left, links: [2, 3],"),
+            "{type: RRR",
+            "never-assembled",
+        ),
+    ],
+)
+def test_a_fault_of_a_machine_is_at_its_place_and_stops_no_other(
+    department: Path, tmp_path: Path, change: tuple[str, str], at: str, code: str
+) -> None:
+    assert SLOTTER.count(change[0]) == 1
+    file, text = department / "bad.yaml", SLOTTER.replace(*change)
+    file.write_text(text, "utf-8")
+    before = text[: text.index(at)]
+    place = f"{before.count(chr(10)) + 1}:{len(before) - before.rfind(chr(10))}"
+    found = examined("atlas/bad", "{}", tmp_path)
+    assert [line for line in found if f"{file}:{place}: error[{code}]" in line], found
+    assert examined("atlas/slotter", "{}", tmp_path) == []
+    assert "atlas/bad" not in catalogue.sound_kinds()
+    assert titles("en")["atlas/slotter"].startswith("A slotter")
+
+
+def test_a_fault_of_the_linkage_is_at_the_parameter_that_causes_it(department: Path, tmp_path: Path) -> None:
+    assert "mine.yaml:3:17: error[out-of-range]" in examined("atlas/slotter", "{a: 95 mm}", tmp_path)[0]
+    found = examined("atlas/jaw-crusher", "{a: 70 mm, b: 430 mm, c: 280 mm, d: 340 mm, L: 720 mm}", tmp_path)
+    assert all("mine.yaml:3:" in line for line in found)
+
+
+def test_a_folder_has_machines_alone_and_no_link_leads_out(department: Path, tmp_path: Path) -> None:
+    outside = tmp_path / "outside.yaml"
+    outside.write_text(SLOTTER, "utf-8")
+    (department / "stray.yaml").symlink_to(outside)
+    (department / "Not A Name.yaml").write_text(SLOTTER, "utf-8")
+    (department / "notes.txt").write_text("text", "utf-8")
+    assert [name for name in atlas_files() if name not in MACHINES] == ["atlas/slotter"]
+    (department / "large.yaml").write_text(SLOTTER + "#" * 500_000, "utf-8")
+    assert "error[too-large]" in examined("atlas/large", "{}", tmp_path)[0]
+
+
+def test_a_machine_without_words_in_a_language_has_those_of_another(department: Path) -> None:
+    assert title("atlas/slotter", "vi").startswith("A slotter")
+    (department / "slotter.yaml").write_text("words: [", "utf-8")
+    assert title("atlas/slotter", "vi") == "slotter"
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [
+        ("-b", -0.2),
+        ("a/2 + b*0.5", 0.15),
+        ("sqrt(a*b)", 0.02**0.5),
+        ("2*(a + 3 cm)", 0.26),
+        ("a^2/b", 0.05),
+        ("b·sin(30 deg)", 0.1),
+        ("a + b*cos(acos(0.5))", 0.2),
+        ("b − 50mm", 0.15),
+    ],
+)
+def test_a_formula_is_evaluated_with_its_units(text: str, value: float) -> None:
+    metre = Amount(1.0, (("meter", 1.0),))
+    given = {"a": Amount(0.1, metre.dimension), "b": Amount(0.2, metre.dimension)}
+    found = formula(text, frozenset(given)).value(given)
+    assert found.si == pytest.approx(value, rel=1e-12)
+    assert found.dimension == metre.dimension
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["a.real", "a[0]", "print(a)", "a if a else b", "lambda: a", "a**99", "'a'", "True", "(a", "a, b", "a" * 200],
+)
+def test_a_formula_is_nothing_but_arithmetic(text: str) -> None:
+    with pytest.raises(FormulaError):
+        formula(text, frozenset("ab"))
