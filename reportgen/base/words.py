@@ -27,6 +27,8 @@ from reportgen.base.template_folders import (
     DEFAULT_LANGUAGE,
     MACHINES,
     REFERENCE,
+    atlas_files,
+    is_own_machine,
     is_school,
     languages,
     school_files,
@@ -67,9 +69,10 @@ TEMPLATES = "REPORTGEN_TEMPLATES"
 
 
 def templates_hash() -> str:
-    """Return the SHA-256 of the names and contents of all templates, those of schools included, in sorted order."""
+    """Return the SHA-256 of the names and contents of all templates, those of schools and own machines included."""
     root, own, digest = templates(), named_school(), sha256()
-    for path in (*sorted(path for path in root.rglob("*") if path.is_file()), *(school_files(own) if own else ())):
+    others = (*(school_files(own) if own else ()), *filter(is_own_machine, atlas_files().values()))
+    for path in (*sorted(path for path in root.rglob("*") if path.is_file()), *others):
         name = path.relative_to(root if path.is_relative_to(root) else path.parent).as_posix()
         for part in (name.encode(), path.read_bytes()):
             digest.update(len(part).to_bytes(8, "big") + part)

@@ -59,9 +59,19 @@ def module(kind: str) -> Any:
     return atlas.machine_of(kind) if is_of_atlas(kind) else import_module(kinds()[kind])
 
 
+def is_sound(name: str) -> bool:
+    """Return True for a kind, unless it is a machine of the atlas whose file is faulty."""
+    return name in kinds() and not atlas.faults_of(name)
+
+
 def sound_kinds() -> list[str]:
     """Return the kinds without the machines of the atlas whose files are faulty."""
-    return [name for name in kinds() if not atlas.faults_of(name)]
+    return [name for name in kinds() if is_sound(name)]
+
+
+def faulty_machines(language: Language | None = None) -> list[Problem]:
+    """Return the errors in the files of the atlas."""
+    return [as_problem(fault, language) for name in kinds() for fault in atlas.faults_of(name)]
 
 
 def kind(name: str) -> Kind:
@@ -236,8 +246,13 @@ def check(path: Path | str, language: Language | None = None) -> list[Problem]:
 
 
 def examine(path: Path | str, language: Language | None = None) -> list[Problem]:
-    """Return all faults of an assignment file; if it has none, its warnings and the positions that labels refer to."""
-    return problems_of(read_source(Path(path)), Path(path), language)
+    """Return all faults of an assignment file; if it has none, its warnings and the positions that labels refer to.
+
+    Of a machine's file for the atlas, the faults are returned.
+    """
+    if atlas.is_machine_file(source := read_source(Path(path))):
+        return [as_problem(fault, language) for fault in atlas.faults_in(source)]
+    return problems_of(source, Path(path), language)
 
 
 def problems_of(source: Source, path: Path, language: Language | None = None) -> list[Problem]:

@@ -21,7 +21,7 @@ from reportgen.base.errors import Fault, Finding, Where
 from reportgen.base.template_folders import ATLAS_BASE, atlas_files, is_own_machine
 from reportgen.base.units import Given, Language
 from reportgen.base.words import as_error
-from reportgen.base.yaml_source import Source
+from reportgen.base.yaml_source import MappingNode, Source
 from reportgen.catalogue import linkage, linkage_file
 from reportgen.catalogue.atlas_file import CompiledMachine, checked, read_machine
 from reportgen.catalogue.linkage_words import rods
@@ -225,6 +225,18 @@ def machine_of(kind: str) -> AtlasMachine:
 def faults_of(kind: str) -> tuple[Fault, ...]:
     """Return the faults of a machine's file; () for one that is in order, and for any other kind."""
     return _read(kind)[1] if kind in atlas_files() else ()
+
+
+def is_machine_file(source: Source) -> bool:
+    """Return True for the nodes of a machine's file, which has a linkage and no kind."""
+    top = source.top
+    return isinstance(top, MappingNode) and top.find("linkage") is not None and top.find("kind") is None
+
+
+def faults_in(source: Source) -> list[Fault]:
+    """Return the faults of a machine's file, with those of its assembly."""
+    compiled, faults = read_machine(source, BASE)
+    return faults if compiled is None else checked(compiled, source, linkage.CHECKS)
 
 
 def _read(kind: str) -> tuple[AtlasMachine | None, tuple[Fault, ...]]:

@@ -19,7 +19,7 @@ from reportgen.base.errors import AssignmentError, Fault, ReportgenError
 from reportgen.base.files import is_stream, overwritten, put_file, write_stream
 from reportgen.base.files import version as own_version
 from reportgen.base.pdf_standards import KNOWN, NONE, STANDARDS, Standards
-from reportgen.base.template_folders import Language, languages
+from reportgen.base.template_folders import ATLAS_VARIABLE, Language, languages
 
 if TYPE_CHECKING:
     from reportgen.base.provenance import Put
@@ -50,7 +50,20 @@ TemplatesOption = Annotated[
         file_okay=False,
         help="Folder with a school's own templates.",
         show_default=False,
-        callback=lambda folder: _use_templates(folder),
+        callback=lambda folder: _use("REPORTGEN_TEMPLATES", folder),
+    ),
+]
+AtlasOption = Annotated[
+    Path | None,
+    typer.Option(
+        "--atlas",
+        metavar="DIR",
+        envvar=ATLAS_VARIABLE,
+        exists=True,
+        file_okay=False,
+        help="Folder with machines of your own.",
+        show_default=False,
+        callback=lambda folder: _use(ATLAS_VARIABLE, folder),
     ),
 ]
 EngineOption = Annotated[Literal["typst", "latex"], typer.Option("--engine", help="Typesetter.")]
@@ -83,10 +96,10 @@ def usual_formats(product: str) -> str:
     return ",".join(output_formats.usual(product))
 
 
-def _use_templates(folder: Path | None) -> Path | None:
-    """Set a school's folder for the whole run, in all processes that it starts."""
+def _use(variable: str, folder: Path | None) -> Path | None:
+    """Set a folder of words or of machines for the whole run, in all processes that it starts."""
     if folder is not None:
-        os.environ["REPORTGEN_TEMPLATES"] = str(folder.absolute())
+        os.environ[variable] = str(folder.absolute())
     return folder
 
 

@@ -10,6 +10,7 @@ import typer
 
 from reportgen.base.files import reported, standing
 from reportgen.cli.common import (
+    AtlasOption,
     File,
     Files,
     LangOption,
@@ -46,6 +47,7 @@ def figure(
     out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder of the figures.")] = Path("out"),
     lang: LangOption = None,
     templates: TemplatesOption = None,
+    atlas: AtlasOption = None,
 ) -> None:
     """Write figures of the report as separate files. They go to DIR/<id>/figures/NAME.svg, .png, ….
 
@@ -87,6 +89,7 @@ def plot(
     dpi: Annotated[int, typer.Option("--dpi", min=10, max=1200, help="Dots per inch.")] = 220,
     out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder of the charts.")] = Path("out"),
     lang: LangOption = None,
+    atlas: AtlasOption = None,
 ) -> None:
     """Plot quantities of each FILE as curves, one chart per unit. The files are DIR/<id of the first>/plots/ID.svg, ….
 

@@ -15,6 +15,7 @@ from reportgen.cli.common import (
     AT_FAULT,
     INTERRUPTED,
     USUAL_STANDARDS,
+    AtlasOption,
     EngineOption,
     Files,
     LangOption,
@@ -66,6 +67,7 @@ def variants(
     format: Annotated[str, format_option("variants")] = usual_formats("variants"),
     policy: PolicyOption = None,
     lang: LangOption = None,
+    atlas: AtlasOption = None,
     shared: SharedOption = None,
     redraw: Annotated[
         list[str] | None,
@@ -141,6 +143,7 @@ def batch(
     shared: SharedOption = None,
     standard: StandardOption = USUAL_STANDARDS,
     templates: TemplatesOption = None,
+    atlas: AtlasOption = None,
     one_pdf: OnePdfOption = False,
 ) -> None:
     """Make tasks, reports, keys or sheets of a whole class. It goes on where an earlier run was stopped."""
@@ -196,6 +199,7 @@ def key(
     policy: PolicyOption = None,
     standard: StandardOption = USUAL_STANDARDS,
     templates: TemplatesOption = None,
+    atlas: AtlasOption = None,
 ) -> None:
     """Write the answer key of each FILE. It has every value with the bands within which it is right, in DIR/<id>/."""
     from reportgen import api
@@ -259,6 +263,7 @@ def grade(
     ] = "",
     standard: StandardOption = USUAL_STANDARDS,
     templates: TemplatesOption = None,
+    atlas: AtlasOption = None,
     one_pdf: OnePdfOption = False,
 ) -> None:
     """Mark sheets, or reports, from each student's own values. Feedback, grades.csv and the class page are written."""

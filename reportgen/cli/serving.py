@@ -12,7 +12,7 @@ from typing import Annotated
 
 import typer
 
-from reportgen.cli.common import AT_FAULT, SYSTEM, LangOption, complain, ending, say
+from reportgen.cli.common import AT_FAULT, SYSTEM, AtlasOption, LangOption, complain, ending, say
 
 NEEDED = ("starlette", "uvicorn", "multipart", "itsdangerous", "sqlalchemy", "alembic")
 """Modules of the packages that `reportgen[server]` installs."""
@@ -43,6 +43,7 @@ def serve(
     ] = None,
     forget: Annotated[bool, typer.Option("--forget", help="Delete all personal data of the class.")] = False,
     lang: LangOption = None,
+    atlas: AtlasOption = None,
 ) -> None:
     """Serve a CLASS in the browser: students fill in their sheets, instructors mark them."""
     if any(find_spec(name) is None for name in NEEDED):

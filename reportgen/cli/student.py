@@ -15,9 +15,11 @@ import typer
 from reportgen.base.errors import Fault, Location
 from reportgen.base.files import is_stream, put_set, reported, standing
 from reportgen.base.output_formats import names
+from reportgen.base.template_folders import ATLAS_VARIABLE, machine_files
 from reportgen.cli.common import (
     AT_FAULT,
     USUAL_STANDARDS,
+    AtlasOption,
     EngineOption,
     File,
     Files,
@@ -58,6 +60,7 @@ def build(
     ] = False,
     standard: StandardOption = USUAL_STANDARDS,
     templates: TemplatesOption = None,
+    atlas: AtlasOption = None,
 ) -> None:
     """Write the complete report of each FILE to DIR/<id>/report.pdf; as .html it is a page, as .docx a Word file."""
     from reportgen import api
@@ -102,6 +105,7 @@ def sheet(
     standard: StandardOption = USUAL_STANDARDS,
     lang: LangOption = None,
     templates: TemplatesOption = None,
+    atlas: AtlasOption = None,
 ) -> None:
     """Arrange the plans on drawing sheets, true to scale. The files are DIR/<id>/sheet-1.pdf, sheet-1.dxf, …."""
     from reportgen import api
@@ -144,6 +148,7 @@ def watch(
     out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder of the PDF.")] = Path("out"),
     lang: LangOption = None,
     templates: TemplatesOption = None,
+    atlas: AtlasOption = None,
 ) -> None:
     """Show the report in a browser and renew it when FILE changes. Ctrl-C ends it."""
     from reportgen.api import serving
@@ -166,6 +171,7 @@ def edit(
     out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder of the products.")] = Path("out"),
     lang: LangOption = None,
     templates: TemplatesOption = None,
+    atlas: AtlasOption = None,
 ) -> None:
     """Edit FILE in a browser, with a form beside the moving machine. A KIND creates a new file. Ctrl-C ends it."""
     from reportgen.api import serving
@@ -260,6 +266,7 @@ def solve(
     ] = None,
     out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder of these tables.")] = Path("out"),
     lang: LangOption = None,
+    atlas: AtlasOption = None,
 ) -> None:
     """Compute motion, forces and torque. Print them as tables, or write them as JSON in SI units."""
     from reportgen import api
@@ -285,7 +292,7 @@ def solve(
             write(json_file, text)
 
 
-def check(files: Files, lang: LangOption = None, templates: TemplatesOption = None) -> None:
+def check(files: Files, lang: LangOption = None, templates: TemplatesOption = None, atlas: AtlasOption = None) -> None:
     """Check each FILE and print its errors and warnings. Without errors, the exit code is 0."""
     from reportgen import api
 
@@ -308,6 +315,7 @@ def new(
     ] = None,
     force: Annotated[bool, typer.Option("--force", help="Also replace an existing file.")] = False,
     lang: LangOption = None,
+    atlas: AtlasOption = None,
 ) -> None:
     """Print a commented assignment file to fill in, or an example."""
     from reportgen import api
@@ -351,22 +359,30 @@ def samples(
         print(folder)
 
 
-def kinds(lang: LangOption = None) -> None:
+def kinds(lang: LangOption = None, atlas: AtlasOption = None) -> None:
     """List the kinds of assignments, one per line."""
     from reportgen.base.kinds import title
     from reportgen.base.languages import setting_of
     from reportgen.base.translation_coverage import offered
     from reportgen.base.words import spoken
 
-    language = lang or spoken()
-    known = {kind: title(kind, language) for kind in offered(language)}
+    language, faulty = lang or spoken(), []
+    if ATLAS_VARIABLE in os.environ:
+        from reportgen import api
+
+        faulty = api.faulty_machines(lang)
+        print(*faulty, sep="\n", end="\n" if faulty else "", file=sys.stderr)
+    files = {str(machine.location.file) for machine in faulty}
+    sound = [kind for kind in offered(language) if not files & {*map(str, machine_files(kind))}]
+    known = {kind: title(kind, language) for kind in sound}
     width = max(map(len, known), default=0)
     for kind, called in known.items():
         draft = setting_of(language).is_draft(kind)
         print(f"{kind:{width}}  {say('draft', lang, title=called) if draft else called}")
+    raise typer.Exit(AT_FAULT if faulty else 0)
 
 
-def schema(lang: LangOption = None) -> None:
+def schema(lang: LangOption = None, atlas: AtlasOption = None) -> None:
     """Print the JSON Schema of the assignment file, for editors, with descriptions in the language."""
     from reportgen import api
 
@@ -389,6 +405,7 @@ def compare(
     hint: Annotated[bool, typer.Option("--hint", help="Also give hints.")] = False,
     lang: LangOption = None,
     templates: TemplatesOption = None,
+    atlas: AtlasOption = None,
 ) -> None:
     """Check your own SHEET before handing it in. The first values that do not agree are named, without answers."""
     from reportgen import api
@@ -413,6 +430,7 @@ def read(
     ] = None,
     lang: LangOption = None,
     templates: TemplatesOption = None,
+    atlas: AtlasOption = None,
 ) -> None:
     """Read a REPORT into an answer sheet. DIR/<id>/reading.xlsx lists what was read, and why the rest was not."""
     from reportgen import api

@@ -18,7 +18,7 @@ from reportgen import catalogue
 from reportgen.assignment import parts
 from reportgen.base.errors import Fault, Location, Problem, Where
 from reportgen.base.files import contents, renew_file
-from reportgen.base.kinds import kinds, titles
+from reportgen.base.kinds import titles
 from reportgen.base.units import Language
 from reportgen.base.yaml_edit import EditError, with_value
 from reportgen.base.yaml_source import (
@@ -243,7 +243,7 @@ class EditSession(LiveSession):
         if self._form[0] == inputs:
             return self._form[1]
         kind = at(source.top, ("kind",))
-        known = isinstance(kind, Scalar) and kind.text in kinds()
+        known = isinstance(kind, Scalar) and catalogue.is_sound(kind.text)
         form = (
             Form(catalogue.kind(kind.text), language, given.top, source.top)
             if known and isinstance(kind, Scalar) and isinstance(given.top, MappingNode)

@@ -13,10 +13,12 @@ from reportgen.base.atlas_words import machine_source
 from reportgen.base.field_words import field_words
 from reportgen.base.kinds import kinds, title, titles
 from reportgen.base.template_folders import ATLAS_VARIABLE, atlas_files, languages
+from reportgen.base.words import templates_hash
 from reportgen.base.yaml_source import read_text
 from reportgen.cases import open_case
 from reportgen.catalogue import atlas, linkage
 from reportgen.catalogue.atlas_file import checked
+from reportgen.cli import app
 from reportgen.marking.task_paper import task_of
 from reportgen.marking.toleranced_key import key_of
 from reportgen.results import results
@@ -205,3 +207,36 @@ def test_a_formula_is_evaluated_with_its_units(text: str, value: float) -> None:
 def test_a_formula_is_nothing_but_arithmetic(text: str) -> None:
     with pytest.raises(FormulaError):
         formula(text, frozenset("ab"))
+
+
+def test_the_commands_take_a_folder_of_machines(
+    department: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """`new` begins a file that `check` accepts; `kinds` prints the good machines and the faults of the others."""
+    monkeypatch.delenv(ATLAS_VARIABLE)
+
+    def run(*arguments: object) -> tuple[int, str, str]:
+        with monkeypatch.context() as patch:
+            # The option sets the variable, which is as before once the command has ended.
+            patch.setenv(ATLAS_VARIABLE, "")
+            with pytest.raises(SystemExit) as end:
+                app([*map(str, arguments)], prog_name="reportgen")
+        printed = capsys.readouterr()
+        return int(end.value.code or 0), printed.out, printed.err
+
+    (department / "bad.yaml").write_text(SLOTTER.replace("-h]", "-hh]"), "utf-8")
+    code, listed, faults = run("kinds", "--atlas", department, "--lang", "en")
+    assert code == 1
+    assert listed.splitlines()[-1] == "atlas/slotter      A slotter <b>& more</b> %% given"
+    assert faults.startswith(f"{department}/bad.yaml:13:38: error[formula-name]: “hh” is not a parameter")
+    assert run("new", "atlas/slotter", "--atlas", department, "-o", tmp_path / "mine.yaml", "--lang", "en")[0] == 0
+    assert run("check", tmp_path / "mine.yaml", "--atlas", department) == (0, "", "")
+    assert run("check", department / "slotter.yaml") == (0, "", "")
+    assert run("check", department / "bad.yaml", "--lang", "en") == (1, "", faults)
+    assert run("check", tmp_path / "mine.yaml")[0] == 1
+
+
+def test_a_changed_machine_makes_its_reports_anew(department: Path) -> None:
+    before = templates_hash()
+    (department / "slotter.yaml").write_text(SLOTTER.replace("50 mm", "51 mm"), "utf-8")
+    assert templates_hash() != before
