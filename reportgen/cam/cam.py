@@ -3,20 +3,21 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from reportgen.assignment.checks import of_parameters
+from reportgen.assignment.checks import of_parameters, one_of
 from reportgen.assignment.common import Draft
-from reportgen.base.errors import Finding
+from reportgen.base.errors import Finding, Where
 from reportgen.base.units import MM
 from reportgen.cam import file
-from reportgen.cam.file import PerPhase, designed, exceeded, motion_of, positions_of, steep
+from reportgen.cam.file import LawTable, PerPhase, designed, exceeded, motion_of, positions_of, steep, table_of
 from reportgen.cam.formulas import lowest_of_face, valued
 from reportgen.cam.inverse_design import NoCamError, touch
-from reportgen.cam.motion_laws import PHASES, AccelerationGraph
+from reportgen.cam.motion_laws import PHASES, AccelerationGraph, FollowerLaw
 
 if TYPE_CHECKING:
     from reportgen.assignment import Assignment
@@ -29,6 +30,12 @@ PART = "cam"
 TOP = ("parameters",)
 SAME_AREA = 0.01
 """The areas of an acceleration table above and below its axis may differ by this share."""
+RUNS_BACK = 0.02
+"""Share of the greatest V by which a follower between two nodes of its table may run back: less is not seen."""
+MOST_UNCERTAIN = 0.1
+"""Share of the greatest acceleration by which rounded displacements may leave the acceleration uncertain."""
+SAMPLES = 2001
+"""Number of samples of a law over its phase."""
 SUM = 1e-6
 """Largest difference of the sum of the phases from a whole turn (degrees)."""
 
@@ -101,26 +108,77 @@ def _phases(given: Parameters) -> Iterator[Finding]:
                 yield Finding("cam-no-phase", (*TOP, "positions", key), {"key": key})
 
 
-def _tables(given: Parameters) -> Iterator[Finding]:
-    """Yield findings if an acceleration graph does not begin at 0, end at 1, or bring the follower to rest."""
+def _laws(given: Parameters) -> Iterator[Finding]:
+    """Yield findings about laws by tables and by segments."""
     for key, law in (("rise", given.laws.rise), ("return", given.laws.return_)):
-        if isinstance(law, str):
-            continue
         where = (*TOP, "laws", key)
-        if len(law.x) != len(law.a):
-            counts = {"key": "a", "given": str(len(law.a)), "other": "x", "wanted": str(len(law.x))}
-            yield Finding("row-length", (*where, "a"), counts)
-        elif law.x[0] != 0 or law.x[-1] != 1:
-            at = 0 if law.x[0] != 0 else len(law.x) - 1
-            yield Finding("table-end", (*where, "x", at), {"key": "x", "end": "0" if at == 0 else "1"})
-        elif falls := [i + 1 for i in range(len(law.x) - 1) if law.x[i + 1] < law.x[i]]:
-            yield Finding("not-increasing", (*where, "x", falls[0]), {"key": "x"})
-        else:
-            above, below = AccelerationGraph(np.array(law.x), np.array(law.a)).areas
-            if abs(above - below) > SAME_AREA * max(above, below) or above == 0:
-                yield Finding("cam-areas", (*where, "a"), {"above": f"{above:.4g}", "below": f"{below:.4g}"})
-            elif AccelerationGraph(np.array(law.x), np.array(law.a)).displacement <= 0:
-                yield Finding("cam-backwards", (*where, "a"))
+        if isinstance(law, LawTable):
+            yield from _table(law, where) if law.segments is None else _segments(law, (*where, "segments"))
+
+
+def _table(law: LawTable, where: Where) -> Iterator[Finding]:
+    """Yield findings if a graph does not begin at 0, end at 1, or bring the follower to rest at the end of its
+    stroke.
+    """
+    key, row = ("a", law.a) if law.s is None else ("s", law.s)
+    if row is None or law.x is None:
+        name, known = ("a", "a | s | segments") if row is None else ("x", "x")
+        yield Finding("missing-key", (*where, name), {"key": known})
+        return
+    steps = [after - before for before, after in pairwise(law.x)]
+    if len(law.x) != len(row):
+        counts = {"key": key, "given": str(len(row)), "other": "x", "wanted": str(len(law.x))}
+        yield Finding("row-length", (*where, key), counts)
+    elif law.x[0] != 0 or law.x[-1] != 1:
+        at = 0 if law.x[0] != 0 else len(law.x) - 1
+        yield Finding("table-end", (*where, "x", at), {"key": "x", "end": "0" if at == 0 else "1"})
+    elif falls := [i + 1 for i, step in enumerate(steps) if step < 0 or (step == 0 and key == "s")]:
+        yield Finding("not-increasing", (*where, "x", falls[0]), {"key": "x"})
+    elif key == "s":
+        yield from _displacements(row, where)
+    else:
+        graph = AccelerationGraph(np.array(law.x), np.array(row))
+        above, below = graph.areas
+        if abs(above - below) > SAME_AREA * max(above, below) or above == 0:
+            yield Finding("cam-areas", (*where, "a"), {"above": f"{above:.4g}", "below": f"{below:.4g}"})
+        elif graph.displacement <= 0:
+            yield Finding("cam-backwards", (*where, "a"))
+
+
+def _displacements(s: Sequence[float], where: Where) -> Iterator[Finding]:
+    """Yield findings if a table of displacements does not begin at 0, or falls, or never rises."""
+    if s[0] != 0:
+        yield Finding("table-end", (*where, "s", 0), {"key": "s", "end": "0"})
+        return
+    falls = [i + 1 for i, (before, after) in enumerate(pairwise(s)) if after < before]
+    if falls or s[-1] == 0:
+        yield Finding("cam-falls", (*where, "s", falls[0] if falls else len(s) - 1), {"key": "s"})
+
+
+def _segments(law: LawTable, where: Where) -> Iterator[Finding]:
+    """Yield findings unless the segments follow one another to the end of the phase and of the stroke."""
+    if law.x is not None:
+        yield Finding("both-given", (*where[:-1], "x"), {"first": "segments", "second": "x"}, at="key")
+        return
+    segments = law.segments or ()
+    to = s = 0.0
+    for index, segment in enumerate(segments):
+        reached = s if segment.s is None else segment.s
+        if segment.to <= to:
+            yield Finding("not-increasing", (*where, index, "to"), {"key": "to"})
+            return
+        if reached < s:
+            yield Finding("cam-falls", (*where, index, "s"), {"key": "s"})
+            return
+        if (reached > s) != (segment.law is not None):
+            yield Finding("cam-segment", (*where, index), {"from": f"{s:g}", "to": f"{reached:g}"})
+            return
+        to, s = segment.to, reached
+    if to != 1:
+        yield Finding("table-end", (*where, len(segments) - 1, "to"), {"key": "to", "end": "1"})
+    elif s != 1:
+        key = ("s",) if segments[-1].s is not None else ()
+        yield Finding("table-end", (*where, len(segments) - 1, *key), {"key": "s", "end": "1"})
 
 
 def _shape(given: Parameters) -> Iterator[Finding]:
@@ -179,7 +237,7 @@ def check(given: Parameters) -> Iterator[Finding]:
     """Yield the faults of keys, then of phases and tables, then of lengths: each group only if the ones before have
     none.
     """
-    for look in (_keys, lambda one: (*_phases(one), *_tables(one)), _shape):
+    for look in (_keys, lambda one: (*_phases(one), *_laws(one)), _shape):
         faults = list(look(given))
         if faults:
             yield from faults
@@ -200,15 +258,50 @@ def _worked(draft: Draft) -> Iterator[Finding]:
             yield Finding("no-such-position", where, {"text": str(position), "last": str(last)})
 
 
-CHECKS = (of_parameters(check), _worked)
+CHECKS = (
+    *(one_of(f"parameters.laws.{phase}", "a", "s", "segments", required=False) for phase in ("rise", "return")),
+    of_parameters(check),
+    _worked,
+)
 
 
 # --- warnings -----------------------------------------------------------------------------------
 
 
+def _differences(given: Parameters) -> Iterator[Finding]:
+    """Yield warnings about tables of displacements whose differences say less of the acceleration than it needs.
+
+    A displacement rounded to u is uncertain by u/2, its second difference by 2u, so A by 2u/Δx².  If the spline runs
+    back between two nodes, the table has a misprint or is too coarse.
+    """
+    for key, law in (("rise", given.laws.rise), ("return", given.laws.return_)):
+        if not isinstance(law, LawTable) or law.s is None or law.x is None:
+            continue
+        where, unit = (*TOP, "laws", key, "s"), resolution(law.s)
+        graph = table_of(law)
+        _, V, _ = graph.nodes
+        inside = np.linspace(0, 1, SAMPLES)
+        slowest = FollowerLaw("displacements", graph)(inside)[1]
+        uncertain = 2 * unit / float(min(np.diff(law.x))) ** 2 / float(np.abs(graph.a).max())
+        back = -float(slowest.min()) / float(np.abs(V).max())
+        if back > RUNS_BACK:
+            near = int(np.abs(np.array(law.x) - inside[slowest.argmin()]).argmin())
+            yield Finding("cam-ripple", (*where, near), {"x": f"{inside[slowest.argmin()]:.3g}"})
+        elif uncertain > MOST_UNCERTAIN:
+            about = {"unit": f"{unit:g}", "share": f"{uncertain * 100:.0f}"}
+            yield Finding("cam-resolution", where, about, at="key")
+
+
+def resolution(values: Sequence[float]) -> float:
+    """Return the unit of the last decimal of a table's values."""
+    decimals = (f"{value:.9f}".rstrip("0").partition(".")[2] for value in values)
+    return float(10.0 ** -max(map(len, decimals)))
+
+
 def physics(assignment: Assignment) -> Iterator[Finding]:
     """Yield warnings about rigid impacts, large pressure angles and undercut profiles, with the place and a remedy."""
     given: Parameters = assignment.parameters
+    yield from _differences(given)
     design = designed(given)
     cam, motion = design.cam, design.cam.motion
     for impact in motion.impacts:

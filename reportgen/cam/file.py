@@ -27,7 +27,15 @@ from reportgen.base.template_access import view
 from reportgen.base.units import MM, Given
 from reportgen.cam import inverse_design
 from reportgen.cam.inverse_design import CamLimits, Least, NoCamError
-from reportgen.cam.motion_laws import PHASES, AccelerationGraph, FollowerLaw, FollowerMotion, law
+from reportgen.cam.motion_laws import (
+    PHASES,
+    AccelerationGraph,
+    FollowerLaw,
+    FollowerMotion,
+    Segment,
+    graph_of_displacements,
+    law,
+)
 from reportgen.cam.profile import Cam
 
 FIND = "find"
@@ -78,6 +86,7 @@ class Steps(Reader):
 Moving = Annotated[Given, quantity("deg", least=1, below=360)]
 Resting = Annotated[Given, quantity("deg", least=0, below=360)]
 Permissible = Annotated[Given, quantity("deg", least=5, most=85)]
+ShareOfPhase = Annotated[float, Decimal(Interval(least=0, most=1))]
 Ordinate = Annotated[float, Decimal(Interval(least=-1e6, most=1e6))]
 LawNodes = Field(min_length=2, max_length=60)
 Roller = quantity("mm", least=0.1, below=1e4)
@@ -92,19 +101,36 @@ class Phases(Part):
     near: Resting | None = None
 
 
-class AccelerationTable(Part):
-    """An acceleration graph: ordinates in any unit over x from 0 to 1; a repeated x is a jump."""
-
-    x: Annotated[tuple[Annotated[float, Decimal(Interval(least=0, most=1))], ...], LawNodes]
-    a: Annotated[tuple[Ordinate, ...], LawNodes]
-
-
 LawName = Literal["uniform", "parabolic", "cosine", "sine", "3-4-5", "4-5-6-7", "trapezoidal"]
 
 
+class LawSegment(Part):
+    """A part of a phase, from the end of the one before to the share `to` of the phase and the share `s` of the stroke.
+
+    Without a law the follower rests, and `s` is that of the segment before.
+    """
+
+    to: ShareOfPhase
+    s: ShareOfPhase | None = None
+    law: Literal["uniform", "parabolic", "cosine", "sine", "3-4-5", "4-5-6-7"] | None = None
+
+
+class LawTable(Part):
+    """An acceleration graph, a table of displacements, or segments.
+
+    A table has ordinates in any unit over `x` from 0 to 1.  In an acceleration graph a repeated x is a jump; in a table
+    of displacements equal neighbours are a dwell.
+    """
+
+    x: Annotated[tuple[ShareOfPhase, ...], LawNodes] | None = None
+    a: Annotated[tuple[Ordinate, ...], LawNodes] | None = None
+    s: Annotated[tuple[Ordinate, ...], LawNodes] | None = None
+    segments: Annotated[tuple[LawSegment, ...], Field(min_length=1, max_length=12)] | None = None
+
+
 LawOrTable = Annotated[
-    Annotated[LawName, Tag("name")] | Annotated[AccelerationTable, Tag("table")],
-    Discriminator(lambda content: "table" if isinstance(content, dict | AccelerationTable) else "name"),
+    Annotated[LawName, Tag("name")] | Annotated[LawTable, Tag("table")],
+    Discriminator(lambda content: "table" if isinstance(content, dict | LawTable) else "name"),
 ]
 
 
@@ -190,15 +216,26 @@ class Designed:
     """True if the limit of the return is not from the file but the usual one with a spring."""
 
 
-def table_of(given: AccelerationTable) -> AccelerationGraph:
+def table_of(given: LawTable) -> AccelerationGraph:
     """Return the table for a law, with areas above and below the axis made exactly equal."""
-    x, a = np.array(given.x), np.array(given.a)
+    x = np.array(given.x)
+    if given.s is not None:
+        return graph_of_displacements(x, np.array(given.s))
+    a = np.array(given.a)
     above, below = AccelerationGraph(x, a).areas
     return AccelerationGraph(x, np.where(a < 0, a * above / below, a)) if below > 0 else AccelerationGraph(x, a)
 
 
-def law_of(given: str | AccelerationTable) -> FollowerLaw:
-    return law(given) if isinstance(given, str) else FollowerLaw("table", table_of(given))
+def law_of(given: str | LawTable) -> FollowerLaw:
+    if isinstance(given, str):
+        return law(given)
+    if given.segments is None:
+        return FollowerLaw("displacements" if given.s is not None else "table", table_of(given))
+    segments: list[Segment] = []
+    for each in given.segments:
+        start, low = (segments[-1].stop, segments[-1].high) if segments else (0.0, 0.0)
+        segments.append(Segment(start, each.to, low, low if each.s is None else each.s, each.law or ""))
+    return FollowerLaw("segments", segments=tuple(segments))
 
 
 @lru_cache(maxsize=64)

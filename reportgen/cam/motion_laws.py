@@ -182,15 +182,107 @@ SMOOTH: dict[str, tuple[Piece, ...]] = {
 LAWS = (*SMOOTH, "trapezoidal")
 
 
+def graph_of_displacements(x: Floats, s: Floats) -> AccelerationGraph:
+    """Return the acceleration of the cubic spline through displacements `s` [K] over x [K] from 0 to 1.
+
+    Equal neighbours are a dwell.  Each stretch between dwells begins and ends with V = 0, and A jumps there.
+    """
+    at, a = [float(x[0])], [0.0]
+    for rests, first, last in _stretches_of(s):
+        inside = np.zeros(last - first + 1) if rests else _spline(x[first : last + 1], s[first : last + 1])
+        # At the beginning of the next stretch, A jumps to its own value.
+        kept = [float(one) for one in inside]
+        if kept[0] == a[-1] or len(at) == 1:
+            at, a = at[:-1], a[:-1]
+        at, a = [*at, *map(float, x[first : last + 1])], [*a, *kept]
+    return AccelerationGraph(np.array(at), np.array(a))
+
+
+def _stretches_of(s: Floats) -> Iterator[tuple[bool, int, int]]:
+    """Yield the stretches of a table that rest or move, by the indices of their first and last nodes."""
+    rests = np.diff(s) == 0
+    first = 0
+    for i in range(1, len(s)):
+        if i == len(s) - 1 or rests[i] != rests[i - 1]:
+            yield bool(rests[i - 1]), first, i
+            first = i
+
+
+def _spline(x: Floats, s: Floats) -> Floats:
+    """Return the second derivatives at the nodes [K] of the cubic spline that begins and ends with derivative 0."""
+    Δ, slope = np.diff(x), np.diff(s) / np.diff(x)
+    matrix = np.diag(np.concatenate(([2 * Δ[0]], 2 * (Δ[1:] + Δ[:-1]), [2 * Δ[-1]])))
+    matrix += np.diag(Δ, 1) + np.diag(Δ, -1)
+    return np.linalg.solve(matrix, 6 * np.diff(np.concatenate(([0.0], slope, [0.0]))))
+
+
+@dataclass(frozen=True)
+class Segment:
+    """A part of a law from x = `start` to `stop`, where S goes from `low` to `high` by a law of `SMOOTH`, or rests."""
+
+    start: float
+    stop: float
+    low: float
+    high: float
+    law: str = ""
+
+    @property
+    def pieces(self) -> Pieces:
+        """The pieces of the law, shortened to the segment."""
+        if not self.law:
+            return (Piece(self.start, self.stop, lambda _: self.low, lambda _: 0.0, lambda _: 0.0),)
+        return tuple(self._shortened(piece) for piece in SMOOTH[self.law])
+
+    def _shortened(self, piece: Piece) -> Piece:
+        return Piece(
+            self._along(piece.start),
+            self._along(piece.stop),
+            lambda x: self._lifted(piece.S(self._share(x))),
+            lambda x: self._rate(piece.V(self._share(x)), 1),
+            lambda x: self._rate(piece.A(self._share(x)), 2),
+        )
+
+    @property
+    def length(self) -> float:
+        return round(self.stop - self.start, 12)
+
+    @property
+    def lift(self) -> float:
+        return round(self.high - self.low, 12)
+
+    def _along(self, share: float) -> float:
+        return self.start + share * self.length if share < 1 else self.stop
+
+    def _share(self, x: Expression) -> Expression:
+        passed = x - self.start if self.start else x
+        return passed / self.length if self.length < 1 else passed
+
+    def _lifted(self, S: Operand) -> Operand:
+        risen = self.lift * S if self.lift < 1 else S
+        return self.low + risen if self.low else risen
+
+    def _rate(self, rate: Operand, order: int) -> Operand:
+        """Return V (`order` 1) or A (2) of the law over the segment's share of x, as a derivative with respect to x."""
+        if not isinstance(rate, Expression):
+            return float(f"{self.lift * rate / self.length**order:.12g}")
+        over = self.lift * rate if self.lift < 1 else rate
+        if self.length == 1:
+            return over
+        return over / self.length if order == 1 else over / as_expression(self.length) ** 2
+
+
 @dataclass(frozen=True)
 class FollowerLaw:
-    """A law by its name, or by its acceleration table; its `pieces` follow one another from 0 to 1."""
+    """A law by its name, its acceleration table or its segments; its `pieces` follow one another from 0 to 1."""
 
     name: str
     table: AccelerationGraph | None = None
+    segments: tuple[Segment, ...] = ()
 
     @cached_property
     def pieces(self) -> tuple[Piece, ...]:
+        if self.segments:
+            return tuple(piece for segment in self.segments for piece in segment.pieces)
         return self.table.pieces() if self.table is not None else SMOOTH[self.name]
 
     def __call__(self, x: Floats) -> tuple[Floats, Floats, Floats]:

@@ -46,6 +46,8 @@ class LawView:
     phase: str
     equation: Equation
     table: tuple[Table, ...]
+    displaced: bool
+    """True if the table gives displacements, False if it gives accelerations."""
 
 
 @view()
@@ -210,7 +212,7 @@ class CamPage(DesignPage[SolvedCam]):
     def laws(self) -> tuple[LawView, ...]:
         motion = self.case.solution.motion
         return tuple(
-            LawView(phase, self._formulas(phase, law), self._nodes(phase, law))
+            LawView(phase, self._formulas(phase, law), self._nodes(phase, law), law.name == "displacements")
             for phase, law in (("rise", motion.rise), ("return", motion.back))
         )
 
