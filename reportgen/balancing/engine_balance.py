@@ -50,12 +50,17 @@ def check(given: Parameters) -> Iterator[Finding]:
     """Require a sufficiently long rod, its mass with the place of its mass centre, and different places for all
     cylinders.
     """
-    if given.l.si < SHORTEST * given.r.si:
-        least = f"{SHORTEST * given.r.si * 1e3:g}"
-        yield Finding("rod-too-short", (*TOP, "l"), {"l": given.l.text, "r": given.r.text, "least": least})
-    for key, further in (("m2", "s"), ("s", "m2")):
-        if getattr(given, key) is not None and getattr(given, further) is None:
-            yield Finding("needs-besides", (*TOP, key), {"key": key, "other": further}, at="key")
+    longest = max((given.r, *(one.r for one in given.cylinders if one.r)), key=lambda r: r.si)
+    if given.l.si < SHORTEST * longest.si:
+        least = f"{SHORTEST * longest.si * 1e3:g}"
+        yield Finding("rod-too-short", (*TOP, "l"), {"l": given.l.text, "r": longest.text, "least": least})
+    rods: list[tuple[str | int, ...]] = [TOP] if given.m2 is not None else []
+    rods += [(*TOP, "cylinders", k) for k, one in enumerate(given.cylinders) if one.m2 is not None]
+    if given.s is None:
+        for path in rods:
+            yield Finding("needs-besides", (*path, "m2"), {"key": "m2", "other": "s"}, at="key")
+    elif not rods:
+        yield Finding("needs-besides", (*TOP, "s"), {"key": "s", "other": "m2"}, at="key")
     places: dict[tuple[float, float], int] = {}
     for number, cylinder in enumerate(given.cylinders):
         first = places.setdefault((cylinder.at.si, cylinder.bank.si), number)

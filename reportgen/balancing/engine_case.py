@@ -21,6 +21,9 @@ from reportgen.drawing.plates import DrawingPlate
 from reportgen.formula import Symbol
 from reportgen.sheets.plates import drawn
 
+WORKED = 6
+"""Largest number of differing cylinders whose values are written out; with more, tables alone show them."""
+
 
 @dataclass(frozen=True)
 class EnginePage(PlacesPage[SolvedEngine]):
@@ -38,31 +41,39 @@ class EnginePage(PlacesPage[SolvedEngine]):
 
     def names(self) -> dict[str, Any]:
         case, written = self.case, self.case.printed
+        lines = {name: written.known(quantities) for name, quantities in written.lines.items()}
+        for name in ("lengths", "products"):
+            if len(case.cylinders) > WORKED:
+                lines[name] = []
         return {
             "words": case.words,
             "given": case.given,
             "several": len(case.cylinders) > 1,
             "inline": case.given.is_inline,
             "has_couples": "couples" in case.stars,
+            "rotates": case.given.rotates,
+            "alike": not case.given.own_data,
+            "own_radii": "r" in case.given.own_data,
+            "lengths_table": self.lengths_table if case.given.own_data else "",
+            "products_table": self.products_table if case.given.own_data else "",
             "data": self.data,
             "layout": self.layout,
             "factors": self.factors,
             "angles": self.angles,
             "result": self.result,
             "first_is_free": written[orders_ids.force(1)].at(1) == 0,
-            "star_is_closed": self.is_closed("f"),
-            "couples_are_closed": self.is_closed("p"),
-            "nothing_turns_against": self.is_closed("q"),
-            "sheet": {name: written.known(quantities) for name, quantities in written.lines.items()},
+            "star_is_closed": self.is_nothing("orders.U"),
+            "couples_are_closed": self.is_nothing("orders.U.M"),
+            "nothing_turns_against": self.is_nothing(orders_ids.resultant("q", 1)),
+            "sheet": lines,
             "quantity": self.quantity,
             "lines": self.lines,
             "math": self.math,
             "figure": self.figure,
         }
 
-    def is_closed(self, star: str) -> bool:
-        """Return True if the star of the first order exists and has no resultant."""
-        id = orders_ids.resultant(star, 1)
+    def is_nothing(self, id: str) -> bool:
+        """Return True if a quantity exists and is zero."""
         return id in self.case.printed and self.case.printed[id].at(1) == 0
 
     # --- tables
@@ -72,7 +83,26 @@ class EnginePage(PlacesPage[SolvedEngine]):
         """The table of the arrangement of the cylinders."""
         columns = [orders_ids.crank, orders_ids.bank]
         columns += [orders_ids.station] if self.case.given.has_length else []
+        masses = [orders_ids.own_mass.only(link=key[1:]) for key in self.case.given.own_data if key != "r"]
+        columns += [*masses, *([orders_ids.own_radius] if "r" in self.case.given.own_data else [])]
         return self.by_place("layout", columns, self.case.cylinders)
+
+    @property
+    def lengths_table(self) -> Table:
+        """The table of the masses of cylinders that differ, and of the lengths of their vectors."""
+        weights = (orders_ids.weight.only(order=str(order)) for order in ORDERS)
+        columns = [orders_ids.reciprocating, orders_ids.rotating, *weights]
+        return self._entered("lengths", columns)
+
+    @property
+    def products_table(self) -> Table:
+        """The table of the products that turn with the crank, of cylinders that differ."""
+        return self._entered("products", [orders_ids.product.only(of=of) for of in ("rot", "U")])
+
+    def _entered(self, name: str, columns: Sequence[Any]) -> Table:
+        """Return a table of the quantities that are entered for the first cylinder, and so for all."""
+        entered = [family for family in columns if family(self.case.cylinders[0]) in self.case.printed]
+        return self.by_place(name, entered, self.case.cylinders)
 
     @property
     def factors(self) -> Table:

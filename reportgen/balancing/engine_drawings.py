@@ -9,7 +9,7 @@ from functools import partial
 from itertools import pairwise
 
 from reportgen.balancing import orders_ids
-from reportgen.balancing.engine_calculation import COUPLES, ORDERS
+from reportgen.balancing.engine_calculation import ORDERS
 from reportgen.balancing.engine_solution import SolvedEngine
 from reportgen.balancing.rotor_drawings import BEYOND, SHAFT, ruler
 from reportgen.base.units import MM, nice_up
@@ -40,13 +40,13 @@ def piston_at(case: SolvedEngine, place: str, φ: float = 0.0) -> complex:
     given = case.given
     cylinder = given.cylinders[int(place) - 1]
     turned = φ + cylinder.crank.si - cylinder.bank.si
-    r, l = given.r.si, given.l.si  # noqa: E741
+    r, l = case.given.of_cylinder(place, "r"), case.given.l.si  # noqa: E741
     return (r * math.cos(turned) + math.sqrt(l**2 - (r * math.sin(turned)) ** 2)) * cmath.rect(1, cylinder.bank.si)
 
 
 def crank_at(case: SolvedEngine, place: str, φ: float = 0.0) -> complex:
     """Return the place of a crank's pin (m, x + iy) with the crank at φ (rad)."""
-    return cmath.rect(case.given.r.si, φ + case.given.cylinders[int(place) - 1].crank.si)
+    return cmath.rect(case.given.of_cylinder(place, "r"), φ + case.given.cylinders[int(place) - 1].crank.si)
 
 
 def banks(case: SolvedEngine) -> dict[float, str]:
@@ -56,7 +56,7 @@ def banks(case: SolvedEngine) -> dict[float, str]:
 
 def extent_of(case: SolvedEngine) -> tuple[float, float]:
     """Return the width and height (m) of cranks and pistons in the end view."""
-    r = case.given.r.si
+    r = case.given.radius
     ends = [*(UP * piston_at(case, place) for place in banks(case).values()), complex(-r, -r), complex(r, r)]
     low, high = corners_of(ends)
     return (high - low).real, (high - low).imag
@@ -85,8 +85,8 @@ def _from_the_end(case: SolvedEngine, size: FigureSize) -> tuple[Canvas, Chain]:
     given = case.given
     usual = nice_up(max(extent_of(case)) * MM / HIGH)
     per = MM * size.per_unit(usual)
-    reach = (given.r.si + given.l.si) * per + OUT
-    items: list[Item] = [Circle(0j, given.r.si * per, style.THIN), Line(-reach / 3 + 0j, reach / 3 + 0j, style.AXIS)]
+    reach = (given.radius + given.l.si) * per + OUT
+    items: list[Item] = [Line(-reach / 3 + 0j, reach / 3 + 0j, style.AXIS)]
     requests: list[Request] = []
     for bank, place in banks(case).items():
         along = UP * cmath.rect(1, bank)
@@ -98,21 +98,24 @@ def _from_the_end(case: SolvedEngine, size: FigureSize) -> tuple[Canvas, Chain]:
     if 0.0 not in banks(case):
         items.append(Line(0j, reach * UP / 2, style.AXIS))
     requests.append(label(reach * UP if 0.0 in banks(case) else reach * UP / 2, Symbol("x"), gap=0.8))
-    for angle, names in _pins(case).items():
-        pin = UP * cmath.rect(given.r.si * per, angle)
+    items += (Circle(0j, r * per, style.THIN) for r in sorted({r for _, r in _pins(case)}))
+    for (angle, r), names in _pins(case).items():
+        pin = UP * cmath.rect(r * per, angle)
         items += [Line(0j, pin, style.HEAVY), style.joint(pin)]
         requests.append(label(pin, *joined(names), gap=1.6, prefer=(cmath.phase(pin),)))
     items += style.pivot(0j)
-    facts = [fact("crank", tuple(names), direction(UP * cmath.rect(1, turn))) for turn, names in _pins(case).items()]
+    pins = _pins(case).items()
+    facts = [fact("crank", tuple(names), direction(UP * cmath.rect(1, turn))) for (turn, _), names in pins]
     facts += (fact("bank", direction(UP * cmath.rect(1, bank))) for bank in banks(case))
     return settle(Canvas(tuple(items), tuple(requests), tuple(facts))), size.note(Symbol("μ", "r"), usual)
 
 
-def _pins(case: SolvedEngine) -> dict[float, list[Content]]:
-    """Return the numbers of the cylinders on each pin, by the pin's angle within a turn (rad)."""
-    pins: dict[float, list[Content]] = {}
+def _pins(case: SolvedEngine) -> dict[tuple[float, float], list[Content]]:
+    """Return the numbers of the cylinders on each pin, by the pin's angle within a turn (rad) and its radius (m)."""
+    pins: dict[tuple[float, float], list[Content]] = {}
     for place, cylinder in zip(case.cylinders, case.given.cylinders, strict=True):
-        pins.setdefault(round(cylinder.crank.si % math.tau, 9) % math.tau, []).append(place)
+        angle = round(cylinder.crank.si % math.tau, 9) % math.tau
+        pins.setdefault((angle, case.given.of_cylinder(place, "r")), []).append(place)
     return pins
 
 
@@ -120,11 +123,11 @@ def _shaft(case: SolvedEngine, size: FigureSize) -> tuple[Canvas, Chain]:
     """Draw the crankshaft from the side, z to the right, with its throws at their actual heights."""
     places = {place: one.at.si for place, one in zip(case.cylinders, case.given.cylinders, strict=True)}
     start, span = min(places.values()), max(places.values()) - min(places.values())
-    usual = nice_up(max(span / LONG, 2 * case.given.r.si / SIDE) * MM)
+    usual = nice_up(max(span / LONG, 2 * case.given.radius / SIDE) * MM)
     per = MM * size.per_unit(usual)
     along = sorted({round(place, 12) for place in places.values()})
     web = WEB * min(after - before for before, after in pairwise(along)) * per
-    end, high = span * per, case.given.r.si * per
+    end, high = span * per, case.given.radius * per
     # The shaft reaches beyond the webs of its first and last throws.
     beyond = BEYOND + web
     items: list[Item] = [Line(-beyond - 5 + 0j, end + beyond + 5 + 0j, style.AXIS)]
@@ -153,7 +156,7 @@ def star(case: SolvedEngine, letter: str, order: int, size: FigureSize = IN_REPO
     on_paper = MM * μ.value / size.scale(μ.value) / size.enlarged / float(ledger[scale].values[0])
     vectors, at = [], 0j
     for place in case.cylinders:
-        weight = float(ledger[orders_ids.arm(place)].values[0]) if letter in COUPLES else 1.0
+        weight = case.length_of(letter, order, place)
         angle = float(ledger[orders_ids.angle(letter, order, place)].values[0])
         end = at + UP * weight * on_paper * cmath.rect(1, angle)
         vectors.append(PlanVector(f"{letter}{order}.{place}", at, end, "known", place))

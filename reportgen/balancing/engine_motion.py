@@ -9,7 +9,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from reportgen.balancing import orders_ids
 from reportgen.balancing.engine_calculation import ORDERS
 from reportgen.balancing.engine_drawings import OUT, UP, banks, crank_at, piston_at
 from reportgen.balancing.engine_solution import SolvedEngine
@@ -73,9 +72,9 @@ class Shaking:
 def animation(case: SolvedEngine) -> Animation:
     """Return one turn of the crank."""
     φ = np.linspace(0, math.tau, SAMPLES + 1)
-    reach = case.given.r.si + case.given.l.si
+    reach = case.given.radius + case.given.l.si
     per = HIGH / reach / (2 if len(banks(case)) > 1 else 1)
-    drawn = case.given.r.si * per
+    drawn = case.given.radius * per
     return Animation(
         units=case.ledger.units,
         knots=np.degrees(φ),
@@ -91,9 +90,11 @@ def animation(case: SolvedEngine) -> Animation:
 
 
 def _engine(case: SolvedEngine, φ: EngineAngles, per: float) -> Pane:
-    reach = (case.given.r.si + case.given.l.si) * per + OUT
+    reach = (case.given.radius + case.given.l.si) * per + OUT
     axes = [Line(0j, reach * UP * np.exp(1j * bank), style.AXIS) for bank in banks(case)]
-    items: list[MovingItem] = [Still((Circle(0j, case.given.r.si * per, style.THIN), *axes))]
+    radii = sorted({case.given.of_cylinder(place, "r") for place in case.cylinders})
+    circles = [Circle(0j, r * per, style.THIN) for r in radii]
+    items: list[MovingItem] = [Still((*circles, *axes))]
     for place, cylinder in zip(case.cylinders, case.given.cylinders, strict=True):
         pin = Track(UP * per * np.array([piston_at(case, place, angle) for angle in φ]))
         crank = Track(UP * per * np.array([crank_at(case, place, angle) for angle in φ]))
@@ -115,9 +116,10 @@ def _engine(case: SolvedEngine, φ: EngineAngles, per: float) -> Pane:
 def _shaking(case: SolvedEngine, φ: EngineAngles) -> Iterator[Shaking]:
     """Yield the forces, and the couples if the cylinders are at several places."""
     K, places = float(case.ledger["orders.K"].values[0]), case.cylinders
-    yield _kept("forces", case.forces(φ), case.rotating(φ), K * len(places))
+    cylinders = sum(abs(case.length_of("f", 1, place)) for place in places)
+    yield _kept("forces", case.forces(φ), case.rotating(φ), K * cylinders)
     if "couples" in case.stars:
-        arms = sum(abs(float(case.ledger[orders_ids.arm(place)].values[0])) for place in places)
+        arms = sum(abs(case.length_of("p", 1, place)) for place in places)
         yield _kept("couples", case.couples(φ), case.rotating_couple(φ), K * arms)
 
 

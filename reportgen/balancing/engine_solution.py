@@ -13,13 +13,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from reportgen.balancing import orders_ids
-from reportgen.balancing.engine_calculation import COUPLES, ORDERS, EngineCalculation
+from reportgen.balancing.engine_calculation import ORDERS, EngineCalculation, times_direction
 from reportgen.balancing.engine_file import Parameters
 from reportgen.balancing.piston_orders import first_term
 from reportgen.case import Misconceptions
 from reportgen.case.design_case import DesignCase
-from reportgen.formula import PI, Expression, Ref, cis, total
+from reportgen.formula import PI, Expression, Ref, refs, total
 from reportgen.formula.calculation import Calculation
+from reportgen.formula.evaluation import evaluate
 from reportgen.formula.ledger import MistakenValues
 
 FIRST_TERM = "orders-first-term"
@@ -94,19 +95,31 @@ class SolvedEngine(DesignCase):
         for order in ORDERS:
             A = 1.0 if order == 1 else self.ledger[orders_ids.factor(order)].values[0]
             parts = [
-                c * np.cos(order * (np.asarray(φ) + θ - ψ)) * np.exp(1j * ψ)
-                for c, (θ, ψ) in zip(weights, cylinders, strict=True)
+                c * self._weight(order, place) * np.cos(order * (np.asarray(φ) + θ - ψ)) * np.exp(1j * ψ)
+                for c, place, (θ, ψ) in zip(weights, self.cylinders, cylinders, strict=True)
             ]
             by_order[order] = np.asarray(K * A * sum(parts))
         return by_order
 
     def _rotating(self, φ: ArrayLike, weights: Sequence[float]) -> NDArray[np.complex128]:
         turned = np.exp(1j * np.asarray(φ))
-        if self.given.m2 is None:
-            return np.zeros_like(turned)
-        m_A, r, ω = (float(self.ledger[id].values[0]) for id in ("orders.mA", "orders.r", "orders.omega"))
-        cranks = zip(weights, self.given.cylinders, strict=True)
-        return np.asarray(m_A * r * ω**2 * turned * sum(c * np.exp(1j * one.crank.si) for c, one in cranks))
+        given, ω = self.given, float(self.ledger["orders.omega"].values[0])
+        share = 0.0 if given.s is None else 1 - given.s.si
+        whole = 0j
+        for c, place, cylinder in zip(weights, self.cylinders, given.cylinders, strict=True):
+            m_A = given.of_cylinder(place, "m1") + share * given.of_cylinder(place, "m2")
+            whole += c * m_A * given.of_cylinder(place, "r") * np.exp(1j * cylinder.crank.si)
+        return np.asarray(ω**2 * turned * whole)
+
+    def _weight(self, order: int, place: str) -> float:
+        """Return the force of a cylinder in an order, as a share of that by the data of all cylinders."""
+        own = [id for id in (orders_ids.weight(order, place), orders_ids.weight(1, place)) if id in self.ledger]
+        return float(self.ledger[own[0]].values[0]) if own else 1.0
+
+    def length_of(self, star: str, order: int, place: str) -> float:
+        """Return the printed length of a vector in a star: a number, or in a star of couples metres."""
+        weight = self.entered.weights(star, order)[place]
+        return float(np.ravel(evaluate(weight, {id: self.printed[id].values for id in refs(weight)}))[0])
 
     # --- what is often taken for something else
 
@@ -129,14 +142,14 @@ class SolvedEngine(DesignCase):
                 own = {place: Ref(orders_ids.angle(star, order, place)) for place in self.cylinders}
                 if order != 1:
                     single = {place: Ref(orders_ids.angle(star, 1, place)) for place in self.cylinders}
-                    yield id, "orders-single-angle", self._star(star, single)
-                yield id, "degrees-for-radians", self._star(star, {place: at * 180 / PI for place, at in own.items()})
+                    yield id, "orders-single-angle", self._star(star, order, single)
+                in_degrees = {place: at * 180 / PI for place, at in own.items()}
+                yield id, "degrees-for-radians", self._star(star, order, in_degrees)
 
-    def _star(self, star: str, angles: Mapping[str, Expression]) -> Expression:
+    def _star(self, star: str, order: int, angles: Mapping[str, Expression]) -> Expression:
         """Return the resultant of a star whose vectors have these angles."""
-        if star in COUPLES:
-            return abs(total([Ref(orders_ids.arm(place)) * cis(angles[place]) for place in self.cylinders]))
-        return abs(total([cis(angles[place]) for place in self.cylinders]))
+        weights = self.entered.weights(star, order)
+        return abs(total([times_direction(weights[place], angles[place]) for place in self.cylinders]))
 
     def _of_one_cylinder(self) -> MistakenValues:
         m, r, ω = Ref("orders.m"), Ref("orders.r"), Ref("orders.omega")
@@ -145,7 +158,12 @@ class SolvedEngine(DesignCase):
 
     def _of_counterweight(self) -> MistakenValues:
         r, m, m_A, ω = (Ref(f"orders.{name}") for name in ("r", "m", "mA", "omega"))
-        if self.given.m2 is None:
+        if self.given.own_data:
+            for after in ("", ".M"):
+                if f"orders.rotating{after}" in self.ledger:
+                    yield f"orders.rotating{after}", "orders-speed-once", Ref(f"orders.rotating{after}") / ω
+            return
+        if not self.given.rotates:
             return
         f = Ref(orders_ids.resultant("f", 1))
         yield "orders.rotating", "orders-speed-once", m_A * r * ω * f

@@ -28,6 +28,17 @@ couple = Name("orders.M.{order}")
 least_force = Name("orders.least.F.{order}")
 least_couple = Name("orders.least.M.{order}")
 
+own_mass = Name("orders.own.{link}.{cylinder}")  # m1, m2 or m3 of a cylinder
+own_radius = Name("orders.r.{cylinder}")
+own_ratio = Name("orders.lambda.{cylinder}")
+own_exact = Name("orders.exact.{order}.{cylinder}")
+own_factor = Name("orders.A.{order}.{cylinder}")
+reciprocating = Name("orders.m.{cylinder}")
+rotating = Name("orders.mA.{cylinder}")
+weight = Name("orders.w.{order}.{cylinder}")  # a vector of the star, compared with that of the data of all
+product = Name("orders.product.{of}.{cylinder}")  # m r of what turns: rot or U
+turning = Name("orders.turning.{of}.{axis}")  # the sum of these products, and with arms rotM or UM
+
 KINDS: Mapping[str, QuantityKind] = {
     "star on paper": QuantityKind("mm⁻¹", 1e3, digits=6),
     "star of couples on paper": QuantityKind("m/mm", 1e3, digits=6),
@@ -46,6 +57,12 @@ ROWS: tuple[VocabularyRow, ...] = (
     VocabularyRow(Name("orders.m2"), "m", "mass", below="2"),
     VocabularyRow(Name("orders.m3"), "m", "mass", below="3"),
     VocabularyRow(Name("orders.s"), "s", "ratio"),
+    VocabularyRow(Name("orders.m1"), "m", "mass", below="1"),
+    *(
+        VocabularyRow(own_mass.only(link=k), "m", "mass", below=f"{k},{{cylinder}}", name=f"orders own mass {k}")
+        for k in "123"
+    ),
+    VocabularyRow(own_radius, "r", "length", below="{cylinder}", name="orders own radius"),
     VocabularyRow(crank, "θ", "angle", below="{cylinder}", name="orders crank"),
     VocabularyRow(bank, "ψ", "angle", below="{cylinder}", name="orders bank"),
     VocabularyRow(station, "z", "length", below="{cylinder}", name="orders station"),
@@ -63,6 +80,24 @@ ROWS: tuple[VocabularyRow, ...] = (
     VocabularyRow(off, "δ", "share", _G, below="{order}"),
     *(VocabularyRow(scale.only(star=star), "μ", "star on paper", _F, below=star) for star in "fg"),
     *(VocabularyRow(scale.only(star=star), "μ", "star of couples on paper", _F, below=star) for star in "pq"),
+    VocabularyRow(own_ratio, "λ", "ratio", _G, below="{cylinder}"),
+    VocabularyRow(own_exact, "A", "unrounded factor", _G, below="{order},{cylinder}"),
+    VocabularyRow(own_factor, "A", "order factor", _G, below="{order},{cylinder}"),
+    VocabularyRow(reciprocating, "m", "mass", _G, below="rec,{cylinder}", name="orders own reciprocating mass"),
+    VocabularyRow(rotating, "m", "mass", _G, below="A,{cylinder}", name="orders own rotating mass"),
+    VocabularyRow(weight.only(order="1"), "w", "ratio", _G, below="1,{cylinder}", name="orders weight"),
+    VocabularyRow(weight, "w", "ratio", _G, below="{order},{cylinder}"),
+    VocabularyRow(product.only(of="rot"), "h", "product of mass and radius", KeyChapter.torque, below="{cylinder}"),
+    VocabularyRow(product.only(of="U"), "u", "product of mass and radius", KeyChapter.torque, below="{cylinder}"),
+    *(
+        VocabularyRow(turning.only(of=of), letter, f"product of {kind}", KeyChapter.torque, below="{axis}")
+        for of, letter, kind in (
+            ("rot", "h", "mass and radius"),
+            ("U", "u", "mass and radius"),
+            ("rotM", "H", "mass, radius and distance"),
+            ("UM", "D", "mass, radius and distance"),
+        )
+    ),
     VocabularyRow(angle, "γ", "angle", _F, below="{cylinder}"),
     VocabularyRow(drawn),
     VocabularyRow(measured, "s", "segment", _F, "orders.mu.{star}", below="{star}{order}"),
@@ -80,6 +115,8 @@ ROWS: tuple[VocabularyRow, ...] = (
     VocabularyRow(least_couple, "M", "torque", _F, below="{order},min", name="orders least couple"),
     VocabularyRow(Name("orders.rotating"), "F", "force", KeyChapter.torque, below="rot"),
     VocabularyRow(Name("orders.U"), "U", "product of mass and radius", KeyChapter.torque, below="c"),
+    VocabularyRow(Name("orders.U.dir"), "α", "direction", KeyChapter.torque, below="c", around=True),
+    VocabularyRow(Name("orders.U.M.dir"), "α", "direction", KeyChapter.torque, below="D", around=True),
     VocabularyRow(Name("orders.left"), "F", "force", KeyChapter.torque, below="1", above="′"),
     VocabularyRow(Name("orders.rotating.M"), "M", "torque", KeyChapter.torque, below="rot"),
     VocabularyRow(Name("orders.U.M"), "D", "product of mass, radius and distance", KeyChapter.torque, below="c"),

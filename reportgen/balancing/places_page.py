@@ -21,7 +21,7 @@ class PlacesPage(DesignPage[Designed]):
         printed, first = self.case.printed, places[0]
         symbols = (printed.symbol(family(first)) for family in families)
         heads = [
-            (replace(symbol, sub=symbol.sub.removesuffix(first)), printed.number(family(first)).unit)
+            (replace(symbol, sub=symbol.sub.removesuffix(first).removesuffix(",")), printed.number(family(first)).unit)
             for symbol, family in zip(symbols, families, strict=True)
         ]
         rows = [((Text(place),), *(bare(printed.number(family(place))) for family in families)) for place in places]
