@@ -452,7 +452,7 @@ def wording(id: str, symbol: Symbol) -> tuple[str, dict[str, str]]:
         "line": lowered(index),
         "link": link,
         "other": acted_on,
-        "number": parts.get("number", ""),
+        "number": parts.get("number", parts.get("cylinder", parts.get("order", ""))),
         "nth": f" ({parts['letter']})" if parts.get("letter") else "",
         "axis": parts.get("axis", ""),
         "about": lowered(parts.get("about", "")),

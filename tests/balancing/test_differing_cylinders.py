@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
+import re
 from pathlib import Path
 
 import numpy as np
@@ -125,7 +126,9 @@ def test_lines_and_moving_forces(file: Path) -> None:
         checked = [recomputes(chain) for chain in chains(case.document().blocks)]
         assert checked.count(True) >= 30
         assert False not in checked
-        assert [row.id for row in key_of(case).rows if not row.what] == []
+        rows = key_of(case).rows
+        # The number of the cylinder or of the order alone, not its index in print.
+        assert [row.id for row in rows if not row.what or re.search(r",(min|\d)", row.what)] == []
     assert isinstance(case, EngineCase)
     φ = np.arange(3600) * math.tau / 3600
     for by_order, greatest, least in (
