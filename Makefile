@@ -59,6 +59,7 @@ pictures: $(VENV)/.developing
 	$(BIN)/python docs/pictures.py
 	$(BIN)/python docs/keys.py
 	$(BIN)/python docs/options.py
+	$(BIN)/python docs/atlas.py
 	$(BIN)/python docs/error_codes.py
 	$(BIN)/python docs/quantities.py
 

@@ -25,7 +25,8 @@ from PIL import Image
 from screens import Screen, first_report
 
 from reportgen import api, catalogue
-from reportgen.base.kinds import program_kinds
+from reportgen.base.kinds import kinds
+from reportgen.base.template_folders import is_of_atlas
 from reportgen.document import Document, Figure
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -331,10 +332,16 @@ def main() -> None:
         class_of_60(language)
     notebook_study()
     curves()
-    for kind in program_kinds():
-        file = SHOWN.get(kind) or min(SAMPLE.parent.glob(f"{kind}-*.yaml"))
-        page = typeset(scheme_alone(document(file)))[0]
-        save(page, kind, SCHEME_DPI, drawn(page) + pymupdf.Rect(0, 0, 0, BELOW.get(kind, 0.0)))
+    for kind in kinds():
+        save_scheme(kind)
+
+
+def save_scheme(kind: str) -> None:
+    """Save the scheme of an example of a kind as `docs/pictures/KIND.png`; of `atlas/NAME` as `atlas-NAME.png`."""
+    files = catalogue.examples(kind).values() if is_of_atlas(kind) else SAMPLE.parent.glob(f"{kind}-*.yaml")
+    page = typeset(scheme_alone(document(SHOWN.get(kind) or min(files))))[0]
+    clip = drawn(page) + pymupdf.Rect(0, 0, 0, BELOW.get(kind, 0.0))
+    save(page, kind.replace("/", "-"), SCHEME_DPI, clip)
 
 
 if __name__ == "__main__":

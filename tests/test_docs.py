@@ -84,7 +84,7 @@ def test_every_machine_is_shown_and_all_its_keys_are_explained() -> None:
     assert set(re.findall(r"`([a-z-]+)`", row)) - {"flywheel"} == with_flywheel
 
 
-@pytest.mark.parametrize("script", ["keys", "options", "error_codes", pytest.param("quantities", marks=proof)])
+@pytest.mark.parametrize("script", ["keys", "options", "error_codes", "atlas", pytest.param("quantities", marks=proof)])
 def test_a_generated_page_is_as_its_script_writes_it(script: str) -> None:
     """`make pictures` writes it from the words of the program, so that no fact has to be written twice."""
     spec = importlib.util.spec_from_file_location(script, ROOT / "docs" / f"{script}.py")

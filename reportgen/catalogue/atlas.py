@@ -18,6 +18,7 @@ from reportgen.assignment.parameter_formulas import FormulaError
 from reportgen.assignment.reading import read_section
 from reportgen.base.atlas_words import machine_source, machine_words
 from reportgen.base.errors import Fault, Finding, Where
+from reportgen.base.field_words import FieldWords
 from reportgen.base.template_folders import ATLAS_BASE, atlas_files, is_own_machine
 from reportgen.base.units import Given, Language
 from reportgen.base.words import as_error
@@ -169,11 +170,12 @@ class AtlasMachine:
         """Return the words of the machine for the linkage's templates."""
         words = machine_words(atlas_files()[self.kind], language)
         links, names = words.get("links", {}), words.get("parameters", {})
-        called = {id: names[key] for id, key in self._data(expanded) if key in names}
+        called = {id: FieldWords(names[key]).label for id, key in self._data(expanded) if key in names}
         return {
             "about": words.get("description", ""),
             "task": words.get("task", ""),
             "called": called,
+            "first": links.get("1", ""),
             "motions": tuple(replace(row, called=links.get(str(row.link), "")) for row in made.facts["motions"]),
         }
 

@@ -88,6 +88,7 @@ def facts(given: file.Parameters, loads: tuple[str, ...], acting: Container[str]
         "about": "",
         "task": "",
         "called": {},
+        "first": "",
         "frame": [(vocabulary.point(name), *map(as_typed, at)) for name, at in given.frame.items()],
         "quantities": tuple(_quantities(given, rows)),
         "groups": rows,

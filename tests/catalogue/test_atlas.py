@@ -96,7 +96,7 @@ def test_a_machine_of_a_department_is_served_as_any_kind(department: Path, tmp_p
     assert made is not None
     assert made.linkage.driver.length == pytest.approx(0.045)
     assert made.linkage.points[0].local == pytest.approx(0.215)
-    assert made.facts["called"] == {"l.AB": "length of the crank"}
+    assert made.facts["called"] == {"l.AB": "Length of the crank"}
     words = field_words("atlas/slotter", "vi")["parameters.a"]
     assert (words.name, words.remark) == ("length of the crank", "20 mm … 90 mm")
     about = next(
