@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 from reportgen.assignment.checks import of_parameters, one_of
 from reportgen.base.errors import Finding
 from reportgen.gears import train_file
-from reportgen.gears.tooth_numbers import CONDITIONS, DUST, SCHEMES, Train, mended
+from reportgen.gears.tooth_numbers import CONDITIONS, DUST, LEAST_OUTER, SCHEMES, Train, efficiency, mended
+from reportgen.gears.train_file import undercut_wheels
 
 if TYPE_CHECKING:
     from reportgen.assignment import Assignment
@@ -44,6 +45,26 @@ def teeth_of(train: Train) -> str:
     return f"{z.z1}/{z.z2}/{z.z3}" if SCHEMES[train.scheme].single else "/".join(map(str, z))
 
 
+def _few_teeth(given: Parameters) -> Iterator[Finding]:
+    """Yield findings for ordinary wheels with fewer teeth than the least number."""
+    for key, rows in (("before", given.before), ("behind", given.behind)):
+        for i, row in enumerate(rows):
+            for j, teeth in enumerate(row):
+                if teeth < given.least_teeth:
+                    least = f"≥ {given.least_teeth}"
+                    yield Finding("out-of-range", (*TOP, key, i, j), {"text": str(teeth), "range": least})
+
+
+def _locked(given: Parameters, train: Train) -> Iterator[Finding]:
+    """Yield a finding if torques are asked of a train that locks itself."""
+    losses = given.efficiency
+    if given.torque is None or losses is None:
+        return
+    of_meshes = tuple(losses.inner if inner else losses.outer for inner in SCHEMES[given.scheme].inner)
+    if efficiency(float(train.ratio), of_meshes[0] * of_meshes[1], given.by_carrier) <= 0:
+        yield Finding("train-locked", (*TOP, "torque"), at="key")
+
+
 def check(given: Parameters) -> Iterator[Finding]:
     """Yield faults of keys and limits; then, if no tooth numbers fulfil the demand, the condition that fails."""
     if (given.u is None) == (given.n_out is None):
@@ -51,18 +72,22 @@ def check(given: Parameters) -> Iterator[Finding]:
     if SCHEMES[given.scheme].single and given.m2 is not None:
         yield Finding("train-one-module", (*TOP, "m2"), at="key")
         return
-    if given.z.from_ > given.z.to:
-        yield Finding("train-limits", (*TOP, "z", "to"), {"least": str(given.z.from_), "most": str(given.z.to)})
+    if given.least > given.z.to:
+        yield Finding("train-limits", (*TOP, "z", "to"), {"least": str(given.least), "most": str(given.z.to)})
+        return
+    if few := list(_few_teeth(given)):
+        yield from few
         return
     if given.u is not None and given.u.si in (0, 1):
         yield Finding("train-no-ratio", (*TOP, "u"), {"u": given.u.text})
         return
     choice = given.choice
     if len(choice.sets):
+        yield from _locked(given, choice.chosen)
         return
     failed = next(name for name in CONDITIONS if not choice.left[name])
-    wanted, limits = given.wanted, {"least": str(given.z.from_), "most": str(given.z.to)}
-    about = {"u": f"{wanted:.6g}", "k": str(given.k), **limits}
+    wanted, limits = given.wanted, {"least": str(given.least), "most": str(given.z.to)}
+    about = {"u": f"{wanted:.6g}", "k": str(given.k), "outer": str(given.least_teeth), **limits}
     if failed in ("ratio", "interference"):
         key = ("u",) if given.u is not None else ("n_out",)
         if choice.nearest is None:
@@ -95,6 +120,11 @@ def physics(assignment: Assignment) -> Iterator[Finding]:
         key = "u" if given.u is not None else "n_out"
         met = {"u": f"{given.wanted:.6g}", "reached": f"{given.of_input(reached):.6g}"}
         yield Finding("train-off", (*TOP, key), met)
+    undercut = undercut_wheels(given, choice.chosen)
+    if undercut:
+        wheels = ", ".join(f"z{wheel} = {teeth}" for wheel, teeth in undercut.items())
+        shift = (LEAST_OUTER - min(undercut.values())) / LEAST_OUTER
+        yield Finding("train-undercut", (*TOP, "least_teeth"), {"wheels": wheels, "shift": f"{shift:.3f}"})
     if not choice.free[choice.first]:
         yield Finding("train-shift", (*TOP, "z"), {"teeth": teeth_of(choice.chosen)})
 

@@ -22,7 +22,7 @@ from reportgen.base.arrays import Flags
 from reportgen.base.template_access import template_members
 from reportgen.formula.evaluation import inv
 from reportgen.gears import train_formulas as formulas
-from reportgen.gears.train_formulas import TrainScheme, over_teeth
+from reportgen.gears.train_formulas import OTHER, WHEELS, TrainScheme, over_teeth
 
 Wholes = NDArray[np.int64]
 
@@ -73,6 +73,8 @@ class Demand:
     most: int
     modules: Fraction = Fraction(1)
     by_carrier: bool = False
+    outer: int = LEAST_OUTER
+    """The least number of outer teeth; below `LEAST_OUTER` wheels are undercut unless their profiles are shifted."""
 
     @property
     def of(self) -> TrainScheme:
@@ -102,6 +104,14 @@ class Train:
         z = self.teeth
         (exact,) = ratios(SCHEMES[self.scheme], np.array([z]).T)
         return Fraction(float(exact)).limit_denominator(z.z1 * z.z2_prime)
+
+    @property
+    def undercut(self) -> Mapping[str, int]:
+        """Return the numbers of outer teeth below `LEAST_OUTER`, by their wheels."""
+        z, scheme = self.teeth, SCHEMES[self.scheme]
+        outer = {"1": not scheme.inner[0], "2": True, OTHER: not scheme.single, "3": not scheme.inner[1]}
+        numbers = dict(zip(WHEELS, z, strict=True))
+        return {wheel: numbers[wheel] for wheel in WHEELS if outer[wheel] and numbers[wheel] < LEAST_OUTER}
 
     @property
     def size(self) -> float:
@@ -139,13 +149,13 @@ def axis(scheme: TrainScheme, z: Wholes) -> NDArray[np.float64]:
     return over_teeth(formulas.first_axes, scheme, z)
 
 
-def _interference(scheme: TrainScheme, z: Wholes) -> Flags:
-    """Return flags [N]: outer wheels are not undercut, inner wheels exceed their satellites by the usual number of
-    teeth.
+def _interference(scheme: TrainScheme, z: Wholes, outer: int) -> Flags:
+    """Return flags [N]: outer wheels have at least `outer` teeth, inner wheels exceed their satellites by the usual
+    number of teeth.
     """
-    holds: Flags = (z[1] >= LEAST_OUTER) & (z[2] >= LEAST_OUTER)
+    holds: Flags = (z[1] >= outer) & (z[2] >= outer)
     for inner, wheel, satellite in zip(scheme.inner, (z[0], z[3]), (z[1], z[2]), strict=True):
-        holds &= wheel - satellite >= LEAST_DIFFERENCE if inner else wheel >= LEAST_OUTER
+        holds &= wheel - satellite >= LEAST_DIFFERENCE if inner else wheel >= outer
     return holds
 
 
@@ -203,7 +213,7 @@ def judged(demand: Demand, z: Wholes) -> Mapping[str, Flags]:
     u = ratios(scheme, z)
     return {
         "ratio": demand.off(u) <= demand.tolerance + DUST,
-        "interference": _interference(scheme, z),
+        "interference": _interference(scheme, z, demand.outer),
         "neighbours": _neighbours(scheme, z, k, demand.modules),
         "assembly": _assembly(u, z, k),
     }
@@ -362,3 +372,10 @@ def power_way(ratio: float, carrier_drives: bool) -> int:
     """
     along = 1 - 1 / ratio
     return 1 if (along > 0) != carrier_drives else -1
+
+
+def efficiency(ratio: float, of_meshes: float, carrier_drives: bool) -> float:
+    """Return the efficiency of a train with the ratio u₁H, `of_meshes` η₀ with the carrier held; ≤ 0 if it locks."""
+    u0 = 1 - ratio
+    lost = 1 - u0 * of_meshes ** power_way(ratio, carrier_drives)
+    return (1 - u0) / lost if carrier_drives and lost else lost / (1 - u0)

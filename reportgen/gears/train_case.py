@@ -22,8 +22,9 @@ from reportgen.formula import Chain, Number, Symbol, signed
 from reportgen.gears import train_drawings, train_ids
 from reportgen.gears.tooth_numbers import DUST, LEAST_DIFFERENCE, LEAST_OUTER, Train
 from reportgen.gears.train_drawings import scheme_views, velocity_triangles
+from reportgen.gears.train_file import FIRST_ROW_WHEEL, undercut_wheels
 from reportgen.gears.train_formulas import OTHER, term_of
-from reportgen.gears.train_ledger import FIRST_ROW_WHEEL, SolvedTrain
+from reportgen.gears.train_ledger import SolvedTrain
 from reportgen.sheets.plates import drawn
 
 ROWS, SHORT_ROWS = 15, 6
@@ -41,11 +42,16 @@ class TrainPage(DesignPage[SolvedTrain]):
     NAME, TASK, SUMMARY = "train", "train-task", "train-summary"
     SECTIONS = (
         *("train-given", "train-ratio", "train-conditions", "train-candidates", "train-choice", "train-checks"),
-        *("train-total", "train-scheme", "train-rates", "train-triangles", "train-efficiency", "train-conclusion"),
+        *("train-total", "train-scheme", "train-rates", "train-triangles", "train-efficiency"),
+        *("train-torques", "train-conclusion"),
     )
     SHORT = frozenset({"train-triangles"})
 
-    SWITCHES: ClassVar = {"train-total": ("before", "behind"), "train-efficiency": ("efficiency",)}
+    SWITCHES: ClassVar = {
+        "train-total": ("before", "behind"),
+        "train-efficiency": ("efficiency",),
+        "train-torques": ("torque",),
+    }
 
     def names(self) -> dict[str, Any]:
         case, given, choice = self.case, self.case.given, self.case.choice
@@ -61,6 +67,7 @@ class TrainPage(DesignPage[SolvedTrain]):
             "one_smaller": choice.first == 1,
             "rows": bool(given.before or given.behind),
             "self_locking": given.efficiency is not None and written[train_ids.efficiency("train")].at(1) <= 0,
+            "circulates": train_ids.power("circulating") in written,
             "tolerance": Value(self.tolerance),
             "possible": listed(Text(str(k)) for k in case.train.satellites),
             "shown": rows,
@@ -123,7 +130,10 @@ class TrainPage(DesignPage[SolvedTrain]):
         """Return the table of data with names, symbols and values."""
         given, printed, words = self.case.given, self.case.printed, self.words
         rows: list[tuple[Any, ...]] = []
-        for key, value in (("scheme", given.scheme), ("drives", given.drives)):
+        choices: list[tuple[str, str]] = [("scheme", given.scheme), ("drives", given.drives)]
+        if given.torque is not None:
+            choices.append(("torque", given.torque.of))
+        for key, value in choices:
             rows.append((words["choices"][key]["name"], "–", words["choices"][key][value]))
         for id, name in self.case.words["given"].items():
             if id in printed and (given.u or id != "train.u"):
@@ -133,7 +143,7 @@ class TrainPage(DesignPage[SolvedTrain]):
             rows.append(
                 (words["row_before" if i < len(given.before) else "row_behind"], symbols, f"{row[0]}, {row[1]}")
             )
-        rows.append((words["limits"], Symbol("z"), f"{given.z.from_} … {given.z.to}"))
+        rows.append((words["limits"], Symbol("z"), f"{given.least} … {given.z.to}"))
         rows.append((words["tolerance"], Symbol("Δu"), self.tolerance))
         heads = (self.case.words["table"][key] for key in ("quantity", "symbol", "value"))
         return self._table("data", heads, rows, (82, 20, 58))
@@ -153,7 +163,9 @@ class TrainPage(DesignPage[SolvedTrain]):
             across = train.size * given.second_module.si * MM
             numbers = _short(u, 4), _short((u / given.wanted - 1) * 100, 2), _short(across, 2)
             z = [str(one) for one in train.teeth]
-            mark = words["yes" if choice.free[n] else "no"] + (f" {words['chosen']}" if n == choice.first else "")
+            mark = words["yes" if choice.free[n] and not train.undercut else "no"] + (
+                f" {words['chosen']}" if n == choice.first else ""
+            )
             rows.append((str(n + 1), *(z[:2] + z[3:] if self.case.scheme.single else z), *numbers, mark))
         wheels = (Symbol("z", wheel) for wheel in self.wheels)
         u1H = Symbol("u", "H1" if given.by_carrier else "1H")
@@ -174,8 +186,10 @@ class TrainPage(DesignPage[SolvedTrain]):
             ("coaxial", (symbol("train.a.1"), " = ", symbol("train.a.2")), value("train.a.1"), True),
             ("neighbours", ("< ", value("train.room")), value("train.gap"), True),
             ("assembly", words["whole"], (symbol("train.N"), " = ", value("train.N")), True),
-            ("outer", f"≥ {LEAST_OUTER}", str(outer), True),
+            ("outer", f"≥ {case.given.least_teeth}", str(outer), True),
         ]
+        if undercut_wheels(case.given, case.train):
+            rows.append(("undercut", f"≥ {LEAST_OUTER}", str(outer), False))
         for name, (inner, wheel, satellite) in zip(("first", "second"), meshes, strict=True):
             if inner:
                 rows.append((name, f"≥ {LEAST_DIFFERENCE}", f"{wheel} − {satellite} = {wheel - satellite}", True))
@@ -268,10 +282,30 @@ class TrainCase(SolvedTrain):
                     "satellites": self.given.k,
                     "possible": list(self.train.satellites),
                 },
+                **self._torque_entries,
                 "found": len(choice.sets),
-                "sets": [{**_train_entry(choice.train(n)), "unshifted": choice.free[n]} for n in listed],
+                "sets": [self._set_entry(n) for n in listed],
             },
         )
+
+    def _set_entry(self, number: int) -> dict[str, Any]:
+        train = self.choice.train(number)
+        return {**_train_entry(train), "unshifted": self.choice.free[number] and not train.undercut}
+
+    @property
+    def _torque_entries(self) -> dict[str, Any]:
+        """Return the torques (N·m) by shafts and the powers (W), if a torque is known."""
+        if self.given.torque is None:
+            return {}
+        families, given = {"torques": train_ids.torque, "power": train_ids.power}, train_ids.torque("given")
+        return {
+            name: {
+                id.rpartition(".")[2]: float(self.ledger[id].at(1))
+                for id in self.ledger.families
+                if id in of and id != given
+            }
+            for name, of in families.items()
+        }
 
     def animations(self) -> tuple[Animation, ...]:
         return (train_drawings.animation(self),)

@@ -12,12 +12,16 @@ from reportgen.assignment.common import Part
 from reportgen.assignment.fields import Decimal, Interval, Quantity, Ratio, RotationalSpeed, Whole
 from reportgen.base.template_access import template_members
 from reportgen.base.units import Given
-from reportgen.gears.tooth_numbers import LEAST_OUTER, MOST_SATELLITES, Demand, TrainChoice, choice
+from reportgen.gears.tooth_numbers import LEAST_OUTER, MOST_SATELLITES, Demand, Train, TrainChoice, choice
 
 MOST_TEETH = 300
+FIRST_ROW_WHEEL = 4
+"""First number of the wheels of ordinary rows."""
 
 Tolerance = Annotated[Given, Ratio(Interval(least=0, most=0.2, tiny=1e-6))]
-TrainTeeth = Annotated[int, Whole(LEAST_OUTER, MOST_TEETH)]
+FEWEST_TEETH = 8
+TrainTeeth = Annotated[int, Whole(FEWEST_TEETH, MOST_TEETH)]
+TorqueOfShaft = Annotated[Given, Quantity("N m", Interval(above=0, most=1e9, tiny=1e-6))]
 Module = Annotated[Given, Quantity("mm", Interval(least=0.1, most=100))]
 OfMesh = Annotated[float, Decimal(Interval(above=0.5, most=1))]
 RowPair = Annotated[tuple[TrainTeeth, ...], Field(min_length=2, max_length=2)]
@@ -28,8 +32,8 @@ Rows = Annotated[tuple[RowPair, ...], Field(max_length=4)]
 class TeethLimits(Part):
     """The least and the greatest number of teeth of any wheel."""
 
-    from_: Annotated[int, Whole(8, MOST_TEETH)] = Field(default=LEAST_OUTER, alias="from")
-    to: Annotated[int, Whole(8, MOST_TEETH)] = 120
+    from_: TrainTeeth | None = Field(default=None, alias="from")
+    to: TrainTeeth = 120
 
 
 class MeshEfficiency(Part):
@@ -39,7 +43,16 @@ class MeshEfficiency(Part):
     inner: OfMesh = 0.98
 
 
-@template_members("u", "tolerance", "z", "before", "behind", "efficiency", "by_carrier")
+class KnownTorque(Part):
+    """The size of the torque on one shaft of the drive: the first, the last, or fixed wheel 3."""
+
+    M: TorqueOfShaft
+    of: Literal["driving", "driven", "fixed"] = "driving"
+
+
+@template_members(
+    *("u", "tolerance", "z", "least", "least_teeth", "before", "behind", "efficiency", "torque", "by_carrier")
+)
 class Parameters(Part):
     """A planetary train to be found, with rows of ordinary wheels before and behind it."""
 
@@ -49,6 +62,7 @@ class Parameters(Part):
     tolerance: Tolerance = Given(0.0, 0.0, "", "0")
     k: Annotated[int, Whole(2, MOST_SATELLITES)]
     z: TeethLimits = TeethLimits()
+    least_teeth: Annotated[int, Whole(FEWEST_TEETH, LEAST_OUTER)] = LEAST_OUTER
     m: Module
     m2: Module | None = None
     n_in: RotationalSpeed
@@ -56,6 +70,12 @@ class Parameters(Part):
     before: Rows = ()
     behind: Rows = ()
     efficiency: MeshEfficiency | None = None
+    torque: KnownTorque | None = None
+
+    @property
+    def least(self) -> int:
+        """Return the least number of teeth of any wheel of the train."""
+        return self.least_teeth if self.z.from_ is None else self.z.from_
 
     @property
     def by_carrier(self) -> bool:
@@ -85,10 +105,26 @@ class Parameters(Part):
     @property
     def demand(self) -> Demand:
         modules = Fraction(self.m.si / self.second_module.si).limit_denominator(10_000)
-        limits = (self.z.from_, self.z.to)
         ratio, share = self.of_input(self.wanted), self.tolerance.si
-        return Demand(self.scheme, ratio, share, self.k, *limits, modules=modules, by_carrier=self.by_carrier)
+        return Demand(
+            self.scheme,
+            ratio,
+            share,
+            satellites=self.k,
+            least=self.least,
+            most=self.z.to,
+            modules=modules,
+            by_carrier=self.by_carrier,
+            outer=self.least_teeth,
+        )
 
     @property
     def choice(self) -> TrainChoice:
         return choice(self.demand)
+
+
+def undercut_wheels(given: Parameters, train: Train) -> dict[str, int]:
+    """Return the outer wheels of the whole drive that are undercut without profile shift, with their teeth."""
+    in_rows = [teeth for row in (*given.before, *given.behind) for teeth in row]
+    every = {**train.undercut, **{str(FIRST_ROW_WHEEL + i): teeth for i, teeth in enumerate(in_rows)}}
+    return {wheel: teeth for wheel, teeth in every.items() if teeth < LEAST_OUTER}

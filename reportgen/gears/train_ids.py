@@ -13,6 +13,9 @@ row_ratio = Name("train.u.row.{number}")
 omega = Name("train.omega.{wheel}")
 velocity = Name("train.v.{place}")
 efficiency = Name("train.eta.{of}")
+least_shift = Name("train.x.{wheel}")
+torque = Name("train.M.{of}")
+power = Name("train.P.{of}")
 line = Name("train.line.{place}")  # on paper
 segment = Name("train.seg.{wheel}")  # of the plan of angular velocities
 read = Name("train.read.{wheel}")
@@ -28,5 +31,8 @@ ROWS: tuple[VocabularyRow, ...] = (
     VocabularyRow(row_ratio, "u", "ratio", below="{number}", name="train row ratio"),
     VocabularyRow(omega, "ω", "angular velocity", below="{wheel}", name="train omega"),
     VocabularyRow(velocity, "v", "follower velocity", below="{place}", name="train velocity"),
+    VocabularyRow(least_shift, "x", "ratio", below="{wheel}", name="train least shift"),
+    VocabularyRow(torque, "M", "torque", below="{of}", name="train torque"),
+    VocabularyRow(power, "P", "power", below="{of}", name="train power"),
     VocabularyRow(efficiency, "η", "ratio", below="{of}", name="train efficiency"),
 )

@@ -5,7 +5,7 @@ triangles.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -15,17 +15,15 @@ import numpy as np
 from reportgen.base.units import MM, SERIES, nice_up
 from reportgen.case import Misconceptions
 from reportgen.case.design_case import DesignCase
-from reportgen.formula import PI, Expression, Operand, Product, Ref, Symbol, as_expression, signed, sin
+from reportgen.formula import PI, Expression, Operand, Product, Ref, Symbol, as_expression, minus, signed, sin, size
 from reportgen.formula.calculation import Calculation
 from reportgen.formula.vocabulary import KeyChapter
 from reportgen.gears import train_formulas as formulas
 from reportgen.gears import train_ids
-from reportgen.gears.tooth_numbers import CONDITIONS, SCHEMES, Train, TrainChoice, power_way
-from reportgen.gears.train_file import Parameters
+from reportgen.gears.tooth_numbers import CONDITIONS, DUST, LEAST_OUTER, SCHEMES, Train, TrainChoice, power_way
+from reportgen.gears.train_file import FIRST_ROW_WHEEL, KnownTorque, Parameters, undercut_wheels
 from reportgen.gears.train_formulas import OTHER, TrainScheme, term_of
 
-FIRST_ROW_WHEEL = 4
-"""First number of the wheels of ordinary rows."""
 PLAN_HEIGHT, PLAN_WIDTH, RATES_WIDTH = 85.0, 60.0, 110.0
 """Room for radii, velocities and the plan of angular velocities on paper (mm)."""
 NEAREST_POLE, FARTHEST_POLE = 2.0, 40.0
@@ -100,7 +98,19 @@ class SolvedTrain(DesignCase):
                 for teeth, number in zip(z.values(), refused.teeth, strict=True):
                     if teeth.id in self.ledger:
                         readings.setdefault(teeth.id, []).append((f"train-{name}", np.array([number])))
-        return Misconceptions(readings=readings, changed=changed)
+        return Misconceptions(readings=readings, changed={**changed, **self._wrong_torques})
+
+    @property
+    def _wrong_torques(self) -> Mapping[str, list[tuple[str, Expression]]]:
+        """Return the mistaken definitions of torques: divided by the ratio, or without the torque of the driver."""
+        if self.given.torque is None:
+            return {}
+        driver, driven = (Ref(train_ids.torque(name)) for name in ("H1" if self.given.by_carrier else "1H"))
+        ratio = Ref("train.uH1" if self.given.by_carrier else "train.u1H")
+        return {
+            driven.id: [("train-torque-inverse", -(driver / ratio))],
+            train_ids.torque("3"): [("train-torque-support", -driven)],
+        }
 
 
 def larger_satellite(train: Train) -> tuple[str, str]:
@@ -128,6 +138,9 @@ class TrainCalculation:
         with self.q.within(KeyChapter.velocity):
             self._enter_rates()
             self._enter_triangles()
+        if self.given.torque is not None:
+            with self.q.within(KeyChapter.torque):
+                self._enter_torques(self.given.torque)
         for name, lines in LINES.items():
             self.q.set_out(name, *lines)
         return self.q
@@ -233,6 +246,10 @@ class TrainCalculation:
             top = Product((z["1"], z[OTHER])) + signed(self.scheme.sign, Product((z["2"], z["3"])))
             whole = (Product((top, 1 + k * P)) if turns else top) / Product((k, z[OTHER]))
         q.define("train.N", whole, "N", "count")
+        q.set_out("undercut")
+        for wheel in undercut_wheels(self.given, self.train):
+            x = q.define(train_ids.least_shift(wheel), (LEAST_OUTER - z[wheel]) / LEAST_OUTER, Symbol("x", wheel))
+            q.set_out("undercut", x)
 
     def _length(self, id: str, formula: Operand, symbol: Symbol) -> Ref:
         return self.q.define(id, formula, symbol, "gear length")
@@ -326,6 +343,61 @@ class TrainCalculation:
         if self.rows:
             ηr = give("row", given.efficiency.outer, Symbol("η", "r"))
             q.define(train_ids.efficiency("total"), η * ηr ** len(self.rows), Symbol("η", "tot"))
+
+    # --- torques and power
+
+    def _enter_torques(self, known: KnownTorque) -> None:
+        """Enter the torques on the members from one known torque, and the power through the meshes.
+
+        Torques act from outside.  Those of the members are in equilibrium, M₁ + M_H + M₃ = 0, and M₃ does no work; so
+        the driven shaft of the train takes −M u η of the torque M of its driving shaft.  Seen from the carrier, the
+        meshes transmit M₁(ω₁ − ω_H).
+        """
+        q, given = self.q, self.given
+        driver, driven = ("H", "1") if given.by_carrier else ("1", "H")
+        η, ηr = (q.find(train_ids.efficiency(name)) for name in ("train", "row"))
+        before, behind = (
+            self._transmission(given.before, 0, ηr),
+            self._transmission(given.behind, len(given.before), ηr),
+        )
+        with q.within(KeyChapter.data):
+            M = q.give(train_ids.torque("given"), known.M.si, Symbol("M", "", "*"))
+        through = (self.u,) if η is None else (self.u, η)
+        amount: Expression = M
+        if known.of == "fixed":
+            amount = M / size(1 - Product(through))
+        elif known.of == "driven":
+            amount = M / size(Product((*through, *behind)))
+        elif before:
+            amount = M * size(Product(before))
+
+        def enter(name: str, torque: Operand) -> Ref:
+            return q.define(train_ids.torque(name), torque, Symbol("M", name))
+
+        # The first shaft turns and is driven in the positive sense; rows before the train may change it.
+        M_driver = enter(driver, signed(math.prod(map(q.si, self._ratios(before))), amount))
+        M_driven = enter(driven, minus(Product((M_driver, *through))))
+        members = M_driver, M_driven, enter("3", minus(M_driver + M_driven))
+        first = (enter("in", M_driver / Product(before)),) if before and known.of != "driving" else ()
+        last = (enter("out", Product((M_driven, *behind))),) if behind and known.of != "driven" else ()
+        q.set_out("torques", *members, *first, *last)
+        ω1, ωH = q[train_ids.omega("1")], q[train_ids.omega("H")]
+        power = q.define(train_ids.power("in"), M_driver * q[train_ids.omega(driver)], Symbol("P", driver))
+        mesh = q.define(train_ids.power("mesh"), q[train_ids.torque("1")] * (ω1 - ωH), Symbol("P", "", "(H)"))
+        share = q.define("train.share", size(mesh) / power, "ψ", "ratio")
+        q.set_out("power", power, mesh, share)
+        if q.si(share) > 1 + DUST:
+            q.set_out("power", q.define(train_ids.power("circulating"), size(mesh) - power, Symbol("P", "c")))
+
+    @staticmethod
+    def _ratios(factors: Iterable[Expression]) -> list[Ref]:
+        """Return the ratios among the factors of a torque, which give its sense; efficiencies are positive."""
+        return [one for one in factors if isinstance(one, Ref) and one.id in train_ids.row_ratio]
+
+    def _transmission(self, rows: Sequence[tuple[int, ...]], first: int, η: Ref | None) -> tuple[Expression, ...]:
+        """Return the factors of a torque through rows of ordinary wheels that begin with the row number `first`."""
+        ratios = [self.q[train_ids.row_ratio(wheel)] for wheel, _ in self.rows[first : first + len(rows)]]
+        return (*ratios, *([] if η is None or not rows else [η ** len(rows) if len(rows) > 1 else η]))
 
 
 def pole_distance(rate: float, wide: float, larger: float = 1.0) -> float:
