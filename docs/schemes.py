@@ -13,7 +13,7 @@ from reportgen import catalogue
 from reportgen.base.kinds import kinds
 from reportgen.base.template_folders import REFERENCE, samples
 from reportgen.cases import open_case
-from reportgen.document import Figure
+from reportgen.document import Document, Figure
 from reportgen.drawing import Circle, Item, Label, Scene
 from reportgen.drawing.geometry import bounds, frame, moved
 from reportgen.page.kind_cards import scheme_file
@@ -39,7 +39,11 @@ SHOWN = {
 def scene_of(kind: str) -> Scene:
     """Return the scheme of a kind's example."""
     smallest = min(catalogue.examples(kind).values(), key=lambda path: path.stat().st_size)
-    document = open_case(samples() / SHOWN.get(kind, smallest), REFERENCE).document()
+    return scheme_in(open_case(samples() / SHOWN.get(kind, smallest), REFERENCE).document())
+
+
+def scheme_in(document: Document) -> Scene:
+    """Return the scheme in a report."""
     figure = next(block for block in document.blocks if isinstance(block, Figure) and block.key in SCHEMES)
     return figure.scenes[0]
 
@@ -49,7 +53,12 @@ def drawn(kind: str) -> str:
 
     It has no labels, nor the circles around them, which nobody could read on a card.
     """
-    scene = scene_of(kind).items
+    return as_file(kind, scene_of(kind))
+
+
+def as_file(kind: str, drawn: Scene) -> str:
+    """Return a scheme of a kind as a file."""
+    scene = drawn.items
     labels = [frame(item)[0] for item in scene if isinstance(item, Label)]
     items = [item for item in scene if not isinstance(item, Label) and not _is_around(item, labels)]
     low, high = bounds(items)

@@ -27,9 +27,8 @@ from reportgen.api.figures import PLOT_FORMATS
 from reportgen.assignment import Assignment
 from reportgen.assignment.common import Extent
 from reportgen.assignment.reading import inputs
-from reportgen.base.kinds import program_kinds
 from reportgen.base.languages import setting_of
-from reportgen.base.template_folders import ATLAS, DEFAULT_LANGUAGE, languages, samples
+from reportgen.base.template_folders import DEFAULT_LANGUAGE, languages, samples
 from reportgen.base.units import Language
 from reportgen.case import Case
 from reportgen.case.answer_key import Key
@@ -39,12 +38,11 @@ from reportgen.document.named_figures import named_figures
 from reportgen.marking.toleranced_key import Ask, key_of
 from reportgen.page.edit_session import EditSession
 from reportgen.page.live_view import LiveSession
+from tests.kinds import ATLAS_MACHINE, KINDS
 from tests.marking.filled import filled
 
 OWN: Language | Literal[""] = ""
 """Language; "" for that of the file."""
-ATLAS_MACHINE = "jaw-crusher"
-"""The machine of the atlas that all commands run on."""
 CONTENT = {".pdf": b"%PDF-", ".xlsx": b"PK", ".docx": b"PK", ".html": b"<!DOCTYPE html>", ".dxf": b"  0\nSECTION"} | {
     ".svg": b"<",
     ".png": b"\x89PNG",
@@ -64,12 +62,10 @@ MOST = 8
 def subjects() -> dict[str, Path]:
     """Return the shortest example of each kind that can be used alone, and each coursework, by name.
 
-    The machines of the atlas have the code and the words of a `linkage`, which is here in every combination, and differ
-    in their data alone.  So one of them stands for all, in one language; `tests/catalogue/test_atlas.py`
-    takes every one through what depends on its data, in memory.
+    One machine of the atlas stands for all (`tests/kinds.py`), in one language: its words are those of a `linkage`,
+    which is here in every combination.
     """
-    alike = {ATLAS_MACHINE: catalogue.examples(f"{ATLAS}/{ATLAS_MACHINE}")}
-    examples = {kind: catalogue.examples(kind) for kind in program_kinds()} | alike
+    examples = {Path(kind).name: catalogue.examples(kind) for kind in KINDS}
     examples = {kind: [path for path in paths.values() if not _has_parts(path)] for kind, paths in examples.items()}
     alone = {kind: min(paths, key=lambda path: path.stat().st_size) for kind, paths in examples.items()}
     whole = {f"whole-{path.stem}": path for path in sorted(samples().rglob("*.yaml")) if _has_parts(path)}
@@ -333,7 +329,7 @@ def cases() -> Iterator[tuple[str, str, Language | Literal[""], api.Engine, Exte
             engines = get_args(api.Engine) if command in BY_ENGINE else ("typst",)
             extents = ("short", "full") if command in BY_EXTENT else ("short",)
             yield subject, command.__name__, OWN, "typst", "short"
-            if subject == ATLAS_MACHINE:
+            if subject == Path(ATLAS_MACHINE).name:
                 yield subject, command.__name__, DEFAULT_LANGUAGE, "typst", "short"
                 continue
             yield from (

@@ -10,9 +10,8 @@ import pytest
 
 from reportgen import api
 from reportgen.assignment.common import Extent
-from reportgen.base.kinds import program_kinds
 from reportgen.base.units import Language
-from tests import matrix
+from tests import kinds, matrix
 from tests.lanes import matrix as lanes
 from tests.report.built import MARKS
 
@@ -25,7 +24,7 @@ SOON = {"build", "compare", "edit"}
 """Commands that each kind runs there: together they make the report, the key, a sheet, its marks and the form."""
 WHOLE = {("whole-shaper-whole", command) for command in ("check", "solve_json", "compare")}
 """Commands that a coursework with a part of each kind runs there."""
-KINDS = (*program_kinds(), matrix.ATLAS_MACHINE)
+KINDS = {Path(kind).name for kind in kinds.KINDS}
 TELLING = [case for case in BRIEF if case[0] in WITH_ALL or case[:2] in WHOLE or (case[0] in KINDS and case[1] in SOON)]
 CASES = [case for case in ALL if case[2] != matrix.OWN or case in TELLING]
 """Those that the first lane runs, and every one that names its language: with all formats, it proves the brief one."""

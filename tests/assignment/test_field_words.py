@@ -14,6 +14,7 @@ from reportgen.base.field_words import choice_words, field_words
 from reportgen.base.kinds import kinds
 from reportgen.base.template_folders import languages
 from reportgen.base.units import Language
+from tests.kinds import KINDS
 
 LANGUAGES: tuple[Language, ...] = languages()
 PLAIN = re.compile(r"[A-Z]+[0-9]?|[0-9]+ pt|[0-9]+")
@@ -32,13 +33,13 @@ def keys(part: Schema, root: Schema, path: tuple[str, ...] = ()) -> Iterator[tup
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
-@pytest.mark.parametrize("kind", kinds())
+@pytest.mark.parametrize("kind", KINDS)
 def test_every_key_has_words_and_no_words_are_idle(kind: str, language: Language) -> None:
     schema = file_schema(catalogue.kind(kind))
     found = dict(keys(schema, schema))
     words = field_words(kind, language)
     assert found.keys() <= words.keys()
-    shared = set.intersection(*(set(field_words(other, language)) for other in kinds()))
+    shared = set.intersection(*(set(field_words(other, language)) for other in KINDS))
     assert words.keys() - found.keys() <= shared
     assert all(said.name and not said.name.endswith((".", ",")) for said in words.values())
     chosen = {choice for about in found.values() for one in alternatives(about, schema) for choice in choices_of(one)}
@@ -93,7 +94,7 @@ def _internal(part: Any) -> Iterator[Any]:
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
-@pytest.mark.parametrize("kind", kinds())
+@pytest.mark.parametrize("kind", KINDS)
 def test_a_file_to_begin_with_says_what_its_keys_are(kind: str, language: Language) -> None:
     """Each parameter with one value in its line has a remark; what may be said otherwise is told in its unit."""
     text = catalogue.sample(kind, language)

@@ -9,10 +9,10 @@ import pytest
 import yaml
 
 from reportgen import catalogue
-from reportgen.base.kinds import kinds
+from tests.kinds import KINDS
 
 
-@pytest.mark.parametrize("kind", kinds())
+@pytest.mark.parametrize("kind", KINDS)
 def test_every_key_that_may_be_left_out_is_warned_of_when_it_is_empty(tmp_path: Path, kind: str) -> None:
     """All optional keys of the parameters of a kind that its sample does not have, together."""
     text = catalogue.sample(kind, "en")

@@ -10,9 +10,9 @@ from reportgen import catalogue
 from reportgen.assignment.fields import UNIT_KEY
 from reportgen.assignment.schema import alternatives_to, file_schema, keys_at, places
 from reportgen.base.errors import Problem
-from reportgen.base.kinds import kinds
 from reportgen.base.units import measures
 from tests.commands import reportgen
+from tests.kinds import KINDS
 
 ENGINE = catalogue.sample("engine-twin", "en")
 
@@ -67,7 +67,7 @@ def _pairs(kind: str) -> list[tuple[str, str, str]]:
     ]
 
 
-PAIRS = {kind: pairs for kind in sorted(kinds()) if (pairs := _pairs(kind))}
+PAIRS = {kind: pairs for kind in sorted(KINDS) if (pairs := _pairs(kind))}
 
 
 def test_most_kinds_have_keys_in_pairs() -> None:

@@ -8,10 +8,10 @@ import pytest
 
 from reportgen import catalogue
 from reportgen.base.errors import Location, Where
-from reportgen.base.kinds import kinds
 from reportgen.base.yaml_edit import EditError, as_list, exchanged, with_value, without
 from reportgen.base.yaml_source import MappingNode, Node, Scalar, SequenceNode, plain, read_text
 from reportgen.base.yaml_values import at
+from tests.kinds import KINDS
 from tests.lanes import matrix
 
 TEXT = """\
@@ -140,7 +140,7 @@ def places(node: Node, where: Where = ()) -> Iterator[tuple[Where, Scalar]]:
                 yield from places(value, (*where, key.text))
 
 
-@pytest.mark.parametrize("kind", matrix(tuple(kinds()), ("shaper", "linkage")))
+@pytest.mark.parametrize("kind", matrix(KINDS, ("shaper", "linkage")))
 def test_every_value_of_a_file_to_begin_with(kind: str) -> None:
     """Each value of a sample can be another one and its own again, byte for byte; and no other is touched by it."""
     text = catalogue.sample(kind, "vi")

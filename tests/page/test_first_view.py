@@ -18,6 +18,7 @@ from reportgen.cases import open_case
 from reportgen.page.kind_cards import REST, cards, samples_of, scheme_file
 from reportgen.page.kind_chooser import Chooser
 from tests.documents import ROOT
+from tests.kinds import KINDS
 from tests.lanes import matrix, proof
 from tests.page.browser import Browser, axe
 from tests.page.test_edit import editing, until
@@ -46,7 +47,7 @@ def schemes() -> ModuleType:
     return module
 
 
-@pytest.mark.parametrize("kind", matrix(sorted(kinds()), ["friction"]))
+@pytest.mark.parametrize("kind", matrix(sorted(KINDS), ["friction"]))
 def test_the_scheme_of_a_kind_is_the_one_of_its_example(kind: str) -> None:
     """If not, run `python docs/schemes.py`."""
     assert scheme_file(kind).read_text(encoding="utf-8") == schemes().drawn(kind)

@@ -33,6 +33,7 @@ from reportgen.page.edit_session import EditSession, RefusedChangeError
 from reportgen.page.form_fields import FieldGroup, FieldLine, Form
 from reportgen.page.kind_chooser import Chooser
 from reportgen.page.local_server import Server
+from tests.kinds import KINDS
 from tests.lanes import matrix
 
 SHAPER = catalogue.sample("shaper", "en")
@@ -53,7 +54,7 @@ def put(edited: EditSession, where: Where, value: str, **more: Any) -> dict[str,
     return dict(edited.edit({"op": "set", "where": list(where), "value": value, **more}))
 
 
-IN_BOTH = [(kind, language) for kind in kinds() for language in ("vi", "en")]
+IN_BOTH = [(kind, language) for kind in KINDS for language in ("vi", "en")]
 
 
 @pytest.mark.parametrize(("kind", "language"), matrix(IN_BOTH, IN_BOTH[::4] + IN_BOTH[3::4]))

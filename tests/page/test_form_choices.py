@@ -9,11 +9,11 @@ import pytest
 
 from reportgen import catalogue
 from reportgen.base.errors import Where
-from reportgen.base.kinds import kinds
 from reportgen.base.yaml_source import MappingNode, Node, Scalar, SequenceNode, plain, read_text
 from reportgen.base.yaml_values import at
 from reportgen.page.edit_session import EditSession
 from reportgen.page.form_choices import with_choice
+from tests.kinds import KINDS
 from tests.lanes import matrix
 from tests.page.form_reader import FormReader
 
@@ -213,7 +213,7 @@ def texts(kind: str) -> Iterator[str]:
         yield from ((FILES / f"linkage-{name}.yaml").read_text(encoding="utf-8") for name in ("slide", "8"))
 
 
-@pytest.mark.parametrize("kind", matrix(list(kinds()), ["slider-crank", "engine-twin"]))
+@pytest.mark.parametrize("kind", matrix(KINDS, ["slider-crank", "engine-twin"]))
 def test_no_choice_leads_into_a_fault_without_a_remedy(tmp_path: Path, kind: str) -> None:
     """Every choice of every table of the samples; with the first choice again all is as it was."""
     tried = set()
@@ -265,7 +265,7 @@ def damaged(text: str) -> Iterator[str]:
             yield text[: value.span[0]] + "5" + text[value.span[1] :]
 
 
-@pytest.mark.parametrize("kind", matrix(list(kinds()), ["slider-crank"]))
+@pytest.mark.parametrize("kind", matrix(KINDS, ["slider-crank"]))
 def test_no_fault_of_a_file_is_without_a_remedy(tmp_path: Path, kind: str) -> None:
     faults = 0
     for text in damaged(catalogue.sample(kind, "en")):

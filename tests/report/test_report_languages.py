@@ -11,7 +11,7 @@ from typing import Any, get_args
 
 import pytest
 
-from reportgen.base.kinds import SAMPLE, kinds
+from reportgen.base.kinds import SAMPLE, program_kinds
 from reportgen.base.template_folders import kind_file, search_path
 from reportgen.base.units import Language
 from reportgen.base.words import SECTION, Passage, load_words, sections
@@ -193,7 +193,7 @@ SHOWN_WHOLE = {("server", table) for table in ("downloads", "errors", "file_name
 """Tables whose entries a page of the server lists, or looks up by the name of a file or an error."""
 
 
-@pytest.mark.parametrize("name", ["words.yaml", "messages.yaml", *kinds()])
+@pytest.mark.parametrize("name", ["words.yaml", "messages.yaml", *program_kinds()])
 def test_both_languages_have_the_same_words(name: str) -> None:
     vi, en = (shape_of_words(built_words(language, name)) for language in ("vi", "en"))
     assert {keys for keys in vi ^ en if keys[:-1] not in ONE_SIDED} == set()
