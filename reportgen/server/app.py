@@ -41,7 +41,8 @@ A student
                              409 redrawn: the sheet is of an earlier variant, load the page again
   POST /me/check             {"client", "id", "position"} or {"client", "section"} or {"client"} for all →
                              {"cells": [{"id", "position", "verdict": "right" | "wrong" | "unread" | "empty",
-                              "message": TEXT}], "lines": [TEXT], "checks_left"}
+                              "message": TEXT}], "lines": [TEXT], "checks_left"}; with the same `client` the same
+                             answer, which counts once
   POST /me/uploads           multipart `file`, `client`, (`csrf`) → RECEIPT
   GET  /me/uploads/{number}  RECEIPT; …/file: the file as it was sent
                              RECEIPT: {"number", "client", "name", "size", "sha256", "at", "state": "queued" | "read" |

@@ -162,8 +162,8 @@ class Store:
         with self.database.reading() as connection:
             return connection.execute(select(handins).where(wanted).order_by(handins.c.number.desc())).first()
 
-    def begin_check(self, folder: str, client: str, asked: str, window: Window, most: int | None) -> str:
-        """Count a check; return the answer of one that was sent before, "" for a new one."""
+    def begin_check(self, folder: str, client: str, asked: str, window: Window, most: int | None) -> Row[Any]:
+        """Count a check, unless it was sent before; its `answer` is "" until it is known."""
         with self.database.writing() as writing:
             if (known := self._known(writing, checks, folder, client)) is not None:
                 return str(known.answer)
@@ -171,7 +171,9 @@ class Store:
             if most is not None and self._count(writing, checks, folder) >= most:
                 raise UsedUpError
             writing.execute(insert(checks).values(folder=folder, client=client, asked=asked, at=writing.at))
-            return ""
+            made = self._known(writing, checks, folder, client)
+            assert made is not None, "it was inserted"
+            return made
 
     def end_check(self, folder: str, client: str, answer: str) -> None:
         """Store the answer of a check."""

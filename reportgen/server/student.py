@@ -201,7 +201,10 @@ async def check(request: Request, site: Site, person: Person) -> Response:
         raise Refusal("malformed")
     if policy.checks_from is not None and site.database.clock.now() < policy.checks_from.astimezone():
         raise Refusal("too_early")
-    begin = partial(site.store.begin_check, person.folder, client, json.dumps(asked), site.window(person))
+    rows = await run_in_threadpool(site.store.cells, person.folder, person.drawn)
+    # One check is one question about one state of the sheet, however often it is sent.
+    question = json.dumps({**asked, "revision": rows[-1].revision if rows else 0, "variant": person.drawn})
+    begin = partial(site.store.begin_check, person.folder, client, question, site.window(person))
     try:
         known = await run_in_threadpool(begin, policy.checks)
     except ClosedError:
@@ -209,10 +212,14 @@ async def check(request: Request, site: Site, person: Person) -> Response:
     except UsedUpError:
         raise Refusal("used_up") from None
     if not known:
-        rows = await run_in_threadpool(site.store.cells, person.folder, person.drawn)
-        present = {(row.quantity, row.position): row.text for row in rows if row.text}
+        revision = asked.pop("revision", rows[-1].revision if rows else 0)
+        cells = await run_in_threadpool(site.store.cells_at, person.folder, person.drawn, revision)
+        present = {place: text for place, text in cells.items() if text}
         answer = await site.queue.run(work_calls.check, site.folder, person.folder, present, asked)
         known = json.dumps(answer, ensure_ascii=False)
+    known, asked = row.answer, json.loads(row.asked)
+    if asked.pop("variant", person.drawn) != person.drawn:
+        raise Refusal("redrawn")
         await run_in_threadpool(site.store.end_check, person.folder, client, known)
     count = await run_in_threadpool(site.store.count_checks, person.folder)
     left = None if policy.checks is None else max(policy.checks - count, 0)

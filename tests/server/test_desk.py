@@ -75,6 +75,20 @@ def test_checks_and_uploads_are_limited_by_the_policy(served: Served) -> None:
 def test_a_mistake_in_the_policy_does_not_stop_the_class(served: Served) -> None:
     student = served.person("S1")
     policy(served, "browser: {checks: many}\n")
+def test_a_check_that_is_sent_again_is_the_same_check(served: Served, monkeypatch: pytest.MonkeyPatch) -> None:
+    student, right = served.person("S1"), right_values(served, "S1")
+    first, second = [place for place in student.places if place in right and place[0].startswith("v.")][:2]
+    student.save({first: "12345", second: right[second]})
+    with monkeypatch.context() as patch:
+        # The server is killed before it knows the answer.
+        patch.setattr(served.site.store, "end_check", lambda *_: None)
+        student.post("/me/check", {"client": "check-01", "id": first[0], "position": first[1]})
+    student.save({first: right[first]})
+    again = student.post("/me/check", {"client": "check-01", "id": second[0], "position": second[1]}).json()
+    said = [(cell["id"], cell["position"], cell["verdict"]) for cell in again["cells"]]
+    assert said == [(*first, "wrong")]
+
+
     assert student.save({student.places[0]: "1"}).status_code == 200
 
 

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+import shutil
+import subprocess
 from collections.abc import Mapping
 from typing import Any
 
@@ -68,4 +70,31 @@ def test_the_scripts_import_files_that_are_there() -> None:
 
 def test_a_symbol_has_its_indices_where_a_book_has_them() -> None:
     assert _symbol("a_CB^n") == ("a", "CB", "n")
+UNANSWERED = """
+const kept = new Map();
+globalThis.localStorage = {
+  getItem: (key) => kept.get(key) ?? null,
+  setItem: (key, text) => kept.set(key, text),
+  removeItem: (key) => kept.delete(key),
+};
+const { Unanswered } = await import("./outbox.mjs");
+let count = 0;
+const page = () => new Unanswered("S1:1", () => `id-${++count}`);
+const first = page(), a = first.ask("A", "cells"), b = first.ask("B", "cells");
+first.end("A");
+const again = page();
+console.log([again.ask("B", "cells") === b, again.ask("A", "cells") !== a, again.ask("B", "others") !== b].join());
+"""
+
+
+@pytest.mark.skipif(shutil.which("node") is None, reason="runs a script of the pages")
+def test_a_check_without_an_answer_has_the_same_id_after_a_reload(tmp_path: Path) -> None:
+    content = pages.static("outbox.js")
+    assert content is not None
+    (tmp_path / "outbox.mjs").write_bytes(content[0])
+    (tmp_path / "test.mjs").write_text(UNANSWERED, encoding="utf-8")
+    ended = subprocess.run(["node", "test.mjs"], cwd=tmp_path, capture_output=True, text=True, check=True)
+    assert ended.stdout.strip() == "true,true,true"
+
+
     assert _symbol("pb") == ("pb", "", "")

@@ -57,3 +57,43 @@ export class Outbox {
     return [...items.values()];
   }
 }
+
+// Checks without an answer yet: each is sent again, even after the page was loaded anew, by the same id and counts once.
+export class Unanswered {
+  constructor(owner, newId) {
+    this.key = `reportgen-check:${owner}`;
+    this.newId = newId;
+    this.memory = undefined;
+  }
+
+  // Return the id of a check. With other cells it is another check.
+  ask(asked, cells) {
+    const known = this.memory ?? this.stored();
+    this.memory = known?.cells === cells ? known : { cells, ids: {} };
+    this.memory.ids[asked] ??= this.newId();
+    this.store();
+    return this.memory.ids[asked];
+  }
+
+  end(asked) {
+    delete this.memory?.ids[asked];
+    this.store();
+  }
+
+  stored() {
+    try {
+      return JSON.parse(localStorage.getItem(this.key)) ?? undefined;
+    } catch {
+      return undefined;
+    }
+  }
+
+  store() {
+    try {
+      if (Object.keys(this.memory?.ids ?? {}).length) localStorage.setItem(this.key, JSON.stringify(this.memory));
+      else localStorage.removeItem(this.key);
+    } catch {
+      // The page still has it.
+    }
+  }
+}

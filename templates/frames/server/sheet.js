@@ -1,6 +1,6 @@
 // The answer sheet: each cell is saved as it is typed, sent again until the server has it, and checked on request.
 
-import { Outbox } from "./outbox.js";
+import { Outbox, Unanswered } from "./outbox.js";
 import { clock, element, errors, fill, moment, newId, send, words } from "./requests.js";
 
 const TYPING = 500, FIRST_WAIT = 1000, LONGEST_WAIT = 30000, BATCH = 100;
@@ -9,7 +9,7 @@ const inputs = [...sheet.querySelectorAll("input[data-id]")];
 const closed = "closed" in sheet.dataset;
 const variant = sheet.dataset.variant;
 // Cells of another variant are not sent for this one.
-const name = `${sheet.dataset.owner}:${variant}`, outbox = new Outbox(name);
+const name = `${sheet.dataset.owner}:${variant}`, outbox = new Outbox(name), unanswered = new Unanswered(name, newId);
 const channel = "BroadcastChannel" in window ? new BroadcastChannel(`reportgen:${name}`) : undefined;
 const timers = new Map();
 const places = new Map(inputs.map((input) => [`${input.dataset.id}@${input.dataset.position}`, input]));
@@ -161,13 +161,17 @@ async function check(button, asked, outcome) {
   const left = document.getElementById("left");
   button.disabled = true;
   outcome.textContent = words.checking;
+  const question = JSON.stringify(asked);
   try {
     if (!(await settle())) throw new Error(words.not_saved_first);
-    const answer = await send("/me/check", { client: newId(), ...asked }, 120000);
+    const client = unanswered.ask(question, JSON.stringify(inputs.map((input) => input.value)));
+    const answer = await send("/me/check", { client, ...asked }, 120000);
+    unanswered.end(question);
     if (asked.section) outcome.replaceChildren(...(answer.lines ?? []).map((line) => element("p", line.trim())));
     judged(answer.cells ?? []);
     if (left && Number.isInteger(answer.checks_left)) left.textContent = fill(words.checks_left, { count: answer.checks_left });
   } catch (error) {
+    if (error.status && !error.again) unanswered.end(question);
     outcome.textContent = error.message;
   }
   button.disabled = false;
