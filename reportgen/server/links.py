@@ -59,6 +59,8 @@ class Links:
         self._known: dict[str, tuple[int, Person | None, datetime.datetime | None]] = {}
         """Sessions by their cookies, as they were at a number of changes."""
         self._cookies = Signer(self.secret, salt="cookie", digest_method=hashlib.sha256)
+        self.class_id = hmac.new(self.secret, b"class", hashlib.sha256).hexdigest()[:12]
+        """Distinguishes this class in a browser from others at the same host or address."""
 
     def add(self, folder: str, role: PersonRole, id: str, name: str, drawn: str = "") -> None:
         """Add somebody, or renew the name and the variant of somebody known, whose link stays."""

@@ -14,7 +14,7 @@ from reportgen.classes.roster import comparable
 from reportgen.server import pages
 from reportgen.server.guards import Refusal
 from reportgen.server.links import SESSION
-from reportgen.server.site import COOKIE, LANGUAGE, Site
+from reportgen.server.site import LANGUAGE, Site
 
 HOME = {"student": "/me", "instructor": "/desk"}
 LONGEST = 200
@@ -24,7 +24,7 @@ LONGEST = 200
 async def start(request: Request) -> Response:
     """The page to sign in on, or that of somebody who has."""
     site: Site = request.app.state.site
-    cookie = request.cookies.get(COOKIE, "")
+    cookie = request.cookies.get(site.cookie, "")
     person = await run_in_threadpool(site.links.of_cookie, cookie) if cookie else None
     return (
         RedirectResponse(HOME[person.role], 303)
@@ -68,20 +68,20 @@ def _wrong(request: Request, site: Site, number: str = "") -> Response:
 async def _signed_in(site: Site, row: Row[Any], answer: Response) -> Response:
     cookie = await run_in_threadpool(site.links.sign_in, row)
     age = int(SESSION.total_seconds())
-    answer.set_cookie(COOKIE, cookie, age, path="/", secure=site.secure, httponly=True, samesite="strict")
+    answer.set_cookie(site.cookie, cookie, age, path="/", secure=site.secure, httponly=True, samesite="strict")
     return answer
 
 
 async def sign_out(request: Request) -> Response:
     site: Site = request.app.state.site
     form = await request.form(max_files=0, max_fields=5)
-    cookie = request.cookies.get(COOKIE, "")
+    cookie = request.cookies.get(site.cookie, "")
     person = await run_in_threadpool(site.links.of_cookie, cookie) if cookie else None
     if person is not None:
         site.check_token(request, person, form)
         await run_in_threadpool(site.links.sign_out, person)
     answer = RedirectResponse("/", 303)
-    answer.delete_cookie(COOKIE, path="/")
+    answer.delete_cookie(site.cookie, path="/")
     return answer
 
 

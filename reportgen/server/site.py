@@ -28,7 +28,7 @@ from reportgen.server.links import DESK, Links, Person
 from reportgen.server.marking_queue import MarkingQueue, Queue
 from reportgen.server.store import Store, Window
 
-COOKIE, LANGUAGE = "reportgen", "language"
+LANGUAGE = "language"
 CLIENT = re.compile(r"[A-Za-z0-9_-]{8,64}")
 
 
@@ -81,6 +81,11 @@ class Site:
 
     @property
     def hosts(self) -> frozenset[str]:
+    @property
+    def cookie(self) -> str:
+        """The name of the session's cookie: a browser sends those of all ports of a host to each."""
+        return f"reportgen-{self.links.class_id}"
+
         """The names under which the class may be asked for."""
         parts = urlsplit(self.base_url)
         own = {parts.netloc}
@@ -161,7 +166,7 @@ class Site:
 
     async def person(self, request: Request, role: str) -> Person:
         """Return who asks; raise `Refusal` for a stranger, and for somebody without this role."""
-        cookie = request.cookies.get(COOKIE, "")
+        cookie = request.cookies.get(self.cookie, "")
         person = self.links.known(cookie)
         if person is None and cookie:
             person = await run_in_threadpool(self.links.of_cookie, cookie)
@@ -214,4 +219,4 @@ def client_of(content: Mapping[str, Any]) -> str:
     return client
 
 
-__all__ = ["COOKIE", "DESK", "LANGUAGE", "Route", "Site", "by", "client_of"]
+__all__ = ["DESK", "LANGUAGE", "Route", "Site", "by", "client_of"]

@@ -51,7 +51,9 @@ async def page(request: Request, site: Site, person: Person) -> Response:
     sheet = await sheet_of(site, person.folder, person.drawn)
     state = await run_in_threadpool(state_of, site, person, sheet, 0)
     tasks = await run_in_threadpool(_tasks, site)
-    return site.page(request, "student", person, student=_about(person), sheet=sheet, state=state, tasks=tasks)
+    return site.page(
+        request, "student", person, student=_about(site, person), sheet=sheet, state=state, tasks=tasks, largest=LARGE
+    )
 
 
 def _tasks(site: Site) -> list[str]:
@@ -60,8 +62,10 @@ def _tasks(site: Site) -> list[str]:
     return [*tasks, *(["report.pdf"] if site.browser.self_report else [])]
 
 
-def _about(person: Person) -> dict[str, str]:
-    return {"id": person.id, "name": person.name, "folder": person.folder}
+def _about(site: Site, person: Person) -> dict[str, str]:
+    # Unsent cells in a browser belong to one class: another may be at the same address later.
+    owner = f"{site.links.class_id}:{person.folder}"
+    return {"id": person.id, "name": person.name, "folder": person.folder, "owner": owner}
 
 
 async def sheet(request: Request, site: Site, person: Person) -> Response:

@@ -280,7 +280,7 @@ def test_what_waited_when_the_server_ended_is_done_by_the_next(made_class: Path,
             "S1",
             "upload-01",
             {"drawn": "1", "name": "a.pdf", "size": 1, "sha256": served.folder.add_upload(b"a", "f" * 64).name},
-            served.site.window(served.site.links.of_cookie(student.client.cookies["reportgen"])),  # type: ignore[arg-type]
+            served.site.window(served.site.links.of_cookie(student.client.cookies[served.site.cookie])),  # type: ignore[arg-type]
             None,
         )
     for file in (served.folder.handed / "S1").iterdir():

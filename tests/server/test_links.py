@@ -7,8 +7,8 @@ import datetime
 import pytest
 
 from reportgen.server import database as databases
-from reportgen.server.links import DESK, SESSION
-from reportgen.server.site import COOKIE
+from reportgen.server.database import Database
+from reportgen.server.links import DESK, SESSION, Links
 from tests.server.served import ADDRESS, Served
 
 
@@ -74,10 +74,10 @@ def test_a_new_link_ends_the_old_one_its_code_and_its_sessions(served: Served) -
 
 def test_a_cookie_ends_with_its_session(served: Served, monkeypatch: pytest.MonkeyPatch) -> None:
     student = served.person("S1")
-    cookie = student.client.cookies[COOKIE]
+    cookie = student.client.cookies[served.site.cookie]
     assert student.client.post("/out", data={"csrf": student.token}).status_code == 303
     replayed = served.stranger()
-    replayed.cookies.set(COOKIE, cookie)
+    replayed.cookies.set(served.site.cookie, cookie)
     assert replayed.get("/me").status_code == 401
     second = served.person("S1")
     later = databases.wall_time() + SESSION + datetime.timedelta(minutes=1)
@@ -86,15 +86,28 @@ def test_a_cookie_ends_with_its_session(served: Served, monkeypatch: pytest.Monk
 
 
 def test_a_forged_cookie_is_none(served: Served) -> None:
-    cookie = served.person("S1").client.cookies[COOKIE]
+    cookie = served.person("S1").client.cookies[served.site.cookie]
     for wrong in (cookie[:-1], cookie.partition(".")[0], f"x{cookie}", "é", ""):
         stranger = served.stranger()
-        stranger.cookies.set(COOKIE, wrong.encode("ascii", "replace").decode())
+        stranger.cookies.set(served.site.cookie, wrong.encode("ascii", "replace").decode())
         assert stranger.get("/me").status_code == 401
 
 
 def test_who_has_left_gets_in_no_more(served: Served) -> None:
     student, link = served.person("S1"), path_of(served, "S1")
+def test_classes_at_one_address_do_not_share_cookies_or_unsent_cells(served: Served, tmp_path: Path) -> None:
+    database = Database(tmp_path / "other")
+    other = Links(database, tmp_path / "other").class_id
+    database.close()
+    student = served.person("S1")
+    # A browser sends the cookie of a server at another port of the host too.
+    student.client.cookies.set(f"reportgen-{other}", "a session of the other class")
+    assert student.open("/me").status_code == 200
+    (owner,) = re.findall('data-owner="(.*?)"', student.page)
+    assert owner.startswith(f"{served.site.links.class_id}:")
+    assert served.site.links.class_id != other
+
+
     assert served.desk.post("/desk/students/S1/drop").status_code == 200
     assert student.get("/me").status_code == 401
     assert served.stranger().get(link).status_code == 403
