@@ -47,7 +47,7 @@ A student
   GET  /me/uploads/{number}  RECEIPT; …/file: the file as it was sent
                              RECEIPT: {"number", "client", "name", "size", "sha256", "at", "state": "queued" | "read" |
                              "kept" (for the instructor's eyes) | "refused" (damaged), "values": K, "lines": [TEXT],
-                             "queue": K}
+                             "earlier": false (sent for an earlier variant), "queue": K}
   POST /me/hand-in           {"client"} → {"at", "filled", "asked", "sha256"}; again until it closes, the last counts
   GET  /me/files/{name}      task.pdf, answers.xlsx (with the own cells), assignment.yaml (with self_check),
                              machine.html (the own machine moving, for a frame with sandbox="allow-scripts"),
@@ -60,7 +60,8 @@ An instructor
   GET  /desk                 page `desk`: `table` as the next
   GET  /desk/table           {"now", "closes", "released", "queue", "marked_at": TIME or null, "marking": true,
                               "students": [{"folder", "id", "name", "class", "opened", "saved": TIME or null, "filled",
-                              "asked", "handed_in": TIME or null, "changed", "uploads", "state": "" | "read" | "kept" |
+                              "asked", "handed_in": TIME or null, "changed", "uploads", "earlier": K (uploads for an
+                              earlier variant, which are not in "uploads"), "state": "" | "read" | "kept" |
                               "refused", "mark": NUMBER or null, "points", "out_of", "warnings": [TEXT], "closes":
                               TIME or null, "extended": true}], "problems": [TEXT]}
   GET  /desk/students/{folder}          page `hand_in`: `student`, `sheet` as the next

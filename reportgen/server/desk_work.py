@@ -48,6 +48,7 @@ def table(site: Site) -> dict[str, Any]:
                 "handed_in": own.get("handed_in"),
                 "changed": "handed_in" in own and own.get("revision", 0) > own["handed_revision"],
                 "uploads": own.get("uploads", 0),
+                "earlier": own.get("earlier", 0),
                 "state": own.get("state", ""),
                 "mark": mark.get("mark"),
                 "points": mark.get("points"),
@@ -93,7 +94,7 @@ def beside_key(site: Site, folder: str, sheet: Mapping[str, Any], keys: Sequence
         sections.append({**section, "rows": rows})
     from reportgen.server.student import receipt
 
-    uploads = [receipt(site, row) for row in site.store.uploads(folder)]
+    uploads = [receipt(site, row, drawn) for row in site.store.uploads(folder)]
     own = [row for row in corrections(site) if row["id"] == site.store.people()[folder].id]
     result = {name: mark.get(name) for name in ("mark", "highest", "points", "out_of")}
     said = {name: mark.get(name, []) for name in ("warnings", "lines")}

@@ -218,7 +218,10 @@ class Store:
             self.put_draw(row.folder, draw, str(int(row.drawn or "0") + 1) if anew else None)
 
     def table(self) -> dict[str, dict[str, Any]]:
-        """Return figures of each student's variant: the time of the last save, filled cells, hand-in, uploads."""
+        """Return figures of each student's variant: the time of the last save, filled cells, hand-in, uploads.
+
+        Uploads for an earlier variant are only counted, as `earlier`.
+        """
         table: dict[str, dict[str, Any]] = {}
         filled = (
             select(
@@ -242,7 +245,10 @@ class Store:
                 table.setdefault(row.folder, {}).update(handed_in=row.at, handed_revision=row.revision)
             for row in connection.execute(select(uploads).order_by(uploads.c.number)):
                 own = table.setdefault(row.folder, {})
-                own.update(uploads=own.get("uploads", 0) + 1, state=row.state, uploaded=row.at)
+                if row.drawn == row.current:
+                    own.update(uploads=own.get("uploads", 0) + 1, state=row.state, uploaded=row.at)
+                else:
+                    own.update(earlier=own.get("earlier", 0) + 1)
         return table
 
     def put_marks(self, made: Mapping[str, tuple[str, Mapping[str, Any]]]) -> None:

@@ -110,7 +110,7 @@ def state_of(site: Site, person: Person, sheet: dict[str, Any], since: int) -> d
         "asked": sheet["asked"],
         "handed_in": None if handin is None else handin.at,
         "changed": handin is not None and last > handin.revision,
-        "uploads": [receipt(site, row) for row in files],
+        "uploads": [receipt(site, row, person.drawn) for row in files],
         "uploads_left": None if policy.uploads is None else max(policy.uploads - len(files), 0),
         "checks_left": None if policy.checks is None else max(policy.checks - checks, 0),
         "checks_from": None if policy.checks_from is None else policy.checks_from.astimezone().isoformat(),
@@ -124,7 +124,8 @@ def receipt(site: Site, row: Row[Any]) -> dict[str, Any]:
     """Return the receipt of an upload."""
     fields = ("number", "client", "name", "size", "sha256", "at", "state")
     made: dict[str, Any] = {name: getattr(row, name) for name in fields}
-    return made | {"values": row.values_read, "lines": json.loads(row.lines), "queue": site.queue.waiting}
+    made |= {"values": row.values_read, "lines": json.loads(row.lines), "earlier": row.drawn != drawn}
+    return made | {"queue": site.queue.waiting}
 
 
 # --- cells ------------------------------------------------------------------------------------------
@@ -246,7 +247,7 @@ async def upload(request: Request, site: Site, person: Person) -> Response:
             content, name = await file.read(), safe_name(file.filename or "")
             row = await run_in_threadpool(_stored, site, person, client, name, content)
     handed.read_soon(site, row)
-    return JSONResponse(receipt(site, row))
+    return JSONResponse(receipt(site, row, person.drawn))
 
 
 def _stored(site: Site, person: Person, client: str, name: str, content: bytes) -> Row[Any]:

@@ -122,6 +122,13 @@ def test_another_variant_has_an_empty_sheet_and_the_old_cells_are_kept(served: S
 
 
 def test_a_fixed_file_keeps_the_cells_and_a_wrong_one_is_not_kept(served: Served) -> None:
+    # The file was for the old variant: it is shown, but nothing is handed in.
+    row = next(row for row in desk.json("/desk/table")["students"] if row["id"] == "S1")
+    assert (row["uploads"], row["earlier"], row["state"]) == (0, 1, "")
+    assert [receipt["earlier"] for receipt in student.json("/me/state")["uploads"]] == [True]
+    put_handed_roster(served.site)
+    rows = list(csv.DictReader(io.StringIO(served.folder.handed_roster.read_text("utf-8-sig"))))
+    assert rows[0]["handed_in"] == ""
     student, desk = served.person("S1"), served.desk
     student.save({student.places[0]: "1"})
     text = desk.json("/desk/students/S1/file")["yaml"]

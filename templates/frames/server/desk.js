@@ -29,6 +29,7 @@ const value = (one, key) => (VALUES[key] ?? ((it) => it[key] ?? ""))(one);
 const compare = (a, b) => (typeof a === "number" && typeof b === "number" ? a - b : String(a).localeCompare(String(b), "vi", { numeric: true }));
 const folded = (text) => text.normalize("NFD").replace(/\p{M}/gu, "").replaceAll("đ", "d").toLowerCase();
 
+const files = (one) => [one.state ? words.short_states[one.state] ?? one.state : one.uploads ? words.short_states.queued : one.earlier ? "" : "–"];
 const CELLS = {
   id: (one) => [one.id],
   name: (one) => [element("a", one.name || one.id, { href: `/desk/students/${encodeURIComponent(one.folder)}` })],
@@ -36,7 +37,7 @@ const CELLS = {
   opened: (one) => [one.opened ? words.opened : "–"],
   saved: (one) => [`${one.filled}/${one.asked}`],
   handed_in: (one) => [one.handed_in ? moment(one.handed_in) : "–", ...(one.changed ? [` ${words.changed}`] : [])],
-  state: (one) => [one.state ? words.short_states[one.state] ?? one.state : one.uploads ? words.short_states.queued : "–"],
+  state: (one) => [...files(one), ...(one.earlier ? [element("span", fill(words.earlier_uploads, { count: one.earlier }), { className: "line" })] : [])],
   mark: (one) => [number(one.mark)],
   warnings: (one) => one.warnings.map((text) => element("span", text, { className: "warning" })),
 };

@@ -46,7 +46,7 @@ function put(receipt) {
     element("dl", [
       pair(words.received, moment(receipt.at)),
       pair("SHA-256", receipt.sha256, "digest"),
-      pair(words.read, [status, ...receipt.lines.map((line) => element("span", line, { className: "line" }))]),
+      pair(words.read, [status, ...(receipt.earlier ? [element("span", words.earlier_variant, { className: "line" })] : []), ...receipt.lines.map((line) => element("span", line, { className: "line" }))]),
     ]),
   ]);
   const standing = shown.get(receipt.number);
