@@ -18,7 +18,7 @@ from reportgen.case.answer_key import Key
 from reportgen.cases import open_case
 from reportgen.classes.corrections import Correction, applied
 from reportgen.classes.fault_isolation import isolated
-from reportgen.classes.gradebooks import Gradebook, Participant
+from reportgen.classes.gradebooks import Gradebook, Participant, name_words
 from reportgen.classes.lateness import Handing, days_late
 from reportgen.classes.own_files import (
     OwnWork,
@@ -93,8 +93,16 @@ class Classroom:
     def participant(self, key: Key, owner: Owner | None = None) -> Participant:
         """Return the identification by which a platform may know the student of a key."""
         email = self.people[stem].card.get("email") if (stem := comparable(key.id)) in self.people else None
-        ids = (key.student.get("id", key.id), email)
-        return Participant(person(key), frozenset(id.casefold() for id in ids if id), owner.number if owner else "")
+        ids = frozenset(id.casefold() for id in (key.student.get("id", key.id), email) if id)
+        name = key.student.get("name", "")
+        alike = [1 for words in self._names if words == name_words(name)]
+        number = owner.number if owner else ""
+        return Participant(person(key), ids, number, name if len(alike) == 1 else "")
+
+    @cached_property
+    def _names(self) -> tuple[tuple[str, ...], ...]:
+        """The full names of all students, for comparisons."""
+        return tuple(name_words(key.student.get("name", "")) for key in self.keys)
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,7 +11,8 @@ from __future__ import annotations
 
 import html
 import re
-from collections.abc import Iterator, Mapping, Sequence
+import unicodedata
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -39,11 +40,15 @@ _TITLE = re.compile(r"(.+?)\s*\((\d+)\)")
 
 @dataclass(frozen=True, slots=True)
 class Participant:
-    """A student's identification in a platform's table: ids, and the platform's number, "" if unknown."""
+    """A student's identification in a platform's table: ids, and the platform's number, "" if unknown.
+
+    `name` is the full name, "" if it is unknown or several students of the class have it.
+    """
 
     who: str
     ids: frozenset[str]
     number: str
+    name: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,6 +82,12 @@ class _Row:
     names: frozenset[str]
     handed_in: str = ""
     comment: _Cell | None = None
+    full_names: frozenset[tuple[str, ...]] = frozenset()
+    """Texts that may be the student's full name, as sorted words."""
+
+    def is_of(self, student: Participant) -> bool:
+        """Return True if the row has the number or an id of a student."""
+        return bool(student.number and student.number == self.number) or bool(self.names & student.ids)
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,9 +122,10 @@ class Gradebook:
         """Return the file with the grades and comments, and a fault for each student without a row."""
         changes: dict[_Cell, str] = {}
         faults: list[Fault] = []
-        for result in results:
-            row = self._row_of(result.student)
-            if row is None:
+        rows = [self._row_of(result.student) for result in results]
+        for result, row in zip(results, rows, strict=True):
+            # A name may fit the row of somebody else, who is known by the id.
+            if row is None or (rows.count(row) > 1 and not row.is_of(result.student)):
                 faults.append(Fault("gradebook-no-row", Location(str(self.path)), {"text": result.student.who}))
                 continue
             changes[row.grade] = _grade(result.mark, self.table.highest)
@@ -136,9 +148,11 @@ class Gradebook:
         return frozenset({self.table.called}) - {""}
 
     def _row_of(self, student: Participant) -> _Row | None:
-        """Return the only row of a student: by the platform's number if it is known, else by id or e-mail."""
+        """Return the only row of a student: by the platform's number, the id or the e-mail, else by the full name."""
         rows = [row for row in self.table.rows if student.number and row.number == student.number]
-        rows = rows or [row for row in self.table.rows if row.names & student.ids]
+        rows = rows or [row for row in self.table.rows if row.is_of(student)]
+        name = name_words(student.name)
+        rows = rows or [row for row in self.table.rows if name and name in row.full_names]
         return rows[0] if len(rows) == 1 else None
 
 
@@ -180,6 +194,15 @@ def _names(texts: Sequence[str]) -> frozenset[str]:
     return frozenset(text.strip().casefold() for text in texts if text.strip())
 
 
+def name_words(name: str) -> tuple[str, ...]:
+    """Return the words of a full name in a fixed order: platforms put the family name first or last."""
+    return tuple(sorted(unicodedata.normalize("NFC", name).casefold().replace(",", " ").split()))
+
+
+def _full_names(texts: Iterable[str]) -> frozenset[tuple[str, ...]]:
+    return frozenset(words for text in texts if (words := name_words(text)))
+
+
 # --- Moodle -----------------------------------------------------------------------------------------
 
 
@@ -211,6 +234,7 @@ def _moodle(rows: Sequence[Sequence[_Cell]], path: Path) -> _Table | Fault:
                 _names([cell.text for cell in row[1 : greatest - 1]]),
                 "" if submitted is None else row[submitted].text.strip(),
                 None if comments is None else row[comments],
+                _full_names(cell.text for cell in row[1 : greatest - 1]),
             )
             for row, number in zip(full, numbers, strict=True)
         ),
@@ -260,12 +284,18 @@ def _canvas(rows: Sequence[Sequence[_Cell]], wanted: str, path: Path) -> _Table 
         return Fault("gradebook-which-column", location, {"known": known or "–"})
     (column,) = chosen
     people = [head.index(name) for name in ("SIS User ID", "SIS Login ID") if name in head]
+    named = 1 if head[0] == "Student" else 2
     students = [
         row for row in rows[1:] if row is not points and len(row) > column and row[head.index("ID")].text.strip()
     ]
     return _Table(
         tuple(
-            _Row(row[column], row[head.index("ID")].text.strip(), _names([row[k].text for k in people]))
+            _Row(
+                row[column],
+                row[head.index("ID")].text.strip(),
+                _names([row[k].text for k in people]),
+                full_names=_full_names([" ".join(cell.text for cell in row[:named])]),
+            )
             for row in students
         ),
         points[column].text.strip(),

@@ -81,7 +81,8 @@ An instructor
   POST /desk/mark                       {} → {"marking": true}; /desk/table tells when it is done
   POST /desk/release                    {"released": true} → {"released"}
   POST /desk/backup                     {} → {"file": TEXT}
-  POST /desk/gradebook                  multipart `file`, (`csrf`), `column` → the table filled in, as a file
+  POST /desk/gradebook                  multipart `file`, (`csrf`), `column` → the table filled in, as a file; the
+                                        header X-Problems has the sentences about students without a row, as JSON
   GET  /desk/download/{name}            links.csv, tasks.pdf, keys.pdf, feedback.pdf, class.pdf, grades.csv,
                                         corrections.csv, class.zip, handed.zip, marked.zip
   GET  /desk/notices                    {"notices": [{"kind", "lines": [TEXT], "students": [FOLDER, …]}]}

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import asyncio
+import json
 import tempfile
 import zipfile
 from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any
+from urllib.parse import quote
 
 from starlette.background import BackgroundTask
 from starlette.concurrency import run_in_threadpool
@@ -26,6 +29,10 @@ from reportgen.server.site import Site
 from reportgen.server.student import sent
 from reportgen.workbook import write_csv
 
+PROBLEMS = "X-Problems"
+"""Header of a filled table with the sentences about what was not filled in, as percent-encoded JSON."""
+SOON = 2.0
+"""Seconds that a browser waits for a file before it gets a page instead."""
 PAPERS = {"tasks.pdf": "task", "keys.pdf": "key"}
 MARKED = ("feedback.pdf", "class.pdf", "grades.csv", "questions.csv")
 ZIPS: dict[str, tuple[str, ...]] = {
@@ -119,12 +126,15 @@ async def gradebook(request: Request, site: Site, person: Person) -> Response:
         name, content = safe_name(file.filename or ""), await file.read()
     await run_in_threadpool(handed.put_handed_roster, site)
     try:
-        filled = await site.queue.run(
+        filled, lines = await site.queue.run(
             work_calls.fill_gradebook, site.folder, name, content, column.strip(), kind="class"
         )
     except ReportgenError as error:
         raise with_lines(error) from None
-    return sent(filled, name, attached=True)
+    answer = sent(filled, name, attached=True)
+    # The body is the table: what it has no row for is said beside it.
+    answer.headers[PROBLEMS] = quote(json.dumps(lines, ensure_ascii=False))
+    return answer
 
 
 async def notices(request: Request, site: Site, person: Person) -> Response:

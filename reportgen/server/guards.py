@@ -24,6 +24,8 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 LOGGER = logging.getLogger("reportgen.server")
 SMALL, LARGE = 300_000, 50_000_000
 """Largest request (bytes): cells and forms, and an upload."""
+FILES = frozenset({"/me/uploads", "/desk/gradebook"})
+"""Paths to which files are sent."""
 SLOW, SLOWEST = 20.0, 300.0
 """Seconds for the next piece of a request, and for the whole of it."""
 CONTENT_POLICY = (
@@ -157,8 +159,10 @@ class Guard:
                 raise Refusal("too_large")
 
     def _most(self, scope: Scope) -> int:
-        uploads = scope["path"] in ("/me/uploads", "/desk/gradebook")
-        return LARGE + SMALL if uploads else SMALL
+        return LARGE + SMALL if scope["path"] in FILES else SMALL
+
+    def _too_large(self, scope: Scope) -> Refusal:
+        return Refusal("file_too_large" if scope["path"] in FILES else "too_large")
 
     def _limited(self, scope: Scope, receive: Receive) -> Receive:
         most, got, end = self._most(scope), 0, time.monotonic() + SLOWEST

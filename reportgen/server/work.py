@@ -351,8 +351,11 @@ def key_values(folder: ClassFolder, student: str) -> list[tuple[str, int, str]]:
     ]
 
 
-def fill_gradebook(folder: ClassFolder, name: str, content: bytes, column: str) -> bytes:
-    """Return the table of a learning platform with the marks of the class; raise `AssignmentError` for another file."""
+def fill_gradebook(folder: ClassFolder, name: str, content: bytes, column: str) -> tuple[bytes, list[str]]:
+    """Return the table of a learning platform with the marks of the class, and what could not be filled in.
+
+    Raises `AssignmentError` for another file.
+    """
     language, policy = folder.language, folder.policy()
     with tempfile.TemporaryDirectory() as place:
         file = Path(place, name)
@@ -369,5 +372,5 @@ def fill_gradebook(folder: ClassFolder, name: str, content: bytes, column: str) 
             gradebook=table,
             out=folder.marked,
         )
-        written, _ = class_outputs.put_gradebook(graded, table, policy, Path(place, "filled"), language)
-        return written.read_bytes()
+        written, problems = class_outputs.put_gradebook(graded, table, policy, Path(place, "filled"), language)
+        return written.read_bytes(), [problem.message for problem in problems]

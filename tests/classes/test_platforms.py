@@ -274,6 +274,23 @@ def test_a_worksheet_in_vietnamese_with_semicolons_and_decimal_commas(tmp_path: 
     assert 'Đã nộp,"85,00","100,00"' in fill(path, RESULTS, Scale())[0].decode()
 
 
+def test_without_an_id_the_full_name_finds_the_row_if_only_one_has_it(tmp_path: Path) -> None:
+    head = "Student,ID,SIS User ID,SIS Login ID,Section,Bài 1 (5)\n    Points Possible,,,,,10.00\n"
+    rows = ('"Lê Văn, Bảo",1,,,S,\n', '"Trần, Ánh",2,,,S,\n', '"Trần, Ánh",3,,,S,\n', '"Vũ Hà",4,,,S,\n')
+    path = tmp_path / "canvas.csv"
+    path.write_text(head + "".join(rows), encoding="utf-8")
+    people = [
+        Participant("K1", frozenset({"k1"}), "", "Bảo Lê Văn"),
+        Participant("K2", frozenset({"k2"}), "", "Ánh Trần"),
+        # Who is known by the number keeps the row; whose name is also there does not get it.
+        Participant("K3", frozenset({"k3"}), "4", "Vũ Hà B"),
+        Participant("K4", frozenset({"k4"}), "", "Vũ Hà"),
+    ]
+    filled, faults = fill(path, [StudentResult(one, 0.5) for one in people], Scale())
+    assert filled.decode() == (head + "".join(rows)).replace("1,,,S,", "1,,,S,5.00").replace("4,,,S,", "4,,,S,5.00")
+    assert [fault.arguments["text"] for fault in faults] == ["K2", "K4"]
+
+
 def test_whom_the_worksheet_does_not_name_is_told(tmp_path: Path) -> None:
     path = tmp_path / "w.csv"
     path.write_text(f"{VI}\nNgười tham gia 4713;B;b@x.vn;Nộp;;10,00;Có;-;\n", encoding="utf-8")
@@ -392,7 +409,9 @@ def test_a_roster_gives_names_and_addresses(assignments: Path, tmp_path: Path) -
     roster.write_text(f"id,name,email\n{BAO},Lê Văn Bảo,b@x.vn\n", encoding="utf-8")
     result = class_marking.grade([SHEETS[BAO]], tmp_path, Policy(), roster=roster)
     assert result.markings[0].key.student["name"] == "Lê Văn Bảo"
-    assert result.known[BAO] == Participant(f"{BAO} Lê Văn Bảo", frozenset({BAO.casefold(), "b@x.vn"}), "")
+    assert result.known[BAO] == Participant(
+        f"{BAO} Lê Văn Bảo", frozenset({BAO.casefold(), "b@x.vn"}), "", "Lê Văn Bảo"
+    )
 
 
 def test_a_link_out_of_the_folder_handed_in_is_refused(tmp_path: Path) -> None:

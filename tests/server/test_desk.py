@@ -13,6 +13,7 @@ import zipfile
 from pathlib import Path
 from typing import Any
 
+from urllib.parse import unquote
 import pytest
 from sqlalchemy import Row
 
@@ -181,6 +182,13 @@ def test_what_can_be_downloaded(served: Served) -> None:
     assert [row["Grade"] for row in rows] == ["10.00", ""]
     wrong = desk.client.post("/desk/gradebook", data=form, files={"file": ("other.csv", b"a,b\r\n1,2\r\n")})
     assert (wrong.status_code, bool(wrong.json()["lines"])) == (400, True)
+    # Without id and e-mail the name counts; who has no row is named.
+    for name, grades, told in (("An Nguyễn", ["10.00", ""], False), ("An Nguyen", ["", ""], True)):
+        named = worksheet.replace("S1", "").replace("An Nguyễn", name)
+        filled = desk.client.post("/desk/gradebook", data=form, files={"file": ("worksheet.csv", named.encode())})
+        rows = list(csv.DictReader(io.StringIO(filled.content.decode("utf-8-sig"))))
+        assert [row["Grade"] for row in rows] == grades
+        assert ("An Nguyễn" in unquote(filled.headers["x-problems"])) == told
 
 
 def test_the_files_of_a_student_tell_no_answer(served: Served) -> None:

@@ -1,6 +1,6 @@
 // The instructor's desk: the class as a table that sorts, filters and renews itself, and what is done for all of it.
 
-import { clock, data, element, fill, moment, number, send, words } from "./requests.js";
+import { Refused, clock, data, element, fill, moment, number, send, words } from "./requests.js";
 
 const EVERY = 15000, WHILE_MARKING = 1500;
 const body = document.querySelector("#students tbody"), summary = document.getElementById("summary");
@@ -191,3 +191,22 @@ document.addEventListener("click", ({ target }) => {
 show();
 notices();
 timer = setTimeout(renew, table.marking ? WHILE_MARKING : EVERY);
+// The filled table comes as a file, what it has no row for as a header.
+by("gradebook").addEventListener("submit", async (event) => {
+  event.preventDefault();
+  const place = by("filled"), file = by("table").files[0];
+  place.textContent = words.working;
+  try {
+    const answer = await fetch("/desk/gradebook", {
+      method: "POST", body: new FormData(by("gradebook")), headers: { Accept: "application/json" }, credentials: "same-origin", redirect: "error",
+    });
+    if (!answer.ok) throw new Refused(answer.status, await answer.json());
+    const address = URL.createObjectURL(await answer.blob());
+    element("a", "", { href: address, download: file.name }).click();
+    setTimeout(() => URL.revokeObjectURL(address), 60000);
+    const lines = JSON.parse(decodeURIComponent(answer.headers.get("X-Problems") ?? "[]"));
+    place.replaceChildren(element("p", words.filled_in), ...lines.map((text) => element("p", text, { className: "warning" })));
+  } catch (error) {
+    place.textContent = error instanceof Refused ? error.message : words.unreachable;
+  }
+});
