@@ -58,7 +58,8 @@ A student
 
 An instructor
   GET  /desk                 page `desk`: `table` as the next
-  GET  /desk/table           {"now", "closes", "released", "queue", "marked_at": TIME or null, "marking": true,
+  GET  /desk/table           {"now", "closes", "clock": null or {"now", "last"} (in doubt),
+                              "released", "queue", "marked_at": TIME or null, "marking": true,
                               "students": [{"folder", "id", "name", "class", "opened", "saved": TIME or null, "filled",
                               "asked", "handed_in": TIME or null, "changed", "uploads", "earlier": K (uploads for an
                               earlier variant, which are not in "uploads"), "state": "" | "read" | "kept" |
@@ -80,6 +81,7 @@ An instructor
                                         "text": the text judged, if it is shown}
   POST /desk/mark                       {} → {"marking": true}; /desk/table tells when it is done
   POST /desk/release                    {"released": true} → {"released"}
+  POST /desk/clock                      {} → {"clock": null}; the machine's clock is right
   POST /desk/backup                     {} → {"file": TEXT}
   POST /desk/gradebook                  multipart `file`, (`csrf`), `column` → the table filled in, as a file; the
                                         header X-Problems has the sentences about students without a row, as JSON
@@ -147,6 +149,7 @@ def routes() -> list[Route]:
         of("instructor", "/desk/mark", instructor.mark, "POST"),
         of("instructor", "/desk/release", instructor.release, "POST"),
         of("instructor", "/desk/backup", downloads.backup, "POST"),
+        of("instructor", "/desk/clock", instructor.clock, "POST"),
         of("instructor", "/desk/gradebook", downloads.gradebook, "POST", form=True),
         of("instructor", "/desk/notices", downloads.notices),
         of("instructor", "/desk/download/{name}", downloads.download),

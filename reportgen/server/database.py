@@ -28,6 +28,8 @@ WAIT = 30
 LAST = "last_time"
 """Setting with the last time that was given out."""
 TICK = datetime.timedelta(microseconds=1)
+BEHIND, AHEAD = datetime.timedelta(days=1), datetime.timedelta(days=30)
+"""How far the clock may be behind the last stored time, or at the start ahead of it, without being in doubt."""
 
 
 def wall_time() -> datetime.datetime:
@@ -36,27 +38,66 @@ def wall_time() -> datetime.datetime:
 
 
 class Clock:
-    """Times that only grow: the machine's clock, or just after the last time that was stored."""
+    """Times that only grow: the machine's clock, or just after the last time that was stored.
+
+    The machine's clock is in doubt if it is far from the last stored time. Then that time stays the last one.
+    """
 
     def __init__(self, last: str = "") -> None:
-        self._last = datetime.datetime.fromisoformat(last) if last else None
+        self.last = datetime.datetime.fromisoformat(last) if last else None
+        """The last stored time, None for a new class; not one of a clock that was ahead."""
+        self._ahead = self.last is not None and wall_time() - self.last > AHEAD
+        self._unsure: datetime.datetime | None = None
+        """The last time that was stored while the clock was ahead."""
 
     def now(self) -> datetime.datetime:
         """Return the present time."""
         now = wall_time()
-        return now if self._last is None or now > self._last else self._last + TICK
+        last = (self._unsure if self._is_ahead(now) else None) or self.last
+        return now if last is None or now > last else last + TICK
+
+    def earliest(self) -> datetime.datetime:
+        """Return the present time, or what it is at least while the clock is in doubt."""
+        doubt = self.doubt
+        return self.now() if doubt is None else min(doubt)
+
+    @property
+    def doubt(self) -> tuple[datetime.datetime, datetime.datetime] | None:
+        """The time of the machine's clock and the last stored time if they are far from each other."""
+        now = wall_time()
+        if self.last is not None and (self._is_ahead(now) or self.last - now > BEHIND):
+            return now, self.last
+        return None
 
     def stored(self, now: datetime.datetime) -> None:
         """Remember a time that was committed."""
-        self._last = now
+        if self.is_stored(now):
+            self.last = now
+        else:
+            self._unsure = now
+
+    def is_stored(self, now: datetime.datetime) -> bool:
+        """Return True if a time may be the last one for later starts: that of a clock that is ahead may not."""
+        return not self._is_ahead(now)
+
+    def trust(self) -> None:
+        """Take the machine's clock as right."""
+        self.last, self._ahead = None, False
+
+    def _is_ahead(self, now: datetime.datetime) -> bool:
+        """Return True if the clock was ahead at the start and still is."""
+        self._ahead = self._ahead and self.last is not None and now - self.last > AHEAD
+        return self._ahead
 
 
 class Writing:
     """A transaction with its time."""
 
-    def __init__(self, connection: Connection, now: datetime.datetime) -> None:
+    def __init__(self, connection: Connection, now: datetime.datetime, earliest: datetime.datetime) -> None:
         self.connection, self.now = connection, now
         self.at = now.isoformat()
+        self.earliest = earliest
+        """The time by which deadlines are judged: while the clock is in doubt, nobody is refused because of it."""
 
     def execute(self, statement: Any, rows: Any = None) -> Any:
         return self.connection.execute(statement, rows)
@@ -111,13 +152,20 @@ class Database:
         with self._lock:
             now = self.clock.now()
             with self._writer.begin() as connection:
-                yield Writing(connection, now)
-                row = {"name": LAST, "value": now.isoformat()}
-                statement = insert(settings).values(row)
-                connection.execute(
-                    statement.on_conflict_do_update(index_elements=["name"], set_={"value": row["value"]})
-                )
+                yield Writing(connection, now, self.clock.earliest())
+                if self.clock.is_stored(now):
+                    row = {"name": LAST, "value": now.isoformat()}
+                    statement = insert(settings).values(row)
+                    connection.execute(
+                        statement.on_conflict_do_update(index_elements=["name"], set_={"value": row["value"]})
+                    )
             self.clock.stored(now)
+
+    def trust_clock(self) -> None:
+        """Take the machine's clock as right from now on, and after the next start."""
+        self.clock.trust()
+        with self.writing():
+            pass
 
     def close(self) -> None:
         self.engine.dispose()

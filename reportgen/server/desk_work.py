@@ -62,6 +62,7 @@ def table(site: Site) -> dict[str, Any]:
     return {
         "now": site.database.clock.now().isoformat(),
         "closes": common,
+        "clock": site.clock_doubt,
         "released": site.released,
         "queue": site.queue.waiting,
         "marked_at": site.store.setting("marked_at") or None,

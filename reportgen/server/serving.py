@@ -118,6 +118,8 @@ def _serve(site: Site, host: str, port: int) -> None:
     handler.setFormatter(logging.Formatter("%(asctime)s %(levelname)s %(message)s"))
     logging.getLogger("reportgen.server").addHandler(handler)
     logging.getLogger("reportgen.server").setLevel(logging.INFO)
+    if (doubt := site.clock_doubt) is not None:
+        site.log.warning("%s", word("serve_clock", site.language, **doubt))
     config = uvicorn.Config(
         application(site),
         host=host,

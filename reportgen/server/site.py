@@ -131,7 +131,13 @@ class Site:
     def shows_result(self, person: Person) -> bool:
         """Return True if a student may see the marks, and with them right values: whose time is not over may not."""
         closes = self.window(person).closes
-        return self.released and closes is not None and self.database.clock.now() > closes
+        return self.released and closes is not None and self.database.clock.earliest() > closes
+
+    @property
+    def clock_doubt(self) -> dict[str, str] | None:
+        """What the machine's clock says and the last stored time, if they do not go together."""
+        doubt = self.database.clock.doubt
+        return None if doubt is None else {"now": doubt[0].isoformat(), "last": doubt[1].isoformat()}
 
     def link(self, folder: str) -> str:
         """Return a personal link."""

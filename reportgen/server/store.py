@@ -71,7 +71,7 @@ class Store:
                 if known is not None:
                     stored.append(Saved(entry, known.at, known.revision))
                     continue
-                window.check(writing.now)
+                window.check(writing.earliest)
                 row = {
                     "folder": folder,
                     "drawn": drawn,
@@ -118,7 +118,7 @@ class Store:
             known = self._known(writing, uploads, folder, client)
             if known is not None:
                 return known
-            window.check(writing.now)
+            window.check(writing.earliest)
             if most is not None and self._count(writing, uploads, folder) >= most:
                 raise UsedUpError
             writing.execute(insert(uploads).values(folder=folder, client=client, at=writing.at, **about))
@@ -150,7 +150,7 @@ class Store:
         with self.database.writing() as writing:
             if (known := self._known(writing, handins, folder, client)) is not None:
                 return known
-            window.check(writing.now)
+            window.check(writing.earliest)
             writing.execute(insert(handins).values(folder=folder, client=client, drawn=drawn, at=writing.at, **sheet))
             made = self._known(writing, handins, folder, client)
             assert made is not None, "it was inserted"
@@ -166,8 +166,8 @@ class Store:
         """Count a check, unless it was sent before; its `answer` is "" until it is known."""
         with self.database.writing() as writing:
             if (known := self._known(writing, checks, folder, client)) is not None:
-                return str(known.answer)
-            window.check(writing.now)
+                return known
+            window.check(writing.earliest)
             if most is not None and self._count(writing, checks, folder) >= most:
                 raise UsedUpError
             writing.execute(insert(checks).values(folder=folder, client=client, asked=asked, at=writing.at))

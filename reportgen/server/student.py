@@ -90,7 +90,7 @@ async def state(request: Request, site: Site, person: Person) -> Response:
 def state_of(site: Site, person: Person, sheet: dict[str, Any], since: int) -> dict[str, Any]:
     """Return what a student has done, and still may do."""
     store, policy, window = site.store, site.browser, site.window(person)
-    now = site.database.clock.now()
+    now, earliest = site.database.clock.now(), site.database.clock.earliest()
     cells = store.cells(person.folder, person.drawn)
     handin, files = store.handin(person.folder, person.drawn), store.uploads(person.folder)
     last = cells[-1].revision if cells else 0
@@ -98,7 +98,7 @@ def state_of(site: Site, person: Person, sheet: dict[str, Any], since: int) -> d
     return {
         "now": now.isoformat(),
         "closes": None if window.closes is None else window.closes.isoformat(),
-        "open": window.closes is None or now <= window.closes,
+        "open": window.closes is None or earliest <= window.closes,
         "revision": last,
         "released": site.shows_result(person),
         "cells": [
@@ -204,7 +204,7 @@ async def check(request: Request, site: Site, person: Person) -> Response:
     asked = {name: content[name] for name in ("id", "position", "section") if content.get(name) is not None}
     if not all(isinstance(value, int if name == "position" else str) for name, value in asked.items()):
         raise Refusal("malformed")
-    if policy.checks_from is not None and site.database.clock.now() < policy.checks_from.astimezone():
+    if policy.checks_from is not None and site.database.clock.earliest() < policy.checks_from.astimezone():
         raise Refusal("too_early")
     rows = await run_in_threadpool(site.store.cells, person.folder, person.drawn)
     # One check is one question about one state of the sheet, however often it is sent.
@@ -258,7 +258,7 @@ def _stored(site: Site, person: Person, client: str, name: str, content: bytes) 
         # Its browser did not hear of it, maybe until after the deadline.
         return known
     try:
-        site.window(person).check(site.database.clock.now())
+        site.window(person).check(site.database.clock.earliest())
         most = MOST_UPLOADS if site.browser.uploads is None else site.browser.uploads
         if len(sent_before) >= most:
             raise UsedUpError

@@ -356,6 +356,44 @@ def test_an_upload_that_the_disk_did_not_take_is_read_later(served: Served, monk
 
 def test_a_receipt_that_was_lost_is_given_again_after_the_deadline(served: Served) -> None:
     student = served.person("S1")
+def test_papers_that_take_long_come_by_themselves(served: Served, monkeypatch: pytest.MonkeyPatch) -> None:
+    desk, run, gate = served.desk, served.site.queue.run, threading.Event()
+
+    async def slow(function: Any, *arguments: Any, kind: str = "short") -> Any:
+        if kind != "class":
+            return await run(function, *arguments)
+        await run_in_threadpool(gate.wait, 20)
+        served.folder.tasks.mkdir()
+        return (served.folder.tasks / "tasks.pdf").write_bytes(b"%PDF")
+
+    monkeypatch.setattr(served.site.queue, "run", slow)
+    monkeypatch.setattr(downloads, "SOON", 0.01)
+    waiting = desk.open("/desk/download/tasks.pdf")
+    assert waiting.status_code == 202
+    assert 'http-equiv="refresh"' in waiting.text
+    gate.set()
+    end = time.monotonic() + 20
+    while (answer := desk.open("/desk/download/tasks.pdf")).status_code == 202 and time.monotonic() < end:
+        time.sleep(0.02)
+    assert answer.content == b"%PDF"
+
+
+def test_an_instructor_hears_of_a_clock_in_doubt(
+    served: Served, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert served.desk.json("/desk/table")["clock"] is None
+    later = databases.wall_time() + datetime.timedelta(days=400)
+    monkeypatch.setattr(databases, "wall_time", lambda: later)
+    policy(served, f"browser: {{closes: {local(1)}}}\n")
+    with Served.of(served.folder.path) as again:
+        desk, student = again.desk, again.person("S1")
+        assert desk.json("/desk/table")["clock"]["now"] == later.isoformat()
+        assert student.json("/me/state")["open"]
+        assert desk.post("/desk/clock").json() == {"clock": None}
+        assert desk.json("/desk/table")["clock"] is None
+        assert not student.json("/me/state")["open"]
+
+
     first = student.upload("a.pdf", b"a", "upload-01").json()
     policy(served, f"browser: {{closes: {local(-1)}}}\n")
     again = student.upload("a.pdf", b"a", "upload-01")

@@ -110,6 +110,39 @@ def test_a_clock_never_gives_a_time_before_the_last() -> None:
     assert Clock(future.isoformat()).now() > future
 
 
+@pytest.mark.parametrize("days", [400, -400], ids=["ahead", "behind"])
+def test_a_clock_in_doubt_closes_nothing(
+    store: Store, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, days: int
+) -> None:
+    (first,) = store.save("S1", "1", [TypedCell("client-1", "v.B", 2, "1")], ALWAYS)
+    store.database.close()
+    real = databases.wall_time()
+    monkeypatch.setattr(databases, "wall_time", lambda: real + datetime.timedelta(days=days))
+    doubtful = Store(Database(tmp_path))
+    assert doubtful.database.clock.doubt is not None
+    (second,) = doubtful.save("S1", "1", [TypedCell("client-2", "v.B", 2, "2")], Window(real))
+    assert second.at > first.at
+    with pytest.raises(ClosedError):
+        doubtful.save("S1", "1", [TypedCell("client-3", "v.B", 2, "3")], Window(real - datetime.timedelta(days=500)))
+    doubtful.database.close()
+    # The clock is set right: the wrong times end nothing later either.
+    monkeypatch.setattr(databases, "wall_time", lambda: real + datetime.timedelta(minutes=1))
+    again = Store(Database(tmp_path))
+    assert again.database.clock.doubt is None
+    again.save("S1", "1", [TypedCell("client-4", "v.B", 2, "4")], Window(real + datetime.timedelta(days=1)))
+    # Or the instructor says that it was right.
+    monkeypatch.setattr(databases, "wall_time", lambda: real + datetime.timedelta(days=days))
+    again.database.close()
+    confirmed = Store(Database(tmp_path))
+    confirmed.database.trust_clock()
+    assert confirmed.database.clock.doubt is None
+    if days > 0:
+        with pytest.raises(ClosedError):
+            confirmed.save("S1", "1", [TypedCell("client-5", "v.B", 2, "5")], Window(real))
+    confirmed.database.close()
+    assert Database(tmp_path).clock.doubt is None
+
+
 def test_every_transaction_is_synced_to_the_disk(store: Store) -> None:
     with store.database.reading() as connection:
         assert connection.exec_driver_sql("PRAGMA synchronous").scalar() == 2

@@ -69,10 +69,23 @@ function show() {
     ...(table.queue ? [fill(words.queue, { count: table.queue })] : []),
   ].join(" ");
   if (summary.textContent !== said) summary.textContent = said;
+  doubt(table.clock);
   by("release").textContent = table.released ? words.withdraw : words.release;
   by("mark").disabled = table.marking;
   by("release").disabled = table.marking || (!table.released && !table.marked_at);
   by("problems").replaceChildren(...table.problems.map((text) => element("p", text, { className: "warning" })));
+}
+
+let doubted = "";
+
+// Say that the clock may be wrong, with a button for when it is right.
+function doubt(clock) {
+  const said = clock ? fill(words.clock_doubt, { now: moment(clock.now), last: moment(clock.last) }) : "";
+  if (said === doubted) return;
+  doubted = said;
+  const right = element("button", words.clock_right, { type: "button" });
+  right.addEventListener("click", () => act("/desk/clock", {}));
+  by("clock").replaceChildren(...(said ? [element("p", [said, " ", right], { className: "warning" })] : []));
 }
 
 async function renew() {
