@@ -9,7 +9,7 @@ Times are ISO 8601 with the offset of
 the machine (`2026-11-20T23:59:00+07:00`). `PLACE` is `{"id": "v.B", "position": 2}`; the position of a single value
 is 0. A refusal is `{"error": CODE, "message": TEXT}` with the status: 400 malformed, 401 signed out, 403 forbidden or
 without token, 404 unknown, 409 closed, used up, redrawn, 413 too large, 429 too often, 500 failed, 507 no room on the
-disk; who opens a page sees `sign_in` (401) or the page `refused` with `code` and `message`.
+disk; who opens a page sees `sign_in` (401) or the page `refused` with `code`, `message` and `lines`.
 Only 413, 429, 500, 507 and a lost connection are worth sending again, with the same `client`: a text of 8 to 64
 letters, digits, - and _ that the browser invents for each cell, upload, check and hand-in; it is stored once.
 
@@ -86,7 +86,8 @@ An instructor
   POST /desk/gradebook                  multipart `file`, (`csrf`), `column` → the table filled in, as a file; the
                                         header X-Problems has the sentences about students without a row, as JSON
   GET  /desk/download/{name}            links.csv, tasks.pdf, keys.pdf, feedback.pdf, class.pdf, grades.csv,
-                                        corrections.csv, class.zip, handed.zip, marked.zip
+                                        corrections.csv, class.zip, handed.zip, marked.zip; while the tasks or keys
+                                        are being made, a browser gets 202 with the page `preparing` (`file`, `queue`)
   GET  /desk/notices                    {"notices": [{"kind", "lines": [TEXT], "students": [FOLDER, …]}]}
 """
 
@@ -148,8 +149,8 @@ def routes() -> list[Route]:
         of("instructor", f"{STUDENT}/correct", instructor.correct, "POST"),
         of("instructor", "/desk/mark", instructor.mark, "POST"),
         of("instructor", "/desk/release", instructor.release, "POST"),
-        of("instructor", "/desk/backup", downloads.backup, "POST"),
         of("instructor", "/desk/clock", instructor.clock, "POST"),
+        of("instructor", "/desk/backup", downloads.backup, "POST"),
         of("instructor", "/desk/gradebook", downloads.gradebook, "POST", form=True),
         of("instructor", "/desk/notices", downloads.notices),
         of("instructor", "/desk/download/{name}", downloads.download),

@@ -62,7 +62,7 @@ async def download(request: Request, site: Site, person: Person) -> Response:
     if name in MARKED:
         return await _file(site.folder.marked / name)
     if name in PAPERS:
-        return await _papers(site, name)
+        return await _papers(request, site, person, name)
     if name in ZIPS:
         if name != "marked.zip":
             await handed.lay_out_all(site)
@@ -84,10 +84,23 @@ def link_table(site: Site) -> bytes:
     return write_csv(rows)
 
 
-async def _papers(site: Site, name: str) -> Response:
+async def _papers(request: Request, site: Site, person: Person, name: str) -> Response:
+    """Return the PDF of a class; to a browser, while it is being made, a page that comes back for it."""
     out = site.folder.tasks if name == "tasks.pdf" else site.folder.keys
+    making = site.papers.get(name)
+    if making is None:
+        made = site.queue.run(work_calls.make_products, site.folder, PAPERS[name], out, kind="class")
+        site.papers[name] = making = asyncio.ensure_future(made)
+    if "text/html" in request.headers.get("accept", ""):
+        await asyncio.wait({making}, timeout=SOON)
+        if not making.done():
+            return site.page(request, "preparing", person, 202, file=name, queue=site.queue.waiting)
+    else:
+        await asyncio.wait({making})
+    # What is asked for later is made anew: variants may have changed.
+    site.papers.pop(name, None)
     try:
-        await site.queue.run(work_calls.make_products, site.folder, PAPERS[name], out, kind="class")
+        making.result()
     except ReportgenError as error:
         raise with_lines(error) from None
     return await _file(out / name)

@@ -54,6 +54,7 @@ STATUS = {
     "too_early": 409,
     "not_released": 409,
     "too_large": 413,
+    "file_too_large": 413,
     "too_often": 429,
     "failed": 500,
     "no_room": 507,
@@ -156,7 +157,7 @@ class Guard:
             if length is not None and (not length.isascii() or not length.isdecimal()):
                 raise Refusal("malformed")
             if length is not None and int(length) > self._most(scope):
-                raise Refusal("too_large")
+                raise self._too_large(scope)
 
     def _most(self, scope: Scope) -> int:
         return LARGE + SMALL if scope["path"] in FILES else SMALL
@@ -179,7 +180,7 @@ class Guard:
             got += len(message.get("body", b""))
             whole = not message.get("more_body", False)
             if got > most:
-                raise Refusal("too_large")
+                raise self._too_large(scope)
             return message
 
         return limited

@@ -13,7 +13,7 @@ import uvicorn
 from reportgen.base.errors import Fault, Location
 from reportgen.base.files import held
 from reportgen.base.units import Language
-from reportgen.base.words import as_error
+from reportgen.base.words import as_error, word
 from reportgen.classes.earlier_draw import read_earlier
 from reportgen.classes.roster import RosterEntry, comparable
 from reportgen.server.app import application

@@ -62,6 +62,8 @@ class Site:
         """Each student's lock is held while the files of the student are written."""
         self.receiving = asyncio.Semaphore(4)
         """Held while an upload is in memory."""
+        self.papers: dict[str, asyncio.Future[Any]] = {}
+        """Files of the whole class that are being made, by name."""
         self.changing = asyncio.Lock()
         """Held while variants or the roster change."""
         self.backing_up = asyncio.Lock()
@@ -80,12 +82,12 @@ class Site:
         return self.base_url.startswith("https:")
 
     @property
-    def hosts(self) -> frozenset[str]:
-    @property
     def cookie(self) -> str:
         """The name of the session's cookie: a browser sends those of all ports of a host to each."""
         return f"reportgen-{self.links.class_id}"
 
+    @property
+    def hosts(self) -> frozenset[str]:
         """The names under which the class may be asked for."""
         parts = urlsplit(self.base_url)
         own = {parts.netloc}
@@ -160,7 +162,8 @@ class Site:
         if wants_page and refusal.code == "signed_out":
             return self.page(request, "sign_in", None, refusal.status, failed=False, number="")
         if wants_page:
-            return self.page(request, "refused", None, refusal.status, code=refusal.code, message=message)
+            said = {"code": refusal.code, "message": message, "lines": refusal.more.get("lines", [])}
+            return self.page(request, "refused", None, refusal.status, **said)
         return JSONResponse({"error": refusal.code, "message": message, **refusal.more}, refusal.status)
 
     # --- who asks

@@ -243,7 +243,8 @@ class Store:
                 table.setdefault(row.folder, {}).update(saved=row.saved, filled=row.filled, revision=row.revision)
             for row in connection.execute(last):
                 table.setdefault(row.folder, {}).update(handed_in=row.at, handed_revision=row.revision)
-            for row in connection.execute(select(uploads).order_by(uploads.c.number)):
+            joined = select(uploads, people.c.drawn.label("current")).join(people, uploads.c.folder == people.c.folder)
+            for row in connection.execute(joined.order_by(uploads.c.number)):
                 own = table.setdefault(row.folder, {})
                 if row.drawn == row.current:
                     own.update(uploads=own.get("uploads", 0) + 1, state=row.state, uploaded=row.at)

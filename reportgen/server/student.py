@@ -120,8 +120,8 @@ def state_of(site: Site, person: Person, sheet: dict[str, Any], since: int) -> d
     }
 
 
-def receipt(site: Site, row: Row[Any]) -> dict[str, Any]:
-    """Return the receipt of an upload."""
+def receipt(site: Site, row: Row[Any], drawn: str) -> dict[str, Any]:
+    """Return the receipt of an upload of a student who has the variant `drawn` now."""
     fields = ("number", "client", "name", "size", "sha256", "at", "state")
     made: dict[str, Any] = {name: getattr(row, name) for name in fields}
     made |= {"values": row.values_read, "lines": json.loads(row.lines), "earlier": row.drawn != drawn}
@@ -211,20 +211,20 @@ async def check(request: Request, site: Site, person: Person) -> Response:
     question = json.dumps({**asked, "revision": rows[-1].revision if rows else 0, "variant": person.drawn})
     begin = partial(site.store.begin_check, person.folder, client, question, site.window(person))
     try:
-        known = await run_in_threadpool(begin, policy.checks)
+        row = await run_in_threadpool(begin, policy.checks)
     except ClosedError:
         raise Refusal("closed") from None
     except UsedUpError:
         raise Refusal("used_up") from None
+    known, asked = row.answer, json.loads(row.asked)
+    if asked.pop("variant", person.drawn) != person.drawn:
+        raise Refusal("redrawn")
     if not known:
         revision = asked.pop("revision", rows[-1].revision if rows else 0)
         cells = await run_in_threadpool(site.store.cells_at, person.folder, person.drawn, revision)
         present = {place: text for place, text in cells.items() if text}
         answer = await site.queue.run(work_calls.check, site.folder, person.folder, present, asked)
         known = json.dumps(answer, ensure_ascii=False)
-    known, asked = row.answer, json.loads(row.asked)
-    if asked.pop("variant", person.drawn) != person.drawn:
-        raise Refusal("redrawn")
         await run_in_threadpool(site.store.end_check, person.folder, client, known)
     count = await run_in_threadpool(site.store.count_checks, person.folder)
     left = None if policy.checks is None else max(policy.checks - count, 0)
@@ -242,7 +242,7 @@ async def upload(request: Request, site: Site, person: Person) -> Response:
         if not isinstance(file, UploadFile):
             raise Refusal("malformed")
         if (file.size or 0) > LARGE:
-            raise Refusal("too_large")
+            raise Refusal("file_too_large")
         async with site.receiving:
             content, name = await file.read(), safe_name(file.filename or "")
             row = await run_in_threadpool(_stored, site, person, client, name, content)
@@ -263,7 +263,7 @@ def _stored(site: Site, person: Person, client: str, name: str, content: bytes) 
         if len(sent_before) >= most:
             raise UsedUpError
         if sum(row.size for row in sent_before) + len(content) > MOST_BYTES:
-            raise Refusal("too_large")
+            raise Refusal("file_too_large")
         site.folder.add_upload(content, sha256)
         about = {"drawn": person.drawn, "name": name, "size": len(content), "sha256": sha256}
         return site.store.add_upload(person.folder, client, about, site.window(person), most)
@@ -274,7 +274,7 @@ def _stored(site: Site, person: Person, client: str, name: str, content: bytes) 
 
 
 async def one_upload(request: Request, site: Site, person: Person) -> Response:
-    return JSONResponse(receipt(site, await _own_upload(request, site, person)))
+    return JSONResponse(receipt(site, await _own_upload(request, site, person), person.drawn))
 
 
 async def uploaded_file(request: Request, site: Site, person: Person) -> Response:

@@ -8,18 +8,20 @@ import datetime
 import io
 import os
 import re
+import threading
 import time
 import zipfile
 from pathlib import Path
 from typing import Any
-
 from urllib.parse import unquote
+
 import pytest
 from sqlalchemy import Row
+from starlette.concurrency import run_in_threadpool
 
 from reportgen.classes.variants import make_variants
 from reportgen.server import database as databases
-from reportgen.server import handed
+from reportgen.server import downloads, handed
 from reportgen.server.handed import put_handed_roster
 from reportgen.server.links import DESK
 from reportgen.server.site import Site
@@ -73,9 +75,6 @@ def test_checks_and_uploads_are_limited_by_the_policy(served: Served) -> None:
     assert len(list(served.folder.uploads.iterdir())) == 1
 
 
-def test_a_mistake_in_the_policy_does_not_stop_the_class(served: Served) -> None:
-    student = served.person("S1")
-    policy(served, "browser: {checks: many}\n")
 def test_a_check_that_is_sent_again_is_the_same_check(served: Served, monkeypatch: pytest.MonkeyPatch) -> None:
     student, right = served.person("S1"), right_values(served, "S1")
     first, second = [place for place in student.places if place in right and place[0].startswith("v.")][:2]
@@ -90,6 +89,9 @@ def test_a_check_that_is_sent_again_is_the_same_check(served: Served, monkeypatc
     assert said == [(*first, "wrong")]
 
 
+def test_a_mistake_in_the_policy_does_not_stop_the_class(served: Served) -> None:
+    student = served.person("S1")
+    policy(served, "browser: {checks: many}\n")
     assert student.save({student.places[0]: "1"}).status_code == 200
 
 
@@ -120,9 +122,6 @@ def test_another_variant_has_an_empty_sheet_and_the_old_cells_are_kept(served: S
     assert student.post("/me/cells", {"variant": "1", "cells": [sent]}).json()["error"] == "redrawn"
     assert [row.text for row in served.site.store.cells("S1", "1")] == ["1"]
     assert not any((served.folder.handed / "S1").iterdir())
-
-
-def test_a_fixed_file_keeps_the_cells_and_a_wrong_one_is_not_kept(served: Served) -> None:
     # The file was for the old variant: it is shown, but nothing is handed in.
     row = next(row for row in desk.json("/desk/table")["students"] if row["id"] == "S1")
     assert (row["uploads"], row["earlier"], row["state"]) == (0, 1, "")
@@ -130,6 +129,9 @@ def test_a_fixed_file_keeps_the_cells_and_a_wrong_one_is_not_kept(served: Served
     put_handed_roster(served.site)
     rows = list(csv.DictReader(io.StringIO(served.folder.handed_roster.read_text("utf-8-sig"))))
     assert rows[0]["handed_in"] == ""
+
+
+def test_a_fixed_file_keeps_the_cells_and_a_wrong_one_is_not_kept(served: Served) -> None:
     student, desk = served.person("S1"), served.desk
     student.save({student.places[0]: "1"})
     text = desk.json("/desk/students/S1/file")["yaml"]
@@ -180,8 +182,6 @@ def test_what_can_be_downloaded(served: Served) -> None:
     assert filled.status_code == 200, filled.text
     rows = list(csv.DictReader(io.StringIO(filled.content.decode("utf-8-sig"))))
     assert [row["Grade"] for row in rows] == ["10.00", ""]
-    wrong = desk.client.post("/desk/gradebook", data=form, files={"file": ("other.csv", b"a,b\r\n1,2\r\n")})
-    assert (wrong.status_code, bool(wrong.json()["lines"])) == (400, True)
     # Without id and e-mail the name counts; who has no row is named.
     for name, grades, told in (("An Nguyễn", ["10.00", ""], False), ("An Nguyen", ["", ""], True)):
         named = worksheet.replace("S1", "").replace("An Nguyễn", name)
@@ -189,6 +189,8 @@ def test_what_can_be_downloaded(served: Served) -> None:
         rows = list(csv.DictReader(io.StringIO(filled.content.decode("utf-8-sig"))))
         assert [row["Grade"] for row in rows] == grades
         assert ("An Nguyễn" in unquote(filled.headers["x-problems"])) == told
+    wrong = desk.client.post("/desk/gradebook", data=form, files={"file": ("other.csv", b"a,b\r\n1,2\r\n")})
+    assert (wrong.status_code, bool(wrong.json()["lines"])) == (400, True)
 
 
 def test_the_files_of_a_student_tell_no_answer(served: Served) -> None:
@@ -354,8 +356,6 @@ def test_an_upload_that_the_disk_did_not_take_is_read_later(served: Served, monk
     assert locked == [True, True]
 
 
-def test_a_receipt_that_was_lost_is_given_again_after_the_deadline(served: Served) -> None:
-    student = served.person("S1")
 def test_papers_that_take_long_come_by_themselves(served: Served, monkeypatch: pytest.MonkeyPatch) -> None:
     desk, run, gate = served.desk, served.site.queue.run, threading.Event()
 
@@ -394,6 +394,8 @@ def test_an_instructor_hears_of_a_clock_in_doubt(
         assert not student.json("/me/state")["open"]
 
 
+def test_a_receipt_that_was_lost_is_given_again_after_the_deadline(served: Served) -> None:
+    student = served.person("S1")
     first = student.upload("a.pdf", b"a", "upload-01").json()
     policy(served, f"browser: {{closes: {local(-1)}}}\n")
     again = student.upload("a.pdf", b"a", "upload-01")

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import datetime
+import re
+from pathlib import Path
 
 import pytest
 
@@ -93,8 +95,6 @@ def test_a_forged_cookie_is_none(served: Served) -> None:
         assert stranger.get("/me").status_code == 401
 
 
-def test_who_has_left_gets_in_no_more(served: Served) -> None:
-    student, link = served.person("S1"), path_of(served, "S1")
 def test_classes_at_one_address_do_not_share_cookies_or_unsent_cells(served: Served, tmp_path: Path) -> None:
     database = Database(tmp_path / "other")
     other = Links(database, tmp_path / "other").class_id
@@ -108,6 +108,8 @@ def test_classes_at_one_address_do_not_share_cookies_or_unsent_cells(served: Ser
     assert served.site.links.class_id != other
 
 
+def test_who_has_left_gets_in_no_more(served: Served) -> None:
+    student, link = served.person("S1"), path_of(served, "S1")
     assert served.desk.post("/desk/students/S1/drop").status_code == 200
     assert student.get("/me").status_code == 401
     assert served.stranger().get(link).status_code == 403

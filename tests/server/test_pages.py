@@ -6,6 +6,7 @@ import re
 import shutil
 import subprocess
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -20,8 +21,9 @@ from tests.server.served import Served
 def test_a_page_is_whole_in_every_language(language: str) -> None:
     about: Mapping[str, Mapping[str, Any]] = {
         "sign_in": {"failed": True, "number": '"><script>'},
-        "refused": {"code": "unknown", "message": pages.explained(language, "unknown")},
+        "refused": {"code": "unknown", "message": pages.explained(language, "unknown"), "lines": ["a <b>"]},
         "enter": {"home": "/me"},
+        "preparing": {"file": "tasks.pdf", "queue": 3},
     }
     for name, content in about.items():
         html = pages.page(name, language, csrf="token", person=None, **content)
@@ -68,8 +70,6 @@ def test_the_scripts_import_files_that_are_there() -> None:
             assert pages.static(imported) is not None
 
 
-def test_a_symbol_has_its_indices_where_a_book_has_them() -> None:
-    assert _symbol("a_CB^n") == ("a", "CB", "n")
 UNANSWERED = """
 const kept = new Map();
 globalThis.localStorage = {
@@ -97,4 +97,6 @@ def test_a_check_without_an_answer_has_the_same_id_after_a_reload(tmp_path: Path
     assert ended.stdout.strip() == "true,true,true"
 
 
+def test_a_symbol_has_its_indices_where_a_book_has_them() -> None:
+    assert _symbol("a_CB^n") == ("a", "CB", "n")
     assert _symbol("pb") == ("pb", "", "")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from typing import Any
 
@@ -157,7 +158,11 @@ def test_a_cell_that_nobody_asks_for_does_not_keep_the_others(served: Served) ->
 def test_an_upload_that_is_too_large_is_not_kept(served: Served, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(guards, "LARGE", 100_000)
     own = served.person("S1")
-    assert own.upload("large.pdf", b"x" * 500_000).status_code == 413
+    answer = own.upload("large.pdf", b"x" * 500_000)
+    assert (answer.status_code, answer.json()["error"]) == (413, "file_too_large")
+    assert "50 MB" in answer.json()["message"]
+    # The page knows it before it sends the file.
+    assert re.search(r'id="upload"[^>]* data-largest="\d+"', own.page)
 
     def pieces() -> Any:
         yield from (b"x" * 50_000 for _ in range(20))

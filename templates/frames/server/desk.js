@@ -195,15 +195,6 @@ by("add").addEventListener("submit", async (event) => {
   by("adding").textContent = fill(words.added, { name: student.name });
   by("add").reset();
 });
-// A download may have to be made first: say so as long as it takes.
-document.addEventListener("click", ({ target }) => {
-  if (!target.matches("[data-download]")) return;
-  by("downloading").textContent = words.preparing;
-  setTimeout(() => { by("downloading").textContent = ""; }, 8000);
-});
-show();
-notices();
-timer = setTimeout(renew, table.marking ? WHILE_MARKING : EVERY);
 // The filled table comes as a file, what it has no row for as a header.
 by("gradebook").addEventListener("submit", async (event) => {
   event.preventDefault();
@@ -223,3 +214,12 @@ by("gradebook").addEventListener("submit", async (event) => {
     place.textContent = error instanceof Refused ? error.message : words.unreachable;
   }
 });
+// A download may have to be made first: say so as long as it takes.
+document.addEventListener("click", ({ target }) => {
+  if (!target.matches("[data-download]")) return;
+  by("downloading").textContent = words.preparing;
+  setTimeout(() => { by("downloading").textContent = ""; }, 8000);
+});
+show();
+notices();
+timer = setTimeout(renew, table.marking ? WHILE_MARKING : EVERY);

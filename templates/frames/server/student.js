@@ -1,6 +1,6 @@
 // The rest of a student's page: the machine moving in a frame, and uploads with their receipts.
 
-import { data, element, fill, moment, newId, number, send, size, words } from "./requests.js";
+import { data, element, errors, fill, moment, newId, number, send, size, words } from "./requests.js";
 
 const moving = document.getElementById("moving");
 moving?.addEventListener("toggle", () => {
@@ -19,6 +19,11 @@ file?.addEventListener("change", () => { client = newId(); });
 form?.addEventListener("submit", async (event) => {
   event.preventDefault();
   const button = form.querySelector("button");
+  // The server would end the connection before the browser reads why.
+  if (file.files[0].size > Number(form.dataset.largest)) {
+    said.textContent = errors.file_too_large;
+    return;
+  }
   button.disabled = true;
   said.textContent = words.uploading;
   try {
