@@ -313,6 +313,9 @@ def _is_literal(text: str, unit: str, is_number: bool, known: frozenset[str]) ->
     try:
         read_ratio(text) if is_number or not unit else read_quantity(text, unit)
     except QuantityFault as problem:
+        if problem.code == "unexpected-unit" and unit:
+            # In a list of numbers with a common unit, `2 kN` is a formula without parameters.
+            return False
         if problem.code not in ("not-a-number", "unknown-unit", "unexpected-unit"):
             return True
         # A faulty value begins with a number; the name of a parameter makes it a formula.

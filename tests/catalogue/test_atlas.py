@@ -174,6 +174,15 @@ def test_a_fault_of_the_linkage_is_at_the_parameter_that_causes_it(department: P
     assert all("mine.yaml:3:" in line for line in found)
 
 
+def test_a_table_of_loads_has_formulas_with_units(department: Path, tmp_path: Path) -> None:
+    loads = "loads: [{by: angle, link: 3, torque_unit: N m, angle: [0 deg, 90 deg, 360 deg], values: [0, M/2, -1 N*h]}]"
+    text = SLOTTER.replace("  w: {", "  M: {default: 0.4 kN m}\n  w: {").replace("  points:", f"  {loads}\n  points:")
+    (department / "loaded.yaml").write_text(text, "utf-8")
+    assert examined("atlas/loaded", "{M: 30 N m}", tmp_path) == []
+    given = catalogue.load(tmp_path / "mine.yaml").parameters
+    assert given.expanded.loads[0].values == (0.0, 15.0, -0.15)
+
+
 def test_a_folder_has_machines_alone_and_no_link_leads_out(department: Path, tmp_path: Path) -> None:
     outside = tmp_path / "outside.yaml"
     outside.write_text(SLOTTER, "utf-8")
