@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 from pathlib import Path
+from threading import Event
 from typing import Any
 
 import pytest
 
 from reportgen import catalogue
+from reportgen.case import Case
 from reportgen.cases import open_case, opener
 from reportgen.page.edit_session import EditSession
 from reportgen.page.file_watch import edited
 from tests.lanes import proof
 from tests.page.browser import Browser, axe
-from tests.page.typist import until
+from tests.page.typist import Typist, edit_beside, form_alone, until
 
 MADE = {"product": "pdf", "state": "done", "files": [["report.pdf", "out/mine/report.pdf"]], "complaint": ""}
 OPEN = "return [...document.querySelectorAll('#making, #refused')].map((one) => one.textContent.trim()).join('')"
@@ -95,3 +97,53 @@ def test_a_notice_covers_no_field_and_can_be_closed(browser: Browser, file: Path
         file.write_text(file.read_text(encoding="utf-8").replace("r: 150 mm", "r: 160 mm"), encoding="utf-8")
         until(lambda: not browser.run(OPEN))
         assert browser.messages() == []
+
+
+@proof
+def test_a_refusal_outlives_the_news_of_an_earlier_change(browser: Browser, file: Path) -> None:
+    """The machine is made anew after the change before; no value has changed since."""
+    with edited(file, opener()) as server:
+        session, shown = server.session, Event()
+        assert isinstance(session, EditSession)
+        edit, show = session.edit, session.show
+
+        def no_removal(body: Any) -> Any:
+            return {**session.numbered_form(), "refused": "not now"} if body["op"] == "remove" else edit(body)
+
+        def later(number: int, case: Case) -> None:
+            shown.wait(10.0)
+            show(number, case)
+
+        session.edit = no_removal  # type: ignore[method-assign, assignment]
+        browser.show(server.address, still=True)
+        until(lambda: browser.run("return document.body.dataset.moving") == "1")
+        session.show = later  # type: ignore[method-assign]
+        typist = Typist(browser)
+        typist.replace("r", "160 mm")
+        typist.press("Enter")
+        typist.idle()
+        browser.run("document.querySelector('[data-remove]').click()")
+        until(lambda: "not now" in browser.run(OPEN))
+        browser.run("window.news = 0; document.addEventListener('redrawn', () => { window.news += 1; });")
+        shown.set()
+        until(lambda: browser.run("return window.news"))
+        assert "not now" in browser.run(OPEN)
+
+
+@proof
+def test_a_closed_notice_of_what_the_file_lacks_stays_closed(browser: Browser, file: Path) -> None:
+    """Text typed for a key that is gone is reported once, however often the file changes."""
+    old = file.read_text(encoding="utf-8")
+    (line,) = (line for line in old.splitlines() if line.strip().startswith("n:"))
+    with form_alone(file) as server:
+        browser.show(server.address, still=True)
+        typist = Typist(browser)
+        typist.replace("n", "85 rpm")
+        file.write_text(old.replace(line, "  omega1: 9 rad/s"), encoding="utf-8")
+        typist.shows("omega1", "9 rad/s")
+        typist.click("f:parameters.r")
+        until(lambda: browser.run("return document.querySelector('#orphans button') !== null"))
+        browser.run("document.getElementById('orphans').closest('.notice').querySelector('[data-close]').click()")
+        edit_beside(file, ("parameters", "r"), "155 mm")
+        typist.shows("r", "155 mm")
+        assert not browser.run("return document.getElementById('orphans').textContent")

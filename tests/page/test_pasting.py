@@ -15,7 +15,7 @@ from tests.page.typist import Typist, form_alone, until, value
 
 READ = """
 const read = pasting.read(arguments[0]);
-return [read.cells, read.doubt ? [read.doubt[","], read.doubt["."]] : null];
+return [read.cells, read.doubt && Object.values(read.doubt.means).map(({ shown }) => shown)];
 """
 PASTE = """
 const clipboardData = new DataTransfer();
@@ -26,6 +26,12 @@ document.querySelector(arguments[0]).dispatchEvent(
 CELL = '.tabled [data-row="1"][data-column="1"]'
 QUESTION = "return [...document.querySelectorAll('[data-reading]')].map((one) => one.textContent)"
 ANSWER = "document.querySelector(`[data-reading='${arguments[0]}']`).click()"
+
+
+def paste_over(browser: Browser, name: str, cells: str) -> None:
+    """Paste into the field of a list with an id, in the place of all that it has."""
+    browser.run("const list = document.getElementById(arguments[0]); list.focus(); list.select()", name)
+    browser.run(PASTE, f"[id='{name}']", cells)
 
 
 @pytest.fixture
@@ -45,6 +51,13 @@ def test_what_pasted_numbers_mean(browser: Browser, file: Path) -> None:
             ("1.234,5\t1.234.567", [["1234.5", "1234567"]], None),
             ("1.200\n0.5", [["1.200"], ["0.5"]], None),
             ("90 deg\t0,5 mm\tA,B", [["90 deg", "0.5 mm", "A,B"]], None),
+            (
+                "\u22122,4\t1\u00a0234,5\n\u22121\u202f234\u2009567 mm\t5",
+                [["-2.4", "1234.5"], ["-1234567 mm", "5"]],
+                None,
+            ),
+            ("\u22122,4", [["-2.4"]], ["-2.4", "-2, 4"]),
+            ("1 234,5\n2", None, ["1234,5", "1, 234,5"]),
             ("0,5\t1.200", None, ["1200", "1.2"]),
             ("1,200\n2", None, ["1.2", "1200"]),
         ):
@@ -99,7 +112,59 @@ def test_pasted_cells_are_written_all_or_none(browser: Browser, file: Path) -> N
 def test_a_column_is_pasted_into_the_field_of_a_list(browser: Browser, file: Path) -> None:
     with form_alone(file) as server:
         browser.show(server.address, still=True)
-        browser.run("const list = document.getElementById('f:indicator.s'); list.focus(); list.select()")
-        browser.run(PASTE, "[id='f:indicator.s']", "0\n0,5\n1\n")
+        paste_over(browser, "f:indicator.s", "0\n0,5\n1\n")
         Typist(browser).idle()
         assert value(file, ("indicator", "s")) == "0, 0.5, 1"
+
+
+@proof
+def test_signs_and_blanks_of_a_workbook_divide_no_number(browser: Browser, file: Path) -> None:
+    """What may be one number or two, of which there is no other sign, is asked about."""
+    where = "indicator", "intake"
+    with form_alone(file) as server:
+        browser.show(server.address, still=True)
+        typist = Typist(browser)
+        for cells, asked, reading, expected in (
+            ("\u22122,4\n1\u00a0234,5\n", [], "", "-2.4, 1234.5"),
+            ("\u22122,5", ["Use -2,5 = -2.5", "Use -2,5 = -2, 5"], ",", "-2.5"),
+            ("1,5", ["Use 1,5 = 1.5", "Use 1,5 = 1, 5"], "two", "1, 5"),
+            ("1 234\n0,5\n", ["Use 1 234 = 1234", "Use 1 234 = 1, 234"], "one", "1234, 0.5"),
+            ("1\u202f234,25", [], "", "1234.25"),
+        ):
+            paste_over(browser, "f:indicator.intake", cells)
+            assert browser.run(QUESTION) == asked
+            if asked:
+                browser.run(ANSWER, reading)
+            until(lambda want=expected: value(file, where) == want)
+            typist.idle()
+
+
+@proof
+def test_what_is_typed_after_pasting_is_undone_by_itself(browser: Browser, file: Path) -> None:
+    where = "indicator", "s"
+    with form_alone(file) as server:
+        browser.show(server.address, still=True)
+        typist = Typist(browser)
+        paste_over(browser, "f:indicator.s", "0\n0,5\n1\n")
+        typist.idle()
+        typist.type(", 2")
+        typist.press("Enter")
+        typist.idle()
+        assert value(file, where) == "0, 0.5, 1, 2"
+        browser.run("document.getElementById('undo').click()")
+        typist.idle()
+        assert value(file, where) == "0, 0.5, 1"
+
+
+@proof
+def test_pasted_cells_take_the_place_of_what_was_begun(browser: Browser, file: Path) -> None:
+    with form_alone(file) as server:
+        browser.show(server.address, still=True)
+        browser.run("document.querySelector('.tabled').open = true; document.querySelector(arguments[0]).focus()", CELL)
+        typist = Typist(browser)
+        typist.type("7")
+        assert browser.run("return drafts.places().length") == 1
+        browser.run(PASTE, CELL, "-2.4\t24\n-2.3\t25\n")
+        typist.idle()
+        assert value(file, ("indicator", "intake")).split(", ")[1:3] == ["-2.4", "-2.3"]
+        assert browser.run("return document.querySelector('.conflict') === null")

@@ -28,8 +28,10 @@ const drafts = (() => {
   const commit = (place) => {
     const draft = all.get(place);
     if (!draft) return null;
-    const { text, typing, due, sent } = draft, last = due.at(-1);
+    // What was refused is not written before what is typed instead.
+    if (draft.refused) draft.due = [];
     draft.refused = false;
+    const { text, typing, due, sent } = draft, last = due.at(-1);
     if (last?.typing === typing) last.text = text;
     if (last?.typing === typing || sent?.typing === typing && sent.text === text) return null;
     if (isVain(place)) {
@@ -55,22 +57,29 @@ const drafts = (() => {
     if (draft.typing === draft.sent.typing && draft.text === draft.sent.text && !draft.due.length) all.delete(place);
     Object.assign(draft, { base: text, sent: null });
   };
-  // What could not be written is kept, and tried again when the file has changed.
+  // What could not be written is kept, and tried again when the file has changed, unless something else follows it.
   const unwritten = (place) => {
     const draft = all.get(place);
     if (!draft?.sent) return;
-    draft.due.unshift(draft.sent);
-    Object.assign(draft, { sent: null, refused: true });
+    draft.refused = !draft.due.length;
+    if (draft.refused) draft.due.push(draft.sent);
+    draft.sent = null;
   };
-  // The values of the file are known anew; after an `own` step back or forth, what is typed meanwhile follows on it.
-  const learn = (values, own = false) => {
+  const isOpen = (place) => {
+    const draft = all.get(place);
+    return Boolean(draft) && !draft.sent && (!draft.due.length || Boolean(draft.refused) || conflict(place) !== null);
+  };
+  // The values of the file are known anew, returns whether they are others; after an `own` step back or forth, what is
+  // typed meanwhile follows on it.  What was refused is tried `again`.
+  const learn = (values, { own = false, again = true } = {}) => {
     const old = file;
     file = values;
     for (const [place, draft] of all) {
-      draft.refused = false;
+      if (again) draft.refused = false;
       if (own && draft.base === old.get(place)) draft.base = file.get(place) ?? draft.base;
       if (isVain(place)) all.delete(place);
     }
+    return old.size !== file.size || [...file].some(([place, text]) => old.get(place) !== text);
   };
   const keepMine = (place) => {
     const draft = all.get(place);
@@ -78,14 +87,14 @@ const drafts = (() => {
     return commit(place);
   };
   return {
-    typed, conflict, commit, send, written, unwritten, learn, keepMine,
+    typed, conflict, commit, send, written, unwritten, isOpen, learn, keepMine,
     // Whether nothing is on its way to the file is for the sender to say.
     sureIf: (says) => { sure = says; },
-    // What is typed from here on is a typing by itself.
-    begin: () => { count += 1; },
+    // What is typed from here on is a typing by itself; returns its name.
+    begin: () => `${page}.${count += 1}`,
     drop: (place) => all.delete(place),
+    typing: (place) => all.get(place)?.typing,
     text: (place) => all.get(place)?.text,
-    isOpen: (place) => all.has(place) && !all.get(place).due.length && !all.get(place).sent,
     places: () => [...all.keys()],
     // What is to be written, [place, entry] each, in the order in which it was typed.
     due: () => [...all].flatMap(([place, { due, refused }]) => (refused ? [] : due.map((entry) => [place, entry]))).sort(([, one], [, next]) => one.order - next.order),

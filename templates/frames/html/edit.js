@@ -51,7 +51,7 @@ const fields = (() => {
 
   // --- what is shown: the newest form of the file, the drafts over it
 
-  let html = "", revision = 0, pasted = null, held = false, behind = false, strays = false;
+  let html = "", revision = 0, pasted = null, held = false, behind = false, strays = false, orphans = "[]";
   const elements = () => {
     const next = document.createElement("div");
     next.innerHTML = html;
@@ -104,7 +104,10 @@ const fields = (() => {
     next.querySelector("#saved").textContent = status();
     const active = document.activeElement, lost = form.contains(active) && active.closest(".field")?.dataset.key;
     notices.inSight(() => { strays = redraw(form, next); });
-    notices.say("orphans", ...drafts.places().filter((key) => !ofKey(key)).map(orphan));
+    // A notice of them that is closed comes back only when there is more or less to say.
+    const gone = drafts.places().filter((key) => !ofKey(key)), list = JSON.stringify(gone.map((key) => [key, drafts.text(key)]));
+    if (list !== orphans) notices.say("orphans", ...gone.map(orphan));
+    orphans = list;
     // The button of a field that is elsewhere now: its field has the focus.
     keep();
     const again = lost && !active.isConnected && document.getElementById(lost);
@@ -143,10 +146,11 @@ const fields = (() => {
   let work = Promise.resolve(), sending = false, waiting = false, building = false, lost = false;
   const status = () => (waiting ? words.saving : lost || drafts.places().length ? words.unsaved : words.saved);
   const tell = () => { document.getElementById("saved").textContent = status(); };
-  const receive = (answer, own) => {
-    if (answer.revision < revision) return;
+  // Returns whether the file has other values than before.
+  const receive = (answer, how) => {
+    if (answer.revision < revision) return false;
     [html, revision] = [answer.form, answer.revision];
-    drafts.learn(values(elements()), own);
+    return drafts.learn(values(elements()), how);
   };
   const asked = async (body) => {
     waiting = true;
@@ -168,7 +172,7 @@ const fields = (() => {
       if (!body) continue;
       const answer = await asked(body), said = answer || { refused: words.lost_edit };
       lost = !answer;
-      if (answer) receive(answer, !answer.refused && body.op !== "set" && body.op !== "set all");
+      if (answer) receive(answer, { own: !answer.refused && body.op !== "set" && body.op !== "set all", again: !answer.refused });
       done?.(said);
       const key = JSON.stringify(body.where);
       // Beside a field that shows both values there is no more to say.
@@ -182,7 +186,7 @@ const fields = (() => {
   };
   const push = (...changes) => {
     outbox.push(...changes);
-    if (!sending) work = send();
+    if (!sending && outbox.length) work = send();
   };
   const altering = (key, entry) => {
     const change = drafts.send(key, entry), field = ofKey(key);
@@ -214,19 +218,18 @@ const fields = (() => {
     building = true;
     push({ make, done: (said) => { building = false; done(said); } });
   };
-  const type = (field, text = field.value) => {
+  const type = (field, text = field.value, typing = undefined) => {
     if (field.value !== text) field.value = text;
-    drafts.typed(field.dataset.w, text, field.dataset.was);
+    drafts.typed(field.dataset.w, text, field.dataset.was, typing);
     tell();
   };
   const commit = (field) => {
     clearTimeout(pause);
-    const key = field.dataset.w, entry = drafts.commit(key);
+    const entry = drafts.commit(field.dataset.w);
     tell();
-    if (!entry) return;
-    push(setting([key, entry]));
+    push(...settings(drafts.due()));
     // What moves takes a number at once, before all is made anew from the file.
-    if (isNumber(field)) drag(field);
+    if (entry && isNumber(field)) drag(field);
   };
   let pause = 0;
   const soon = (field) => {
@@ -276,12 +279,14 @@ const fields = (() => {
     wanted = null;
     turn += 1;
     keys.forEach(drafts.drop);
-    extended.get(machine.root).feed(new Float32Array(0), { bodies: {}, runs: [] });
+    if (machine) extended.get(machine.root)?.feed(new Float32Array(0), { bodies: {}, runs: [] });
     show();
   };
-  const commitAll = (list) => {
-    const due = list.map(({ dataset }) => [dataset.w, drafts.commit(dataset.w)]).filter(([, entry]) => entry);
+  // Returns when it is written, or refused.
+  const commitAll = (places) => {
+    const due = places.map((key) => [key, drafts.commit(key)]).filter(([, entry]) => entry);
     if (due.length) push(together(due));
+    return work;
   };
 
   // --- what is done
@@ -323,8 +328,7 @@ const fields = (() => {
     }
     if (event.key === "Escape" && drafts.isOpen(input.dataset.w)) {
       event.preventDefault();
-      drafts.drop(input.dataset.w);
-      show();
+      takeBack([input.dataset.w]);
     }
     const sense = isNumber(input) && { ArrowUp: 1, ArrowDown: -1, PageUp: 10, PageDown: -10 }[event.key];
     const next = sense ? stepped(input, sense) : null;
@@ -335,14 +339,14 @@ const fields = (() => {
     drag(input);
   });
   form.addEventListener("paste", (event) => {
-    const text = event.clipboardData.getData("text"), cell = event.target;
-    if (!/[\t\n]/.test(text) || !cell.closest(".tabled") && !("list" in cell.dataset)) return;
+    const cells = event.clipboardData.getData("text"), { target } = event, list = "list" in target.dataset;
+    if (!list && !target.closest(".tabled") || !pasting.isCells(cells, list)) return;
     event.preventDefault();
-    paste({ text, key: cell.dataset.w });
+    paste({ cells, key: target.dataset.w });
   });
-  const paste = ({ text, key }, decimal = "") => {
-    const read = pasting.read(text, decimal), cell = ofKey(key);
-    pasted = read.doubt && { text, key, doubt: read.doubt };
+  const paste = ({ cells, key, decimal }) => {
+    const read = pasting.read(cells, decimal), cell = ofKey(key);
+    pasted = read.doubt && { key, doubt: read.doubt };
     if (pasted || !cell) {
       show();
       return;
@@ -353,7 +357,10 @@ const fields = (() => {
       cell.setRangeText(items, cell.selectionStart, cell.selectionEnd, "end");
       type(cell);
       commit(cell);
+      drafts.begin();
     }
+    // The cells take the place of what was begun to be typed in the first one.
+    if (cell.closest(".tabled") && drafts.isOpen(key)) drafts.drop(key);
     const { changes, said } = cell.closest(".tabled") ? tables.pasted(read, cell, typed) : { changes: [], said: read.turned ? words.commas : "" };
     for (const change of changes) {
       drafts.typed(...change);
@@ -379,13 +386,13 @@ const fields = (() => {
       drafts.begin();
       type(field, data.remedy);
       commit(field);
-    } else if ("reading" in data && pasted) paste(pasted, data.reading);
+    } else if ("reading" in data && pasted) paste({ key: pasted.key, ...pasted.doubt.means[data.reading] });
     else if ("settle" in data) {
       notices.say("refused");
       if (data.settle === "mine") {
         drafts.keepMine(data.of);
         push(...settings(drafts.due()));
-      } else drafts.drop(data.of);
+      } else takeBack([data.of]);
       ofKey(data.of)?.focus();
       show();
     } else if ("remove" in data) {
@@ -419,10 +426,8 @@ const fields = (() => {
     if (!detail.changed) return;
     // The answer to a change of one's own says what it has changed.
     await work;
-    const before = revision;
-    receive(await (await fetch("form.json", { cache: "no-store" })).json());
-    // What was refused was so in an older file.
-    if (revision !== before) notices.say("refused");
+    // What was refused was so in an older file; a machine made anew of the same values is none.
+    if (receive(await (await fetch("form.json", { cache: "no-store" })).json())) notices.say("refused");
     show();
     push(...settings(drafts.due()));
     document.dispatchEvent(new Event("redrawn"));

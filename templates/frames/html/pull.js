@@ -7,7 +7,7 @@ const pulls = (() => {
   if (!panel?.root.querySelector('[data-stage="machine"] svg')) return undefined;
   const SLACK = 3, NEAR = 4, FINGER = 24;
   const form = document.getElementById("fields"), words = JSON.parse(document.getElementById("live").textContent).words;
-  let grips = { points: {}, ground: {}, loads: {} }, asked = "", held = null, count = 0;
+  let grips = { points: {}, ground: {}, loads: {} }, asked = "", held = null, count = 0, unwritten = 0;
 
   const svg = () => panel.root.querySelector('[data-stage="machine"] svg');
   const at = (name) => extended.get(panel.root).spotAt(name) || grips.ground[name];
@@ -107,11 +107,13 @@ const pulls = (() => {
     // What is typed and not yet in the file stays as it is typed.
     const locked = [...typeof locks === "undefined" ? [] : locks.places(), ...drafts.places().map((one) => JSON.parse(one))];
     held.body = { grab: count, ...held.grip, angle: panel.angle(), locked };
-    drafts.begin();
+    held.typing = drafts.begin();
     panel.root.setPointerCapture(held.id);
     document.body.classList.add("pulling");
     document.dispatchEvent(new CustomEvent("pull", { detail: held.body }));
   };
+  // What was typed over a value that was pulled is not the pull's any more.
+  const own = ({ typing, fields: changed }) => [...changed].map((field) => field.dataset.w).filter((place) => drafts.typing(place) === typing);
   const move = (event) => {
     if (!held) {
       const grip = event.pointerType !== "touch" && svg()?.contains(event.target) && !event.target.closest(".handle") && !panel.playing() ? under(event) : null;
@@ -122,6 +124,11 @@ const pulls = (() => {
     }
     if (event.pointerId !== held.id) return;
     if (!held.moved && Math.hypot(event.clientX - held.from[0], event.clientY - held.from[1]) < SLACK) return;
+    // A pull begins when what the last one changes is in the file.
+    if (!held.moved && unwritten) {
+      held.waiting = event;
+      return;
+    }
     if (!held.moved) begin();
     const [x, y] = toDrawing(event), mine = held;
     mine.answered = fields.ask("pull.json", { ...mine.body, to: [x + mine.off[0], y + mine.off[1]] }, ({ values, at: place }) => {
@@ -131,8 +138,8 @@ const pulls = (() => {
       if (!mine.released) document.body.classList.toggle("pull-stopped", !place);
       for (const [where, text] of values) {
         const field = fieldOf(where);
-        if (!field || field.value === text) continue;
-        fields.type(field, text);
+        if (!field || field.value === text || (drafts.typing(field.dataset.w) ?? mine.typing) !== mine.typing) continue;
+        fields.type(field, text, mine.typing);
         mine.fields.add(field);
         field.closest(".field").classList.toggle("pulled", !mine.released);
         const bar = field.closest(".field").querySelector("input[type=range]");
@@ -152,9 +159,9 @@ const pulls = (() => {
     if (!moved && playing) panel.play();
   };
   const cancel = () => {
-    const { fields: changed, moved } = held;
+    const mine = held;
     end();
-    if (moved) fields.takeBack([...changed].map((field) => field.dataset.w));
+    if (mine.moved) fields.takeBack(own(mine));
   };
   // What is clicked on leads to its field; what was pulled has led to it, and a finger that takes back presses nothing.
   const noClick = () => {
@@ -164,15 +171,20 @@ const pulls = (() => {
   };
   const release = (event) => {
     if (!held || event.pointerId !== held.id) return;
-    const mine = held, { moved, grip } = mine;
+    const mine = held, { moved, grip, waiting } = mine;
     mine.released = moved;
     end();
-    if (!moved) {
+    if (!moved && waiting) noClick();
+    else if (!moved) {
       if (event.pointerType === "touch") svg().querySelectorAll(".spot")[extended.get(panel.root).spots().indexOf(grip.point)]?.dispatchEvent(new MouseEvent("click"));
-      return;
+    } else {
+      noClick();
+      unwritten += 1;
+      mine.answered.then(() => fields.commitAll(own(mine))).finally(() => {
+        unwritten -= 1;
+        if (held?.waiting) move(held.waiting);
+      });
     }
-    noClick();
-    mine.answered?.then(() => fields.commitAll([...mine.fields]));
   };
   // A finger that comes down beside a point pulls it, and does not move the page.
   panel.root.addEventListener("touchstart", (event) => {
