@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -32,6 +33,10 @@ def paste_over(browser: Browser, name: str, cells: str) -> None:
     """Paste into the field of a list with an id, in the place of all that it has."""
     browser.run("const list = document.getElementById(arguments[0]); list.focus(); list.select()", name)
     browser.run(PASTE, f"[id='{name}']", cells)
+
+
+def written(file: Path, where: tuple[str, ...], text: str) -> bool:
+    return value(file, where) == text
 
 
 @pytest.fixture
@@ -135,7 +140,7 @@ def test_signs_and_blanks_of_a_workbook_divide_no_number(browser: Browser, file:
             assert browser.run(QUESTION) == asked
             if asked:
                 browser.run(ANSWER, reading)
-            until(lambda want=expected: value(file, where) == want)
+            until(partial(written, file, where, expected))
             typist.idle()
 
 
