@@ -258,6 +258,7 @@ class EditSession(LiveSession):
             title=titles(language).get(kind.text, "") if isinstance(kind, Scalar) else "",
             file=self.path.name,
             problems=problems,
+            elsewhere={file: Path(file).name for problem in problems if (file := problem.location.file) != source.file},
             faults=by_field(groups, faults),
             can_undo=undo,
             can_redo=redo,

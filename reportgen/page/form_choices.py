@@ -15,7 +15,6 @@ from reportgen.assignment.common import PARTS, Kind
 from reportgen.assignment.fields import UNIT_KEY
 from reportgen.assignment.schema import Schema, alternatives, file_schema, places, tables_at
 from reportgen.base.errors import Location, Where
-from reportgen.base.kinds import kinds
 from reportgen.base.yaml_edit import EditError, with_value
 from reportgen.base.yaml_places import content_end, is_flow, line_end, line_start, newline, read_nodes
 from reportgen.base.yaml_remarks import CommentedEntry, remarks, restored, set_aside
@@ -110,7 +109,8 @@ def _kind_at(top: Node | None, where: Where) -> tuple[Kind | None, Where]:
     if where[:1] == (PARTS,) and len(where) > 3:
         top, where = at(top, where[:2]), where[2:]
     name = at(top, ("kind",))
-    return (catalogue.kind(name.text) if isinstance(name, Scalar) and name.text in kinds() else None), where
+    known = isinstance(name, Scalar) and catalogue.is_sound(name.text)
+    return (catalogue.kind(name.text) if known and isinstance(name, Scalar) else None), where
 
 
 # --- keys with the same meaning ---------------------------------------------------------------------------

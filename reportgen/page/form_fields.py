@@ -17,7 +17,7 @@ from reportgen.assignment.fields import RANGE_KEY, UNIT_KEY, UNIT_NAME_KEY
 from reportgen.assignment.schema import Schema, alternatives, alternatives_to, choices_of, file_schema, places
 from reportgen.base.errors import Where
 from reportgen.base.field_words import FieldWords, choice_words, field_words, group_titles
-from reportgen.base.kinds import kinds, titles
+from reportgen.base.kinds import titles
 from reportgen.base.units import Language
 from reportgen.base.yaml_source import MappingNode, Node, Scalar, SequenceNode, Source
 from reportgen.base.yaml_values import at, flow, path_text
@@ -286,7 +286,7 @@ class Form:
                 called = title.text if isinstance(title, Scalar) and not title.null else file.text
                 entries = tuple(self._about(where, item))
                 made.append(FieldGroup(where, called, entries=entries, file=file.text, of_list=True))
-            elif isinstance(kind, Scalar) and kind.text in kinds():
+            elif isinstance(kind, Scalar) and catalogue.is_sound(kind.text):
                 given = parts.taking(Source("", top=item), self.top, index, catalogue.kind).top
                 assert isinstance(given, MappingNode), "entries that are taken from the machine are put into the table"
                 inner = Form(catalogue.kind(kind.text), self.language, given, item)

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import pickle
 import re
+from functools import partial
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from reportgen import catalogue
@@ -22,7 +24,9 @@ from reportgen.catalogue.atlas_file import checked
 from reportgen.cli import app
 from reportgen.marking.task_paper import task_of
 from reportgen.marking.toleranced_key import key_of
+from reportgen.page.edit_session import EditSession
 from reportgen.page.kind_cards import scheme_file
+from reportgen.page.pulled_values import placing_values
 from reportgen.results import results
 from tests.kinds import ATLAS_MACHINE
 from tests.lanes import matrix
@@ -172,6 +176,21 @@ def test_a_fault_of_the_linkage_is_at_the_parameter_that_causes_it(department: P
     assert "mine.yaml:3:17: error[out-of-range]" in examined("atlas/slotter", "{a: 95 mm}", tmp_path)[0]
     found = examined("atlas/jaw-crusher", "{a: 70 mm, b: 430 mm, c: 280 mm, d: 340 mm, L: 720 mm}", tmp_path)
     assert all("mine.yaml:3:" in line for line in found)
+
+
+def test_the_form_names_the_file_of_a_faulty_machine_and_still_takes_changes(department: Path, tmp_path: Path) -> None:
+    (department / "bad.yaml").write_text(SLOTTER.replace("-h]", "-hh]"), "utf-8")
+    examined("atlas/bad", "{a: 45 mm}", tmp_path)
+    session = EditSession(partial(open_case, tmp_path / "mine.yaml"), "en", path=tmp_path / "mine.yaml")
+    assert "<code>bad.yaml:13</code> “hh” is not a parameter of this machine" in session.form()
+    session.edit({"op": "set", "where": ["parameters", "a"], "value": "46 mm", "was": "45 mm"})
+    assert "{a: 46 mm}" in (tmp_path / "mine.yaml").read_text("utf-8")
+
+
+def test_a_point_that_is_dragged_changes_the_parameter_behind_it(department: Path, tmp_path: Path) -> None:
+    examined("atlas/slotter", "{a: 45 mm, h: 150 mm}", tmp_path)
+    values = placing_values(catalogue.read_source(tmp_path / "mine.yaml"), tmp_path / "mine.yaml")[1]
+    assert {value.where[1]: (value.low, value.high) for value in values} == {"a": (20.0, 90.0), "h": (100.0, np.inf)}
 
 
 def test_a_table_of_loads_has_formulas_with_units(department: Path, tmp_path: Path) -> None:
