@@ -5,6 +5,7 @@ from __future__ import annotations
 import random
 import time
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
@@ -13,12 +14,14 @@ from reportgen import catalogue
 from reportgen.base.errors import Where
 from reportgen.base.yaml_source import MappingNode, Scalar, read_text
 from reportgen.page.edit_session import EditSession
-from tests.lanes import matrix
-from tests.page.browser import Browser
+from tests.lanes import matrix, proof
+from tests.page.browser import Browser, opened
 from tests.page.typist import SHIFT, Model, Typist, edit_beside, form_alone, play, until, value
 
 KIND = "slider-crank"
 KEYS = ["r", "l", "n"]
+BATCHES, SEQUENCES, PERSONS = 4, 50, 4
+"""Two hundred sequences of things done at the form, by so many persons at a time."""
 NOTE = "return document.querySelector('.conflict')?.firstChild.textContent || ''"
 ORPHANS = "return document.getElementById('orphans').textContent"
 SETTLE = "document.querySelector(`[data-settle=${arguments[0]}]`).click()"
@@ -186,9 +189,8 @@ def test_answers_are_numbered(tmp_path: Path) -> None:
     assert edited.numbered_form()["revision"] == first + 1
 
 
-@pytest.mark.parametrize("seed", matrix(range(80), range(5)))
-def test_the_file_has_what_was_typed(browser: Browser, file: Path, seed: int) -> None:
-    """Anything done at the form in any order, answers late, an editor beside it: the file is that of the model."""
+def typed_at_random(browser: Browser, file: Path, seed: int) -> None:
+    """Do anything at the form in any order, answers late, an editor beside it: the file is that of the model."""
     chance = random.Random(seed)
     longest = chance.choice([0.0, 0.05, 0.3]) if seed < 20 else chance.choice([0.0, 0.1, 0.5, 1.5])
     with form_alone(file, lambda: chance.uniform(0, longest)) as server:
@@ -198,3 +200,25 @@ def test_the_file_has_what_was_typed(browser: Browser, file: Path, seed: int) ->
         assert {where: text for where, text in texts(file).items() if text} == {
             where: text for where, text in model.values.items() if text
         }, log
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_the_file_has_what_was_typed(browser: Browser, file: Path, seed: int) -> None:
+    typed_at_random(browser, file, seed)
+
+
+@proof
+@pytest.mark.parametrize("batch", range(BATCHES))
+def test_the_files_have_what_many_typed(batch: int, tmp_path: Path) -> None:
+    """Persons at browsers of their own, as most of the time each of them waits."""
+
+    def sit(person: int) -> None:
+        with opened() as browser:
+            for seed in range(batch * SEQUENCES + person, (batch + 1) * SEQUENCES, PERSONS):
+                (file := tmp_path / f"{seed}.yaml").write_text(catalogue.sample(KIND, "en"), encoding="utf-8")
+                typed_at_random(browser, file, seed)
+                browser.rest()
+
+    with ThreadPoolExecutor(PERSONS) as room:
+        for _ in room.map(sit, range(PERSONS)):
+            pass
