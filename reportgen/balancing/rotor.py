@@ -10,7 +10,9 @@ from typing import TYPE_CHECKING, Any
 from reportgen.assignment.checks import of_parameters, one_of
 from reportgen.balancing import rotor_file
 from reportgen.balancing.rotor_file import LEFT, RIGHT
+from reportgen.balancing.rotor_unknowns import unknown_masses, unknown_plane
 from reportgen.base.errors import Finding
+from reportgen.base.units import Given
 
 if TYPE_CHECKING:
     from reportgen.assignment import Assignment
@@ -39,12 +41,17 @@ def table_rows(position: Mapping[str, Any]) -> dict[str, dict[str, float | None]
     """Return the rows of results that `solve` prints: corrections (kg·mm, °, kg, mm) and forces on bearings (N)."""
     corrections: dict[str, float | None] = {}
     radii: dict[str, float | None] = {}
+    places: dict[str, float | None] = {}
     for plane, entry in position["corrections"].items():
         corrections[f"U_{plane}"] = entry["unbalance"] * 1e3
         corrections[f"α_{plane}"] = None if entry["angle"] is None else entry["angle"] * 180 / math.pi
         if "mass" in entry:
             corrections[f"m_{plane}"], radii[f"r_{plane}"] = entry["mass"], entry["radius"] * 1e3
-    rows = {"corrections": corrections, "radii": radii}
+        if "place" in entry:
+            places[f"z_{plane}"] = entry["place"] * 1e3
+    rows = {"corrections": corrections, "radii": radii, "places": places}
+    if "masses" in position:
+        rows["masses"] = {f"m_{place}": mass for place, mass in position["masses"].items()}
     if "bearings" in position:
         rows["bearings"] = {
             f"N{'′' if when == 'after' else ''}_{place}": math.hypot(*force)
@@ -62,7 +69,7 @@ def check(given: Parameters) -> Iterator[Finding]:
     balance.
     """
     planes, bearings = given.planes, given.bearings
-    if planes.B is not None and planes.B.si <= planes.A.si:
+    if planes.B is not None and not given.finds_plane and planes.B.si <= planes.A.si:
         yield Finding("rotor-places", (*TOP, "planes", "B"), {"left": planes.A.text, "right": planes.B.text})
     if bearings is not None and bearings[1].si <= bearings[0].si:
         places = {"left": bearings[0].text, "right": bearings[1].text}
@@ -76,10 +83,53 @@ def check(given: Parameters) -> Iterator[Finding]:
     own = [plane for plane in (LEFT, RIGHT) if given.correction and getattr(given.correction, plane)]
     if own and own != [*given.planes_by_name]:
         yield Finding("rotor-corrections", (*TOP, "correction"), {"planes": ", ".join(given.planes_by_name)}, at="key")
+    yield from check_unknowns(given)
+    if given.sought_masses:
+        return
     if is_balanced(given):
         yield Finding("rotor-balanced", (*TOP, "masses"), at="key")
     elif planes.B is not None and not any(mass.z.si - planes.A.si for mass in given.masses):
         yield Finding("rotor-one-plane", (*TOP, "planes", "B"), at="key")
+
+
+def check_unknowns(given: Parameters) -> Iterator[Finding]:
+    """Yield faults unless the place of plane B, or two masses, can be found, and correct with positive masses."""
+    angle, where = given.known_angle, (*TOP, "correction", LEFT, "angle")
+    if given.sought_masses:
+        yield from check_sought_masses(given)
+    if not given.finds_plane:
+        if angle is not None:
+            yield Finding("rotor-angle-known", where, at="key")
+    elif angle is None:
+        yield Finding("needs-besides", (*TOP, "planes", "B"), {"key": "B: find", "other": "correction.A.angle"})
+    elif not given.sought_masses:
+        solution = unknown_plane(given)
+        if solution is None:
+            yield Finding("rotor-no-plane", where)
+        elif solution.near < 0:
+            yield Finding("rotor-other-side", where, turned(angle))
+
+
+def check_sought_masses(given: Parameters) -> Iterator[Finding]:
+    """Yield faults unless exactly two masses outside plane A are sought, and A is the only plane."""
+    sought = given.sought_masses
+    first = int(next(iter(sought))) - 1
+    in_plane = any(mass.z.si == given.planes.A.si for mass in sought.values())
+    if len(sought) != 2 or in_plane or given.planes.B is not None or given.bearings is not None:
+        yield Finding("rotor-sought", (*TOP, "masses", first, "m"))
+        return
+    unbalances = unknown_masses(given)
+    if unbalances is None or not all(unbalances.values()):
+        yield Finding("rotor-sought-parallel", (*TOP, "masses", int(list(sought)[1]) - 1, "angle"))
+        return
+    for place, U in unbalances.items():
+        if U < 0:
+            yield Finding("rotor-other-side", (*TOP, "masses", int(place) - 1, "angle"), turned(sought[place].angle))
+
+
+def turned(angle: Given) -> dict[str, str]:
+    """Return the text of the opposite angle, from 0° to 360°."""
+    return {"angle": f"{round(math.degrees(angle.si) + 180, 6) % 360:g} deg"}
 
 
 def is_balanced(given: Parameters) -> bool:

@@ -12,11 +12,12 @@ import numpy as np
 from reportgen.balancing import rotor_drawings, rotor_ids, rotor_motion
 from reportgen.balancing.places_page import PlacesPage, bare
 from reportgen.balancing.rotor_calculation import AFTER, AXES, BEFORE
-from reportgen.balancing.rotor_file import BEARINGS
+from reportgen.balancing.rotor_file import BEARINGS, RIGHT
 from reportgen.balancing.rotor_solution import SolvedRotor
+from reportgen.case.missing_chapters import MissingChapter
 from reportgen.case.result_entries import ResultEntries
 from reportgen.case.shafts import Shaft
-from reportgen.document import Column, Equation, InlineMath, Inlines, Table, Text, Value
+from reportgen.document import Cell, Column, Equation, Inline, InlineMath, Inlines, Table, Text, Value
 from reportgen.drawing import Scene
 from reportgen.drawing.animation import Animation
 from reportgen.drawing.figure_scale import IN_REPORT
@@ -36,8 +37,16 @@ class RotorPage(PlacesPage[SolvedRotor]):
 
     NAME, TASK, SUMMARY = "rotor", "rotor-task", "rotor-summary"
     SECTIONS = (
-        *("rotor-given", "rotor-scheme", "rotor-products", "rotor-moments-plan", "rotor-plan", "rotor-components"),
-        *("rotor-compared", "rotor-bearings", "rotor-grade", "rotor-conclusion"),
+        *("rotor-given", "rotor-scheme", "rotor-products", "rotor-moments-plan", "rotor-plane-plan"),
+        *(
+            "rotor-masses-plan",
+            "rotor-plan",
+            "rotor-components",
+            "rotor-compared",
+            "rotor-bearings",
+            "rotor-grade",
+            "rotor-conclusion",
+        ),
     )
     SHORT = frozenset({"rotor-compared"})
 
@@ -47,27 +56,50 @@ class RotorPage(PlacesPage[SolvedRotor]):
         "rotor-grade": ("grade",),
     }
 
+    def has(self, section: str) -> bool:
+        given = self.case.given
+        match section:
+            case "rotor-plane-plan":
+                return given.finds_plane
+            case "rotor-masses-plan":
+                return bool(given.sought_masses)
+            case "rotor-plan":
+                return not given.finds_plane
+        return super().has(section) and not (section == "rotor-moments-plan" and self.case.finds)
+
+    @property
+    def missing(self) -> list[MissingChapter]:
+        """The sections that the file could still bring; with masses that are sought there are no further planes."""
+        return [] if self.case.given.sought_masses else super().missing
+
     def names(self) -> dict[str, Any]:
         case, written = self.case, self.case.printed
         has_data = any(True for _ in self.given_rows())
         lines = {name: written.known(quantities) for name, quantities in written.lines.items()}
         for name in ("unbalances", "moments"):
-            if len(case.masses) > WORKED:
+            if len(case.weighed) > WORKED:
                 lines[name] = lines.get(name, [])[:1]
         return {
             "words": case.words,
             "given": case.given,
             "several": len(case.masses) > 1,
-            "every_line": len(case.masses) <= WORKED,
+            "every_line": len(case.weighed) <= WORKED,
             "two_planes": case.two_planes,
+            "two_plans": case.two_planes or case.finds,
+            "dynamic": case.two_planes or case.finds,
+            "finds_plane": case.given.finds_plane,
+            "finds_masses": bool(case.given.sought_masses),
+            "found_masses": self.found_masses,
             "has_couple": case.given.has_couple,
             "mass_is_sought": "m" in case.given.sought,
             "radius_is_sought": "r" in case.given.sought,
             "against": any(case.ledger[rotor_ids.moment(place)].values[0] < 0 for place in case.moments),
             "corrects": {plane: bool(written[rotor_ids.unbalance(plane)].at(1)) for plane in case.planes},
-            "corrects_nothing": not any(written[rotor_ids.unbalance(plane)].at(1) for plane in case.planes),
-            "asks_after": not case.two_planes and case.given.has_couple,
+            "corrects_nothing": not case.finds
+            and not any(written[rotor_ids.unbalance(plane)].at(1) for plane in case.planes),
+            "asks_after": not case.two_planes and case.given.has_couple and not case.finds,
             "leaves_couple": self.leaves_couple,
+            "place_is_right": self.place_is_right,
             "grade_met": all(case.permitted or ()),
             "has_data": has_data,
             "data": self.data if has_data else "",
@@ -76,7 +108,7 @@ class RotorPage(PlacesPage[SolvedRotor]):
             "components": self.components,
             "compared": self.compared,
             "loads_table": self.loads_table if case.given.bearings else "",
-            "closing_moments": self.closing("V", case.moments) if case.two_planes else "",
+            "closing_moments": self.closing("V", case.moments) if case.two_planes or case.finds else "",
             "closing_unbalances": self.closing("U", case.masses),
             "sheet": lines,
             "quantity": self.quantity,
@@ -86,10 +118,18 @@ class RotorPage(PlacesPage[SolvedRotor]):
         }
 
     @property
+    def place_is_right(self) -> bool:
+        """True if plane B is found to the right of plane A."""
+        places = [self.case.printed[id].at(1) for id in map(rotor_ids.station, "BA") if id in self.case.printed]
+        return len(places) == 2 and bool(places[0] > places[1])
+
+    @property
     def leaves_couple(self) -> bool:
         """True if the moments about the single plane of correction have a resultant."""
         printed, parts = self.case.printed, [rotor_ids.resultant("V", axis) for axis in AXES]
-        return not self.case.two_planes and any(printed[id].at(1) for id in parts if id in printed)
+        return (
+            not self.case.two_planes and not self.case.finds and any(printed[id].at(1) for id in parts if id in printed)
+        )
 
     def closing(self, of: str, masses: Sequence[str]) -> Equation:
         """Return the equation of a plan, whose vectors add up to zero: those of the masses and of the corrections."""
@@ -97,7 +137,9 @@ class RotorPage(PlacesPage[SolvedRotor]):
         if len(vectors) > WORKED:
             vectors = [*vectors[:2], Symbol("…"), vectors[-1]]
         corrections: list[Expression] = [Symbol(of, plane, over="vector") for plane in reversed(self.case.planes)]
-        if of == "V":
+        if of == "V" and self.case.given.sought_masses:
+            corrections = []
+        elif of == "V":
             corrections = [self.case.printed.symbol("rotor.L") * Symbol("U", "B", over="vector")]
         return Equation((Chain((total([*vectors, *corrections]), Number(0.0))),))
 
@@ -108,7 +150,21 @@ class RotorPage(PlacesPage[SolvedRotor]):
         """The table of the given masses."""
         columns = [rotor_ids.mass, rotor_ids.radius, rotor_ids.angle]
         columns += [rotor_ids.station] if self.case.given.has_couple else []
-        return self.by_place("masses", columns, self.case.masses)
+        table = self.by_place("masses", columns, self.case.masses)
+        asked = {str(row): Cell((Text("?"),)) for row in self.case.given.sought_masses}
+        rows = [
+            (row[0], asked.get(place, row[1]), *row[2:])
+            for place, row in zip(self.case.masses, table.rows, strict=True)
+        ]
+        return replace(table, rows=tuple(rows))
+
+    @property
+    def found_masses(self) -> Inlines:
+        """The masses that are sought, with their values."""
+        inlines: list[Inline] = []
+        for place in self.case.given.sought_masses:
+            inlines += [*([Text(", ")] if inlines else []), *self.quantity(rotor_ids.mass(place))]
+        return tuple(inlines)
 
     @property
     def products(self) -> Table:
@@ -127,7 +183,7 @@ class RotorPage(PlacesPage[SolvedRotor]):
         sums = [rotor_ids.resultant(*column) for column in columns]
         rows = [
             ((Text(place),), *(bare(printed.number(rotor_ids.component(*column, place))) for column in columns))
-            for place in self.case.masses
+            for place in self.case.weighed
         ]
         rows.append(((Text("Σ"),), *(bare(printed.number(id)) for id in sums)))
         heads = [(printed.symbol(id), printed.number(id).unit) for id in sums]
@@ -138,16 +194,26 @@ class RotorPage(PlacesPage[SolvedRotor]):
         """The table of the corrections as measured in the plans and as computed from components."""
         printed, words = self.case.printed, self.words["compared"]
         rows: list[tuple[Inlines, ...]] = []
+        found = [
+            (rotor_ids.mass(place), rotor_ids.by_components("m", place)) for place in self.case.given.sought_masses
+        ]
+        rows += (self._compared(*pair) for pair in found)
         for plane in self.case.planes:
             pairs = [(rotor_ids.unbalance(plane), rotor_ids.by_components("U", plane))]
-            if printed[rotor_ids.unbalance(plane)].at(1):
+            if self.case.given.finds_plane and plane == RIGHT:
+                pairs.append((rotor_ids.station(plane), rotor_ids.by_components("z", plane)))
+            if rotor_ids.by_components("alpha", plane) in printed and printed[rotor_ids.unbalance(plane)].at(1):
                 pairs.append((rotor_ids.direction(plane), rotor_ids.by_components("alpha", plane)))
-            for read, computed in pairs:
-                pair = printed.number(read), printed.number(computed)
-                off = Number(pair[0].printed - pair[1].printed, max(pair[0].decimals or 0, 1), pair[0].unit)
-                rows.append(((InlineMath(printed.symbol(read)),), *((Value(one),) for one in (*pair, off))))
+            rows += (self._compared(*pair) for pair in pairs)
         heads = [(Text(one),) for one in words]
         return self.table("compared", (Column(25.0), *(Column(42.0) for _ in range(3))), (heads,), rows)
+
+    def _compared(self, read: str, computed: str) -> tuple[Inlines, ...]:
+        """Return the row of a quantity from the plan, its value by components, and the difference."""
+        printed = self.case.printed
+        pair = printed.number(read), printed.number(computed)
+        off = Number(pair[0].printed - pair[1].printed, max(pair[0].decimals or 0, 1), pair[0].unit)
+        return (InlineMath(printed.symbol(read)),), *((Value(one),) for one in (*pair, off))
 
     @property
     def loads_table(self) -> Table:
@@ -201,7 +267,11 @@ class RotorCase(SolvedRotor):
                     name: self.ledger[family(plane)].at(1)
                     for name, family in (("mass", rotor_ids.mass), ("radius", rotor_ids.radius))
                 }
+            if self.given.finds_plane and plane == RIGHT:
+                entry["place"] = self.ledger[rotor_ids.station(plane)].at(1)
             position["corrections"][plane] = entry
+        if self.given.sought_masses:
+            position["masses"] = {place: self.ledger[rotor_ids.mass(place)].at(1) for place in self.given.sought_masses}
         if self.given.bearings is not None:
             position["bearings"] = {
                 place: {when: np.complex128(self.force_on(when, place)) for when in (BEFORE, AFTER)}

@@ -60,13 +60,13 @@ def placed_masses(case: SolvedRotor) -> list[PlacedMass]:
     """Return the unbalanced masses, then the correction masses if some of their data are known."""
     given, ledger = case.given, case.printed
     placed = [
-        PlacedMass(number, cmath.rect(mass.r.si, mass.angle.si), mass.z.si, MASS)
+        PlacedMass(number, cmath.rect(mass.r.si, mass.angle.si), mass.z.si, CORRECTION if mass.is_sought else MASS)
         for number, mass in zip(case.masses, given.masses, strict=True)
     ]
-    for plane, station in given.planes_by_name.items() if given.correction else ():
+    for plane in case.planes if given.correction else ():
         r, α = (float(ledger[name(plane)].values[0]) for name in (rotor_ids.radius, rotor_ids.direction))
         if ledger[rotor_ids.unbalance(plane)].at(1):
-            placed.append(PlacedMass(Symbol("m", plane), cmath.rect(r, α), station.si, CORRECTION))
+            placed.append(PlacedMass(Symbol("m", plane), cmath.rect(r, α), stations(case)[plane], CORRECTION))
     return placed
 
 
@@ -74,6 +74,8 @@ def stations(case: SolvedRotor) -> dict[str, float]:
     """Return the places of planes and bearings on the axis (m)."""
     given = case.given
     planes = {plane: station.si for plane, station in given.planes_by_name.items()}
+    if given.finds_plane:
+        planes[RIGHT] = float(case.printed[rotor_ids.station(RIGHT)].values[0])
     return planes | {name: station.si for name, station in zip(BEARINGS, given.bearings or (), strict=False)}
 
 
@@ -185,17 +187,22 @@ def _across_axis(case: SolvedRotor, size: FigureSize) -> tuple[Canvas, Chain]:
 
 def moments_plan(case: SolvedRotor, size: FigureSize = IN_REPORT) -> Scene:
     """Draw m r z of all masses, closed by the correction in plane B."""
-    return plan(_polygon(case, "V", case.masses, RIGHT, size))
+    if case.given.sought_masses:
+        first, second = case.given.sought_masses
+        return plan(_polygon(case, "V", case.weighed, (first, second), size))
+    return plan(_polygon(case, "V", case.masses, (RIGHT,), size))
 
 
 def unbalance_plan(case: SolvedRotor, size: FigureSize = IN_REPORT) -> Scene:
     """Draw m r of all masses and of the correction in plane B, closed by the correction in plane A."""
+    if case.given.finds_plane:
+        return plan(_polygon(case, "U", case.masses, (LEFT, RIGHT), size))
     sides = (*case.masses, RIGHT) if case.two_planes else case.masses
-    return plan(_polygon(case, "U", sides, LEFT, size))
+    return plan(_polygon(case, "U", sides, (LEFT,), size))
 
 
-def _polygon(case: SolvedRotor, of: str, sides: Sequence[str], closing: str, size: FigureSize) -> Plan:
-    """Return a plan from the printed values, one side after another from the pole O."""
+def _polygon(case: SolvedRotor, of: str, sides: Sequence[str], closing: Sequence[str], size: FigureSize) -> Plan:
+    """Return a plan from the printed values, one side after another from the pole O; the `closing` ones are found."""
     ledger, family = case.printed, rotor_ids.unbalance if of == "U" else rotor_ids.moment
     μ = ledger.number(rotor_ids.scale(of))
     on_paper = MM * μ.value / size.scale(μ.value) / size.enlarged
@@ -212,8 +219,10 @@ def _polygon(case: SolvedRotor, of: str, sides: Sequence[str], closing: str, siz
         name = Symbol(of, place)
         vectors.append(PlanVector(f"{of}{place}", at, end, "relative" if corrects else "known", name))
         at = end
-    end = at + complex(ledger[rotor_ids.drawn(of, closing)].values[0]) * on_paper
-    vectors.append(PlanVector(f"{of}{closing}", at, end, "found", Symbol(of, closing)))
+    for place in closing:
+        end = at + complex(ledger[rotor_ids.drawn(of, place)].values[0]) * on_paper
+        vectors.append(PlanVector(f"{of}{place}", at, end, "found", Symbol(of, place)))
+        at = end
     symbol = ledger.symbol(rotor_ids.scale(of))
     return Plan(tuple(vectors), (PlanPoint(Symbol("O"), 0j),), scale=size.note(symbol, μ.value, μ.unit))
 
@@ -236,5 +245,5 @@ def plates(case: SolvedRotor) -> Iterator[DrawingPlate]:
         return DrawingPlate(captions[f"figure-{name}"], (), layer, (lettered(draw(case, on_sheet(case, steps))),))
 
     for name, (layer, _) in FIGURES.items():
-        if name != "moments" or case.two_planes:
+        if name != "moments" or case.two_planes or case.finds:
             yield enlargeable(partial(plate, name, layer))

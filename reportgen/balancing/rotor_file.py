@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+import math
+from dataclasses import dataclass
+from typing import Annotated, Any
 
 from pydantic import Field
 
 from reportgen.assignment.common import Part
-from reportgen.assignment.fields import Angle, Coordinate, Length, RotationalSpeed, quantity
+from reportgen.assignment.fields import Angle, Coordinate, Length, Quantity, Reader, RotationalSpeed, quantity
 from reportgen.base.template_access import template_members
 from reportgen.base.units import Given
 
@@ -17,24 +19,48 @@ LEFT, RIGHT = "A", "B"
 """The correction planes; a single plane is the first."""
 BEARINGS = ("C", "D")
 
+FIND = "find"
+
+
+@dataclass(frozen=True, slots=True)
+class Sought(Reader):
+    """A quantity, or `find` for one that balance determines, whose value is nan."""
+
+    given: Quantity
+
+    def read(self, value: object) -> Given:
+        return Given(math.nan, math.nan, self.given.unit, FIND) if value == FIND else self.given.read(value)
+
+    def schema(self) -> dict[str, Any]:
+        return {"anyOf": [{"const": FIND}, self.given.schema()]}
+
+
 PositiveMass = Annotated[Given, quantity("kg", least=1e-6, most=1e6)]
 VibrationGrade = Annotated[Given, quantity("mm/s", least=0.01, most=1e5)]
+
+
+SoughtMass = Annotated[Given, Sought(quantity("kg", least=1e-6, most=1e6))]
+SoughtPlace = Annotated[Given, Sought(quantity("mm", above=-1e5, below=1e5, tiny=1e-4))]
 
 
 class Planes(Part):
     """Places of the correction planes on the axis; without `B` there is one plane."""
 
     A: Coordinate
-    B: Coordinate | None = None
+    B: SoughtPlace | None = None
 
 
 class RotorMass(Part):
-    """An unbalanced mass with its radius, angle and place on the axis."""
+    """An unbalanced mass, or one that is sought, with its radius, angle and place on the axis."""
 
-    m: PositiveMass
+    m: SoughtMass
     r: Length
     angle: Angle
     z: Coordinate = AT_ORIGIN
+
+    @property
+    def is_sought(self) -> bool:
+        return self.m.text == FIND
 
 
 class KnownMass(Part):
@@ -44,10 +70,16 @@ class KnownMass(Part):
     m: PositiveMass | None = None
 
 
+class KnownNearMass(KnownMass):
+    """Known data of the correction mass in plane A; its angle only if the place of plane B is sought."""
+
+    angle: Angle | None = None
+
+
 class KnownCorrection(KnownMass):
     """Known data of the correction masses: the same in every plane, or separate for each."""
 
-    A: KnownMass | None = None
+    A: KnownNearMass | None = None
     B: KnownMass | None = None
 
 
@@ -64,6 +96,16 @@ class Parameters(Part):
     mass: PositiveMass | None = None
 
     @property
+    def finds_plane(self) -> bool:
+        """True if the place of plane B is sought."""
+        return self.planes.B is not None and self.planes.B.text == FIND
+
+    @property
+    def sought_masses(self) -> dict[str, RotorMass]:
+        """The masses that are sought, by their places."""
+        return {str(number): one for number, one in enumerate(self.masses, 1) if one.is_sought}
+
+    @property
     def planes_by_name(self) -> dict[str, Given]:
         """Places of the correction planes, from left to right."""
         far = {} if self.planes.B is None else {RIGHT: self.planes.B}
@@ -76,6 +118,11 @@ class Parameters(Part):
             return {}
         own = {LEFT: self.correction.A, RIGHT: self.correction.B}
         return {plane: own[plane] or self.correction for plane in self.planes_by_name}
+
+    @property
+    def known_angle(self) -> Given | None:
+        """The angle of the correction in plane A, if it is given."""
+        return None if self.correction is None or self.correction.A is None else self.correction.A.angle
 
     @property
     def sought(self) -> frozenset[str]:

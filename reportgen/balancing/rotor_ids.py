@@ -65,6 +65,7 @@ ROWS: tuple[VocabularyRow, ...] = (
         for plane in "AB"
     ),
     VocabularyRow(unbalance, "U", "rotor unbalance", _G, below="{place}", name="rotor unbalance"),
+    VocabularyRow(moment.only(place="B"), "V", "rotor moment", _L, below="B", name="rotor correction moment"),
     VocabularyRow(moment, "V", "rotor moment", _G, below="{place}", name="rotor moment"),
     VocabularyRow(scale.only(of="U"), "μ", "rotor unbalance on paper", _L, below="U"),
     VocabularyRow(scale.only(of="V"), "μ", "rotor moment on paper", _L, below="V"),
@@ -77,6 +78,9 @@ ROWS: tuple[VocabularyRow, ...] = (
     VocabularyRow(resultant.only(of="V"), "V", "rotor moment", _G, below="{axis}", name="rotor resultant"),
     VocabularyRow(by_components.only(of="U"), "U", "rotor unbalance", below="{place}", name="rotor computed"),
     VocabularyRow(by_components.only(of="alpha"), "α", "angle", below="{place}", name="rotor computed direction"),
+    VocabularyRow(by_components.only(of="z"), "z", "rotor length", below="{place}", name="rotor computed place"),
+    VocabularyRow(by_components.only(of="V"), "V", "rotor moment", below="{place}"),
+    VocabularyRow(by_components.only(of="m"), "m", "mass", below="{place}", name="rotor computed mass"),
     VocabularyRow(share.only(when="after"), "U", "rotor unbalance", _F, below=_AXIS, above="′"),
     VocabularyRow(share, "U", "rotor unbalance", _F, below=_AXIS),
     VocabularyRow(

@@ -26,6 +26,16 @@ class SolvedRotor(DesignCase):
         return parameters
 
     @property
+    def finds(self) -> bool:
+        """True if the place of plane B or two masses are sought."""
+        return self.given.finds_plane or bool(self.given.sought_masses)
+
+    @property
+    def weighed(self) -> tuple[str, ...]:
+        """The places of the masses that are given."""
+        return tuple(place for place in self.masses if place not in self.given.sought_masses)
+
+    @property
     def two_planes(self) -> bool:
         return self.given.planes.B is not None
 
@@ -100,6 +110,13 @@ class SolvedRotor(DesignCase):
 
     def _of_planes(self) -> MistakenValues:
         """Yield common mistakes with two planes."""
+        if self.given.finds_plane:
+            yield (
+                rotor_ids.station(RIGHT),
+                "rotor-plane-side",
+                2 * Ref(rotor_ids.station(LEFT)) - Ref(rotor_ids.station(RIGHT)),
+            )
+            return
         if not self.two_planes:
             return
         U, V, α, L = self._U, self._V, self._α, Ref("rotor.L")
@@ -131,14 +148,17 @@ class SolvedRotor(DesignCase):
 
     def _of_sides(self) -> MistakenValues:
         """Yield the mistake of placing the mass on the side of the unbalance, not opposite to it."""
-        for of, plane in (("V", RIGHT), ("U", LEFT)):
+        drawn = ("U", RIGHT) if self.given.finds_plane else ("V", RIGHT)
+        for of, plane in (drawn, *([] if self.given.finds_plane else [("U", LEFT)])):
             yield rotor_ids.direction(plane), "rotor-wrong-side", heading(Ref(rotor_ids.drawn(of, plane))) + PI
 
     def _of_degrees(self) -> MistakenValues:
         """Yield the mistake of entering degrees into a calculator in radian mode, for all masses."""
         α = {place: in_degrees(angle) for place, angle in self._α.items()}
         static, name = resultant(self._U, α), "degrees-for-radians"
-        if self.two_planes:
+        if self.given.finds_plane:
+            yield from ()
+        elif self.two_planes:
             yield from taken(RIGHT, name, -(resultant(self._V, α) / Ref("rotor.L")))
             own = Ref(rotor_ids.unbalance(RIGHT)) * cis(in_degrees(Ref(rotor_ids.direction(RIGHT))))
             yield from taken(LEFT, name, -(static + own))
