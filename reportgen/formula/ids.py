@@ -23,7 +23,7 @@ from functools import cached_property
 PLACES: Mapping[str, str] = {
     # links and the forces between them
     "link": r"\d+",
-    "wheel": r"\d′?|H",
+    "wheel": r"\d+′?|H",
     "number": r"\d+",
     "slider": r"\d|[A-Z][^.]*",
     "group": r"\d[\d,]*",

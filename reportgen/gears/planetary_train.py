@@ -9,7 +9,16 @@ from typing import TYPE_CHECKING, Any
 from reportgen.assignment.checks import of_parameters, one_of
 from reportgen.base.errors import Finding
 from reportgen.gears import train_file
-from reportgen.gears.tooth_numbers import CONDITIONS, DUST, LEAST_OUTER, SCHEMES, Train, efficiency, mended
+from reportgen.gears.tooth_numbers import (
+    CONDITIONS,
+    DUST,
+    LEAST_DIFFERENCE,
+    LEAST_OUTER,
+    SCHEMES,
+    Train,
+    efficiency,
+    mended,
+)
 from reportgen.gears.train_file import undercut_wheels
 
 if TYPE_CHECKING:
@@ -45,14 +54,17 @@ def teeth_of(train: Train) -> str:
     return f"{z.z1}/{z.z2}/{z.z3}" if SCHEMES[train.scheme].single else "/".join(map(str, z))
 
 
-def _few_teeth(given: Parameters) -> Iterator[Finding]:
-    """Yield findings for ordinary wheels with fewer teeth than the least number."""
+def _rows(given: Parameters) -> Iterator[Finding]:
+    """Yield findings for ordinary wheels with too few teeth, and for rows whose wheels cannot mesh."""
     for key, rows in (("before", given.before), ("behind", given.behind)):
         for i, row in enumerate(rows):
             for j, teeth in enumerate(row):
-                if teeth < given.least_teeth:
-                    least = f"≥ {given.least_teeth}"
-                    yield Finding("out-of-range", (*TOP, key, i, j), {"text": str(teeth), "range": least})
+                outer = teeth > 0 or row[1 - j] < 0
+                least = given.least_teeth if outer else row[1 - j] + LEAST_DIFFERENCE
+                if (teeth if outer else -teeth) < least:
+                    ends = f"≥ {least}" if outer else f"≤ −{least}"
+                    yield Finding("out-of-range", (*TOP, key, i, j), {"text": str(teeth), "range": ends})
+                    break
 
 
 def _locked(given: Parameters, train: Train) -> Iterator[Finding]:
@@ -75,7 +87,7 @@ def check(given: Parameters) -> Iterator[Finding]:
     if given.least > given.z.to:
         yield Finding("train-limits", (*TOP, "z", "to"), {"least": str(given.least), "most": str(given.z.to)})
         return
-    if few := list(_few_teeth(given)):
+    if few := list(_rows(given)):
         yield from few
         return
     if given.u is not None and given.u.si in (0, 1):

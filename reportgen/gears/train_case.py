@@ -141,7 +141,11 @@ class TrainPage(DesignPage[SolvedTrain]):
         for i, row in enumerate((*given.before, *given.behind)):
             symbols = Symbol("z", str(FIRST_ROW_WHEEL + 2 * i)), ", ", Symbol("z", str(FIRST_ROW_WHEEL + 2 * i + 1))
             rows.append(
-                (words["row_before" if i < len(given.before) else "row_behind"], symbols, f"{row[0]}, {row[1]}")
+                (
+                    words["row_before" if i < len(given.before) else "row_behind"],
+                    symbols,
+                    ", ".join(map(str, row)).replace("-", "−"),
+                )
             )
         rows.append((words["limits"], Symbol("z"), f"{given.least} … {given.z.to}"))
         rows.append((words["tolerance"], Symbol("Δu"), self.tolerance))

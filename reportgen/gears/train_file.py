@@ -24,7 +24,9 @@ TrainTeeth = Annotated[int, Whole(FEWEST_TEETH, MOST_TEETH)]
 TorqueOfShaft = Annotated[Given, Quantity("N m", Interval(above=0, most=1e9, tiny=1e-6))]
 Module = Annotated[Given, Quantity("mm", Interval(least=0.1, most=100))]
 OfMesh = Annotated[float, Decimal(Interval(above=0.5, most=1))]
-RowPair = Annotated[tuple[TrainTeeth, ...], Field(min_length=2, max_length=2)]
+RowTeeth = Annotated[int, Whole(-MOST_TEETH, MOST_TEETH)]
+RowPair = Annotated[tuple[RowTeeth, ...], Field(min_length=2, max_length=2)]
+"""Teeth of the driving and the driven wheel of a row; an inner wheel has a negative number, as in DIN 3960."""
 Rows = Annotated[tuple[RowPair, ...], Field(max_length=4)]
 
 
@@ -88,7 +90,7 @@ class Parameters(Part):
     @property
     def row_ratio(self) -> float:
         """Return the factor by which the rows of ordinary wheels slow down, as a magnitude."""
-        return math.prod(driven / driver for driver, driven in (*self.before, *self.behind))
+        return math.prod(abs(driven / driver) for driver, driven in (*self.before, *self.behind))
 
     @property
     def wanted(self) -> float:
@@ -127,4 +129,4 @@ def undercut_wheels(given: Parameters, train: Train) -> dict[str, int]:
     """Return the outer wheels of the whole drive that are undercut without profile shift, with their teeth."""
     in_rows = [teeth for row in (*given.before, *given.behind) for teeth in row]
     every = {**train.undercut, **{str(FIRST_ROW_WHEEL + i): teeth for i, teeth in enumerate(in_rows)}}
-    return {wheel: teeth for wheel, teeth in every.items() if teeth < LEAST_OUTER}
+    return {wheel: teeth for wheel, teeth in every.items() if 0 < teeth < LEAST_OUTER}

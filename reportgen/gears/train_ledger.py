@@ -5,7 +5,7 @@ triangles.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -160,8 +160,8 @@ class TrainCalculation:
         else:
             assert given.n_out is not None, "a check asks for one of them"
             out: Expression = q.give("train.n.out", given.n_out.value, Symbol("n", "out", "*"), "speed of rotation")
-            for _, slower in self.rows:
-                out = out * slower
+            for (_, slower), row in zip(self.rows, (*given.before, *given.behind), strict=True):
+                out = out * (slower if min(row) > 0 else size(slower))
             q.define("train.u", n / out, wanted, "ratio")
         q.give("train.k", float(given.k), "k", "count")
         self.m = self.m2 = q.give("train.m", given.m.si, "m", "gear length")
@@ -341,8 +341,20 @@ class TrainCalculation:
         formula = lossless / lost if given.by_carrier else lost / lossless
         η = q.define(train_ids.efficiency("train"), formula, Symbol("η", "H1" if given.by_carrier else "1H"))
         if self.rows:
-            ηr = give("row", given.efficiency.outer, Symbol("η", "r"))
-            q.define(train_ids.efficiency("total"), η * ηr ** len(self.rows), Symbol("η", "tot"))
+            rows = (*given.before, *given.behind)
+            if any(min(row) > 0 for row in rows):
+                give("row", given.efficiency.outer, Symbol("η", "r"))
+            if any(min(row) < 0 for row in rows):
+                give("ring", given.efficiency.inner, Symbol("η", "ri"))
+            total = Product((η, *self._lost_in(rows)))
+            q.define(train_ids.efficiency("total"), total, Symbol("η", "tot"))
+
+    def _lost_in(self, rows: Sequence[tuple[int, ...]]) -> Iterator[Expression]:
+        """Yield the efficiencies of rows of ordinary wheels, those of outer wheels together, if they are known."""
+        for name, inner in (("row", False), ("ring", True)):
+            number, η = sum((min(row) < 0) == inner for row in rows), self.q.find(train_ids.efficiency(name))
+            if η is not None and number:
+                yield η**number if number > 1 else η
 
     # --- torques and power
 
@@ -355,11 +367,8 @@ class TrainCalculation:
         """
         q, given = self.q, self.given
         driver, driven = ("H", "1") if given.by_carrier else ("1", "H")
-        η, ηr = (q.find(train_ids.efficiency(name)) for name in ("train", "row"))
-        before, behind = (
-            self._transmission(given.before, 0, ηr),
-            self._transmission(given.behind, len(given.before), ηr),
-        )
+        η = q.find(train_ids.efficiency("train"))
+        before, behind = self._transmission(given.before, 0), self._transmission(given.behind, len(given.before))
         with q.within(KeyChapter.data):
             M = q.give(train_ids.torque("given"), known.M.si, Symbol("M", "", "*"))
         through = (self.u,) if η is None else (self.u, η)
@@ -394,10 +403,10 @@ class TrainCalculation:
         """Return the ratios among the factors of a torque, which give its sense; efficiencies are positive."""
         return [one for one in factors if isinstance(one, Ref) and one.id in train_ids.row_ratio]
 
-    def _transmission(self, rows: Sequence[tuple[int, ...]], first: int, η: Ref | None) -> tuple[Expression, ...]:
+    def _transmission(self, rows: Sequence[tuple[int, ...]], first: int) -> tuple[Expression, ...]:
         """Return the factors of a torque through rows of ordinary wheels that begin with the row number `first`."""
         ratios = [self.q[train_ids.row_ratio(wheel)] for wheel, _ in self.rows[first : first + len(rows)]]
-        return (*ratios, *([] if η is None or not rows else [η ** len(rows) if len(rows) > 1 else η]))
+        return (*ratios, *self._lost_in(rows))
 
 
 def pole_distance(rate: float, wide: float, larger: float = 1.0) -> float:

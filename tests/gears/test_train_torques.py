@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import random
 from pathlib import Path
 
@@ -26,6 +27,12 @@ TRAINS = {
     "double-inner": "scheme: double-inner, u: 40, tolerance: 0.05, drives: carrier",
     "inner-by-wheel": "scheme: double-inner, u: 0.4, tolerance: 0.05",
 }
+ROWS: tuple[tuple[list[list[int]], list[list[int]]], ...] = (
+    ([], []),
+    ([[19, 40], [20, 30]], [[18, 36]]),
+    ([[18, -72]], [[20, 50], [25, -60], [-90, 30]]),
+)
+"""Rows of ordinary wheels before and behind the train; a negative number is an inner wheel."""
 
 
 def written(folder: Path, text: str) -> Path:
@@ -41,13 +48,11 @@ def test_equilibrium_and_energy(train: str, known: str, tmp_path: Path) -> None:
     """The members are in equilibrium; seen from the carrier, what leaves the meshes is η₀ of what enters them."""
     chance = random.Random(train + known)
     M = chance.randint(5, 400)
-    losses = ("efficiency: {outer: 0.995, inner: 0.998}, ", "")
-    rows = ("before: [[20, 50]], behind: [[18, 36], [20, 30]], ", "before: [[19, 40], [20, 30]], ", "")
-    for loss in losses:
-        for row in rows:
-            case = open_case(
-                written(tmp_path, f"{loss}{row}{TRAINS[train]}, torque: {{M: {M} N m, of: {known}}}"), "en"
-            )
+    for loss in (True, False):
+        for before, behind in ROWS:
+            text = f"{TRAINS[train]}, before: {before}, behind: {behind}, torque: {{M: {M} N m, of: {known}}}"
+            text += ", efficiency: {outer: 0.995, inner: 0.998}" if loss else ""
+            case = open_case(written(tmp_path, text), "en")
             value = {id: float(family.values[0]) for id, family in case.ledger.families.items() if family.values.size}
             ω = {name: value[train_ids.omega(name)] for name in ("1", "H")}
             T = {name: value[train_ids.torque(name)] for name in ("1", "H", "3")}
@@ -60,12 +65,13 @@ def test_equilibrium_and_energy(train: str, known: str, tmp_path: Path) -> None:
             driver, driven = ("H", "1") if "carrier" in TRAINS[train] else ("1", "H")
             assert T[driver] * ω[driver] > 0 > T[driven] * ω[driven]
             # The whole drive, by its ends: what comes in, less the losses, is what goes out.
-            ηr = 0.995 if loss else 1.0
-            before, behind = row.count("], [") + 1 if "before" in row else 0, 2 if "behind" in row else 0
-            before -= 1 if "behind" in row else 0
-            speeds = value["train.n.in"], value["train.n.reached"]
-            first = T[driver] * ω[driver] / ηr**before / (speeds[0] * 3.141592653589793 / 30)
-            last = T[driven] * ω[driven] * ηr**behind / (speeds[1] * 3.141592653589793 / 30)
+            η_before, η_behind = (
+                math.prod((0.998 if min(row) < 0 else 0.995) if loss else 1.0 for row in rows)
+                for rows in (before, behind)
+            )
+            rates = [value[id] * math.pi / 30 for id in ("train.n.in", "train.n.reached")]
+            first = T[driver] * ω[driver] / η_before / rates[0]
+            last = T[driven] * ω[driven] * η_behind / rates[1]
             given = {"driving": first, "driven": abs(last), "fixed": abs(T["3"])}[known]
             assert given == pytest.approx(M, rel=SAME)
             for name, torque in (("in", first), ("out", last)):
@@ -105,6 +111,12 @@ def test_usual_mistakes_have_names(mistake: str, where: str, tmp_path: Path) -> 
     assert {cell.mistake for cell in mark(scheme, sheet).first_errors} == {mistake}
 
 
+def test_an_inner_wheel_of_a_row_keeps_the_sense(tmp_path: Path) -> None:
+    """960 rpm through 1:4 without reversal, then u = 6: 40 rpm in the same sense, as the speed that is asked for."""
+    case = open_case(written(tmp_path, "scheme: single, n_out: 40 rpm, before: [[18, -72]]"), "en")
+    assert [float(case.ledger[id].values[0]) for id in ("train.u", "train.n.reached")] == pytest.approx([6, 40])
+
+
 # --- fewer teeth ------------------------------------------------------------------------------------------
 
 
@@ -131,6 +143,9 @@ def test_undercut_is_a_warning(tmp_path: Path) -> None:
     ("text", "codes"),
     [
         ("scheme: single, u: 6, before: [[14, 30]]", ["out-of-range"]),
+        ("scheme: single, u: 6, before: [[18, 30], [18, -20]]", ["out-of-range"]),
+        ("scheme: single, u: 6, behind: [[-18, -60]]", ["out-of-range"]),
+        ("scheme: single, u: 6, before: [[18, -26]]", []),
         ("scheme: single, u: 6, least_teeth: 7", ["out-of-range"]),
         ("scheme: single, u: 6, torque: {M: 0 N m}", ["out-of-range"]),
         (
