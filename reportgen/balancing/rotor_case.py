@@ -194,10 +194,10 @@ class RotorPage(PlacesPage[SolvedRotor]):
         """The table of the corrections as measured in the plans and as computed from components."""
         printed, words = self.case.printed, self.words["compared"]
         rows: list[tuple[Inlines, ...]] = []
-        found = [
+        sought = [
             (rotor_ids.mass(place), rotor_ids.by_components("m", place)) for place in self.case.given.sought_masses
         ]
-        rows += (self._compared(*pair) for pair in found)
+        rows += (self._compared(*pair) for pair in sought)
         for plane in self.case.planes:
             pairs = [(rotor_ids.unbalance(plane), rotor_ids.by_components("U", plane))]
             if self.case.given.finds_plane and plane == RIGHT:

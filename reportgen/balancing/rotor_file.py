@@ -23,7 +23,7 @@ FIND = "find"
 
 
 @dataclass(frozen=True, slots=True)
-class Sought(Reader):
+class SoughtQuantity(Reader):
     """A quantity, or `find` for one that balance determines, whose value is nan."""
 
     given: Quantity
@@ -39,8 +39,8 @@ PositiveMass = Annotated[Given, quantity("kg", least=1e-6, most=1e6)]
 VibrationGrade = Annotated[Given, quantity("mm/s", least=0.01, most=1e5)]
 
 
-SoughtMass = Annotated[Given, Sought(quantity("kg", least=1e-6, most=1e6))]
-SoughtPlace = Annotated[Given, Sought(quantity("mm", above=-1e5, below=1e5, tiny=1e-4))]
+SoughtMass = Annotated[Given, SoughtQuantity(quantity("kg", least=1e-6, most=1e6))]
+SoughtPlace = Annotated[Given, SoughtQuantity(quantity("mm", above=-1e5, below=1e5, tiny=1e-4))]
 
 
 class Planes(Part):

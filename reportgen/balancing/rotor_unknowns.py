@@ -56,12 +56,12 @@ def unknown_plane(given: Parameters) -> UnknownPlane | None:
 
 def unknown_masses(given: Parameters) -> dict[str, float] | None:
     """Return m r (kg·m, signed) of both unknown masses, by their places; None if their moments have one direction."""
-    (first, one), (second, another) = given.sought_masses.items()
+    (first, near), (second, far) = given.sought_masses.items()
     M = sum(
         (unbalance(mass) * (mass.z.si - given.planes.A.si) for mass in given.masses if not mass.is_sought), start=0j
     )
-    arms = [mass.z.si - given.planes.A.si for mass in (one, another)]
-    e, w = (cmath.rect(1, mass.angle.si) for mass in (one, another))
+    arms = [mass.z.si - given.planes.A.si for mass in (near, far)]
+    e, w = (cmath.rect(1, mass.angle.si) for mass in (near, far))
     if abs(cross(e, w)) <= PARALLEL or not all(arms):
         return None
     return {first: -cross(M, w) / cross(e, w) / arms[0], second: -cross(e, M) / cross(e, w) / arms[1]}
