@@ -144,3 +144,13 @@ def test_printed_lines_recompute(kind: str, tmp_path: Path) -> None:
     lines = trees.lines(trees.every_chain(case.printed), "en")
     assert len(lines) > 100
     assert misses(lines) == []
+
+
+@pytest.mark.parametrize("direction", ["anticlockwise", "clockwise"])
+def test_the_torque_of_a_shaper_by_its_formula(direction: str, tmp_path: Path) -> None:
+    """The crank's weight acts beside its line: the closed formula against the equilibrium of the groups."""
+    lengths = "a: 270 mm, b: 520 mm, l3: 550 mm, l4: 100 mm, H: 420 mm, n: 89 rpm, epsilon1: 5 rad/s2"
+    path = written(tmp_path, "shaper", f"{lengths}, m1: 4 kg, S1: [30 mm, 40 mm], cutting: {{F: 1000 N}}", direction)
+    ledger = open_case(path, "en").ledger
+    scale = float(abs(ledger["M.eq"].values).max())
+    np.testing.assert_allclose(ledger["f.M"].values, ledger["M.eq"].values, rtol=0, atol=SAME * scale)
