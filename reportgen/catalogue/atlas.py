@@ -144,7 +144,7 @@ class AtlasMachine:
             content = self._content(given)
             inner = Draft({**draft.raw, "parameters": content}, {**draft.sections, "parameters": made})
             findings = [self._of_student(finding) for check in linkage.CHECKS for finding in check(inner)]
-        yield from dict.fromkeys(findings_by_place(findings))
+        yield from findings_by_place(findings)
 
     def _of_student(self, finding: Finding) -> Finding:
         """Return a fault of the linkage at the parameter that causes it, or at all if several may."""
@@ -270,12 +270,13 @@ def _machine(kind: str, compiled: CompiledMachine) -> AtlasMachine:
         "Parameters", __base__=AtlasParameters, __doc__=AtlasParameters.__doc__, __module__=f"atlas.{name}", **fields
     )
     loads, masses = (compiled.names_at((key,)) for key in ("loads", "masses"))
-    driver = next((compiled.names_at(("driver", key)) for key in ("epsilon1", "acceleration")), [])
+    accelerations = [name for key in ("epsilon1", "acceleration") for name in compiled.names_at(("driver", key))]
     parameters.machine = kind
     parameters.load_keys = (*dict.fromkeys((*masses, *loads)),)
     parameters.mass_keys = tuple(masses)
     parameters.is_loaded = any(compiled.content.linkage.get(key) for key in ("masses", "loads"))
-    parameters.acceleration_key = ("parameters", *driver[:1])
+    # Without such a parameter no file has this key.
+    parameters.acceleration_key = ("parameters", next(iter(accelerations), "epsilon1"))
     content = compiled.content
     return AtlasMachine(
         kind,

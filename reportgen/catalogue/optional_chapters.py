@@ -31,7 +31,10 @@ def lacking(machine: Machine, given: TopicParameters) -> Iterator[tuple[str, Wan
     present = _outline(machine, now)
     for section in _outline(machine, now | {*off}):
         if section not in present and (sets := _fewest(machine, now, off, section)):
-            yield section, tuple(_groups(sets, given))
+            groups = tuple(_groups(sets, given))
+            # A machine of the atlas may have no parameter for a mass or a load.
+            if all(groups):
+                yield section, groups
 
 
 def _outline(machine: Machine, switches: Collection[str]) -> tuple[str, ...]:

@@ -16,11 +16,13 @@ from reportgen.base.atlas_words import machine_source
 from reportgen.base.field_words import field_words
 from reportgen.base.kinds import kinds, title, titles
 from reportgen.base.template_folders import ATLAS_VARIABLE, atlas_files, languages
+from reportgen.base.topics import topics
 from reportgen.base.words import templates_hash
 from reportgen.base.yaml_source import read_text
 from reportgen.cases import open_case
 from reportgen.catalogue import atlas, linkage
 from reportgen.catalogue.atlas_file import checked
+from reportgen.catalogue.optional_chapters import lacking
 from reportgen.cli import app
 from reportgen.marking.task_paper import task_of
 from reportgen.marking.toleranced_key import key_of
@@ -174,8 +176,30 @@ def test_a_fault_of_a_machine_is_at_its_place_and_stops_no_other(
 
 def test_a_fault_of_the_linkage_is_at_the_parameter_that_causes_it(department: Path, tmp_path: Path) -> None:
     assert "mine.yaml:3:17: error[out-of-range]" in examined("atlas/slotter", "{a: 95 mm}", tmp_path)[0]
-    found = examined("atlas/jaw-crusher", "{a: 70 mm, b: 430 mm, c: 280 mm, d: 340 mm, L: 720 mm}", tmp_path)
-    assert all("mine.yaml:3:" in line for line in found)
+    rods = "RRR, lengths: [170 mm, h], side: left"
+    text = SLOTTER.replace("RPR", rods)
+    (department / "rocker.yaml").write_text(text, "utf-8")
+    assert examined("atlas/rocker", "{a: 45 mm}", tmp_path) == []
+    (found,) = examined("atlas/rocker", "{a: 90 mm, h: 100 mm}", tmp_path)
+    assert "mine.yaml:3:27: error[no-assembly]" in found
+
+
+def test_a_topic_is_added_to_a_machine_that_is_loaded_by_its_defaults(department: Path, tmp_path: Path) -> None:
+    mass = "masses: [{link: 3, at: E, G: 20 N}]"
+    (department / "heavy.yaml").write_text(SLOTTER.replace("  points:", f"  {mass}\n  points:"), "utf-8")
+    assert examined("atlas/heavy", "{flywheel: {delta: 1/50}, balancing: {}}", tmp_path) == []
+    machine = catalogue.module("atlas/heavy").machine(catalogue.load(tmp_path / "mine.yaml"))
+    assert machine.topics.keys() == {"flywheel", "balancing"}
+    assert "flywheel-without-loads" in examined("atlas/slotter", "{flywheel: {delta: 1/50}}", tmp_path)[0]
+
+
+def test_a_machine_without_masses_lacks_only_chapters_that_a_file_can_add(department: Path, tmp_path: Path) -> None:
+    examined("atlas/slotter", "{}", tmp_path)
+    assignment = catalogue.load(tmp_path / "mine.yaml")
+    machine = catalogue.module("atlas/slotter").machine(assignment)
+    wanted = [group for _, groups in lacking(machine, assignment.parameters) for group in groups]
+    assert wanted
+    assert all(group and group[0][1] in topics() for group in wanted)
 
 
 def test_the_form_names_the_file_of_a_faulty_machine_and_still_takes_changes(department: Path, tmp_path: Path) -> None:
