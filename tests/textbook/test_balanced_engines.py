@@ -1,10 +1,13 @@
-"""Published engines: greatest and least forces of V twins, by the books' factor A₂ = λ.
+"""Published engines: greatest and least forces of V twins by the books' factor A₂ = λ, cylinders that differ.
 
-Sources: Khurmi, Gupta, Theory of Machines, chapter 22 (a V twin of 60°); books take the first term of each factor,
-which the exact one exceeds by λ²/4 of itself.
+Sources: Khurmi, Gupta, Theory of Machines, chapter 22 (V twins, four cylinders); books take the first term of each
+factor, which the exact one exceeds by λ²/4 of itself.
 """
 
 from __future__ import annotations
+
+import cmath
+import math
 
 import pytest
 
@@ -49,3 +52,22 @@ def test_the_first_order_of_a_right_angled_v_turns_at_constant_size() -> None:
     λ, exact = sheet.si("orders.lambda"), sheet.si(orders_ids.factor(2))
     # √2 m r² ω²/l, the book's 836 N.
     assert sheet.si(orders_ids.force(2)) * λ / exact == pytest.approx(836, abs=0.5)
+
+
+def test_four_cylinders_with_masses_of_their_own() -> None:
+    """Khurmi: 50, 60 and 50 kg in cylinders 1, 2 and 4, at 400, 200 and 200 mm from the third; primary balance.
+
+    The third mass is 60 kg. About its plane the couples are in a triangle of the sides 20, 12 and 10.
+    """
+    second = math.acos((10**2 - 20**2 - 12**2) / (2 * 20 * 12))
+    fourth = cmath.phase(20 + 12 * cmath.rect(1, second))
+    third = cmath.phase(-(50 + cmath.rect(60, second) + cmath.rect(50, fourth)))
+    exact = [0.0, *(math.degrees(angle) % 360 for angle in (second, third, fourth))]
+    # Read off the drawing: 160°, 227° and 26°.
+    assert exact == pytest.approx([0, 160, 227, 26], abs=3)
+    places = zip(exact, (-400, -200, 0, 200), (50, 60, 60, 50), strict=True)
+    cylinders = [{"crank": f"{θ:.12g} deg", "at": f"{z} mm", "m3": f"{m} kg"} for θ, z, m in places]
+    sheet = calculation(r="150 mm", l="600 mm", n="300 rpm", m3="50 kg", cylinders=cylinders)
+    for id in (orders_ids.force(1), orders_ids.couple(1), "orders.U", "orders.U.M"):
+        assert sheet.families[id].at(1) == 0
+    assert sheet.families[orders_ids.force(2)].at(1) > 0
