@@ -196,7 +196,7 @@ def typed_at_random(browser: Browser, file: Path, seed: int) -> None:
     with form_alone(file, lambda: chance.uniform(0, longest)) as server:
         browser.show(server.address, still=True)
         model, log = Model(texts(file)), list[str]()
-        play(Typist(browser), file, model, KEYS, seed, 10, log)
+        play(Typist(browser), server, model, KEYS, seed, log)
         assert {where: text for where, text in texts(file).items() if text} == {
             where: text for where, text in model.values.items() if text
         }, log

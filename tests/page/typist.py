@@ -187,6 +187,15 @@ class Model:
                 self.undone.clear()
         self.typing = None
 
+    def pause(self, there: str) -> None:
+        """What is typed, or what was typed before it in the same field, has been written after a rest without a key."""
+        typing = self.typing
+        if typing is not None and self.values.get(typing[0], "") != there:
+            assert there in TEXTS, "half a text is never written between two keys"
+            self.typing = typing[0], there
+            self.commit()
+            self.typing = None if typing[1] == there else typing
+
     def step(self, back: bool) -> None:
         """Undo or redo, unless another program has written since."""
         steps, others = (self.done, self.undone) if back else (self.undone, self.done)
@@ -203,10 +212,13 @@ class Model:
 TEXTS = "145 mm", "525 mm", "85", "0.25", "60 rpm", "1/3.6", "1e3 N", "abc", "x: y # z"
 
 
-def play(typist: Typist, file: Path, model: Model, keys: list[str], seed: int, count: int, log: list[str]) -> None:
-    """Do `count` things at random at the form and in the model, and log what was done, for a failure to show."""
+def play(typist: Typist, server: Server, model: Model, keys: list[str], seed: int, log: list[str]) -> None:
+    """Do ten things at random at the form and in the model, and log what was done, for a failure to show."""
+    session = server.session
+    assert isinstance(session, EditSession)
+    file, lock = session.path, session.lock
     chance = random.Random(seed)
-    for _ in range(count):
+    for _ in range(10):
         act = chance.choice(["field", "field", "tab", "tab", "back", "enter", "undo", "redo", "pause", "editor"])
         text = chance.choice(TEXTS)
         log.append(act)
@@ -241,7 +253,12 @@ def play(typist: Typist, file: Path, model: Model, keys: list[str], seed: int, c
                     continue
                 # Which of two programs writes first is theirs to say; here the form has written what it was sent.
                 until(lambda: typist.browser.run(SENT))
-                edit_beside(file, where, text := chance.choice(["31 mm", "32 mm", "33 mm"]))
+                text = chance.choice(["31 mm", "32 mm", "33 mm"])
+                with lock:
+                    # With a change beside it, what was written after a rest is a step of its own.
+                    if model.typing is not None and model.values.get(where) != text:
+                        model.pause(value(file, model.typing[0]))
+                    edit_beside(file, where, text)
                 model.values[where] = text
                 typist.shows(key, text)
         log[-1] += f" {typist.focused()} {text}"
