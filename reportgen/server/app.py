@@ -167,6 +167,8 @@ def application(site: Site) -> Starlette:
         handed.begin(handed.lay_out_all(site))
         for row in site.store.uploads(state="queued"):
             handed.read_soon(site, row)
+        if site.prepares:
+            handed.begin(handed.prepare_all(site))
         yield
         site.queue.close()
         site.database.close()

@@ -26,6 +26,7 @@ from reportgen.base.files import put_files, put_set
 from reportgen.classes.roster import HANDED_IN, PERSONAL
 from reportgen.server import work_calls
 from reportgen.server.links import Person
+from reportgen.server.marking_queue import PREPARING
 from reportgen.server.store import Store
 from reportgen.workbook import write_csv
 
@@ -59,6 +60,16 @@ def begin(task: Any) -> None:
     running = asyncio.get_running_loop().create_task(task)
     _running.add(running)
     running.add_done_callback(_running.discard)
+
+
+async def prepare_all(site: Site) -> None:
+    """Make all sheets and keys one after another, where uploads are read: each of these waits for one key at most."""
+    for folder, row in (await run_in_threadpool(site.store.people)).items():
+        if row.role == "student":
+            try:
+                await site.queue.run(work_calls.prepare, site.folder, folder, kind=PREPARING)
+            except Exception as error:
+                site.log.error("%s not prepared: %s", folder, type(error).__name__, exc_info=error)
 
 
 def read_soon(site: Site, row: Row[Any]) -> None:

@@ -20,6 +20,8 @@ from reportgen.base.units import Language
 from reportgen.server import work_calls
 
 Result = TypeVar("Result")
+PREPARING = "preparing"
+"""Kind of work that nobody waits for: it is done where uploads are read, and is not counted."""
 NICENESS = 5
 """How much these processes stand back behind that of the pages."""
 
@@ -67,6 +69,7 @@ class MarkingQueue:
         self._language = language
         self._workers = workers or max(os.cpu_count() or 1, 1)
         self._pools: dict[str, ProcessPoolExecutor] = {}
+        self._closed = False
         self.waiting = 0
 
     def warm(self) -> None:
@@ -85,22 +88,28 @@ class MarkingQueue:
     async def run(self, function: Callable[..., Result], *arguments: Any, kind: str = "short") -> Result:
         """Return the result of a function in another process; a process that dies is replaced, and its call repeated
         once."""
-        self.waiting += 1
+        counted = kind != PREPARING
+        kind = kind if counted else "reading"
+        self.waiting += counted
         try:
             for last in (False, True):
                 pool = self._pool(kind)
                 try:
                     return await asyncio.wrap_future(pool.submit(partial(function, *arguments)))
                 except BrokenProcessPool:
+                    if self._closed:
+                        # The process was ended with the server.
+                        raise asyncio.CancelledError from None
                     if self._pools.get(kind) is pool:
                         del self._pools[kind]
                     if last:
                         raise
             raise AssertionError("the last round returns or raises")
         finally:
-            self.waiting -= 1
+            self.waiting -= counted
 
     def close(self) -> None:
+        self._closed = True
         for pool in self._pools.values():
             processes = list((pool._processes or {}).values())
             pool.shutdown(wait=False, cancel_futures=True)

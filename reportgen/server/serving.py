@@ -109,6 +109,7 @@ def run(path: Path, base_url: str, host: str, port: int, tell: Callable[[str], N
     """
     with _alone(path):
         site = open_site(path, base_url)
+        site.prepares = True
         tell(site.link(DESK))
         _serve(site, host, port)
 

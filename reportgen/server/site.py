@@ -43,6 +43,8 @@ class Site:
     database: Database = field(init=False)
     marking: bool = False
     """True while the class is being marked."""
+    prepares: bool = False
+    """True if all sheets and keys are made at the start, so that nobody waits for them later."""
 
     def __post_init__(self) -> None:
         self.database = Database(self.folder.server)

@@ -74,8 +74,11 @@ class Opened:
 
 
 _opened: OrderedDict[tuple[str, str], Opened] = OrderedDict()
-KEPT = 40
-"""Number of prepared assignments that a process keeps."""
+_keys: OrderedDict[tuple[str, str], tuple[Key, Policy]] = OrderedDict()
+KEPT, KEPT_KEYS = 40, 1000
+"""Numbers of prepared assignments, and of keys alone, that a process keeps."""
+FEW = 20
+"""Number of sheets that are made with their variants; of a larger class the server makes them while it runs."""
 
 
 def opened(folder: ClassFolder, student: str) -> Opened:
@@ -87,9 +90,30 @@ def opened(folder: ClassFolder, student: str) -> Opened:
     case, policy = open_case(folder.assignment(student)), folder.policy()
     scheme = marking_scheme(case, replace(policy, guard=False))
     _opened[name] = made = Opened(scheme, policy.ask.on_paper(scheme.key), policy)
-    if len(_opened) > KEPT:
-        _opened.popitem(last=False)
+    _keys[name] = scheme.key, policy
+    for kept, most in ((_opened, KEPT), (_keys, KEPT_KEYS)):
+        if len(kept) > most:
+            kept.popitem(last=False)
     return made
+
+
+def key_for_reading(folder: ClassFolder, student: str) -> tuple[Key, Policy]:
+    """Return the key by which a student's files are read, and the policy."""
+    name = str(folder.assignment(student)), folder.content(student)
+    if name not in _keys:
+        opened(folder, student)
+    return _keys[name]
+
+
+def prepare(folder: ClassFolder, student: str) -> None:
+    """Make the sheet of a student if there is none, and keep the key for the first upload."""
+    try:
+        key_for_reading(folder, student)
+        if folder.sheet(student) is None:
+            make_sheet(folder, student)
+    except ReportgenError:
+        # Whoever opens the sheet gets the reason.
+        return
 
 
 # --- sheets -----------------------------------------------------------------------------------------
@@ -205,13 +229,12 @@ def read_upload(folder: ClassFolder, student: str, file: Path) -> tuple[str, int
     suffix, language = file.suffix.lower(), folder.language
     if suffix in file_kinds.NOT_READ or suffix not in {*file_kinds.OWN, *SHEETS}:
         return "kept", 0, []
-    made = opened(folder, student)
-    key = made.scheme.key
+    key, policy = key_for_reading(folder, student)
     handed = Handed(file)
     if suffix in file_kinds.OWN:
         case = open_case(folder.assignment(student))
         plans = wanted_plans(case, key, ()) if suffix == file_kinds.DRAWING else None
-        (_, reading), *_ = read_own([(handed, made.policy.ask.of(key), plans)], language)
+        (_, reading), *_ = read_own([(handed, policy.ask.of(key), plans)], language)
         if isinstance(reading, list):
             return "refused", 0, [problem.message for problem in reading]
         own = submission([reading], language)
@@ -232,13 +255,14 @@ def read_upload(folder: ClassFolder, student: str, file: Path) -> tuple[str, int
 
 
 def draw(folder: ClassFolder, redraw: Sequence[str] = (), drop: Sequence[str] = ()) -> list[str]:
-    """Draw the variants as `variants` does, and make the sheets; return remarks."""
+    """Draw the variants as `variants` does, and make the sheets of a few students; return remarks."""
     drawn = make_variants(
         folder.spec, folder.roster, folder.variants, language=folder.language, redraw=redraw, drop=drop
     )
-    for file in drawn.files:
-        student = file.drawn.student.folder
-        if folder.sheet(student) is None:
+    students = [file.drawn.student.folder for file in drawn.files]
+    lacking = [student for student in students if folder.sheet(student) is None]
+    if len(lacking) <= FEW:
+        for student in lacking:
             make_sheet(folder, student)
     return list(drawn.remarks)
 

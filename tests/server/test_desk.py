@@ -21,9 +21,11 @@ from starlette.concurrency import run_in_threadpool
 
 from reportgen.classes.variants import make_variants
 from reportgen.server import database as databases
-from reportgen.server import downloads, handed
+from reportgen.server import downloads, handed, work
+from reportgen.server.class_folder import ClassFolder
 from reportgen.server.handed import put_handed_roster
 from reportgen.server.links import DESK
+from reportgen.server.serving import make_class
 from reportgen.server.site import Site
 from reportgen.server.store import TypedCell, Window
 from tests.server.served import ADDRESS, POLICY, ROSTER, Served
@@ -354,6 +356,25 @@ def test_an_upload_that_the_disk_did_not_take_is_read_later(served: Served, monk
     assert student.json("/me/state")["uploads"][0]["state"] == "kept"
     assert (served.folder.handed / "S1" / "00001-photo.jpg").read_bytes() == b"a photo"
     assert locked == [True, True]
+
+
+def test_sheets_of_a_large_class_are_made_while_it_is_served(
+    made_class: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(work, "FEW", 2)
+    beside = made_class.with_name("class-files")
+    make_class(tmp_path / "class", *(beside / name for name in ("spec.yaml", "roster.csv", "policy.yaml")), "en")
+    folder = ClassFolder(tmp_path / "class")
+    assert [folder.sheet(student) for student in ("S1", "S2", "S3")] == [None] * 3
+    with Served.of(folder.path) as served:
+        # Nobody has to wait for the others.
+        assert served.person("S2").places
+        asyncio.run(handed.prepare_all(served.site))
+        assert all(folder.sheet(student) for student in ("S1", "S2", "S3"))
+        monkeypatch.setattr(work, "open_case", None)
+        upload = folder.path / "answers.csv"
+        upload.write_bytes(b"Assignment,S3\r\nid,Value\r\nv.B,1.5\r\n")
+        assert work.read_upload(folder, "S3", upload)[:2] == ("read", 1), "its key is there"
 
 
 def test_papers_that_take_long_come_by_themselves(served: Served, monkeypatch: pytest.MonkeyPatch) -> None:
