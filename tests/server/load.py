@@ -21,7 +21,7 @@ from pathlib import Path
 from typing import Any
 from urllib.parse import urlsplit
 
-from tests.server.running import HOST, free_port, running, token_in
+from tests.server.running import HOST, PATIENCE, free_port, running, token_in
 from tests.server.served import SPEC
 
 READ_WITHIN = 120.0
@@ -185,6 +185,13 @@ def make(folder: Path, count: int) -> None:
     make_class(folder, beside / "spec.yaml", beside / "roster.csv", None, "en")
 
 
+def prepared(folder: Path, count: int) -> None:
+    """Wait until the server has made the sheets: students get their links later than that."""
+    end = time.monotonic() + 10 * PATIENCE
+    while len(list((folder / "server" / "sheets").glob("*.json"))) < count and time.monotonic() < end:
+        time.sleep(0.5)
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("folder", type=Path)
@@ -198,6 +205,7 @@ def main() -> int:
         make(order.folder, order.students)
     port = free_port()
     with running(order.folder, port) as server:
+        prepared(order.folder, order.students)
         figures = asyncio.run(work(server.links()[: order.students], port, order))
         print(*figures.lines(), sep="\n")
         print(f"server: {memory(server.process.pid)} MB, {processor(server.process.pid):.1f} s of processor")
