@@ -119,6 +119,23 @@ def test_what_is_typed_after_a_refusal_is_sent(browser: Browser, file: Path) -> 
 
 
 @proof
+def test_a_value_typed_while_the_server_was_away_is_sent_when_it_is_back(browser: Browser, file: Path) -> None:
+    """The server reports itself to the page when the connection is there again; the file is as it was."""
+    with form_alone(file) as server:
+        browser.show(server.address, still=True)
+        browser.run("window.kept = fetch; window.fetch = () => Promise.reject(new TypeError('no connection'))")
+        typist = Typist(browser)
+        typist.replace("r", "160 mm")
+        typist.press("Enter")
+        until(lambda: browser.run("return document.querySelector('#refused').textContent"))
+        browser.run("window.fetch = window.kept")
+        server.session._publish(busy=True)
+        typist.idle()
+        assert value(file, ("parameters", "r")) == "160 mm"
+        assert not browser.run("return document.querySelector('#refused').textContent")
+
+
+@proof
 def test_a_value_typed_after_a_pull_is_neither_changed_nor_undone_with_it(browser: Browser, tmp_path: Path) -> None:
     """The last answer to the pull comes while one types."""
     with hand_on(browser, "four-bar-01.yaml", tmp_path) as hand:

@@ -423,7 +423,8 @@ const fields = (() => {
   // --- what another tab or an editor has written
 
   document.addEventListener("news", async ({ detail }) => {
-    if (!detail.changed) return;
+    // A server that is there again may not have heard of the last change.
+    if (!detail.changed && !lost) return;
     // The answer to a change of one's own says what it has changed.
     await work;
     // What was refused was so in an older file; a machine made anew of the same values is none.
