@@ -86,7 +86,9 @@ def _from_the_end(case: SolvedEngine, size: FigureSize) -> tuple[Canvas, Chain]:
     usual = nice_up(max(extent_of(case)) * MM / HIGH)
     per = MM * size.per_unit(usual)
     reach = (given.radius + given.l.si) * per + OUT
-    items: list[Item] = [Line(-reach / 3 + 0j, reach / 3 + 0j, style.AXIS)]
+    pins = _pins(case).items()
+    circles = (Circle(0j, r * per, style.THIN) for r in sorted({r for (_, r), _ in pins}))
+    items: list[Item] = [*circles, Line(-reach / 3 + 0j, reach / 3 + 0j, style.AXIS)]
     requests: list[Request] = []
     for bank, place in banks(case).items():
         along = UP * cmath.rect(1, bank)
@@ -98,13 +100,11 @@ def _from_the_end(case: SolvedEngine, size: FigureSize) -> tuple[Canvas, Chain]:
     if 0.0 not in banks(case):
         items.append(Line(0j, reach * UP / 2, style.AXIS))
     requests.append(label(reach * UP if 0.0 in banks(case) else reach * UP / 2, Symbol("x"), gap=0.8))
-    items += (Circle(0j, r * per, style.THIN) for r in sorted({r for _, r in _pins(case)}))
-    for (angle, r), names in _pins(case).items():
+    for (angle, r), names in pins:
         pin = UP * cmath.rect(r * per, angle)
         items += [Line(0j, pin, style.HEAVY), style.joint(pin)]
         requests.append(label(pin, *joined(names), gap=1.6, prefer=(cmath.phase(pin),)))
     items += style.pivot(0j)
-    pins = _pins(case).items()
     facts = [fact("crank", tuple(names), direction(UP * cmath.rect(1, turn))) for (turn, _), names in pins]
     facts += (fact("bank", direction(UP * cmath.rect(1, bank))) for bank in banks(case))
     return settle(Canvas(tuple(items), tuple(requests), tuple(facts))), size.note(Symbol("μ", "r"), usual)
