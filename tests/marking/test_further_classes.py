@@ -1,4 +1,7 @@
-"""Classes with what few files give: single instants, friction.  Drawn, set as tasks, filled in, marked; slips named."""
+"""Classes with what few files give: single instants, friction, a machine of the atlas.
+
+They are drawn, set as tasks, filled in and marked; mistakes are named.
+"""
 
 from __future__ import annotations
 
@@ -57,6 +60,17 @@ parameters:
    force: {by: stroke, unit: N, s: [0, 1], inward: [1000, 1000], outward: [-500, -500]},
    friction: {pins: {A: {rho: 2.5 mm}, B: {f: [0.08, 0.1, 0.12], r: 20 mm}}, sliders: {3: [0.25, 0.3]}}}
 """
+SLOTTER = """
+kind: atlas/slotter-lever
+variant: 2026-E
+salt: slotter
+report: {language: vi, extent: short, worked_positions: [2]}
+positions: {count: 6}
+parameters:
+  {O1A: {from: 60 mm, to: 80 mm, step: 5 mm}, O1O2: [150 mm, 160 mm], n: {from: 40 rpm, to: 80 rpm, step: 10 rpm},
+   F: {from: 800 N, to: 1200 N, step: 100 N}}
+"""
+SLIDING = (("a.A3A.k", "no-coriolis"), ("m.3", "weight-for-mass"), ("omega.1", "rpm-for-radians"))
 RUBBING = (
     *(("friction.rho.B", "radius-for-circle"), ("friction.omega.12", "one-link")),
     ("friction.phi.3", "coefficient-for-angle"),
@@ -109,7 +123,12 @@ def test_mistakes_of_a_class_at_its_instants_are_told(tmp_path: Path) -> None:
 @proof
 @pytest.mark.parametrize(
     ("spec", "count", "made", "asked"),
-    [(FOUR_BAR, 12, REVERSED, "spring.l.1"), (SHAPER, 3, (), "face.05.1"), (FRICTION, 12, RUBBING, "friction.M.12")],
+    [
+        (FOUR_BAR, 12, REVERSED, "spring.l.1"),
+        (SHAPER, 3, (), "face.05.1"),
+        (FRICTION, 12, RUBBING, "friction.M.12"),
+        (SLOTTER, 12, SLIDING, "a.A3A.k"),
+    ],
 )
 def test_a_class_goes_from_its_variants_to_its_marks(
     tmp_path: Path, spec: str, count: int, made: Sequence[tuple[str, str]], asked: str
