@@ -20,7 +20,7 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
-from reportgen.base.atlas_words import over_linkage
+from reportgen.base.atlas_words import machine_source, over_linkage
 from reportgen.base.errors import AssignmentError, Fault, Level, Location, Problem, TemplateError, Where
 from reportgen.base.placeholders import FILLS, filled, gaps, plain_gaps
 from reportgen.base.template_folders import (
@@ -71,12 +71,18 @@ TEMPLATES = "REPORTGEN_TEMPLATES"
 def templates_hash() -> str:
     """Return the SHA-256 of the names and contents of all templates, those of schools and own machines included."""
     root, own, digest = templates(), named_school(), sha256()
-    others = (*(school_files(own) if own else ()), *filter(is_own_machine, atlas_files().values()))
-    for path in (*sorted(path for path in root.rglob("*") if path.is_file()), *others):
+    for path in (*sorted(path for path in root.rglob("*") if path.is_file()), *(school_files(own) if own else ())):
         name = path.relative_to(root if path.is_relative_to(root) else path.parent).as_posix()
-        for part in (name.encode(), path.read_bytes()):
-            digest.update(len(part).to_bytes(8, "big") + part)
+        _add(digest, name.encode(), path.read_bytes())
+    for kind, machine in atlas_files().items():
+        if is_own_machine(machine):
+            _add(digest, kind.encode(), machine_source(machine).text.encode())
     return digest.hexdigest()
+
+
+def _add(digest: Any, *parts: bytes) -> None:
+    for part in parts:
+        digest.update(len(part).to_bytes(8, "big") + part)
 
 
 def named_school() -> Path | None:

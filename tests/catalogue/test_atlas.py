@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import pickle
 import re
 from functools import partial
@@ -304,4 +305,8 @@ def test_the_commands_take_a_folder_of_machines(
 def test_a_changed_machine_makes_its_reports_anew(department: Path) -> None:
     before = templates_hash()
     (department / "slotter.yaml").write_text(SLOTTER.replace("50 mm", "51 mm"), "utf-8")
-    assert templates_hash() != before
+    changed = templates_hash()
+    assert changed != before
+    (department / "folder.yaml").mkdir()
+    os.mkfifo(department / "pipe.yaml")
+    assert templates_hash() != changed
