@@ -163,6 +163,7 @@ def test_what_is_typed_after_pasting_is_undone_by_itself(browser: Browser, file:
 
 @proof
 def test_pasted_cells_take_the_place_of_what_was_begun(browser: Browser, file: Path) -> None:
+    """What is typed after them is undone by itself."""
     with form_alone(file) as server:
         browser.show(server.address, still=True)
         browser.run("document.querySelector('.tabled').open = true; document.querySelector(arguments[0]).focus()", CELL)
@@ -173,3 +174,11 @@ def test_pasted_cells_take_the_place_of_what_was_begun(browser: Browser, file: P
         typist.idle()
         assert value(file, ("indicator", "intake")).split(", ")[1:3] == ["-2.4", "-2.3"]
         assert browser.run("return document.querySelector('.conflict') === null")
+        pasted = file.read_bytes()
+        typist.press("End")
+        typist.type("1")
+        typist.press("Tab")
+        typist.idle()
+        assert value(file, ("indicator", "intake")).split(", ")[1] == "-2.41"
+        browser.run("document.getElementById('undo').click()")
+        until(lambda: file.read_bytes() == pasted)

@@ -357,7 +357,6 @@ const fields = (() => {
       cell.setRangeText(items, cell.selectionStart, cell.selectionEnd, "end");
       type(cell);
       commit(cell);
-      drafts.begin();
     }
     // The cells take the place of what was begun to be typed in the first one.
     if (cell.closest(".tabled") && drafts.isOpen(key)) drafts.drop(key);
@@ -366,6 +365,7 @@ const fields = (() => {
       drafts.typed(...change);
       drafts.commit(change[0]);
     }
+    drafts.begin();
     push(...settings(drafts.due()), { make: () => { if (said) notices.say("refused", said); show(); return null; } });
   };
   const reach = (field) => {
