@@ -128,9 +128,17 @@ class EditSession(LiveSession):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        self.preview = Preview(self.pages, lambda making: self._publish(making=making))
+        self.preview = Preview(self.pages, self._tell_making)
         self.maker = Maker(self.products, self.preview.hear, self.preview.source)
         self.pulls = Pulls(self.path, self._resident_machine, self._nodes)
+
+    def _tell_making(self, making: Mapping[str, Any]) -> bool:
+        """Publish the state of a product; return False for pages of a PDF whose file has been read again since."""
+        with self.changed:
+            if "preview" in making and not self.revision.making:
+                return False
+            self._publish(making=making)
+            return True
 
     def close(self) -> None:
         self.maker.close()

@@ -28,16 +28,19 @@ def no_pages(source: str) -> tuple[Sequence[bytes], Sequence[int]]:
 
 @dataclass
 class Preview:
-    """The pages of the PDF that was made last; `tell` is called with each message about products."""
+    """The pages of the PDF that was made last.
+
+    `tell` is called with each message about products. It returns False for pages that nobody wants any more.
+    """
 
     pages: Typesetting
-    tell: Callable[[Message], None]
+    tell: Callable[[Message], object]
     build: int = 0
     """Number of the PDF whose pages are shown."""
     _drawn: Sequence[bytes] = ()
     _hashes: Sequence[str] = ()
     _heard: Message = field(default_factory=dict)
-    _lock: threading.Lock = field(default_factory=threading.Lock)
+    drawing: threading.Lock = field(default_factory=threading.Lock)
 
     def __post_init__(self) -> None:
         self._folder = Path(tempfile.mkdtemp(prefix="preview-"))
@@ -55,7 +58,7 @@ class Preview:
             threading.Thread(target=self._draw, args=(message,), daemon=True).start()
 
     def _draw(self, message: Message) -> None:
-        with self._lock, suppress(OSError, ReportgenError):
+        with self.drawing, suppress(OSError, ReportgenError):
             source = self.source.read_text(encoding="utf-8")
             self.source.unlink()
             drawn, headings = self.pages(source)
@@ -63,11 +66,12 @@ class Preview:
                 return
             hashes = [sha256(page).hexdigest() for page in drawn]
             changed = first_changed(self._hashes, hashes)
+            before = self._drawn, self._hashes, self.build
             self._drawn, self._hashes, self.build = drawn, hashes, self.build + 1
             preview = {"build": self.build, "pages": len(drawn), "changed": changed, "headings": headings}
             # A later product has a message of its own.
-            if self._heard is message:
-                self.tell({**message, "preview": preview})
+            if self._heard is not message or self.tell({**message, "preview": preview}) is False:
+                self._drawn, self._hashes, self.build = before
 
     def page(self, name: str) -> bytes | None:
         """Return a page by its name, `page-2-17.svg` for page 17 of the second PDF; None for any other name."""

@@ -16,6 +16,7 @@ from reportgen.cases import open_case, opener
 from reportgen.cli.student import _products
 from reportgen.document import Section
 from reportgen.page.background_builds import Maker
+from reportgen.page.edit_session import EditSession
 from reportgen.page.file_watch import edited
 from reportgen.page.html import CONTENTS_LEVEL
 from reportgen.page.preview_pages import Preview, first_changed
@@ -53,6 +54,28 @@ def test_the_first_changed_page_is_found_after_each_build(tmp_path: Path) -> Non
     preview.close()
     assert not preview.source.parent.exists()
     assert first_changed("abc", "abcd") == 4
+
+
+def test_pages_of_an_older_file_are_not_told(tmp_path: Path) -> None:
+    """The file is read again while they are drawn."""
+
+    def opens() -> Any:
+        raise OSError
+
+    def pages(source: str) -> tuple[list[bytes], list[int]]:
+        if source == "late":
+            session.renew()
+        return [source.encode()], [1]
+
+    session = EditSession(opens, "en", path=tmp_path / "a.yaml", pages=pages)
+    for number, text in enumerate(("in time", "late"), start=1):
+        session.preview.source.write_text(text, encoding="utf-8")
+        session.preview.hear({"product": "pdf", "state": "done"})
+        until(lambda: not session.preview.source.exists() and not session.preview.drawing.locked())
+        assert ("preview" in session.revision.making) == (number == 1)
+    assert session.revision.making == {}
+    assert session.made("page-1-1.svg") == b"in time", "the pages that are shown can still be turned"
+    session.close()
 
 
 def test_the_pages_are_those_of_the_pdf(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
