@@ -6,29 +6,27 @@ a comment (`# G3: 200 N`) is uncommented; otherwise a new key is added in the st
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterator
 from itertools import pairwise
 from typing import Any
 
 from reportgen.base.errors import Where
+from reportgen.base.yaml_comments import remarks, uncommented
 from reportgen.base.yaml_places import (
     behind,
+    column_of,
     content_end,
     ends_in_braces,
     entry_start,
     is_flow,
     line_end,
     line_start,
+    more_in_brackets,
     newline,
     read_nodes,
-    unmarked,
     without_in_braces,
 )
-from reportgen.base.yaml_source import MappingNode, Node, Scalar, SequenceNode, plain, read_text
+from reportgen.base.yaml_source import MappingNode, Node, Scalar, SequenceNode, Span, plain, read_text
 from reportgen.base.yaml_values import at, entry_text, flow, item_lines, path_text, quoted
-
-_REMARK = re.compile(r"#[ \t]?(?P<entry>(?P<key>[^\s:#][^:#]*):(?:[ \t].*)?)$")
 
 SHOWN = 60
 """Largest number of typed characters that a message repeats."""
@@ -60,8 +58,8 @@ def with_value(text: str, where: Where, value: Node) -> str:
         raise EditError("no_list", place=path_text(where))
     if isinstance(above, MappingNode):
         key = str(rest[0])
-        if (uncommented := _from_remark(text, top, above, rest, value)) is not None:
-            return uncommented
+        if (returned := _from_remark(text, top, where[: -len(rest)], rest, value)) is not None:
+            return returned
         return _checked(_with_entry(text, above, key, inner), where, value, top)
     # An empty value or a single value becomes a table.
     return _checked(_replaced(text, above, _within(rest, value)), where, value, top)
@@ -81,27 +79,47 @@ def without(text: str, where: Where) -> str:
     if is_flow(text, above):
         return _agreeing(without_in_braces(text, above, where[-1]), wanted)
     begins, ends = line_start(text, start), line_end(text, content_end(text, node.span[1]))
-    if isinstance(above, SequenceNode):
-        # Comments below an item that are deeper than its dash belong to it.
-        ends = behind(text, node.span[1], _dash(text, above))
+    if isinstance(above, SequenceNode) or text.count("\n", start, node.span[1]):
+        # Comments below an item that are deeper than its dash belong to it, and those in a table to that.
+        ends = behind(text, node.span[1], column_of(text, above.span[0]))
     head = text[begins:start]
     if isinstance(above, SequenceNode) or text.count("\n", start, node.span[1]) or head.strip():
         if len(above.items if isinstance(above, SequenceNode) else above.entries) == 1:
-            # Nothing is left: an empty list says so, an empty table is an empty key.
-            empty = " []" if isinstance(above, SequenceNode) else ""
-            key_end = text.rindex(":", 0, above.span[0]) + 1
-            end = content_end(text, above.span[1])
-            if isinstance(above, SequenceNode):
-                end = max(end, content_end(text, ends))
-            return _agreeing(text[:key_end] + empty + text[end:], wanted)
+            return _agreeing(_emptied(text, top, where, (begins, ends)), wanted)
         if head.strip(" -"):
             raise EditError("same_line", place=path_text(where))
         if head.strip() and isinstance(above, MappingNode):
             # The first key of an item in block form follows its dash.
-            following = above.entries[1][0].span[0]
-            return _agreeing(text[:start] + text[following:], wanted)
+            return _agreeing(text[:start] + _moved_up(text, above, ends), wanted)
         return _agreeing(text[:begins] + text[ends:], wanted)
     return _agreeing(f"{text[:start]}# {text[start:]}", wanted)
+
+
+def _emptied(text: str, top: MappingNode, where: Where, lines: Span) -> str:
+    """Return the text without the `lines` of an only entry: an empty list says so, an empty table is an empty key."""
+    begins, ends = lines
+    above, outer = at(top, where[:-1]), at(top, where[:-2])
+    if above is top:
+        return text[:begins] + text[ends:]
+    entry = outer.find(where[-2]) if isinstance(outer, MappingNode) else None
+    if entry is None:
+        raise EditError("same_line", place=path_text(where))
+    colon = text.index(":", entry[0].span[1]) + 1
+    empty = " []" if isinstance(above, SequenceNode) else ""
+    return text[:colon] + empty + text[colon:begins] + text[ends:]
+
+
+def _moved_up(text: str, table: MappingNode, ends: int) -> str:
+    """Return the text from the second entry of a table on, with what is between it and `ends`, where the first one
+    ends, after it.
+    """
+    key, value = table.entries[1]
+    until = line_end(text, content_end(text, max(value.span[1], key.span[1])))
+    between = text[ends : line_start(text, key.span[0])]
+    if not between.strip():
+        return text[key.span[0] :]
+    entry = text[key.span[0] : until]
+    return entry + ("" if entry.endswith("\n") else newline(text)) + between + text[until:]
 
 
 def exchanged(text: str, where: Where, first: int) -> str:
@@ -112,7 +130,7 @@ def exchanged(text: str, where: Where, first: int) -> str:
         raise EditError("nothing", place=path_text((*where, first + 1)))
     (a, b), (c, d) = (item.span for item in listed.items[first : first + 2])
     if not is_flow(text, listed):
-        b, d = (content_end(text, behind(text, end, _dash(text, listed))) for end in (b, d))
+        b, d = (content_end(text, behind(text, end, column_of(text, listed.span[0]))) for end in (b, d))
     changed = text[:a] + text[c:d] + text[b:c] + text[a:b] + text[d:]
     wanted = plain(top)
     items = _get(wanted, where)
@@ -159,81 +177,66 @@ def _within(keys: Where, value: Node) -> Node:
 # --- changes --------------------------------------------------------------------------------------------
 
 
-def _replaced(text: str, node: Node, value: Node) -> str:
+def replacement(text: str, node: Node, value: Node) -> tuple[int, int, str]:
+    """Return begin and end of the text of a node, and the text of another value in its place."""
     start, end = node.span[0], content_end(text, node.span[1])
     in_marks = isinstance(node, Scalar) and node.quoted
     new = quoted(value.text, in_marks or value.quoted) if isinstance(value, Scalar) and not value.null else flow(value)
     # An empty value is right behind its colon.
     gap = " " if start == end and new and not text[start - 1].isspace() else ""
-    return text[:start] + gap + new + text[end:]
+    return start, end, gap + new
+
+
+def _replaced(text: str, node: Node, value: Node) -> str:
+    start, end, new = replacement(text, node, value)
+    return text[:start] + new + text[end:]
 
 
 def _with_item(text: str, listed: SequenceNode, value: Node) -> str:
     if is_flow(text, listed):
         return _with_more(text, listed, flow(value))
-    dash = _dash(text, listed)
+    dash = column_of(text, listed.span[0])
     end = behind(text, listed.span[1], dash)
     head = text[:end] if text[:end].endswith("\n") else text[:end] + newline(text)
     lines = "".join(f"{line}{newline(text)}" for line in item_lines(value, dash))
     return head + lines + text[end:]
 
 
-def _dash(text: str, listed: SequenceNode) -> int:
-    """Return the column of the dashes of a list in block form."""
-    return listed.span[0] - line_start(text, listed.span[0])
-
-
 def _with_more(text: str, above: MappingNode | SequenceNode, entry: str) -> str:
-    """Return the text with one more entry in brackets, directly behind the last one: a comment may follow that."""
-    end = ends_in_braces(above)
-    return f"{text[:end]}{', ' if end > above.span[0] + 1 else ''}{entry}{text[end:]}"
+    """Return the text with one more entry in brackets, behind the last one and the comment in its line."""
+    end, closing = ends_in_braces(above), above.span[1] - 1
+    if end == above.span[0] + 1:
+        return text[:end] + entry + text[end:]
+    last = above.items[-1] if isinstance(above, SequenceNode) else above.entries[-1][0]
+    before, after = more_in_brackets(text, last.span[0], text[end:closing])
+    return text[:end] + before + entry + after + text[closing:]
 
 
 def _with_entry(text: str, table: MappingNode, key: str, value: Node) -> str:
     """Return the text with one more entry of a table, behind its last one."""
     if is_flow(text, table):
         return _with_more(text, table, f"{quoted(key)}: {flow(value)}")
-    depth = table.span[0] - line_start(text, table.span[0])
+    depth = column_of(text, table.span[0])
     end = behind(text, table.span[1], depth)
     lines = entry_text(Scalar(key, value.location), value, depth).replace("\n", newline(text))
     head = text[:end] if text[:end].endswith("\n") else text[:end] + newline(text)
     return head + lines + text[end:]
 
 
-def _remarks(text: str, top: MappingNode, table: MappingNode) -> Iterator[tuple[int, re.Match[str]]]:
-    """Yield the comments between and directly after the entries of a table that look like entries, in the same
-    column.
-    """
-    depth = table.span[0] - line_start(text, table.span[0])
-    index = 0 if table is top else line_start(text, table.span[0])
-    while index < len(text):
-        end = line_end(text, index)
-        line = text[index:end].rstrip("\r\n")
-        bare = line.lstrip()
-        if index >= table.span[1] and bare and not bare.startswith("#"):
-            return
-        if len(line) - len(bare) == depth and (match := _REMARK.match(bare)):
-            yield index + depth, match
-        index = end
-
-
-def _from_remark(text: str, top: MappingNode, table: MappingNode, rest: Where, value: Node) -> str | None:
-    """Return the text with a value at a key that its table has as a comment; None if there is no such comment."""
-    if is_flow(text, table):
+def _from_remark(text: str, top: MappingNode, above: Where, rest: Where, value: Node) -> str | None:
+    """Return the text with a value at a key that the table `above` has as a comment; None if it has no such comment."""
+    table = at(top, above)
+    if not isinstance(table, MappingNode) or is_flow(text, table):
         return None
-    for start, match in _remarks(text, top, table):
+    for remark in remarks(text, above):
         # What is set aside for another choice is left to that; the choice is a key of the table.
-        if match["key"] != rest[0] or table.find(unmarked(match[0])[1].partition(":")[0]):
+        if remark.key != rest[0] or table.find(remark.mark.partition(":")[0]):
             continue
         try:
-            entry = with_value(match["entry"], rest, value)
+            changed = with_value(uncommented(text, remark), (*above, *rest), value)
         except EditError:
             continue
-        if [key.text for key, _ in _top(entry).entries] != [rest[0]]:
-            continue
-        changed = text[:start] + entry + text[start + len(match[0]) :]
-        source = read_nodes(changed)
-        if isinstance(source.top, MappingNode) and _only_more(plain(top), plain(source.top)):
+        if _only_more(plain(top), plain(_top(changed))):
             return changed
     return None
 

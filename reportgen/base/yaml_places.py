@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 
-from reportgen.base.yaml_source import MappingNode, Node, SequenceNode, Source, read_own, read_text
+from reportgen.base.yaml_source import MappingNode, Node, SequenceNode, Source, Span, read_own, read_text
 
 BRACKETS = 2000
 """A text with fewer brackets is not set in itself deeper than any reader bears."""
@@ -36,6 +37,24 @@ def line_end(text: str, index: int) -> int:
     """Return the index at which the next line begins."""
     end = text.find("\n", index)
     return len(text) if end < 0 else end + 1
+
+
+def lines_from(text: str, start: int) -> Iterator[Span]:
+    """Yield begin and end of each line from the start of one on."""
+    while start < len(text):
+        end = line_end(text, start)
+        yield start, end
+        start = end
+
+
+def column(text: str, start: int, end: int) -> int:
+    """Return the number of blanks with which a line begins."""
+    return end - start - len(text[start:end].lstrip(" "))
+
+
+def column_of(text: str, index: int) -> int:
+    """Return the column of an index, from 0."""
+    return index - line_start(text, index)
 
 
 def content_end(text: str, index: int) -> int:
@@ -72,6 +91,19 @@ def ends_in_braces(above: MappingNode | SequenceNode) -> int:
     return max(key.span[1], value.span[1]) if key and value else above.span[0] + 1
 
 
+def more_in_brackets(text: str, last: int, tail: str) -> list[str]:
+    """Return what comes before one more entry in brackets, and after it, instead of the `tail` after the last one.
+
+    The last entry begins at the index `last`. A comment after it stays in its line.
+    """
+    if "#" not in tail:
+        return [", ", tail]
+    cut = tail.rindex("\n")
+    body = tail[:cut].removesuffix("\r")
+    comma = "," if without_comma(body) == body else ""
+    return [f"{comma}{body}{newline(text)}{' ' * column_of(text, last)}", tail[len(body) :]]
+
+
 def without_in_braces(text: str, above: MappingNode | SequenceNode, step: str | int) -> str:
     """Return the text without an entry in brackets and without the comma beside it."""
     if isinstance(above, MappingNode):
@@ -87,16 +119,16 @@ def without_in_braces(text: str, above: MappingNode | SequenceNode, step: str | 
         # Comments stay; the comma that goes is that after the entry, or that before the last one.
         left, right = text[before:start], text[end:after]
         if index + 1 < len(spans):
-            right = _without_comma(right)
+            right = without_comma(right)
         elif index:
-            left = _without_comma(left)
+            left = without_comma(left)
         return text[:before] + left + right + text[after:]
     if index + 1 < len(spans):
         return text[:start] + text[after:]
     return text[:before] + text[closing:]
 
 
-def _without_comma(between: str) -> str:
+def without_comma(between: str) -> str:
     """Return the text between two entries without its comma, which is no comma of a comment."""
     comma = re.match(r"(?:#[^\n]*|[^#,])*", between)
     end = comma.end() if comma else 0

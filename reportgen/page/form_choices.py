@@ -15,9 +15,10 @@ from reportgen.assignment.common import PARTS, Kind
 from reportgen.assignment.fields import UNIT_KEY
 from reportgen.assignment.schema import Schema, alternatives, file_schema, places, tables_at
 from reportgen.base.errors import Location, Where
+from reportgen.base.yaml_comments import CommentedEntry, remarks
 from reportgen.base.yaml_edit import EditError, with_value
 from reportgen.base.yaml_places import content_end, is_flow, line_end, line_start, newline, read_nodes
-from reportgen.base.yaml_remarks import CommentedEntry, remarks, restored, set_aside
+from reportgen.base.yaml_remarks import restored, set_aside
 from reportgen.base.yaml_source import MappingNode, Node, Scalar, SequenceNode
 from reportgen.base.yaml_values import at, entry_text, path_text
 from reportgen.page.form_fields import tag_of

@@ -11,9 +11,10 @@ from reportgen import catalogue
 from reportgen.base.errors import Location, Where
 from reportgen.base.kinds import program_kinds
 from reportgen.base.template_folders import REFERENCE
-from reportgen.base.yaml_edit import exchanged, with_value, without
-from reportgen.base.yaml_remarks import renumbered
-from reportgen.base.yaml_source import MappingNode, Node, Scalar, SequenceNode, plain, read_own, read_text
+from reportgen.base.yaml_edit import exchanged, with_value
+from reportgen.base.yaml_lists import with_items
+from reportgen.base.yaml_remarks import removed, renumbered
+from reportgen.base.yaml_source import MappingNode, Node, Scalar, SequenceNode, read_own, read_text
 from reportgen.base.yaml_values import at
 from reportgen.page.form_choices import with_choice, with_instead
 from reportgen.page.typed_values import value_node
@@ -29,9 +30,12 @@ def changed_text(text: str, operation: str, where: Where, asked: Mapping[str, An
         case "set":
             value, as_items = str(asked["value"]), bool(asked.get("list"))
             chosen = None if as_items else with_choice(text, where, value)
-            return _with_new(text, where, value_node(text, where, value, as_items)) if chosen is None else chosen
+            if chosen is not None:
+                return chosen
+            new = value_node(text, where, value, as_items)
+            return with_items(text, where, new) if isinstance(new, SequenceNode) else with_value(text, where, new)
         case "remove":
-            return _removed(text, where)
+            return removed(text, where)
         case "instead":
             return with_instead(text, where, str(asked["key"]), str(asked.get("value", "")))
         case "add" if "name" in asked:
@@ -40,32 +44,14 @@ def changed_text(text: str, operation: str, where: Where, asked: Mapping[str, An
             listed = at(read_text(text).top, where)
             count = len(listed.items) if isinstance(listed, SequenceNode) else 0
             if listed is None or (isinstance(listed, Scalar) and listed.null):
-                return with_value(text, where, SequenceNode((_item(asked),), HERE))
+                # What was set aside from the items of an earlier list belongs to none of this one.
+                return renumbered(with_value(text, where, SequenceNode((_item(asked),), HERE)), where, lambda _: None)
             return with_value(text, (*where, count), _item(asked))
         case "move":
             first = int(asked["first"])
             numbers = {first: first + 1, first + 1: first}
             return renumbered(exchanged(text, where, first), where, lambda number: numbers.get(number, number))
     raise ValueError(operation)
-
-
-def _with_new(text: str, where: Where, value: Node) -> str:
-    """Return the text with a value at a place; of a list of as many items as before, only those that differ change."""
-    old = at(read_text(text).top, where)
-    if not isinstance(old, SequenceNode) or not isinstance(value, SequenceNode) or len(old.items) != len(value.items):
-        return with_value(text, where, value)
-    for index, (before, after) in enumerate(zip(old.items, value.items, strict=True)):
-        if plain(before) != plain(after):
-            text = _with_new(text, (*where, index), after)
-    return text
-
-
-def _removed(text: str, where: Where) -> str:
-    """Return the text without a key or an item, and without what is set aside from that item."""
-    changed, gone = without(text, where), where[-1]
-    if not isinstance(gone, int):
-        return changed
-    return renumbered(changed, where[:-1], lambda number: None if number == gone else number - (number > gone))
 
 
 def _item(asked: Mapping[str, Any]) -> Node:

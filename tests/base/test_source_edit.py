@@ -83,6 +83,17 @@ def test_only_a_choice_of_its_table_keeps_a_comment_aside() -> None:
     assert said(text, ("a", "F"), "7 N") == text.replace("by: b\n", "by: b\n  F: 7 N\n")
 
 
+def test_a_comment_of_several_lines_is_one_entry() -> None:
+    text = "a:\n  b: 1\n  # cutting:   # of the tool\n  #   F: 1 N\n  #   free: 0.05\n"
+    changed = "a:\n  b: 1\n  cutting:   # of the tool\n    F: 2 N\n    free: 0.05\n"
+    assert said(text, ("a", "cutting", "F"), "2 N") == changed
+
+
+def test_long_comments_that_are_no_entry_are_read_soon() -> None:
+    text = "a:\n  b: 1\n  # rows: [\n" + "  #   [1, 2\n" * 2000
+    assert "\n  c: 2\n" in said(text, ("a", "c"), "2")
+
+
 def test_remarks_that_are_set_deeper_stay_with_their_table() -> None:
     """A new section, a new item stand behind them; a remark of the whole file, and a blank line, is no table's."""
     text = "parameters:\n  a: 270 mm\n\n  # G3: 200 N\n\n# end\n"
@@ -105,11 +116,22 @@ def test_comments_of_an_item_go_with_it() -> None:
     assert without("a:\n  - {b: 1}\n    # c: 2\n# end\n", ("a", 0)) == "a: []\n# end\n"
 
 
+def test_what_is_set_aside_in_a_table_goes_with_it() -> None:
+    """Comments beside the key stay, and the one of a key above the last item that goes."""
+    text = "a:\n  # of b\n  b:  # two\n    by: x\n    # c: 2  # by: y\n  # of d\n  d: 1\n"
+    assert without(text, ("a", "b")) == "a:\n  # of b\n  # of d\n  d: 1\n"
+    assert without(text.replace("  # of d\n  d: 1\n", ""), ("a", "b")) == "a:\n  # of b\n"
+    text = "a:  # parts: two\n  # the first\n  - b: 1\nc: 2\n"
+    assert without(text, ("a", 0)) == "a: []  # parts: two\n  # the first\nc: 2\n"
+    text = "a:\n- by: x  # how\n  # c: 2  # by: y\n  d:\n  - 1\n  e: 3\n"
+    assert without(text, ("a", 0, "by")) == "a:\n- d:\n  - 1\n  # c: 2  # by: y\n  e: 3\n"
+
+
 def test_entries_in_braces_keep_the_comments_between_them() -> None:
     text = "a: {b: 1,  # one\n    c: 2,  # two\n    d: 3  # three\n  }\n"
     assert without(text, ("a", "c")) == "a: {b: 1,  # one\n      # two\n    d: 3  # three\n  }\n"
     assert without(text, ("a", "d")) == "a: {b: 1,  # one\n    c: 2  # two\n      # three\n  }\n"
-    assert said(text, ("a", "e"), "4") == text.replace("d: 3", "d: 3, e: 4")
+    assert said(text, ("a", "e"), "4") == text.replace("d: 3  # three", "d: 3,  # three\n    e: 4")
     assert said("a: {b: 1, }\n", ("a", "c"), "2") == "a: {b: 1, c: 2, }\n"
 
 

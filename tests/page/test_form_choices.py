@@ -149,6 +149,22 @@ def test_what_is_set_aside_in_brackets_follows_its_item(
     assert "# " not in changed[changed.rindex("loads: ") :], "nothing is left aside"
 
 
+@pytest.mark.parametrize("outer", [False, True])
+def test_what_is_set_aside_in_brackets_goes_with_its_key(tmp_path: Path, outer: bool) -> None:
+    """Of a list in a line of its own all becomes a comment; a new list in its place has nothing set aside."""
+    table = f" {{R: 1 m, {TWO_LOADS.strip()}}}\n" if outer else f"\n  R: 1 m\n{TWO_LOADS}"
+    edited = session(tmp_path / "a.yaml", f"kind: slider-crank\nparameters:{table}")
+    for index in range(2):
+        choose(edited, ("parameters", "loads", index, "by"), "angle")
+    edited.edit({"op": "remove", "where": ["parameters", "loads"]})
+    edited.edit({"op": "add", "where": ["parameters", "loads"]})
+    edited.edit({"op": "set", "where": ["parameters", "loads", 0, "by"], "value": "constant"})
+    changed = edited.path.read_text(encoding="utf-8")
+    content: object = plain(read_text(changed).top)  # type: ignore[arg-type]
+    assert content["parameters"]["loads"] == [{"by": "constant"}]  # type: ignore[index]
+    assert "100 N" not in changed
+
+
 # --- keys with the same meaning -----------------------------------------------------------------------
 
 

@@ -35,7 +35,7 @@ def session(file: Path) -> EditSession:
         ("[ [0, 1],  # low\n  [2, 3] ]", "[0, 1], [2, 4]", "[ [0, 1],  # low\n  [2, 4] ]"),
         ("\n  - 1  # low\n  - 2  # high", "1, 3", "\n  - 1  # low\n  - 3  # high"),
         ("[ 1,  2 ]", "1, 2", "[ 1,  2 ]"),
-        ("[ 1,  2 ]", "1, 2, 3", "[1, 2, 3]"),
+        ("[ 1,  2 ]", "1, 2, 3", "[ 1,  2, 3 ]"),
     ],
 )
 def test_only_the_items_that_differ_are_written(old: str, typed: str, new: str) -> None:
