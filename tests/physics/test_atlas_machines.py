@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+import random
+from pathlib import Path
 
 import agreement
 import linkages as made
@@ -12,7 +14,9 @@ import pytest
 
 from reportgen import api, catalogue
 from reportgen.base.arrays import Complexes, Floats
+from reportgen.base.atlas_words import machine_source
 from reportgen.base.template_folders import atlas_files
+from reportgen.base.yaml_source import plain, read_text
 from reportgen.machine.analysis import Analysis
 from reportgen.machine.kinematics import Motion, solve_motion
 
@@ -99,6 +103,19 @@ def test_a_machine_moves_and_is_loaded_as_the_witness_says(name: str) -> None:
     agreement.prove(found, bodies, joints, keys, poses, loads)
     # The driver works: the loads oppose the motion over the cycle.
     assert float(np.mean(found.torque)) * found.machine.turn > 0
+
+
+@pytest.mark.parametrize("name", MACHINES)
+def test_a_machine_turns_at_the_corners_of_its_bounds(name: str) -> None:
+    """All parameters are at an end of their bounds, in some of the combinations."""
+    kind, chance = f"atlas/{name}", random.Random(name)
+    top = machine_source(atlas_files()[kind]).top
+    assert top is not None
+    bounds = plain(top)["parameters"]
+    for _ in range(6):
+        corner = {key: about[chance.choice(("least", "most"))] for key, about in bounds.items()}
+        text = f"kind: {kind}\nparameters: {{{', '.join(f'{key}: {value}' for key, value in corner.items())}}}\n"
+        assert catalogue.understood(read_text(text), Path("x.yaml"))[1] == [], corner
 
 
 # --- figures set for the machines -----------------------------------------------------------------
