@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
+from functools import reduce
 
 import numpy as np
 
@@ -122,6 +123,10 @@ def branch(number: Value, *branches: Value) -> Value:
 EDGE = 1e-9
 """An angle (rad) or a share that is closer than this below the end of an interval belongs to the next one."""
 
+NEWTON_STEPS = 40
+LONGEST_STEP = 0.05
+"""Longest step of Newton's method on an angle (rad), so that it stays at the zero that it began at."""
+
 
 def around(angle: Value) -> Value:
     """Return the angle (rad, same shape) within one turn, from 0; an angle just below a full turn counts as 0."""
@@ -216,6 +221,51 @@ def stepped(speed: Value, torque: Value, inertia: Value, steps: Value) -> Value:
     return np.stack(at, axis=-1)
 
 
+def line_area(start: Value, stop: Value, *nodes: Value) -> Value:
+    """Return the area under straight lines between two places: ∫ y dx from `start` to `stop`.
+
+    The nodes x₀, y₀, x₁, y₁, … have places in ascending order; two nodes at one place are a jump. The unit is the
+    product of those of x (rad) and y; the shape is the broadcast one.
+    """
+    area = np.zeros(np.broadcast_shapes(np.shape(start), np.shape(stop)))
+    for x0, y0, x1, y1 in zip(nodes[::2], nodes[1::2], nodes[2::2], nodes[3::2], strict=False):
+        low, high = np.clip(start, x0, x1), np.clip(stop, x0, x1)
+        middle = (low + high) / 2 - x0
+        width = np.where(np.asarray(x1) > x0, np.asarray(x1) - x0, 1.0)
+        area = area + (high - low) * (y0 + (y1 - np.asarray(y0)) * middle / width)
+    return area
+
+
+def line_at(place: Value, *nodes: Value) -> Value:
+    """Return the height of straight lines at a place, between the nodes x₀, y₀, x₁, y₁, … as in `line_area`.
+
+    At a jump it is the height after it; beyond the last node it is that of the last node.
+    """
+    height: Value = np.zeros(np.shape(place)) + nodes[-1]
+    for x0, y0, x1, y1 in reversed(list(zip(nodes[::2], nodes[1::2], nodes[2::2], nodes[3::2], strict=False))):
+        width = np.where(np.asarray(x1) > x0, np.asarray(x1) - x0, 1.0)
+        inside = (np.asarray(place) < x1) & (np.asarray(x1) > x0)
+        height = np.where(inside, y0 + (y1 - np.asarray(y0)) * (np.asarray(place) - x0) / width, height)
+    return height
+
+
+def crossing(near: Value, level: Value, slope: Value, *waves: Value) -> Value:
+    """Return the angle (rad) next to `near` at which level + slope·φ + Σ(a cos nφ + b sin nφ) is zero.
+
+    The waves are n₁, a₁, b₁, n₂, … The level has the unit of a and b, the slope that unit per radian; the shape is the
+    broadcast one. Newton's method, with steps of at most `LONGEST_STEP`.
+    """
+    φ = np.asarray(near, float)
+    for _ in range(NEWTON_STEPS):
+        value, rate = level + slope * φ, slope + np.zeros_like(φ)
+        for n, a, b in zip(waves[::3], waves[1::3], waves[2::3], strict=True):
+            value = value + a * np.cos(n * φ) + b * np.sin(n * φ)
+            rate = rate + n * (b * np.cos(n * φ) - a * np.sin(n * φ))
+        with np.errstate(all="ignore"):
+            φ = φ - np.clip(value / rate, -LONGEST_STEP, LONGEST_STEP)
+    return φ
+
+
 def heading(vector: Value) -> Value:
     """Return a vector's direction from +x in [0, 2π) (rad, same shape).
 
@@ -266,14 +316,17 @@ FUNCTIONS: Mapping[str, Callable[..., Value]] = {
     "circle_line": circle_line,
     "circle_circle": constructions.circle_circle,
     "turned": lambda vector: 1j * vector,
-    "min": np.minimum,
-    "max": np.maximum,
+    "min": lambda *values: reduce(np.minimum, values),
+    "max": lambda *values: reduce(np.maximum, values),
     "mean": mean,
     "level": level,
     "excess": excess,
     "along": along,
     "summed": summed,
     "stepped": stepped,
+    "line_area": line_area,
+    "line_at": line_at,
+    "crossing": crossing,
     "highest": lambda value: np.max(value, axis=-1, keepdims=True),
     "lowest": lambda value: np.min(value, axis=-1, keepdims=True),
     "quotient": quotient,
