@@ -11,8 +11,8 @@ from reportgen.flywheel import turning_ids as names
 from reportgen.flywheel.turning_diagram import SAME_ANGLE, TurningDiagram
 from reportgen.flywheel.turning_file import Parameters, Torques
 from reportgen.flywheel.turning_torques import CLOSE, DRIVING, RESISTING, diagram_of, mean_of, steady_run
-from reportgen.formula import PI, Expression, Number, Operand, Ref, Symbol, call, cos, minus, plus, sin
-from reportgen.formula.calculation import Calculation
+from reportgen.formula import NOTHING, PI, Expression, Number, Operand, Ref, Symbol, call, cos, minus, plus, sin
+from reportgen.formula.calculation import ZERO, Calculation
 from reportgen.formula.vocabulary import KeyChapter
 
 STRAIGHT = Number(180.0, unit="°")
@@ -21,6 +21,14 @@ STRAIGHT = Number(180.0, unit="°")
 def multiple(order: float, angle: Ref) -> Expression:
     """Return a whole or half multiple of an angle, as it is printed."""
     return angle if order == 1 else Number(order) * angle
+
+
+def extreme_points(energies: Sequence[float]) -> tuple[int, int]:
+    """Return the numbers of the points with the greatest and the least energy; of equal ones, the first."""
+    slack = ZERO * max(map(abs, energies))
+    high, low = max(energies), min(energies)
+    first = next(k for k, one in enumerate(energies, start=1) if one >= high - slack)
+    return first, next(k for k, one in enumerate(energies, start=1) if one <= low + slack)
 
 
 class TurningCalculation:
@@ -152,7 +160,6 @@ class TurningCalculation:
         if len(sides) == 1 and sides[0][1].nodes:
             side, torques = sides[0]
             return self._interpolated(side, torques, at)
-        level, slope = Number(0.0), Number(0.0)
         constant: list[Expression] = []
         slopes: list[Expression] = []
         waves: list[Operand] = []
@@ -169,8 +176,7 @@ class TurningCalculation:
                 slopes.append(self._signed(side, steep))
                 at_zero = self._signed(side, y0 - steep * x0)
                 constant.append(at_zero + (q[names.MEAN] if side == RESISTING else -q[names.MEAN]))
-        level = plus(*constant) if constant else level
-        slope = plus(*slopes) if slopes else slope
+        level, slope = (plus(*terms) if terms else NOTHING for terms in (constant, slopes))
         return call("crossing", at, level, slope, *waves)
 
     def _row_at(self, torques: Torques, at: float) -> int:
@@ -261,8 +267,8 @@ class TurningCalculation:
             E.append(q.define(names.energy(number), E[-1] + area if number > 2 else area, scale=size))
             q.set_out("energies", E[-1])
         values = [q.si(one) for one in E]
-        for bound, extreme in (("max", max), ("min", min)):
-            at = E[values.index(extreme(values))]
+        for bound, number in zip(("max", "min"), extreme_points(values), strict=True):
+            at = E[number - 1]
             every = call(bound, *E)
             q.set_out("extremes", q.define(names.extreme(bound), every, scale=size, written=at))
         ΔE = q.define(names.RANGE, q[names.extreme("max")] - q[names.extreme("min")])

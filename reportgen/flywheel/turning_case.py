@@ -15,6 +15,7 @@ from reportgen.drawing import Scene
 from reportgen.drawing.animation import Animation
 from reportgen.drawing.plates import DrawingPlate
 from reportgen.flywheel import turning_drawings, turning_ids, turning_motion
+from reportgen.flywheel.turning_calculation import extreme_points
 from reportgen.flywheel.turning_file import Torques
 from reportgen.flywheel.turning_solution import SolvedTurning
 from reportgen.flywheel.turning_torques import DRIVING, RESISTING
@@ -49,10 +50,11 @@ class TurningPage(DesignPage[SolvedTurning]):
 
     def names(self) -> dict[str, Any]:
         case, written, given = self.case, self.case.printed, self.case.given
-        lines = dict.fromkeys(LINES, list[str]())
+        lines: dict[str, list[str]] = {name: [] for name in LINES}
         lines |= {name: list(written.known(quantities)) for name, quantities in written.lines.items()}
         for name in ("points", "areas", "energies"):
             lines[name] = lines.get(name, [])[:WORKED]
+        highest, lowest = extreme_points(case.energies)
         tables = [one for one in (given.driving, given.resisting) if one is not None and one.nodes]
         curves = [one for one in (given.driving, given.resisting) if one is not None and one.terms]
         return {
@@ -63,8 +65,6 @@ class TurningPage(DesignPage[SolvedTurning]):
             "curves": self.curve_equations if curves else "",
             "has_table": bool(tables),
             "has_curve": bool(curves),
-            "only_table": bool(tables) and not curves,
-            "driving_varies": given.driving is not None,
             "load_varies": given.resisting is not None and given.resisting.varies,
             "both_vary": given.driving is not None and given.resisting is not None and given.resisting.varies,
             "by_speed": given.follows_speed,
@@ -75,13 +75,11 @@ class TurningPage(DesignPage[SolvedTurning]):
             "finds_wheel": given.delta is not None,
             "finds_mass": given.delta is not None and given.k is not None,
             "every_line": case.count_of_areas <= WORKED,
-            "highest": str(case.energies.index(max(case.energies)) + 1),
-            "lowest": str(case.energies.index(min(case.energies)) + 1),
-            "count": case.count_of_areas,
+            "highest": str(highest),
+            "lowest": str(lowest),
             "energy_table": self.energy_table,
             "sheet": lines,
             "quantity": self.quantity,
-            "value": self.value,
             "lines": self.lines,
             "math": self.math,
             "figure": self.figure,
@@ -188,10 +186,7 @@ class TurningPage(DesignPage[SolvedTurning]):
         heads.append((Text(""),))
         units: list[Inlines] = [(Text(""),), *((Text(printed.number(family(1)).unit),) for family in families)]
         units.append((Text(""),))
-        marks = {
-            case.energies.index(max(case.energies)) + 1: case.extremes[0],
-            case.energies.index(min(case.energies)) + 1: case.extremes[1],
-        }
+        marks = dict(zip(extreme_points(case.energies), case.extremes, strict=True))
         rows: list[tuple[Inlines, ...]] = []
         for k in range(1, case.count_of_areas + 1):
             mark: Inlines = (InlineMath(printed.symbol(marks[k])),) if k in marks else (Text(""),)
@@ -236,9 +231,7 @@ class TurningCase(SolvedTurning):
             series = {"intersections": self.run.points, **series}
         position: dict[str, Any] = {"number": 1}
         position |= {name: {str(k): one for k, one in enumerate(of, start=1)} for name, of in series.items()}
-        position["wheel"] = {
-            name: float(self.ledger[id].at(1)) for name, id in ids.items() if id in self.ledger
-        }
+        position["wheel"] = {name: float(self.ledger[id].at(1)) for name, id in ids.items() if id in self.ledger}
         return ResultEntries([position])
 
     def animations(self) -> tuple[Animation, ...]:

@@ -74,9 +74,10 @@ class TurningDiagram:
     def waves(self, angle: Floats | float) -> Floats:
         """Return the sum of the harmonics at angles [N] (rad)."""
         φ = np.asarray(angle, float)
-        return np.sum(
-            [a * np.cos(n * φ) + b * np.sin(n * φ) for n, a, b in self.harmonics] or [np.zeros_like(φ)], axis=0
-        )
+        waves = np.zeros_like(φ)
+        for n, a, b in self.harmonics:
+            waves = waves + a * np.cos(n * φ) + b * np.sin(n * φ)
+        return waves
 
     def on_line(self, line: Line, angle: Floats | float) -> Floats:
         """Return the excess torque (N·m) at angles [N] (rad) of one straight part."""

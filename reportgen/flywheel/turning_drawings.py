@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
+from itertools import pairwise
 
 import numpy as np
 
@@ -67,7 +68,7 @@ def _shaded(
     fills: list[Item] = []
     labels: list[Item] = []
     ends = [*case.run.points, case.cycle]
-    for number, (start, stop) in enumerate(zip(ends[:-1], ends[1:], strict=True), start=1):
+    for number, (start, stop) in enumerate(pairwise(ends), start=1):
         # At a jump, an area has the torque on its own side of it.
         inside = slice(int(np.searchsorted(φ, start, "right")) - 1, int(np.searchsorted(φ, stop, "left")) + 1)
         if inside.stop - inside.start < 2:
@@ -100,7 +101,7 @@ def energy(case: SolvedTurning, half: bool = False, area: Area | None = None) ->
         curve = PlottedCurve("", x, heights, tuple(range(len(x))))
         across: Content = str(case.words["turning-moment"]["point"])
         return plotted(Diagram((curve,), across, up, turn=False, levels=levels), half=half, area=area)
-    φ, driving, resisting = case.curves
+    φ = case.curves[0]
     at = np.searchsorted(φ, case.run.points[1:])
     marks = tuple(int(i) for i in at)
     named = tuple(Number(float(k)) for k in range(2, len(marks) + 2))

@@ -1,4 +1,4 @@
-"""Model of the file of a turning-moment exercise: the torques of a cycle or the areas between them, and the flywheel."""
+"""Model of the file of a turning-moment exercise: torques over a cycle or the areas between them, the flywheel."""
 
 from __future__ import annotations
 

@@ -73,7 +73,7 @@ def _wheel(case: SolvedTurning, φ: Floats) -> Pane:
     items = [MovingBody((*rim, *spokes, Circle(0j, HUB, pen, style.TINT), mark), CENTRE, Track(φ))]
     ground = Still((Line(complex(0), complex(RADIUS + 8), style.AXIS),))
     low, high = extent([ground, *items])
-    return Pane("wheel", case.words["turning-moment"]["panes"]["wheel"], (ground, *items), low=low, high=high)
+    return Pane("wheel", case.words["turning-moment"]["panes"]["wheel"], (ground, *items), low, high, ())
 
 
 def _charts(

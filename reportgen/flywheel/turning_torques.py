@@ -157,7 +157,7 @@ def _run_by_speed(given: Parameters, diagram: TurningDiagram) -> SteadyRun:
     starts, widths = knots[:-1], np.diff(knots)
     x, w = np.polynomial.legendre.leggauss(ORDER)
     nodes = (x + 1) / 2
-    inverse = np.linalg.inv(np.vander(nodes, ORDER, increasing=True))
+    inverse: Floats = np.asarray(np.linalg.inv(np.vander(nodes, ORDER, increasing=True)), np.float64)
     powers = np.arange(1, ORDER + 1)
     inner = (nodes[:, None] ** powers / powers) @ inverse  # integrals of a panel from its start to each node
     at = starts[:, None] + widths[:, None] * nodes
@@ -173,7 +173,9 @@ def _run_by_speed(given: Parameters, diagram: TurningDiagram) -> SteadyRun:
         to_knots = np.concatenate(([0.0], np.cumsum(whole)))
         return to_knots, to_knots[:-1, None] + widths[:, None] * (values @ inner.T)
 
-    ω, c, points, areas = np.full_like(at, ω_m), level / ω_m, (), ()
+    ω, c = np.full_like(at, ω_m), level / ω_m
+    points: tuple[float, ...] = ()
+    areas: tuple[float, ...] = ()
     J = None if given.delta is not None else _inertia(given)
     for _ in range(MOST_ROUNDS):
         before = ω
@@ -211,9 +213,7 @@ def _inertia(given: Parameters) -> float:
     return given.m.si * given.k.si**2
 
 
-def _zeros(
-    values: Floats, inverse: Floats, starts: Floats, widths: Floats, to_knots: Floats
-) -> tuple[float, ...]:
+def _zeros(values: Floats, inverse: Floats, starts: Floats, widths: Floats, to_knots: Floats) -> tuple[float, ...]:
     """Return the start of the cycle and the angles (rad) at which a torque on panels [P, nodes] changes its sign."""
     coefficients = values @ inverse.T
     ends = np.stack((coefficients[:, 0], coefficients.sum(axis=1)), axis=1)
