@@ -53,6 +53,7 @@ SHOWN = {
     "friction": ROOT / "assignments" / "friction" / "incline.yaml",
     "rotor": ROOT / "assignments" / "rotor" / "rotor-two-planes.yaml",
     "engine-balance": ROOT / "assignments" / "engine-balance" / "v-six.yaml",
+    "turning-moment": ROOT / "assignments" / "turning-moment" / "curve.yaml",
 }
 """What the README shows of kinds with a folder of their own."""
 LAID_OUT = ROOT / "assignments" / "four-bar-01.yaml"
@@ -97,7 +98,7 @@ def page_with(text: str, pages: pymupdf.Document) -> pymupdf.Page:
     return next(page for page in pages if page.search_for(text))
 
 
-SCHEMES = ("fig.scheme", "fig.velocity", "fig.inversion", "fig.mesh")
+SCHEMES = ("fig.scheme", "fig.velocity", "fig.inversion", "fig.mesh", "fig.diagram")
 """The figure that shows a machine, the system of an exercise, a cam, or gears in mesh."""
 
 

@@ -34,6 +34,7 @@ OTHERS: Mapping[str, tuple[str, ...]] = {
     "friction": tuple(
         f"friction/{task}" for task in ("incline", "wedge", "screw-jack", "belt", "band-brake", "shoe-brake")
     ),
+    "turning-moment": tuple(f"turning-moment/{name}" for name in ("curve", "areas", "two-curves", "by-speed")),
 }
 """Example files by section of the page; each adds the ids that those before it do not have."""
 

@@ -19,8 +19,8 @@ from reportgen.drawing.geometry import bounds, frame, moved
 from reportgen.page.kind_cards import scheme_file
 from reportgen.page.svg_elements import Painter, Pens
 
-SCHEMES = ("fig.scheme", "fig.velocity", "fig.inversion", "fig.mesh")
-"""The figure that shows a machine, the system of an exercise, a cam, or gears in mesh."""
+SCHEMES = ("fig.scheme", "fig.velocity", "fig.inversion", "fig.mesh", "fig.diagram")
+"""The figure that shows a machine, the system of an exercise, a cam, gears in mesh, or a diagram."""
 MARGIN = 1.0
 """Room around a drawing (mm), for the width of its lines."""
 LARGEST = 4.0
@@ -32,6 +32,7 @@ SHOWN = {
     "planetary-train": "gears/train-double.yaml",
     "rotor": "rotor/rotor-two-planes.yaml",
     "engine-balance": "engine-balance/v-six.yaml",
+    "turning-moment": "turning-moment/curve.yaml",
 }
 """Examples that show more of their kind than its smallest one."""
 

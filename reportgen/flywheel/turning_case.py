@@ -125,11 +125,11 @@ class TurningPage(DesignPage[SolvedTurning]):
     @property
     def torque_table(self) -> tuple[Block, ...]:
         """The tables of torques over the crank angle."""
-        case, found = self.case, list[Block]()
+        case, tables = self.case, list[Block]()
         for side, torques in ((DRIVING, case.given.driving), (RESISTING, case.given.resisting)):
             if torques is not None and torques.nodes:
-                found.append(self._table_of(side, len(torques.nodes)))
-        return tuple(found)
+                tables.append(self._table_of(side, len(torques.nodes)))
+        return tuple(tables)
 
     def _table_of(self, side: str, count: int) -> Table:
         """Return the table of a torque, in as many pairs of columns as fit beside each other."""

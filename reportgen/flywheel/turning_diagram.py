@@ -33,7 +33,7 @@ class Harmonic(NamedTuple):
     sin: float
 
 
-class Line(NamedTuple):
+class StraightPart(NamedTuple):
     """A straight part of a torque: its ends (rad), and the torque there (N·m)."""
 
     start: float
@@ -42,23 +42,25 @@ class Line(NamedTuple):
     last: float
 
 
-def lines_of(nodes: Nodes) -> list[Line]:
+def lines_of(nodes: Nodes) -> list[StraightPart]:
     """Return the straight parts of a table of angles and torques; two rows at one angle are a jump."""
-    return [Line(x0, x1, y0, y1) for (x0, y0), (x1, y1) in pairwise(nodes) if x1 > x0]
+    return [StraightPart(x0, x1, y0, y1) for (x0, y0), (x1, y1) in pairwise(nodes) if x1 > x0]
 
 
-def value_in(lines: Sequence[Line], start: float, stop: float, at: float) -> float:
+def value_in(lines: Sequence[StraightPart], start: float, stop: float, at: float) -> float:
     """Return the torque at an angle of the part that contains start…stop."""
     middle = (start + stop) / 2
     line = next(line for line in lines if line.start <= middle <= line.stop)
     return line.first + (line.last - line.first) * (at - line.start) / (line.stop - line.start)
 
 
-def added(tables: Sequence[tuple[float, Sequence[Line]]], cycle: float) -> tuple[Line, ...]:
+def added(tables: Sequence[tuple[float, Sequence[StraightPart]]], cycle: float) -> tuple[StraightPart, ...]:
     """Return the sum of tables with their factors, as straight parts over the cycle."""
     ends = sorted({0.0, cycle, *(end for _, lines in tables for line in lines for end in line[:2])})
     return tuple(
-        Line(x0, x1, *(sum(factor * value_in(lines, x0, x1, at) for factor, lines in tables) for at in (x0, x1)))
+        StraightPart(
+            x0, x1, *(sum(factor * value_in(lines, x0, x1, at) for factor, lines in tables) for at in (x0, x1))
+        )
         for x0, x1 in pairwise(ends)
     )
 
@@ -69,7 +71,7 @@ class TurningDiagram:
 
     cycle: float
     harmonics: tuple[Harmonic, ...]
-    lines: tuple[Line, ...]
+    lines: tuple[StraightPart, ...]
 
     def waves(self, angle: Floats | float) -> Floats:
         """Return the sum of the harmonics at angles [N] (rad)."""
@@ -79,7 +81,7 @@ class TurningDiagram:
             waves = waves + a * np.cos(n * φ) + b * np.sin(n * φ)
         return waves
 
-    def on_line(self, line: Line, angle: Floats | float) -> Floats:
+    def on_line(self, line: StraightPart, angle: Floats | float) -> Floats:
         """Return the excess torque (N·m) at angles [N] (rad) of one straight part."""
         slope = (line.last - line.first) / (line.stop - line.start)
         return line.first + slope * (np.asarray(angle, float) - line.start) + self.waves(angle)
@@ -96,7 +98,7 @@ class TurningDiagram:
             work = work + line.first * width + slope * width**2 / 2
         return work
 
-    def samples_of(self, line: Line) -> Floats:
+    def samples_of(self, line: StraightPart) -> Floats:
         """Return angles [N] (rad) from end to end of a straight part, close enough to see each change of sign."""
         highest = max((one.order for one in self.harmonics), default=0.0)
         count = math.ceil((line.stop - line.start) * highest * SAMPLES / (2 * math.pi))
@@ -119,20 +121,20 @@ class TurningDiagram:
     @cached_property
     def crossings(self) -> tuple[float, ...]:
         """Angles (rad) within the cycle, above 0, at which the excess torque changes its sign."""
-        found: list[float] = []
+        zeros: list[float] = []
         before, zero_since = 0.0, None
         for at, value in self._telling():
             if abs(value) <= self.least:
                 zero_since = at if zero_since is None else zero_since
                 continue
             if before * value < 0:
-                found.append(at if zero_since is None else zero_since)
+                zeros.append(at if zero_since is None else zero_since)
             before, zero_since = value, None
         # A torque that is zero up to the end of the cycle changes its sign where it became zero.
         first = next((value for _, value in self._telling() if abs(value) > self.least), 0.0)
         if zero_since is not None and before * first < 0:
-            found.append(zero_since)
-        return tuple(at for at in found if SAME_ANGLE < at < self.cycle - SAME_ANGLE)
+            zeros.append(zero_since)
+        return tuple(at for at in zeros if SAME_ANGLE < at < self.cycle - SAME_ANGLE)
 
     def _telling(self) -> Iterator[tuple[float, float]]:
         """Yield samples and, where two neighbours differ in sign, the zero between them."""
@@ -147,7 +149,7 @@ class TurningDiagram:
                     yield from self._touched(line, angles[i - 1 : i + 2], values[i - 1 : i + 2])
                 yield float(at), float(value)
 
-    def _touched(self, line: Line, at: Floats, values: Floats) -> Iterator[tuple[float, float]]:
+    def _touched(self, line: StraightPart, at: Floats, values: Floats) -> Iterator[tuple[float, float]]:
         """Yield the far side of zero if the torque reaches it between three samples of one sign."""
         side = np.sign(values[1])
         if abs(values[1]) <= self.least or np.any(side * values <= 0) or abs(values[1]) > min(abs(values[::2])):
@@ -166,7 +168,7 @@ class TurningDiagram:
             yield extreme, beyond
             yield self._zero(line, extreme, float(at[2])), 0.0
 
-    def _zero(self, line: Line, low: float, high: float) -> float:
+    def _zero(self, line: StraightPart, low: float, high: float) -> float:
         """Return the angle of the zero between two angles with torques of opposite signs."""
         sign = math.copysign(1.0, float(self.on_line(line, low)))
         for _ in range(HALVINGS):

@@ -27,32 +27,32 @@ MOST_TERMS, MOST_AREAS = 12, 40
 MOST_NODES = 145
 """Largest number of rows of a table: every 5° of two turns."""
 
-Torque = Annotated[Given, quantity("N m", least=-1e9, most=1e9, tiny=1e-6)]
-PositiveTorque = Annotated[Given, quantity("N m", least=1e-6, most=1e9)]
+CurveTorque = Annotated[Given, quantity("N m", least=-1e9, most=1e9, tiny=1e-6)]
+TorqueSize = Annotated[Given, quantity("N m", least=1e-6, most=1e9)]
 TorqueUnit = Annotated[Given, UnitOf("N m")]
 WorkUnit = Annotated[Given, UnitOf("J")]
 DegreesOnPaper = Annotated[Given, quantity("deg", least=1e-3, most=90)]
 Order = Annotated[float, Decimal(Interval(least=0.5, most=24))]
 AreaOnPaper = Annotated[float, Decimal(Interval(least=-1e6, most=1e6))]
 PositiveInertia = Annotated[Given, quantity("kg m2", least=1e-9, most=1e7)]
-PositiveMass = Annotated[Given, quantity("kg", least=1e-6, most=1e6)]
+WheelMass = Annotated[Given, quantity("kg", least=1e-6, most=1e6)]
 Fluctuation = Annotated[Given, Ratio(Interval(least=1e-4, most=0.5))]
 NO_TORQUE = Given(0.0, 0.0, "N m", "0 N m")
 
 
-class Term(Part):
+class TorqueTerm(Part):
     """A harmonic of a torque: its order, and the factors of the sine and the cosine of that many crank angles."""
 
     order: Order
-    sin: Torque = NO_TORQUE
-    cos: Torque = NO_TORQUE
+    sin: CurveTorque = NO_TORQUE
+    cos: CurveTorque = NO_TORQUE
 
 
 class Torques(Part):
     """A torque over the cycle: its mean with harmonics, or a table over the crank angle."""
 
-    mean: PositiveTorque | None = None
-    terms: Annotated[tuple[Term, ...], Field(min_length=1, max_length=MOST_TERMS)] | None = None
+    mean: TorqueSize | None = None
+    terms: Annotated[tuple[TorqueTerm, ...], Field(min_length=1, max_length=MOST_TERMS)] | None = None
     phi: CycleAngles | None = None
     M: NodeValues | None = None
     unit: TorqueUnit | None = None
@@ -65,7 +65,7 @@ class Torques(Part):
         return tuple((angle.si, value * self.unit.si) for angle, value in zip(self.phi, self.M, strict=True))
 
     @property
-    def harmonics(self) -> tuple[Term, ...]:
+    def harmonics(self) -> tuple[TorqueTerm, ...]:
         return self.terms or ()
 
 
@@ -85,7 +85,7 @@ class Areas(Part):
 
     values: Annotated[tuple[AreaOnPaper, ...], Field(min_length=2, max_length=MOST_AREAS)]
     unit: WorkUnit | None = None
-    torque: PositiveTorque | None = None
+    torque: TorqueSize | None = None
     angle: DegreesOnPaper | None = None
 
 
@@ -99,7 +99,7 @@ class Parameters(Part):
     n: RotationalSpeed
     delta: Fluctuation | None = None
     J: PositiveInertia | None = None
-    m: PositiveMass | None = None
+    m: WheelMass | None = None
     k: Length | None = None
     at: CycleAngle | None = None
 

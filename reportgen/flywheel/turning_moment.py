@@ -115,9 +115,9 @@ def _of_torques(side: str, torques: Torques) -> Iterator[Finding]:
         yield Finding("needs-besides", (*where, "terms"), {"key": "terms", "other": "mean"}, at="key")
     if torques.phi is None:
         return
-    for other in ("M", "unit"):
-        if getattr(torques, other) is None:
-            yield Finding("needs-besides", (*where, "phi"), {"key": "phi", "other": other}, at="key")
+    for key in ("M", "unit"):
+        if getattr(torques, key) is None:
+            yield Finding("needs-besides", (*where, "phi"), {"key": "phi", "other": key}, at="key")
             return
     angles = [angle.si for angle in torques.phi]
     if len(angles) > turning_file.MOST_NODES:

@@ -128,7 +128,6 @@ class SolvedTurning(DesignCase):
             yield J.id, "turning-radius-once", Ref(names.MASS) * k
         for bound, sense in (("max", 1.0), ("min", -1.0)):
             yield names.speed(bound), "turning-delta-doubled", ω * (1 + sense * δ)
-            yield names.speed(bound), "turning-bounds-exchanged", ω * (1 - sense * δ / 2)
 
     def _of_energies(self) -> MistakenValues:
         A = [Ref(names.area(k)) for k in range(1, self.count_of_areas + 1)]
@@ -158,7 +157,8 @@ class SolvedTurning(DesignCase):
         if names.scale("A") in self.ledger:
             μ_M, μ_φ = Ref(names.scale("M")), Ref(names.scale("phi"))
             yield names.scale("A"), "turning-degrees", μ_M * μ_φ * Number(180.0) / PI
-            yield names.scale("A"), "turning-torque-scale", μ_M
+            if abs(np.degrees(float(self.ledger[μ_φ.id].at(1))) - 1) > 1e-9:
+                yield names.scale("A"), "turning-torque-scale", μ_M
         yield from self._without_mean()
 
     def _without_mean(self) -> Iterator[tuple[str, str, Expression]]:

@@ -10,7 +10,7 @@ from functools import reduce
 import numpy as np
 
 from reportgen.base.arrays import Floats
-from reportgen.flywheel.turning_diagram import Harmonic, Line, TurningDiagram, added, lines_of
+from reportgen.flywheel.turning_diagram import Harmonic, StraightPart, TurningDiagram, added, lines_of
 from reportgen.flywheel.turning_file import Parameters, Torques
 
 DRIVING, RESISTING = "d", "r"
@@ -63,15 +63,15 @@ def diagram_of(given: Parameters) -> TurningDiagram:
     """Return the excess of the driving torque over the resisting one, each taken from the mean."""
     cycle, level, κ = cycle_of(given), level_of(given), factor_of(given)
     harmonics: list[Harmonic] = []
-    tables: list[tuple[float, list[Line]]] = []
+    tables: list[tuple[float, list[StraightPart]]] = []
     for torques, factor in ((given.driving, 1.0), (given.resisting, -κ)):
         if torques is None:
             continue
         harmonics += [Harmonic(term.order, factor * term.cos.si, factor * term.sin.si) for term in torques.harmonics]
         if torques.nodes:
             tables.append((factor, lines_of(torques.nodes)))
-            tables.append((-math.copysign(level, factor), [Line(0.0, cycle, 1.0, 1.0)]))
-    tables = tables or [(0.0, [Line(0.0, cycle, 1.0, 1.0)])]
+            tables.append((-math.copysign(level, factor), [StraightPart(0.0, cycle, 1.0, 1.0)]))
+    tables = tables or [(0.0, [StraightPart(0.0, cycle, 1.0, 1.0)])]
     return TurningDiagram(cycle, tuple(harmonics), added(tables, cycle))
 
 
@@ -217,15 +217,15 @@ def _zeros(values: Floats, inverse: Floats, starts: Floats, widths: Floats, to_k
     """Return the start of the cycle and the angles (rad) at which a torque on panels [P, nodes] changes its sign."""
     coefficients = values @ inverse.T
     ends = np.stack((coefficients[:, 0], coefficients.sum(axis=1)), axis=1)
-    found = [0.0]
+    zeros = [0.0]
     before = 0.0
     for i, (first, last) in enumerate(ends):
         for side, value in ((0, float(first)), (1, float(last))):
             if before * value < 0:
                 place = 0.0 if side == 0 else _zero_in(coefficients[i], before)
-                found.append(float(starts[i] + widths[i] * place))
+                zeros.append(float(starts[i] + widths[i] * place))
             before = value or before
-    return tuple(φ for i, φ in enumerate(found) if not i or 1e-9 < φ < float(starts[-1] + widths[-1]) - 1e-9)
+    return tuple(φ for i, φ in enumerate(zeros) if not i or 1e-9 < φ < float(starts[-1] + widths[-1]) - 1e-9)
 
 
 def _zero_in(coefficients: Floats, first: float) -> float:

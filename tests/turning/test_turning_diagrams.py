@@ -51,7 +51,7 @@ def drawn(random: np.random.Generator) -> dict[str, Any]:
 
 def excess_of(given: dict[str, Any]) -> tuple[Any, list[float], float]:
     """Return the excess torque as a function of angles within a piece, the corners, and the cycle, all by hand."""
-    corners, cycle, parts = set[float](), 720.0, []
+    corners, cycle, parts = set[float](), 720.0, list[Any]()
     for side, sign in (("driving", 1.0), ("resisting", -1.0)):
         if (torques := given.get(side)) is None:
             continue
@@ -84,7 +84,7 @@ def excess_of(given: dict[str, Any]) -> tuple[Any, list[float], float]:
 
 
 def test_random_diagrams_have_the_areas_of_a_quadrature() -> None:
-    """Work by Gauss nodes over short panels: its steps between the points are the areas, nowhere beyond its extremes."""
+    """Work by Gauss nodes over short panels: its steps from point to point are the areas, its extremes there."""
     random = np.random.default_rng(64)
     for _ in range(RANDOM):
         given = drawn(random)
@@ -128,7 +128,7 @@ def test_a_load_that_follows_the_speed_comes_round_again() -> None:
 
             def rate(φ: float, ω: float, line: tuple[float, ...] = (x0, y0, x1, y1)) -> float:
                 a, b, end, top = line
-                return (b + (top - b) * (φ - a) / (end - a) - c * ω) / (J * ω)
+                return float((b + (top - b) * (φ - a) / (end - a) - c * ω) / (J * ω))
 
             k1 = rate(φ, ω)
             k2 = rate(φ + h / 2, ω + h / 2 * k1)
