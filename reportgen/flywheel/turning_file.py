@@ -28,7 +28,7 @@ MOST_NODES = 145
 """Largest number of rows of a table: every 5° of two turns."""
 
 CurveTorque = Annotated[Given, quantity("N m", least=-1e9, most=1e9, tiny=1e-6)]
-TorqueSize = Annotated[Given, quantity("N m", least=1e-6, most=1e9)]
+MeanTorque = Annotated[Given, quantity("N m", least=1e-6, most=1e9)]
 TorqueUnit = Annotated[Given, UnitOf("N m")]
 WorkUnit = Annotated[Given, UnitOf("J")]
 DegreesOnPaper = Annotated[Given, quantity("deg", least=1e-3, most=90)]
@@ -51,7 +51,7 @@ class TorqueTerm(Part):
 class Torques(Part):
     """A torque over the cycle: its mean with harmonics, or a table over the crank angle."""
 
-    mean: TorqueSize | None = None
+    mean: MeanTorque | None = None
     terms: Annotated[tuple[TorqueTerm, ...], Field(min_length=1, max_length=MOST_TERMS)] | None = None
     phi: CycleAngles | None = None
     M: NodeValues | None = None
@@ -85,7 +85,7 @@ class Areas(Part):
 
     values: Annotated[tuple[AreaOnPaper, ...], Field(min_length=2, max_length=MOST_AREAS)]
     unit: WorkUnit | None = None
-    torque: TorqueSize | None = None
+    torque: MeanTorque | None = None
     angle: DegreesOnPaper | None = None
 
 
