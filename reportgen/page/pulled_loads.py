@@ -7,8 +7,8 @@ or turn. Values that change the linkage, too, are left out.
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Collection, Iterator
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -17,13 +17,12 @@ from reportgen import catalogue
 from reportgen.base.arrays import Complexes
 from reportgen.base.errors import Where
 from reportgen.base.units import measures
-from reportgen.base.yaml_source import MappingNode, Scalar, Source
-from reportgen.base.yaml_values import put
+from reportgen.base.yaml_source import MappingNode, Source
 from reportgen.machine.analysis import Machine, motion_at
 from reportgen.machine.kinematics import Motion
 from reportgen.machine.loads import Applied
 from reportgen.page.linkage_numbers import numbers
-from reportgen.page.pulled_values import MOST_VALUES, SHARE, STEP, TypedNumber, bounds, leaves, rounded
+from reportgen.page.pulled_values import MOST_VALUES, TypedNumber, bounds, leaves, rounded, texts, varied_machine
 
 TIMES = 72
 """Number of places of the cycle at which forces are compared."""
@@ -66,7 +65,7 @@ def load_values(source: Source, path: Path) -> dict[str, tuple[LoadValue, ...]]:
         typed = TypedNumber.of(scalar.text)
         if typed is None or not any(measures(typed.unit.strip(), like) for like in UNITS):
             continue
-        varied = _varied(source, path, (where, scalar), typed)
+        varied = varied_machine(source, path, (where, scalar), typed)
         if not varied or not np.array_equal(numbers(varied[0].linkage), numbers(machine.linkage)):
             continue
         for name, force in _forces(varied[0], angles, motion):
@@ -90,18 +89,6 @@ def _steady(force: Complexes) -> bool:
     greatest = float(np.nanmax(sizes, initial=0.0))
     acting = sizes > SAME * greatest
     return greatest > 0 and bool((sizes[acting] > (1 - SAME) * greatest).all())
-
-
-def _varied(source: Source, path: Path, leaf: tuple[Where, Scalar], typed: TypedNumber) -> tuple[Machine, float] | None:
-    """Return the machine with a value that is varied a little, and by how much; None at an edge on both sides."""
-    where, scalar = leaf
-    assert source.top is not None, "a leaf has a file"
-    for by in (abs(typed.number) * SHARE or STEP, -(abs(typed.number) * SHARE or STEP)):
-        text = f"{typed.over}{typed.number + by:.12g}{typed.unit}"
-        made = catalogue.machine_of(replace(source, top=put(source.top, where, replace(scalar, text=text))), path)
-        if made is not None:
-            return made, by
-    return None
 
 
 def _turn(before: Complexes, after: Complexes, typed: TypedNumber, by: float) -> float | None:
@@ -169,11 +156,7 @@ class LoadPull:
 
     def texts(self, offsets: np.ndarray) -> list[tuple[Where, str]]:
         """Return the values as they are typed, in whole steps within their bounds; unchanged ones as they were."""
-        moved: Sequence[float] = self.rounded(offsets).tolist()
-        return [
-            (value.where, value.typed.text(value.typed.number + by))
-            for value, by in zip(self.values, moved, strict=True)
-        ]
+        return texts(self.values, offsets)
 
 
 def _nearest(value: LoadValue, by: float) -> float:

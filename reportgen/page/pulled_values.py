@@ -24,6 +24,7 @@ from reportgen.base.units import NUMBER
 from reportgen.base.yaml_source import MappingNode, Node, Scalar, SequenceNode, Source
 from reportgen.base.yaml_values import at, put
 from reportgen.machine import Linkage, joints
+from reportgen.machine.analysis import Machine
 from reportgen.machine.kinematics import solve_motion
 from reportgen.page.linkage_numbers import Course, numbers, placed, rebuilt
 
@@ -292,8 +293,7 @@ class Pull:
 
     def texts(self, offsets: np.ndarray) -> list[tuple[Where, str]]:
         """Return the values as they are typed, in whole steps within their bounds; unchanged ones as they were."""
-        numbers = (self.rounded(offsets) + [value.typed.number for value in self.values]).tolist()
-        return [(value.where, value.typed.text(number)) for value, number in zip(self.values, numbers, strict=True)]
+        return texts(self.values, offsets)
 
     def rounded(self, offsets: np.ndarray) -> np.ndarray:
         """Return the differences [values] of numbers in whole steps within their bounds."""
@@ -301,8 +301,10 @@ class Pull:
 
 
 class Stepped(Protocol):
-    """A value whose number, as `typed`, has bounds."""
+    """A value at a place of a file whose number, as `typed`, has bounds."""
 
+    @property
+    def where(self) -> Where: ...
     @property
     def typed(self) -> TypedNumber: ...
     @property
@@ -320,6 +322,26 @@ def rounded(values: Sequence[Stepped], offsets: np.ndarray) -> np.ndarray:
         for value, by in zip(values, offsets.tolist(), strict=True)
     ]
     return np.array(steps)
+
+
+def texts(values: Sequence[Stepped], offsets: np.ndarray) -> list[tuple[Where, str]]:
+    """Return the values as they are typed, in whole steps within their bounds; unchanged ones as they were."""
+    moved = rounded(values, offsets).tolist()
+    return [(value.where, value.typed.text(value.typed.number + by)) for value, by in zip(values, moved, strict=True)]
+
+
+def varied_machine(
+    source: Source, path: Path, leaf: tuple[Where, Scalar], typed: TypedNumber
+) -> tuple[Machine, float] | None:
+    """Return the machine with a value that is varied a little, and by how much; None at an edge on both sides."""
+    where, scalar = leaf
+    assert source.top is not None, "a leaf has a file"
+    for by in (abs(typed.number) * SHARE or STEP, -(abs(typed.number) * SHARE or STEP)):
+        text = f"{typed.over}{typed.number + by:.12g}{typed.unit}"
+        made = catalogue.machine_of(replace(source, top=put(source.top, where, replace(scalar, text=text))), path)
+        if made is not None:
+            return made, by
+    return None
 
 
 def is_locked(where: Where, locked: Collection[Where]) -> bool:

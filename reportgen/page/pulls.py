@@ -23,6 +23,7 @@ from reportgen.machine.analysis import Machine, motion_at
 from reportgen.page.drag_samples import Resident
 from reportgen.page.form_fields import written_at
 from reportgen.page.pull_regions import REACH, Requirement, region
+from reportgen.page.pulled_anchors import AnchorPull, KnownAnchor, known_anchors
 from reportgen.page.pulled_loads import LoadPull, LoadValue, load_values
 from reportgen.page.pulled_values import FAR, PlacingValue, Pull, is_locked, placing_values
 
@@ -33,6 +34,7 @@ PAUSE = 0.002
 Asked = Mapping[str, Any]
 PlacedBy = tuple[Linkage | None, tuple[PlacingValue, ...]]
 LoadedBy = Mapping[str, tuple[LoadValue, ...]]
+AnchoredBy = Mapping[str, KnownAnchor]
 
 
 @dataclass
@@ -46,9 +48,11 @@ class PulledPoint:
 
 @dataclass
 class PulledLoad:
-    """The arrow of a load while its tip is pulled, and the last differences of its values that gave a machine."""
+    """The tip of a load's arrow, or the end of a coil, while it is pulled, and the last differences of its values that
+    gave a machine.
+    """
 
-    pull: LoadPull
+    pull: LoadPull | AnchorPull
     offsets: np.ndarray
 
 
@@ -64,6 +68,7 @@ class Pulls:
     read: Callable[[], Node | None]
     known_of: tuple[Node | None, PlacedBy] | None = None
     loads_of: tuple[Node | None, LoadedBy] | None = None
+    anchors_of: tuple[Node | None, AnchoredBy] | None = None
     pulled: tuple[tuple[Any, ...], PulledPoint | PulledLoad] | None = None
     """What is pulled, by the number of the pull, the point or load, the driver's place, the locked, the revision."""
     lock: threading.Lock = field(default_factory=threading.Lock)
@@ -74,8 +79,8 @@ class Pulls:
     def grips(self) -> Mapping[str, Any]:
         """Return the places of the values of each point and load that can be pulled, and the driver that is turned.
 
-        Points of the frame are in mm of the drawing. The driver has the sense in which its angle grows with the cycle,
-        +1 anticlockwise.
+        Ends of coils at places of the frame are points, too. Points of the frame are in mm of the drawing. The driver
+        has the sense in which its angle grows with the cycle, +1 anticlockwise.
         """
         resident = self.resident()
         if resident is None:
@@ -87,8 +92,11 @@ class Pulls:
         for value in values:
             for point in value.points:
                 points.setdefault(point, []).append(list(value.where))
+        anchors = self._anchors(top)
+        points |= {name: [list(value.where) for value in anchor.values] for name, anchor in anchors.items()}
         driver = machine.linkage.driver
-        ground = {name: [p.real * scale, -p.imag * scale] for name, p in machine.linkage.ground.items()}
+        fixed = dict(machine.linkage.ground) | {name: anchor.place for name, anchor in anchors.items()}
+        ground = {name: [p.real * scale, -p.imag * scale] for name, p in fixed.items()}
         turning = {"centre": driver.centre} if isinstance(driver, Crank) else {}
         return {
             "points": points,
@@ -110,6 +118,13 @@ class Pulls:
             if self.loads_of is None or self.loads_of[0] != top:
                 self.loads_of = top, load_values(self._source(top), self.path)
             return self.loads_of[1]
+
+    def _anchors(self, top: Node | None) -> AnchoredBy:
+        """Return the ends of coils at places of the frame that can be pulled, found once for each content."""
+        with self.lock:
+            if self.anchors_of is None or self.anchors_of[0] != top:
+                self.anchors_of = top, known_anchors(self._source(top), self.path)
+            return self.anchors_of[1]
 
     def _source(self, top: Node | None) -> Source:
         return Source(str(self.path), top=top)
@@ -226,7 +241,12 @@ class Pulls:
         grabbed = self.pulled[1]
         return grabbed if grabbed.pull.values else None
 
-    def _point(self, asked: Asked, resident: Resident, top: Node | None, locked: list[Where]) -> PulledPoint | None:
+    def _point(
+        self, asked: Asked, resident: Resident, top: Node | None, locked: list[Where]
+    ) -> PulledPoint | PulledLoad | None:
+        if (anchor := self._anchors(top).get(str(asked["point"]))) is not None:
+            end = AnchorPull(anchor.place, tuple(v for v in anchor.values if not is_locked(v.where, locked)))
+            return PulledLoad(end, np.zeros(len(end.values)))
         linkage, values = self._known(top)
         if linkage is None:
             return None
