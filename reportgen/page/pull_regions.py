@@ -1,22 +1,29 @@
-"""Where a pulled point leaves a machine that assembles and runs through its whole travel: `region`.
+"""Where a pulled point leaves a machine that assembles, runs through its whole travel and passes the checks: `region`.
 
-The machine of each place is checked as a file is. Places are those of values in equal steps, so that each region is
-bounded by lines along which one value is constant.
+Places are those of values in equal steps, so that each region is bounded by lines along which one value is constant.
+Whether the linkage runs is found at each place. The checks of the whole file are slow: they are made in steps of
+`SPARSE` places, and between those only where they differ.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
+from itertools import pairwise, product
+from pathlib import Path
 
 import numpy as np
 
+from reportgen import catalogue
 from reportgen.base.arrays import Complexes, Flags
+from reportgen.base.errors import ReportgenError, Where
+from reportgen.base.yaml_source import Source
 from reportgen.catalogue import assembly_checks
 from reportgen.catalogue.assembly_checks import WHOLE_TURN, DriverTravel
 from reportgen.machine import Linkage
 from reportgen.machine.analysis import Machine
-from reportgen.page.pulled_values import Pull, place_of
+from reportgen.page.pulled_values import Pull, place_of, with_texts
 
 REACH = 0.35
 """Distance from the point to the edge of the region, as a share of the drawing's larger side."""
@@ -24,6 +31,8 @@ FINER_LINE = 4
 """Factor by which a line has more steps than a side of an area."""
 LEAST = 0.1
 """Least share of a value that a region shows."""
+SPARSE = 3
+"""Steps between the places at which the whole file is checked first."""
 
 
 @dataclass(frozen=True)
@@ -53,8 +62,42 @@ class Requirement:
             return False
 
 
+@dataclass(frozen=True)
+class FileChecks:
+    """The checks of a file for other values of a pull; faults of the file as it is are ignored."""
+
+    source: Source
+    path: Path
+    pull: Pull
+
+    def met(self, offsets: np.ndarray) -> bool:
+        """Return True if values that differ by so much [values] cause no fault."""
+        try:
+            return self._faults(offsets) <= self._before
+        except (ReportgenError, ArithmeticError, ValueError, np.linalg.LinAlgError):
+            return False
+
+    @cached_property
+    def _before(self) -> set[tuple[str, Where]]:
+        return self._faults(np.zeros(len(self.pull.values)))
+
+    def _faults(self, offsets: np.ndarray) -> set[tuple[str, Where]]:
+        assert self.source.top is not None, "a pulled point has a file"
+        moved = [
+            (value.where, value.typed.unrounded(value.typed.number + by))
+            for value, by in zip(self.pull.values, offsets.tolist(), strict=True)
+        ]
+        changed = replace(self.source, top=with_texts(self.source.top, moved))
+        return {(fault.code, fault.where) for fault in catalogue.assess(changed, self.path)[1]}
+
+
 def region(
-    pull: Pull, required: Requirement, reach: float, count: int, going: Callable[[], bool]
+    pull: Pull,
+    required: Requirement,
+    reach: float,
+    count: int,
+    going: Callable[[], bool],
+    checks: FileChecks | None = None,
 ) -> list[Complexes] | None:
     """Return the outlines [corners] (m) of the places that are possible, in strips; of one value, the lines along them.
 
@@ -69,15 +112,47 @@ def region(
         steps = count * (FINER_LINE if len(pull.values) == 1 else 1)
         axes.append(np.linspace(low, high, steps + 1))
     places = np.full((len(axes[0]), *(len(axis) for axis in axes[1:])), complex(np.nan, np.nan))
+
+    def offsets(index: tuple[int, ...]) -> np.ndarray:
+        return np.array([axis[step] for axis, step in zip(axes, index, strict=True)])
+
     for index in np.ndindex(places.shape):
         if not going():
             return None
-        offsets = np.array([axis[step] for axis, step in zip(axes, index, strict=True)])
-        linkage = pull.made(offsets)
+        linkage = pull.made(offsets(index))
         if required.met(linkage, required.travel.turning):
             places[index] = place_of(linkage, pull.point, pull.driver)
+    if checks is not None:
+        met = _filtered(np.isfinite(places), lambda index: going() and checks.met(offsets(index)))
+        if not going():
+            return None
+        places[~met] = complex(np.nan, np.nan)
     strips = _lines if len(axes) == 1 else _strips
     return list(strips(places))
+
+
+def _filtered(flags: Flags, check: Callable[[tuple[int, ...]], bool]) -> Flags:
+    """Return the flags [N] or [N, M] that a slow check of their places leaves True.
+
+    Where the True corners of a block of `SPARSE` steps agree, the places in the block are not checked.
+    """
+    passed: dict[tuple[int, ...], bool] = {}
+
+    def passes(index: tuple[int, ...]) -> bool:
+        if index not in passed:
+            passed[index] = check(index)
+        return passed[index]
+
+    met = flags.copy()
+    axes = [pairwise([*range(0, size - 1, SPARSE), size - 1]) for size in flags.shape]
+    for block in product(*axes):
+        corners = {passes(corner) for corner in product(*block) if flags[corner]}
+        for index in product(*(range(first, last + 1) for first, last in block)):
+            if flags[index] and (index in passed or len(corners) != 1):
+                met[index] = passes(index)
+            elif flags[index]:
+                met[index] = all(corners)
+    return met
 
 
 def _lines(places: Complexes) -> Iterator[Complexes]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -85,6 +85,10 @@ class TypedNumber:
         if abs(number - begun) < SAME * self.step:
             return typed
         return f"{self.over}{number:.{self.decimals}f}{self.unit}"
+
+    def unrounded(self, number: float) -> str:
+        """Return a number in the same form with all its decimals."""
+        return f"{self.over}{number:.12g}{self.unit}"
 
     def stepped(self, number: float, low: float, high: float) -> float:
         """Return the number of whole steps within bounds that is nearest to a number, or the first one if it is."""
@@ -165,7 +169,7 @@ def _placing(source: Source, path: Path, linkage: Linkage, where: Where, scalar:
     step, here = abs(typed.number) * SHARE or STEP, numbers(linkage)
     varied: list[np.ndarray | None] = []
     for sense in (1, -1):
-        text = f"{typed.over}{typed.number + sense * step:.12g}{typed.unit}"
+        text = typed.unrounded(typed.number + sense * step)
         changed = replace(source, top=put(source.top, where, replace(scalar, text=text)) if source.top else None)
         made = catalogue.linkage_of(changed, path)
         new = None if made is None else numbers(made)
@@ -330,6 +334,14 @@ def texts(values: Sequence[Stepped], offsets: np.ndarray) -> list[tuple[Where, s
     return [(value.where, value.typed.text(value.typed.number + by)) for value, by in zip(values, moved, strict=True)]
 
 
+def with_texts(top: Node, typed: Iterable[tuple[Where, str]]) -> Node:
+    """Return nodes with other texts at places; a value that the file leaves out is added."""
+    for where, text in typed:
+        old = at(top, where)
+        top = put(top, where, replace(old, text=text) if isinstance(old, Scalar) else Scalar(text, Location("")))
+    return top
+
+
 def varied_machine(
     source: Source, path: Path, leaf: tuple[Where, Scalar], typed: TypedNumber
 ) -> tuple[Machine, float] | None:
@@ -337,7 +349,7 @@ def varied_machine(
     where, scalar = leaf
     assert source.top is not None, "a leaf has a file"
     for by in (abs(typed.number) * SHARE or STEP, -(abs(typed.number) * SHARE or STEP)):
-        text = f"{typed.over}{typed.number + by:.12g}{typed.unit}"
+        text = typed.unrounded(typed.number + by)
         made = catalogue.machine_of(replace(source, top=put(source.top, where, replace(scalar, text=text))), path)
         if made is not None:
             return made, by

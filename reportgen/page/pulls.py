@@ -15,17 +15,17 @@ from typing import Any
 import numpy as np
 
 from reportgen import catalogue
-from reportgen.base.errors import Location, ReportgenError, Where
+from reportgen.base.errors import ReportgenError, Where
 from reportgen.base.yaml_source import Node, Scalar, SequenceNode, Source
 from reportgen.base.yaml_values import at, put
 from reportgen.machine import Crank, Linkage
 from reportgen.machine.analysis import Machine, motion_at
 from reportgen.page.drag_samples import Resident
 from reportgen.page.form_fields import written_at
-from reportgen.page.pull_regions import REACH, Requirement, region
+from reportgen.page.pull_regions import REACH, FileChecks, Requirement, region
 from reportgen.page.pulled_anchors import AnchorPull, KnownAnchor, known_anchors
 from reportgen.page.pulled_loads import LoadPull, LoadValue, load_values
-from reportgen.page.pulled_values import FAR, PlacingValue, Pull, is_locked, placing_values
+from reportgen.page.pulled_values import FAR, PlacingValue, Pull, is_locked, placing_values, with_texts
 
 MOST_STEPS = 32
 """Largest number of steps of a region in each direction."""
@@ -176,11 +176,7 @@ class Pulls:
         target = complex(x, -y) / resident.samples.scale
         offsets = grabbed.pull.to(target, grabbed.offsets)
         texts = grabbed.pull.texts(offsets)
-        changed: Node = top
-        for where, text in texts:
-            old = at(top, where)
-            new = replace(old, text=text) if isinstance(old, Scalar) else Scalar(text, Location(""))
-            changed = put(changed, where, new)
+        changed = with_texts(top, texts)
         place = grabbed.pull.at(grabbed.pull.rounded(offsets)) * resident.samples.scale
         answer = {"values": _of_fields(changed, texts), "at": [place.real, -place.imag]}
         samples = self._sampled(resident, changed, **answer) if np.isfinite(place) else b""
@@ -202,8 +198,9 @@ class Pulls:
         ready. Dragging has priority.
         """
         resident, grab, count = self.resident(), asked["grab"], min(int(asked["count"]), MOST_STEPS)
+        top = self.read()
         with self.grabbing:
-            grabbed = self.grabbed(asked, resident, self.read()) if resident else None
+            grabbed = self.grabbed(asked, resident, top) if resident else None
             if resident is None or not isinstance(grabbed, PulledPoint):
                 return {}
             begun, machine, scale = grabbed.begun, resident.samples.machine, resident.samples.scale
@@ -215,7 +212,8 @@ class Pulls:
 
         low, high = resident.samples.kept["box"]
         reach = REACH * max((high - low).real, (high - low).imag) / scale
-        shapes = region(begun, Requirement.of(machine), reach, count, going)
+        checks = FileChecks(self._source(top), self.path, begun)
+        shapes = region(begun, Requirement.of(machine), reach, count, going, checks)
         if shapes is None:
             return {}
         lines = len(begun.values) == 1

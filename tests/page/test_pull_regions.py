@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+import re
 from functools import partial
 from pathlib import Path
 
@@ -13,7 +14,7 @@ from reportgen.base.yaml_source import read_source
 from reportgen.cases import open_case
 from reportgen.machine.kinematics import solve_motion
 from reportgen.page.edit_session import EditSession
-from reportgen.page.pull_regions import Requirement, region
+from reportgen.page.pull_regions import Requirement, _filtered, region
 from reportgen.page.pulled_values import Pull, placing_values
 
 FILE = Path(__file__).parents[2] / "assignments" / "four-bar-01.yaml"
@@ -78,6 +79,62 @@ def test_a_region_ends_with_its_pull(tmp_path: Path) -> None:
         assert region(pull, Requirement(), REACH, STEPS, lambda: False) is None
     finally:
         edited.close()
+
+
+SHORT = {"AB: 120": "AB: 60", "BC: 340": "BC: 180", "CD: 280": "CD: 180", "AD: 400": "AD: 120", "BF: 220": "BF: 90"}
+
+
+@pytest.mark.parametrize(
+    ("name", "changes", "pulled", "least", "greatest"),
+    [("four-bar-01", SHORT, "D", 0.060, 1.0), ("slotted-lever-01", {}, "B", 0.0, 0.150 - 0.080)],
+)
+def test_a_region_keeps_the_checks_of_the_kind(
+    tmp_path: Path, name: str, changes: dict[str, str], pulled: str, least: float, greatest: float
+) -> None:
+    """Link 3 stays a rocker as the file says, though D nearer to A lets both links turn; the block stays in its slot.
+
+    Faults that the file has already are no reason to shade nothing.
+    """
+    text = FILE.with_name(f"{name}.yaml").read_text(encoding="utf-8")
+    for old, new in changes.items():
+        assert old in text
+        text = text.replace(old, new)
+    (file := tmp_path / "mine.yaml").write_text(text, encoding="utf-8")
+    edited = EditSession(partial(open_case, file), "en", path=file)
+    try:
+        edited.renew()
+        resident = edited.pulls.resident()
+        assert resident is not None
+        asked = {"point": pulled, "angle": 30.0, "locked": [], "count": 8}
+        centre, scale = resident.samples.machine.linkage.ground["A"], resident.samples.scale
+
+        def distances(grab: int) -> np.ndarray:
+            answer = edited.takes["region.json"]({**asked, "grab": grab})
+            assert isinstance(answer, dict)
+            places = [complex(*map(float, corner.split())) for corner in re.split("[ML]", answer["path"]) if corner]
+            return np.asarray(np.abs(np.array(places).conj() / scale - centre))
+
+        found = distances(1)
+        assert found.size > 4
+        assert least < found.min() < found.max() < greatest
+        file.write_text(text.replace("worked_positions: [2]", "worked_positions: [99]"), encoding="utf-8")
+        assert distances(2) == pytest.approx(found)
+    finally:
+        edited.close()
+
+
+def test_slow_checks_are_made_at_few_places() -> None:
+    """All along a border, and in steps elsewhere."""
+    x, y = np.meshgrid(np.arange(25), np.arange(25), indexing="ij")
+    quick, slow = x + y > 5, 2 * x + y < 55
+    asked: list[tuple[int, ...]] = []
+
+    def check(index: tuple[int, ...]) -> bool:
+        asked.append(index)
+        return bool(slow[index])
+
+    assert (_filtered(quick, check) == (quick & slow)).all()
+    assert len(asked) == len(set(asked)) < 220
 
 
 @pytest.mark.parametrize(("name", "point"), [("linkage-slide", "C"), ("slider-crank-01", "B")])
