@@ -90,6 +90,10 @@ class Interval:
         low, high = max(self.above, self.least), min(self.below, self.most)
         about_zero = low < 0
         ends = ("above" if self.above > -math.inf else "from") + ("_below" if self.below < math.inf else "_to")
+        if math.isinf(low):
+            ends = "only_to"
+        elif math.isinf(high):
+            ends = "only_from"
         zero = "" if not self.tiny else "+or_small" if about_zero else "+or_zero"
         numbers = {"low": low if about_zero else max(low, self.tiny), "high": high, "tiny": self.tiny}
         return {"range": f"{ends}{zero}", **{name: grouped(number) for name, number in numbers.items()}}

@@ -21,7 +21,7 @@ from reportgen.assignment.schema import keys_at
 from reportgen.assignment.suggestions import with_suggestions
 from reportgen.base.errors import Fault, Finding, Location, Where
 from reportgen.base.files import contents, leads_out
-from reportgen.base.template_folders import school_files
+from reportgen.base.template_folders import is_of_atlas, school_files
 from reportgen.base.typing_mistakes import meant, slip
 from reportgen.base.units import Language, two_readings
 from reportgen.base.words import as_error, close_or_known, language_of
@@ -31,7 +31,7 @@ from reportgen.base.yaml_values import at
 Model = TypeVar("Model", bound=BaseModel)
 _WHOLE = "file"
 MISTYPED = frozenset(
-    {"unknown-key", "unknown-kind", "wrong-type", "choice", "not-a-number", "unknown-unit", "date", "moment"}
+    {"unknown-key", "unknown-kind", "unknown-machine", "wrong-type", "choice", "not-a-number", "unknown-unit", "date", "moment"}
 )
 """Faults that may be caused by a typing mistake."""
 _CONTROLS = {"Cc", "Cf", "Cs", "Zl", "Zp"}
@@ -219,7 +219,8 @@ def _no_kind(name: object, kinds: Collection[str]) -> Finding:
         return Finding("missing-key", ("kind",), {"key": "kind"})
     if not isinstance(name, str):
         return Finding("wrong-type", ("kind",), {"expected": "text"})
-    return Finding("unknown-kind", ("kind",), {"text": name, **close_or_known(name, list(kinds))})
+    code = "unknown-machine" if is_of_atlas(name) else "unknown-kind"
+    return Finding(code, ("kind",), {"text": name, **close_or_known(name, list(kinds))})
 
 
 def _sections(raw: dict[str, Any], kind: Kind | None) -> tuple[list[Finding], Draft]:

@@ -248,10 +248,11 @@ def check(path: Path | str, language: Language | None = None) -> list[Problem]:
 def examine(path: Path | str, language: Language | None = None) -> list[Problem]:
     """Return all faults of an assignment file; if it has none, its warnings and the positions that labels refer to.
 
-    Of a machine's file for the atlas, the faults are returned.
+    Of a machine's file for the atlas, the faults are returned; if it has none, warnings about its bounds.
     """
     if atlas.is_machine_file(source := read_source(Path(path))):
-        return [as_problem(fault, language) for fault in atlas.faults_in(source)]
+        faults = [as_problem(fault, language) for fault in atlas.faults_in(source)]
+        return faults or [as_problem(fault, language, "warning") for fault in atlas.doubts_in(source)]
     return problems_of(source, Path(path), language)
 
 

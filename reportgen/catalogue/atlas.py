@@ -24,7 +24,7 @@ from reportgen.base.units import Given, Language
 from reportgen.base.words import as_error
 from reportgen.base.yaml_source import MappingNode, Source
 from reportgen.catalogue import linkage, linkage_file
-from reportgen.catalogue.atlas_file import CompiledMachine, checked, read_machine
+from reportgen.catalogue.atlas_file import CompiledMachine, at_bounds, checked, read_machine
 from reportgen.catalogue.linkage_words import rods
 from reportgen.catalogue.parameters import UnderGravity
 from reportgen.catalogue.topic_sections import with_topics
@@ -239,6 +239,12 @@ def faults_in(source: Source) -> list[Fault]:
     """Return the faults of a machine's file, with those of its assembly."""
     compiled, faults = read_machine(source, BASE)
     return faults if compiled is None else checked(compiled, source, linkage.CHECKS)
+
+
+def doubts_in(source: Source) -> list[Fault]:
+    """Return warnings about the bounds in a machine's file that has no faults."""
+    compiled, _ = read_machine(source, BASE)
+    return [] if compiled is None else at_bounds(compiled, source, linkage.CHECKS)
 
 
 def _read(kind: str) -> tuple[AtlasMachine | None, tuple[Fault, ...]]:

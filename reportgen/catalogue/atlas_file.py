@@ -6,6 +6,7 @@ to the content of a `linkage` file. All faults have their places in the machine'
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -179,6 +180,8 @@ def read_machine(source: Source, base: Kind) -> tuple[CompiledMachine | None, li
     machine = CompiledMachine(content, parameters, formulas)
     if not findings:
         findings += _expansion(machine)
+    if not findings:
+        findings += _named_links(machine)
     faults = placed(source, findings)
     return (None if faults else machine), faults
 
@@ -202,7 +205,7 @@ def _of_parameters(content: MachineFile, made: dict[str, Parameter]) -> Iterator
     """Yield faults of the parameters, and enter those without a fault into `made`."""
     for name, about in content.parameters.items():
         at: Where = ("parameters", name)
-        if not _NAME.fullmatch(name) or name in RESERVED or hasattr(UnderGravity, name):
+        if not _NAME.fullmatch(name) or name in RESERVED or hasattr(UnderGravity, name) or name in UnderGravity.model_fields:
             yield Finding("parameter-name", at, {"text": name}, at="key")
             continue
         key = "default"
@@ -212,6 +215,9 @@ def _of_parameters(content: MachineFile, made: dict[str, Parameter]) -> Iterator
             for key, text in (("least", about.least), ("most", about.most)):
                 if text is not None:
                     numbers[key] = read_typed(text, default.unit).si / _factor(default.unit)
+            if numbers.get("least", -math.inf) > numbers.get("most", math.inf):
+                yield Finding("range-order", (*at, "least"), {"last": about.most or ""})
+                continue
             reader = _reader(default.unit, Interval(**numbers))
             key = "default"
             made[name] = Parameter(name, reader, reader.read(about.default))
@@ -346,14 +352,46 @@ def _expansion(machine: CompiledMachine) -> list[Finding]:
     return findings
 
 
-def checked(machine: CompiledMachine, source: Source, checks: Sequence[Check]) -> list[Fault]:
-    """Return the faults of a machine with its default parameters, by the checks of its linkage."""
-    content = machine.expanded({name: one.default for name, one in machine.parameters.items()})
+def _named_links(machine: CompiledMachine) -> Iterator[Finding]:
+    """Yield faults for names of links that the machine does not have."""
+    known = {1, *(link for group in machine.content.linkage["groups"] for link in map(int, group["links"]))}
+    for language, words in machine.content.words.items():
+        for link in words.links:
+            if int(link) not in known:
+                numbers = {"text": link, "known": ", ".join(map(str, sorted(known)))}
+                yield Finding("no-such-link", ("words", language, "links", link), numbers, at="key")
+
+
+def checked(
+    machine: CompiledMachine, source: Source, checks: Sequence[Check], given: Mapping[str, Given] | None = None
+) -> list[Fault]:
+    """Return the faults of a machine with its default parameters but for those `given`, by the checks of its linkage.
+
+    Raises `FormulaError` if a formula has no value.
+    """
+    content = machine.expanded({name: one.default for name, one in machine.parameters.items()} | dict(given or {}))
     value, _ = read_section("parameters", linkage_file.Parameters, content)
     positions = machine.content.positions
     draft = Draft({"parameters": content}, {"parameters": value, "positions": positions})
     findings = [finding for check in checks for finding in check(draft)]
     return placed(source, (replace(one, where=in_machine(one.where)) for one in findings))
+
+
+def at_bounds(machine: CompiledMachine, source: Source, checks: Sequence[Check]) -> list[Fault]:
+    """Return faults for the bounds at which the machine, with the defaults of the other parameters, has faults."""
+    findings = []
+    for name, one in machine.parameters.items():
+        about = machine.content.parameters[name]
+        for key, text in (("least", about.least), ("most", about.most)):
+            if text is None or text == about.default:
+                continue
+            try:
+                is_right = not checked(machine, source, checks, {name: one.reader.read(text)})
+            except FormulaError:
+                is_right = False
+            if not is_right:
+                findings.append(Finding("bound-fails", ("parameters", name, key), {"name": name, "text": text}))
+    return placed(source, findings)
 
 
 def in_machine(where: Where) -> Where:

@@ -53,7 +53,7 @@ def build(
     format: Annotated[str, format_option("report")] = usual_formats("report"),
     extent: Annotated[
         Literal["full", "short"] | None,
-        typer.Option("--extent", help="Title block in place of the file's own.", show_default=False),
+        typer.Option("--extent", help="Extent of the report, in place of the file's own.", show_default=False),
     ] = None,
     listing: Annotated[
         bool, typer.Option("--listing", help="Add a Python program of the closed formulas, also as report.py.")
