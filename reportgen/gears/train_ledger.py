@@ -20,7 +20,7 @@ from reportgen.formula.calculation import Calculation
 from reportgen.formula.vocabulary import KeyChapter
 from reportgen.gears import train_formulas as formulas
 from reportgen.gears import train_ids
-from reportgen.gears.tooth_numbers import CONDITIONS, DUST, LEAST_OUTER, SCHEMES, Train, TrainChoice, power_way
+from reportgen.gears.tooth_numbers import CONDITIONS, LEAST_OUTER, SCHEMES, Train, TrainChoice, power_way
 from reportgen.gears.train_file import FIRST_ROW_WHEEL, KnownTorque, Parameters, undercut_wheels
 from reportgen.gears.train_formulas import OTHER, TrainScheme, term_of
 
@@ -395,8 +395,10 @@ class TrainCalculation:
         mesh = q.define(train_ids.power("mesh"), q[train_ids.torque("1")] * (ω1 - ωH), Symbol("P", "", "(H)"))
         share = q.define("train.share", size(mesh) / power, "ψ", "ratio")
         q.set_out("power", power, mesh, share)
-        if q.si(share) > 1 + DUST:
-            q.set_out("power", q.define(train_ids.power("circulating"), size(mesh) - power, Symbol("P", "c")))
+        if (u := q.si("train.u1H")) < 1:
+            # M₁ω₁ = M₁(ω₁ − ω_H) + M₁ω_H with opposite signs: the smaller part runs in a circle.
+            circle: Expression = mesh if u > 0 else q[train_ids.torque("1")] * ωH
+            q.set_out("power", q.define(train_ids.power("circulating"), size(circle), Symbol("P", "c")))
 
     @staticmethod
     def _ratios(factors: Iterable[Expression]) -> list[Ref]:
