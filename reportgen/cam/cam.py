@@ -36,6 +36,8 @@ MOST_UNCERTAIN = 0.1
 """Share of the greatest acceleration by which rounded displacements may leave the acceleration uncertain."""
 SAMPLES = 2001
 """Number of samples of a law over its phase."""
+SHORTEST = 1e-3
+"""Least share of a phase that a segment of a law takes."""
 SUM = 1e-6
 """Largest difference of the sum of the phases from a whole turn (degrees)."""
 
@@ -164,7 +166,7 @@ def _segments(law: LawTable, where: Where) -> Iterator[Finding]:
     to = s = 0.0
     for index, segment in enumerate(segments):
         reached = s if segment.s is None else segment.s
-        if segment.to <= to:
+        if segment.to - to < SHORTEST:
             yield Finding("not-increasing", (*where, index, "to"), {"key": "to"})
             return
         if reached < s:
@@ -279,14 +281,13 @@ def _differences(given: Parameters) -> Iterator[Finding]:
             continue
         where, unit = (*TOP, "laws", key, "s"), resolution(law.s)
         graph = table_of(law)
-        _, V, _ = graph.nodes
         inside = np.linspace(0, 1, SAMPLES)
-        slowest = FollowerLaw("displacements", graph)(inside)[1]
+        V = FollowerLaw("displacements", graph)(inside)[1]
         uncertain = 2 * unit / float(min(np.diff(law.x))) ** 2 / float(np.abs(graph.a).max())
-        back = -float(slowest.min()) / float(np.abs(V).max())
+        back = -float(V.min()) / float(V.max())
         if back > RUNS_BACK:
-            near = int(np.abs(np.array(law.x) - inside[slowest.argmin()]).argmin())
-            yield Finding("cam-ripple", (*where, near), {"x": f"{inside[slowest.argmin()]:.3g}"})
+            near = int(np.abs(np.array(law.x) - inside[V.argmin()]).argmin())
+            yield Finding("cam-ripple", (*where, near), {"x": f"{inside[V.argmin()]:.3g}"})
         elif uncertain > MOST_UNCERTAIN:
             about = {"unit": f"{unit:g}", "share": f"{uncertain * 100:.0f}"}
             yield Finding("cam-resolution", where, about, at="key")

@@ -137,3 +137,16 @@ def test_differences_are_held_against_the_resolution(tmp_path: Path) -> None:
     misprint = np.round(exact, 3)
     misprint[10] = misprint[11] - 0.001
     assert told(misprint)[0] == "cam-ripple"
+
+
+@pytest.mark.parametrize("rise", ["{x: [0, 1], s: [0, 20]}", "{x: [0, 0.3, 0.5, 1], s: [0, 8, 8, 20]}"])
+def test_a_table_may_have_nodes_only_where_it_rests(rise: str, tmp_path: Path) -> None:
+    path = written(tmp_path, rise)
+    assert api.check(path) == []
+    assert {problem.code for problem in api.examine(path)} <= {"cam-resolution", "cam-undercut", "cam-pressure"}
+    assert open_case(path).document().blocks
+
+
+def test_a_segment_has_a_length(tmp_path: Path) -> None:
+    path = written(tmp_path, "{segments: [{to: 1e-13, s: 0.5, law: sine}, {to: 1, s: 1, law: sine}]}")
+    assert [fault.code for fault in api.check(path)] == ["not-increasing"]
