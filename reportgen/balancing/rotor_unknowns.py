@@ -64,4 +64,7 @@ def unknown_masses(given: Parameters) -> dict[str, float] | None:
     e, w = (cmath.rect(1, mass.angle.si) for mass in (near, far))
     if abs(cross(e, w)) <= PARALLEL or not all(arms):
         return None
-    return {first: -cross(M, w) / cross(e, w) / arms[0], second: -cross(e, M) / cross(e, w) / arms[1]}
+    parts = cross(M, w), cross(e, M)
+    if min(map(abs, parts)) <= PARALLEL * abs(M):
+        return None
+    return {first: -parts[0] / cross(e, w) / arms[0], second: -parts[1] / cross(e, w) / arms[1]}

@@ -190,3 +190,12 @@ def test_faults_of_a_cylinder_are_located(old: str, new: str, faults: list[str],
     (tmp_path / "own.yaml").write_text(TEXT.replace(old, new), encoding="utf-8")
     found = api.check(tmp_path / "own.yaml", "en")
     assert [f"{one.location.line}:{one.location.column} {one.code}" for one in found] == faults
+
+
+def test_a_v_twin_on_one_throw_has_its_report(tmp_path: Path) -> None:
+    """Without places along the crankshaft there are no couples."""
+    text = "{r: 50 mm, l: 180 mm, n: 1500 rpm, m3: 1 kg, cylinders: [{crank: 0 deg, bank: 45 deg}, "
+    text += "{crank: 0 deg, bank: -45 deg, m3: 1.4 kg}]}"
+    (tmp_path / "twin.yaml").write_text(f"kind: engine-balance\nparameters: {text}\n", encoding="utf-8")
+    for language in languages():
+        assert open_case(tmp_path / "twin.yaml", language).document().blocks

@@ -214,6 +214,7 @@ FAULTS = [
     ("masses", "z: 200 mm", "z: 0 mm", ["7:11 rotor-sought"]),
     ("masses", "angle: 240 deg", "angle: 60 deg", ["8:35 rotor-other-side"]),
     ("masses", "angle: 240 deg", "angle: 270 deg", ["8:35 rotor-sought-parallel"]),
+    ("masses", "angle: 0 deg", "angle: 270 deg", ["8:35 rotor-sought-parallel"]),
     ("masses", "m: 7 kg", "m: seek", ["6:11 not-a-number"]),
 ]
 
