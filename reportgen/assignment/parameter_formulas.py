@@ -9,6 +9,7 @@ from __future__ import annotations
 import ast
 import math
 import re
+import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
@@ -20,7 +21,9 @@ LONGEST_FORMULA = 120
 LARGEST_POWER = 4
 UNITS = ("mm", "cm", "m", "deg", "rad", "N", "kN", "kg", "rpm", "s")
 """Units that a number of a formula may have; no parameter has such a name."""
-_QUANTITY = re.compile(rf"(?<![\w.])({NUMBER.removeprefix('[+-]?')})\s*({'|'.join(UNITS)})(?![\w(])")
+_QUANTITY = re.compile(rf"(?<![\w.])({NUMBER.removeprefix('[+-]?')})\s*({'|'.join(UNITS)})(?![\w(]|\s*(?:\^|\*\*))")
+"""A quantity; a power of one, such as `2 mm^2`, would be read in two ways, and needs parentheses."""
+_LETTERS = re.compile(r"[A-Za-z0-9.+*/^()\s·×⋅\N{MINUS SIGN}-]*")
 _SIGNS = {"·": "*", "×": "*", "⋅": "*", "\N{MINUS SIGN}": "-", "^": "**"}
 
 PLAIN: Dimension = ()
@@ -126,7 +129,7 @@ class Formula:
 @lru_cache(maxsize=2000)
 def formula(text: str, known: frozenset[str]) -> Formula:
     """Return the formula of a text whose parameters are among the `known` names.  Raises `FormulaError`."""
-    if len(text) > LONGEST_FORMULA:
+    if len(text) > LONGEST_FORMULA or not _LETTERS.fullmatch(text):
         raise FormulaError("formula-syntax", text=text)
     plain = "".join(_SIGNS.get(letter, letter) for letter in text.strip())
     constants: dict[str, Amount] = {}
@@ -138,7 +141,9 @@ def formula(text: str, known: frozenset[str]) -> Formula:
         return name
 
     try:
-        tree = ast.parse(_QUANTITY.sub(named, plain), mode="eval").body
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            tree = ast.parse(_QUANTITY.sub(named, plain), mode="eval").body
     except (SyntaxError, ValueError, MemoryError, RecursionError):
         raise FormulaError("formula-syntax", text=text) from None
     names: list[str] = []

@@ -31,7 +31,17 @@ from reportgen.base.yaml_values import at
 Model = TypeVar("Model", bound=BaseModel)
 _WHOLE = "file"
 MISTYPED = frozenset(
-    {"unknown-key", "unknown-kind", "unknown-machine", "wrong-type", "choice", "not-a-number", "unknown-unit", "date", "moment"}
+    {
+        "unknown-key",
+        "unknown-kind",
+        "unknown-machine",
+        "wrong-type",
+        "choice",
+        "not-a-number",
+        "unknown-unit",
+        "date",
+        "moment",
+    }
 )
 """Faults that may be caused by a typing mistake."""
 _CONTROLS = {"Cc", "Cf", "Cs", "Zl", "Zp"}

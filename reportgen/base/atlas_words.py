@@ -22,6 +22,8 @@ GROUP = "atlas"
 LONGEST_WORDS = 2000
 """Largest number of characters of a text of a machine."""
 KEPT_MACHINES = 256
+TABLES = frozenset({"parameters", "links"})
+"""Words of a machine that are tables; all others are texts."""
 
 
 def machine_source(file: Path) -> Source:
@@ -49,7 +51,9 @@ def machine_words(file: Path, language: Language) -> Mapping[str, Any]:
     known = languages if isinstance(languages, dict) else {}
     order = (language, REFERENCE, DEFAULT_LANGUAGE, *known)
     words: dict[str, Any] = next((known[name] for name in order if isinstance(known.get(name), dict)), {})
-    return {"title": file.stem, **{key: text for key, value in words.items() if (text := _sound(value))}}
+    sound = ((key, _sound(value)) for key, value in words.items())
+    fitting = {key: value for key, value in sound if value and isinstance(value, dict) == (key in TABLES)}
+    return {"title": file.stem, **fitting}
 
 
 def _sound(value: Any) -> Any:

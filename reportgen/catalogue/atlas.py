@@ -61,7 +61,9 @@ class AtlasParameters(UnderGravity):
 
     @property
     def slides(self) -> bool:
-        return self.expanded.slides
+        """False also if there is no such linkage, which a check reports."""
+        expanded, _ = machine_of(self.machine).expanded(self)
+        return expanded is not None and expanded.slides
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _blank, (self.machine, self.topic_names), self.__getstate__()
@@ -156,8 +158,11 @@ class AtlasMachine:
         return replace(finding, where=where, at="value")
 
     def position_labels(self, parameters: AtlasParameters, positions: Positions) -> tuple[str, ...]:
-        """Return the labels of the positions of the cycle."""
-        return linkage.position_labels(parameters.expanded, positions)
+        """Return the labels of the positions of the cycle: their numbers, if a check refuses the parameters."""
+        made, _ = self.expanded(parameters)
+        if made is None:
+            return tuple(map(str, range(1, positions.count * self.TURNS + 1)))
+        return linkage.position_labels(made, positions)
 
     def machine(self, assignment: Assignment) -> Machine:
         """Return the linkage of an assignment, with the machine's names of its parts."""

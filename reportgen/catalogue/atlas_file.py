@@ -6,6 +6,7 @@ to the content of a `linkage` file. All faults have their places in the machine'
 
 from __future__ import annotations
 
+import keyword
 import math
 import re
 from collections.abc import Iterator, Mapping, Sequence
@@ -134,6 +135,15 @@ class PlacedFormula:
         return unit if fits else self.unit
 
 
+def _is_unit(text: str) -> bool:
+    """Return True for the unit of a list of numbers, "" for pure numbers; its table may name anything."""
+    try:
+        _dimension(text)
+    except ValueError:
+        return False
+    return True
+
+
 def _dimension(unit: str) -> Dimension:
     return scale(unit)[1] if unit else PLAIN
 
@@ -205,7 +215,7 @@ def _of_parameters(content: MachineFile, made: dict[str, Parameter]) -> Iterator
     """Yield faults of the parameters, and enter those without a fault into `made`."""
     for name, about in content.parameters.items():
         at: Where = ("parameters", name)
-        if not _NAME.fullmatch(name) or name in RESERVED or hasattr(UnderGravity, name) or name in UnderGravity.model_fields:
+        if not _NAME.fullmatch(name) or name in RESERVED or hasattr(UnderGravity, name):
             yield Finding("parameter-name", at, {"text": name}, at="key")
             continue
         key = "default"
@@ -228,8 +238,13 @@ def _of_parameters(content: MachineFile, made: dict[str, Parameter]) -> Iterator
             yield Finding(context.pop("code"), (*at, key), {name: str(text) for name, text in context.items()})
 
 
-RESERVED = frozenset({*UNITS, *FUNCTIONS, *topics(), "positions", "linkage", "expanded", "machine", "slides"})
-"""Names that no parameter can have: units and functions of formulas, keys and members of every machine."""
+RESERVED = frozenset(
+    {
+        *(*UNITS, *FUNCTIONS, *keyword.kwlist, *UnderGravity.model_fields, *topics()),
+        *("positions", "linkage", "expanded", "machine", "slides"),
+    }
+)
+"""Names that no parameter can have: units, functions and words of formulas, keys and members of every machine."""
 
 
 def read_typed(text: str, unit: str | None = None) -> Given:
@@ -266,11 +281,18 @@ def _compiled(
     """Yield faults of the formulas in the linkage, and enter those without a fault into `made`."""
     known = frozenset(content.parameters)
     given = {name: one.default for name, one in parameters.items()}
+    strange: list[Where] = []
     for where, text in _leaves(content.linkage, ()):
         asked = _asked_for(base, content.linkage, where)
         if asked is None or _is_literal(text, *asked, known):
             continue
         at: Where = (_SECTION, *where)
+        if not _is_unit(asked[0]):
+            table = at[: -1 if isinstance(where[-1], str) else -2]
+            if table not in strange:
+                strange.append(table)
+                yield Finding("unknown-unit", table, {"given": asked[0], "unit": "N"})
+            continue
         try:
             entry = PlacedFormula(where, formula(text, known), *asked)
             if all(name in given for name in entry.formula.names):

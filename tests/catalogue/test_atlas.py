@@ -13,7 +13,7 @@ import pytest
 
 from reportgen import catalogue
 from reportgen.assignment.parameter_formulas import Amount, FormulaError, formula
-from reportgen.base.atlas_words import machine_source
+from reportgen.base.atlas_words import machine_source, machine_words
 from reportgen.base.field_words import field_words
 from reportgen.base.kinds import kinds, title, titles
 from reportgen.base.template_folders import ATLAS_VARIABLE, atlas_files, languages
@@ -143,7 +143,12 @@ def test_text_of_a_machine_is_never_markup_nor_a_template(department: Path, tmp_
         (("h + a + 20 mm", "h/(a - a)"), "h/(a", "formula-value"),
         (("h + a + 20 mm", "h.si"), "h.si", "formula-syntax"),
         (("h + a + 20 mm", "sin(h)"), "sin(h)", "formula-units"),
+        (("h + a + 20 mm", "h + a + 2 mm^2/a"), "h + a", "formula-syntax"),
+        (("h + a + 20 mm", "h + a + 1 mm*_0/h"), "h + a", "formula-syntax"),
         (("w: {", "m: {"), "m: {", "parameter-name"),
+        (("w: {", "g: {"), "g: {", "parameter-name"),
+        (("w: {", "plane: {"), "plane: {", "parameter-name"),
+        (("w: {", "in: {"), "in: {", "parameter-name"),
         (("n: w", "n: 60 rpm"), "w: {", "parameter-unused"),
         (("least: 20 mm, most", "least: 60 mm, most"), "50 mm", "out-of-range"),
         (("least: 20 mm, most", "least: 20 N, most"), "20 N", "wrong-unit"),
@@ -183,6 +188,33 @@ def test_a_fault_of_the_linkage_is_at_the_parameter_that_causes_it(department: P
     assert examined("atlas/rocker", "{a: 45 mm}", tmp_path) == []
     (found,) = examined("atlas/rocker", "{a: 90 mm, h: 100 mm}", tmp_path)
     assert "mine.yaml:3:27: error[no-assembly]" in found
+
+
+def test_a_formula_without_a_value_is_a_fault_at_the_parameters(department: Path, tmp_path: Path) -> None:
+    """Whether the root of a negative number, or a value that a linkage refuses."""
+    for formula_of_a, code in (("sqrt(a^2 - 0.1*h^2)", "formula-value"), ("a - 45 mm", "out-of-range")):
+        text = SLOTTER.replace("length: a,", f"length: {formula_of_a},")
+        (department / "rooted.yaml").write_text(text, "utf-8")
+        assert examined("atlas/rooted", "{}", tmp_path) == []
+        for topic in ("", ", flywheel: {delta: 1/50}", ", balancing: {}"):
+            found = examined("atlas/rooted", f"{{a: 40 mm{topic}}}", tmp_path)
+            assert re.search(rf"mine.yaml:3:\d+: error\[{code}\]", found[0])
+
+
+@pytest.mark.parametrize("unit", ["foo", "[N]", "{a: N}"])
+def test_an_unknown_unit_of_a_table_is_a_fault(department: Path, tmp_path: Path, unit: str) -> None:
+    load = f"loads: [{{by: angle, link: 3, torque_unit: {unit}, angle: [0 deg, 360 deg], values: [h, h]}}]"
+    (department / "bad.yaml").write_text(SLOTTER.replace("  points:", f"  {load}\n  points:"), "utf-8")
+    found = examined("atlas/bad", "{}", tmp_path)
+    assert any("bad.yaml:17:" in line and "error[unknown-unit]" in line for line in found), found
+
+
+def test_words_of_a_wrong_form_are_left_out(department: Path) -> None:
+    """Where the titles of all kinds are listed, as in the form, a faulty machine has its name."""
+    words = SLOTTER.replace("title: A slotter <b>& more</b> %% given", "title: {a: b}\n    uses: {a: b}")
+    (department / "bad.yaml").write_text(words.replace("links: {3: the slotted link}", "links: none"), "utf-8")
+    assert titles("en")["atlas/bad"] == "bad"
+    assert "links" not in machine_words(atlas_files()["atlas/bad"], "en")
 
 
 def test_a_topic_is_added_to_a_machine_that_is_loaded_by_its_defaults(department: Path, tmp_path: Path) -> None:
@@ -310,3 +342,27 @@ def test_a_changed_machine_makes_its_reports_anew(department: Path) -> None:
     (department / "folder.yaml").mkdir()
     os.mkfifo(department / "pipe.yaml")
     assert templates_hash() != changed
+
+
+def test_bounds_and_links_of_a_machine_are_checked(department: Path, tmp_path: Path) -> None:
+    """A bound at which the machine fails is a warning; an empty range and a link that is missing are errors."""
+    for old, new, expected in (
+        ("most: 90 mm", "most: 150 mm", "bound-fails"),
+        ("most: 90 mm", "most: 10 mm", "range-order"),
+        ("least: 100 mm}", "most: 100 mm}", "out-of-range"),
+        ("links: {3:", "links: {9:", "no-such-link"),
+    ):
+        assert old in SLOTTER
+        (department / "slotter.yaml").write_text(SLOTTER.replace(old, new), "utf-8")
+        (problem, *_) = catalogue.examine(department / "slotter.yaml", "en")
+        assert (problem.level == "warning") == (expected == "bound-fails")
+        assert problem.code == expected
+        assert "inf" not in problem.message
+    (department / "slotter.yaml").write_text(SLOTTER, "utf-8")
+    assert catalogue.examine(department / "slotter.yaml", "en") == []
+
+
+def test_a_machine_that_is_not_there_asks_for_its_folder(department: Path, tmp_path: Path) -> None:
+    (found,) = examined("atlas/sloter", "{}", tmp_path)
+    assert "unknown-machine" in found
+    assert "--atlas" in found
