@@ -402,13 +402,13 @@ def checked(
 def at_bounds(machine: CompiledMachine, source: Source, checks: Sequence[Check]) -> list[Fault]:
     """Return faults for the bounds at which the machine, with the defaults of the other parameters, has faults."""
     findings = []
-    for name, one in machine.parameters.items():
+    for name, parameter in machine.parameters.items():
         about = machine.content.parameters[name]
         for key, text in (("least", about.least), ("most", about.most)):
             if text is None or text == about.default:
                 continue
             try:
-                is_right = not checked(machine, source, checks, {name: one.reader.read(text)})
+                is_right = not checked(machine, source, checks, {name: parameter.reader.read(text)})
             except FormulaError:
                 is_right = False
             if not is_right:
