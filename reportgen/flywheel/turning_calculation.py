@@ -92,8 +92,8 @@ class TurningCalculation:
         q, prime = self.q, "′" if side == RESISTING and len(self._sides) > 1 else ""
         for number, term in enumerate(torques.harmonics, start=1):
             index = f"{term.order:g}" if term.order % 1 == 0 else f"{2 * term.order:g}/2"
-            q.give(names.cosine(side, number), term.cos.si, Symbol("a", index, prime))
-            q.give(names.sine(side, number), term.sin.si, Symbol("b", index, prime))
+            q.give(names.cosine(side, number), term.cos.si, Symbol("p", index, prime))
+            q.give(names.sine(side, number), term.sin.si, Symbol("q", index, prime))
         for number, (angle, torque) in enumerate(torques.nodes, start=1):
             q.give(names.node_angle(side, number), angle, Symbol("φ", f"t{number}", prime))
             q.give(names.node_torque(side, number), torque, Symbol("M", f"t{number}", prime))

@@ -24,8 +24,6 @@ from reportgen.sheets.plates import drawn
 
 LINES = "mean", "factor", "per_speed", "points", "scale", "areas", "share", "power", "acceleration"
 """Names of lines that only some files have."""
-WORKED = 4
-"""Largest number of areas whose lines are all written out; of more, only the first ones are."""
 FIRST, WIDTH = 18.0, 32.0
 """Widths (mm) of the columns of tables."""
 
@@ -53,7 +51,7 @@ class TurningPage(DesignPage[SolvedTurning]):
         lines: dict[str, list[str]] = {name: [] for name in LINES}
         lines |= {name: list(written.known(quantities)) for name, quantities in written.lines.items()}
         for name in ("points", "areas", "energies"):
-            lines[name] = lines.get(name, [])[:WORKED]
+            lines.setdefault(name, [])
         highest, lowest = extreme_points(case.energies)
         tables = [one for one in (given.driving, given.resisting) if one is not None and one.nodes]
         curves = [one for one in (given.driving, given.resisting) if one is not None and one.terms]
@@ -74,7 +72,6 @@ class TurningPage(DesignPage[SolvedTurning]):
             "scaled": turning_ids.FACTOR in written,
             "finds_wheel": given.delta is not None,
             "finds_mass": given.delta is not None and given.k is not None,
-            "every_line": case.count_of_areas <= WORKED,
             "highest": str(highest),
             "lowest": str(lowest),
             "energy_table": self.energy_table,

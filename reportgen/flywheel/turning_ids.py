@@ -40,8 +40,8 @@ KINDS: Mapping[str, QuantityKind] = {
 _G, _L, _C, _T = KeyChapter.geometry, KeyChapter.loads, KeyChapter.cycle, KeyChapter.torque
 
 ROWS: tuple[VocabularyRow, ...] = (
-    VocabularyRow(cosine, "a", "torque", below="{number}", name="turning cosine"),
-    VocabularyRow(sine, "b", "torque", below="{number}", name="turning sine"),
+    VocabularyRow(cosine, "p", "torque", below="{number}", name="turning cosine"),
+    VocabularyRow(sine, "q", "torque", below="{number}", name="turning sine"),
     VocabularyRow(node_angle, "φ", "angle", below="t{number}", name="turning node angle"),
     VocabularyRow(node_torque, "M", "torque", below="t{number}", name="turning node torque"),
     VocabularyRow(Name(CYCLE), "Φ", "angle"),
