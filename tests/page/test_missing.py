@@ -35,7 +35,7 @@ VALUES = {
     "parameters.planes.B": "400 mm",
     "parameters.flywheel.delta": "1/40",
     "report.listing": "true",
-    "parameters.motion.drive.M0": "100 N m",
+    "parameters.motion.drive.M0": "300 N m",
     "parameters.motion.drive.k": "10 N m s",
     "parameters.springs.0.c": "0.001 N/mm",
     "parameters.before": "[20, 40]",
@@ -46,6 +46,8 @@ VALUES = {
     "parameters.balancing.counterweight.radius": "50 mm",
     "parameters.balancing.counterweight.rules": "max",
     "parameters.efficiency.outer": "0.97",
+    "parameters.torque.M": "100 N m",
+    "parameters.at": "45 deg",
     "parameters.n": "600 rpm",
     "parameters.bearings": "-100 mm, 500 mm",
     "parameters.mass": "50 kg",
@@ -142,8 +144,8 @@ def fill(reader: Reader, where: Where) -> None:
             fill(reader, (*where, "drive", "J"))
             fill(reader, (*where, "drive", "M0"))
             return
-        case "parameters.efficiency":
-            fill(reader, (*where, "outer"))
+        case "parameters.efficiency" | "parameters.torque":
+            fill(reader, (*where, "outer" if where[-1] == "efficiency" else "M"))
             return
         case "parameters.flywheel" | "parameters.balancing" | "parameters.limits":
             first = {"flywheel": "delta", "balancing": "counterweight.rules"}
