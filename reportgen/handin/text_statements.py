@@ -234,8 +234,8 @@ def names_another(text: str) -> bool:
 
 
 def goes_on(text: str) -> bool:
-    """Return True if a line continues the statement before it: with its next side, or a further term of a long one."""
-    return bool(re.match(r"\s*([=≈+]|[-−](?=[\d(]))", text))
+    """Return True if a line continues the statement before it."""
+    return bool(re.match(r"\s*[=≈]", text))
 
 
 _CHAPTER = re.compile(any_of("chapter", whole=False), re.IGNORECASE)

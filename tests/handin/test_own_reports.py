@@ -36,6 +36,8 @@ LONGEST = ("engine-twin-05", "en", "full")
 LEFT: dict[tuple[Extent, str], str] = {
     ("short", "cam.[uwm]*"): "the chapter that works out the curvature is left out",
     ("short", "train.[rv].*"): "the triangles of velocities are left out",
+    ("full", "turning.A.2"): "a side of its line is broken before a sign, and is not read on",
+    ("short", "turning.A.2"): "a side of its line is broken before a sign, and is not read on",
 }
 """Why a report goes without a quantity that is asked for: the reason by the extent and a pattern of ids."""
 
