@@ -6,6 +6,7 @@ end to its beginning, and put together again.
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from difflib import SequenceMatcher
@@ -106,7 +107,7 @@ def _key(content: Any) -> Any:
 
 
 @dataclass
-class _Pieces:
+class _Pieces(ABC):
     """The items of a list as texts, and the texts before, between and after them, one more than items."""
 
     text: str
@@ -129,11 +130,13 @@ class _Pieces:
         first, *others = self.between
         return first + "".join(item + between for item, between in zip(self.items, others, strict=True))
 
+    @abstractmethod
     def delete(self, index: int) -> None:
-        raise NotImplementedError
+        """Take an item out, with its comma or its line."""
 
+    @abstractmethod
     def insert(self, index: int, item: Node) -> None:
-        raise NotImplementedError
+        """Put a new item before the one with an index."""
 
 
 class _Bracketed(_Pieces):
