@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from reportgen import api, catalogue
-from reportgen.base.kinds import kinds
+from reportgen.base.kinds import program_kinds
 from reportgen.cases import open_case
 from reportgen.derivation import write_ledger
 from reportgen.drawing import Polyline
@@ -45,7 +45,7 @@ def machine(request: pytest.FixtureRequest) -> Machine:
 
 def test_every_machine_has_its_case() -> None:
     loaded = {api.load(ASSIGNMENTS / f"{name}.yaml").kind for name in FILES}
-    assert loaded == {kind for kind in kinds() if hasattr(catalogue.module(kind), "machine")}
+    assert loaded == {kind for kind in program_kinds() if hasattr(catalogue.module(kind), "machine")}
 
 
 def test_speed_stays_within_the_unevenness_and_meets_it(machine: Machine) -> None:

@@ -12,10 +12,11 @@ from pathlib import Path
 import pytest
 
 from reportgen.server import database as databases
-from reportgen.server.backups import back_up, forget
+from reportgen.server.backups import back_up
 from reportgen.server.class_folder import ClassFolder
 from reportgen.server.database import Clock, Database
 from reportgen.server.links import Links
+from reportgen.server.serving import forget_class
 from reportgen.server.store import ClosedError, Store, TypedCell, UsedUpError, Window
 from reportgen.server.tables import metadata
 from tests.server.served import ADDRESS, Served
@@ -181,12 +182,14 @@ def test_a_copy_of_a_class_in_use_can_be_served(served: Served, tmp_path: Path) 
         assert copy.site.link("S1") == served.site.link("S1")
 
 
-def test_what_is_forgotten_names_nobody(served: Served) -> None:
-    student = served.person("S1")
-    student.save({student.places[0]: "12"})
-    student.upload("photo.jpg", b"a photo of An")
-    forget(served.folder)
-    left = {file.name for file in served.folder.path.rglob("*") if file.is_file()}
+def test_what_is_forgotten_names_nobody(made_class: Path, tmp_path: Path) -> None:
+    # A class that is served still writes what was handed in: it is forgotten afterwards, as the command does.
+    with Served.copied(made_class, tmp_path / "class") as served:
+        student = served.person("S1")
+        student.save({student.places[0]: "12"})
+        student.upload("photo.jpg", b"a photo of An")
+    forget_class(tmp_path / "class")
+    left = {file.name for file in (tmp_path / "class").rglob("*") if file.is_file()}
     assert left == {"spec.yaml", "policy.yaml"}
 
 
