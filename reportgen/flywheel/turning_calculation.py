@@ -56,12 +56,12 @@ class TurningCalculation:
         else:
             with q.within(KeyChapter.loads):
                 areas = self._enter_measured()
-        with q.within(KeyChapter.cycle):
+        with q.within(KeyChapter.forces):
             self._enter_energies(areas)
         with q.within(KeyChapter.torque):
             self._enter_wheel()
         if given.at is not None:
-            with q.within(KeyChapter.acceleration):
+            with q.within(KeyChapter.cycle):
                 self._enter_acceleration(q[names.AT])
         return q
 
@@ -285,7 +285,7 @@ class TurningCalculation:
         ω = q.define(names.OMEGA, 2 * PI * q[names.N] / 60)
         q.set_out("speed", ω)
         if (M := q.find(names.MEAN)) is not None:
-            with q.within(KeyChapter.cycle):
+            with q.within(KeyChapter.forces):
                 q.set_out("power", q.define(names.POWER, M * ω))
             if self.given.follows_speed:
                 c = q.give(names.PER_SPEED, self.run.per_speed, exact=False)

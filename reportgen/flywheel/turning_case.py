@@ -63,6 +63,7 @@ class TurningPage(DesignPage[SolvedTurning]):
             "curves": self.curve_equations if curves else "",
             "has_table": bool(tables),
             "has_curve": bool(curves),
+            "load_curve": given.resisting is not None and bool(given.resisting.terms),
             "load_varies": given.resisting is not None and given.resisting.varies,
             "both_vary": given.driving is not None and given.resisting is not None and given.resisting.varies,
             "by_speed": given.follows_speed,

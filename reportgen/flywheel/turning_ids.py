@@ -37,7 +37,8 @@ KINDS: Mapping[str, QuantityKind] = {
     "torque per speed": QuantityKind("N·m·s/rad"),
 }
 
-_G, _L, _C, _T = KeyChapter.geometry, KeyChapter.loads, KeyChapter.cycle, KeyChapter.torque
+_G, _L, _E, _T = KeyChapter.geometry, KeyChapter.loads, KeyChapter.forces, KeyChapter.torque
+_AT = KeyChapter.cycle
 
 ROWS: tuple[VocabularyRow, ...] = (
     VocabularyRow(cosine, "p", "torque", below="{number}", name="turning cosine"),
@@ -55,13 +56,13 @@ ROWS: tuple[VocabularyRow, ...] = (
     VocabularyRow(scale.only(of="A"), "μ", "work on paper", _L, below="A"),
     VocabularyRow(on_paper, "F", "area on paper", below="{number}", name="turning area on paper"),
     VocabularyRow(area, "A", "work", _L, below="{number}", name="turning area"),
-    VocabularyRow(extreme.only(bound="max"), "E", "work", _C, below="max"),
-    VocabularyRow(extreme.only(bound="min"), "E", "work", _C, below="min"),
-    VocabularyRow(energy, "E", "work", _C, below="{number}", name="turning energy"),
-    VocabularyRow(Name(RANGE), "ΔE", "work", _C),
-    VocabularyRow(Name(WORK), "W", "work", _C),
-    VocabularyRow(Name(SHARE), "K", "ratio", _C, below="E"),
-    VocabularyRow(Name(POWER), "P", "power", _C),
+    VocabularyRow(extreme.only(bound="max"), "E", "work", _E, below="max"),
+    VocabularyRow(extreme.only(bound="min"), "E", "work", _E, below="min"),
+    VocabularyRow(energy, "E", "work", _E, below="{number}", name="turning energy"),
+    VocabularyRow(Name(RANGE), "ΔE", "work", _E),
+    VocabularyRow(Name(WORK), "W", "work", _E),
+    VocabularyRow(Name(SHARE), "K", "ratio", _E, below="E"),
+    VocabularyRow(Name(POWER), "P", "power", _E),
     VocabularyRow(Name(N), "n", "speed of rotation"),
     VocabularyRow(Name(OMEGA), "ω", "angular velocity", _T, below="m"),
     VocabularyRow(Name(DELTA), "δ", "ratio", _T),
@@ -71,6 +72,6 @@ ROWS: tuple[VocabularyRow, ...] = (
     VocabularyRow(speed.only(bound="max"), "ω", "angular velocity", _T, below="max"),
     VocabularyRow(speed.only(bound="min"), "ω", "angular velocity", _T, below="min"),
     VocabularyRow(Name(AT), "φ", "angle"),
-    VocabularyRow(Name(TORQUE_AT), "ΔM", "torque", KeyChapter.acceleration),
-    VocabularyRow(Name(ACCELERATION), "ε", "angular acceleration", KeyChapter.acceleration),
+    VocabularyRow(Name(TORQUE_AT), "ΔM", "torque", _AT),
+    VocabularyRow(Name(ACCELERATION), "ε", "angular acceleration", _AT),
 )

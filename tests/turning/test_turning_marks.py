@@ -63,6 +63,21 @@ def test_what_the_sheet_asks_for() -> None:
     assert {row.id for row in Ask().of(scheme.key).asked} == wanted
 
 
+def test_the_sheet_follows_the_report_and_names_each_quantity() -> None:
+    """Energies come before the flywheel that they size, the acceleration last; no row says the same twice."""
+    for name in ("curve", "press", "areas"):
+        rows = marking_scheme(built.case(FOLDER / f"{name}.yaml", "en")).key.rows
+        first = {
+            id: next((k for k, row in enumerate(rows) if row.id == id), -1) for id in (names.RANGE, names.speed("max"))
+        }
+        assert first[names.RANGE] < first[names.speed("max")]
+        assert name != "curve" or rows[-1].id == names.ACCELERATION
+        for row in rows:
+            assert row.what
+            assert "clockwise" not in row.positive
+            assert not row.id.startswith("turning.E.2") or not row.positive
+
+
 MISTAKES = [
     ("curve", "turning-delta-doubled", (names.J,)),
     ("curve", "turning-speed-once", (names.J,)),
