@@ -57,15 +57,26 @@ const act = (index) => { %s };
   done(times);
 })();
 """
-DRAG = (
-    FRAMES
-    % """
-  const bar = input.closest(".field").querySelector("[type=range]"), low = Number(bar.min), high = Number(bar.max);
-  bar.value = low + (high - low) * (0.47 + 0.06 * index / arguments[1]);
+DRAG = """
+const done = arguments[arguments.length - 1], input = document.getElementById(arguments[0]), frames = arguments[1];
+const bar = input.closest(".field").querySelector("[type=range]"), low = Number(bar.min), high = Number(bar.max);
+const panel = extended.get(moving.root), feed = panel.feed, seen = [];
+panel.feed = (...what) => { feed(...what); requestAnimationFrame(() => setTimeout(() => seen.push(performance.now()))); };
+moving.pause();
+input.focus();
+const draw = (moved) => {
+  if (seen.length > frames) {
+    panel.feed = feed;
+    done(seen.slice(1).map((time, index) => time - seen[index]));
+    return;
+  }
+  bar.value = low + (high - low) * (0.5 + 0.03 * Math.sin(moved / 20));
   bar.dispatchEvent(new Event("input", { bubbles: true }));
+  requestAnimationFrame(() => draw(moved + 1));
+};
+draw(0);
 """
-)
-"""The times (ms) from a value drawn to the frame that shows it, for so many values."""
+"""The times (ms) from frame to frame while a value is drawn as the hand goes, for so many frames."""
 KEYS = (
     FRAMES
     % """
@@ -201,7 +212,7 @@ def table(samples: dict[str, Drawn], feelings: dict[str, Felt]) -> Iterator[str]
         "first paint, first view (≤ 1 s)",
         "layout shift (≤ 0.1)",
         "frame after a key (≤ 100 ms, 95 % ≤ 150 ms)",
-        "frame of a value drawn (≤ 100 ms, 95 % ≤ 150 ms)",
+        "from frame to frame of a value drawn (≤ 50 ms)",
         "file (≤ 50 ms)",
         "machine (≤ 0.3 s)",
     )

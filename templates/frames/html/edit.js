@@ -246,30 +246,33 @@ const fields = (() => {
     if (!asking) answered = follow();
     return answered;
   };
+  const next = () => {
+    const asked = wanted && { ...wanted, answer: post(wanted.name, wanted.body).then(received).catch(() => null) };
+    wanted = null;
+    return asked;
+  };
+  const received = async (answer) =>
+    answer.headers.get("Content-Type") === "application/json" ? { said: await answer.json() }
+      : { samples: answer.ok ? await answer.arrayBuffer() : new ArrayBuffer(0) };
+  const take = ({ said, samples }, { body, took }) => {
+    if (said) { took(said); return; }
+    document.body.classList.toggle("stale", !samples.byteLength);
+    if (!samples.byteLength) return;
+    const length = new DataView(samples).getUint32(0, true);
+    const changes = JSON.parse(new TextDecoder().decode(new Uint8Array(samples, 4, length)));
+    // Changes of another machine than the page shows are no changes of that; its own come with the next value.
+    if (String(changes.of) !== document.body.dataset.moving) return;
+    extended.get(machine?.root)?.feed(new Float32Array(samples, 4 + length), changes);
+    took(changes);
+    document.body.dataset.drawn = body.value ?? "";
+  };
   const follow = async () => {
     asking = true;
-    while (wanted) {
-      const { name, body, took, of } = wanted;
-      wanted = null;
-      try {
-        const answer = await post(name, body);
-        if (answer.headers.get("Content-Type") === "application/json") {
-          const said = await answer.json();
-          if (of === turn) took(said);
-          continue;
-        }
-        const samples = answer.ok ? await answer.arrayBuffer() : null, known = samples && samples.byteLength > 0;
-        if (of !== turn) continue;
-        document.body.classList.toggle("stale", !known);
-        if (!known) continue;
-        const length = new DataView(samples).getUint32(0, true);
-        const changes = JSON.parse(new TextDecoder().decode(new Uint8Array(samples, 4, length)));
-        // Changes of another machine than the page shows are no changes of that; its own come with the next value.
-        if (String(changes.of) !== document.body.dataset.moving) continue;
-        extended.get(machine?.root)?.feed(new Float32Array(samples, 4 + length), changes);
-        took(changes);
-        document.body.dataset.drawn = body.value ?? "";
-      } catch { /* the server tells of itself */ }
+    for (let asked = next(); asked;) {
+      const present = asked, answer = await present.answer;
+      // The server computes the next value while this one is drawn.
+      asked = next();
+      try { if (answer && present.of === turn) take(answer, present); } catch { /* the next value is drawn anew */ }
     }
     asking = false;
   };
