@@ -61,7 +61,10 @@ DRAG = """
 const done = arguments[arguments.length - 1], input = document.getElementById(arguments[0]), frames = arguments[1];
 const bar = input.closest(".field").querySelector("[type=range]"), low = Number(bar.min), high = Number(bar.max);
 const panel = extended.get(moving.root), feed = panel.feed, seen = [];
-panel.feed = (...what) => { feed(...what); requestAnimationFrame(() => setTimeout(() => seen.push(performance.now()))); };
+panel.feed = (...what) => {
+  feed(...what);
+  requestAnimationFrame(() => setTimeout(() => seen.push(performance.now())));
+};
 moving.pause();
 input.focus();
 const draw = (moved) => {
