@@ -54,6 +54,7 @@ SHOWN = {
     "rotor": ROOT / "assignments" / "rotor" / "rotor-two-planes.yaml",
     "engine-balance": ROOT / "assignments" / "engine-balance" / "v-six.yaml",
     "turning-moment": ROOT / "assignments" / "turning-moment" / "curve.yaml",
+    "structure": ROOT / "assignments" / "structure" / "class-three.yaml",
 }
 """What the README shows of kinds with a folder of their own."""
 LAID_OUT = ROOT / "assignments" / "four-bar-01.yaml"

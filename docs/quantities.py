@@ -35,6 +35,7 @@ OTHERS: Mapping[str, tuple[str, ...]] = {
         f"friction/{task}" for task in ("incline", "wedge", "screw-jack", "belt", "band-brake", "shoe-brake")
     ),
     "turning-moment": tuple(f"turning-moment/{name}" for name in ("curve", "areas", "two-curves", "by-speed")),
+    "structure": ("structure/geared-bars",),
 }
 """Example files by section of the page; each adds the ids that those before it do not have."""
 

@@ -33,6 +33,7 @@ SHOWN = {
     "rotor": "rotor/rotor-two-planes.yaml",
     "engine-balance": "engine-balance/v-six.yaml",
     "turning-moment": "turning-moment/curve.yaml",
+    "structure": "structure/class-three.yaml",
 }
 """Examples that show more of their kind than its smallest one."""
 

@@ -36,6 +36,7 @@ OTHERS = {
     "rotor/rotor-two-planes.yaml": {"catalogue/rotor.md"},
     "engine-balance/v-six.yaml": {"catalogue/engine-balance.md"},
     "turning-moment/curve.yaml": {"catalogue/turning-moment.md"},
+    "structure/geared-bars.yaml": {"catalogue/structure.md"},
 }
 """The files of words of each kind of work that is no machine, by one of its assignments."""
 Sections = Mapping[tuple[Path, str], nodes.Template]
