@@ -37,7 +37,11 @@ class StructurePage(DesignPage[SolvedStructure]):
         "structure-conclusion",
     )
     SHORT: ClassVar[frozenset[str]] = frozenset()
-    SWITCHES: ClassVar = {"structure-higher": ("higher",), "structure-drivers": ("other_drivers",)}
+    SWITCHES: ClassVar = {"structure-drivers": ("other_drivers",)}
+
+    def has(self, section: str) -> bool:
+        """Return False for the replacement of higher pairs if there are none."""
+        return bool(self.case.replacements) if section == "structure-higher" else super().has(section)
 
     def names(self) -> dict[str, Any]:
         case, given = self.case, self.case.given

@@ -33,6 +33,7 @@ VALUES = {
     r".*\.drive\.J": "50 kg m2",
     r".*\bJ\d?": "0.1 kg m2",
     "parameters.planes.B": "400 mm",
+    "parameters.other_drivers": "all",
     "parameters.flywheel.delta": "1/40",
     "report.listing": "true",
     "parameters.motion.drive.M0": "300 N m",
