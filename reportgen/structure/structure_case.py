@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, ClassVar
 
 from reportgen.case.design_case import DesignPage
 from reportgen.case.result_entries import ResultEntries
-from reportgen.document import Column, Inlines, Table, Text
+from reportgen.document import Column, Equation, Inlines, Table, Text
 from reportgen.drawing import Scene
 from reportgen.drawing.drawing_sheet import lettered
 from reportgen.drawing.plates import DrawingPlate
+from reportgen.formula import Chain
 from reportgen.sheets.plates import drawn
 from reportgen.structure import structure_drawings
 from reportgen.structure import structure_ids as ids
@@ -58,16 +59,30 @@ class StructurePage(DesignPage[SolvedStructure]):
             "replacement_table": self.replacement_table if case.replacements else "",
             "has_groups": bool(case.groups),
             "group_table": self.group_table if case.groups else "",
+            "numbers": self.equation((ids.GROUPS, *self._numbers_of_links, ids.MECHANISM_CLASS)),
             "formula": formula_of(case.splitting),
             "mechanism_class": roman(case.splitting.mechanism_class),
             "asks_drivers": given.other_drivers is not None,
             "driver_table": self.driver_table if case.other_drivers else "",
+            "driver_classes": self.equation(ids.class_by(link) for link in case.other_drivers),
             "sheet": lines,
             "quantity": self.quantity,
             "lines": self.lines,
             "math": self.math,
             "figure": self.figure,
         }
+
+    def equation(self, quantities: Iterable[str]) -> tuple[Equation, ...]:
+        """Return the numbers of these quantities, each on a line; () if there are none."""
+        printed = self.case.printed
+        rows = tuple(Chain((printed.symbol(id), printed.result(id))) for id in quantities if id in printed)
+        return (Equation(rows),) if rows else ()
+
+    @property
+    def _numbers_of_links(self) -> Iterator[str]:
+        """Yield the ids of the group and the class of every link."""
+        for link in sorted(link for group in self.case.groups for link in group.links):
+            yield from (ids.group(link), ids.group_class(link))
 
     @property
     def pair_table(self) -> Table:
