@@ -59,7 +59,7 @@ class StructurePage(DesignPage[SolvedStructure]):
             "replacement_table": self.replacement_table if case.replacements else "",
             "has_groups": bool(case.groups),
             "group_table": self.group_table if case.groups else "",
-            "numbers": self.equation(self._numbers_of_links),
+            "numbers": self.equation((*self._numbers_of_links, ids.MECHANISM_CLASS)),
             "formula": formula_of(case.splitting),
             "mechanism_class": roman(case.splitting.mechanism_class),
             "asks_drivers": given.other_drivers is not None,

@@ -73,7 +73,7 @@ def test_random_slider_cranks_have_stroke_and_k_or_there_is_none() -> None:
             absent += 1
             if absent <= 40:
                 R, L = np.meshgrid(np.linspace(0.01, 0.6, 250), np.linspace(0.02, 6, 500))
-                turns = L > R + e
+                turns = R + e < L
                 R, L = R[turns], L[turns]
                 θ = np.arccos(e / (L + R)) - np.arccos(e / (L - R))
                 H = np.sqrt((L + R) ** 2 - e**2) - np.sqrt((L - R) ** 2 - e**2)
