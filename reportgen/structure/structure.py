@@ -37,7 +37,7 @@ def table_rows(position: Mapping[str, Any]) -> dict[str, dict[str, float]]:
     counts = position["structure"]
     rows = {
         "structure": {symbol: counts[name] for name, symbol in COUNTS.items() if name in counts},
-        "groups": {f"C({', '.join(map(str, group['links']))})": group["class"] for group in position["groups"]},
+        "groups": {f"C({group['links']})": group["class"] for group in position["groups"].values()},
     }
     if "drivers" in position:
         rows["drivers"] = {f"D_{link}": by["class"] for link, by in position["drivers"].items() if by}

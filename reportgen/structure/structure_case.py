@@ -142,7 +142,10 @@ class StructureCase(SolvedStructure):
 
     @cached_property
     def entries(self) -> ResultEntries:
-        """The counts, the groups, and the class with each other driver."""
+        """The counts, the groups by their lowest links in the order of assembly, and the class with each other driver.
+
+        A list of links is a text, because a list would be a vector in a table of results.
+        """
         counted = {
             "links": ids.LINKS,
             "lower": ids.LOWER,
@@ -155,15 +158,16 @@ class StructureCase(SolvedStructure):
         position: dict[str, Any] = {
             "number": 1,
             "structure": counts,
-            "groups": [
-                {"links": list(group.links), "class": group.assur_class, "order": group.order} for group in self.groups
-            ],
+            "groups": {
+                str(group.links[0]): {"links": listed(group.links), "class": group.assur_class, "order": group.order}
+                for group in self.groups
+            },
         }
         if self.other_drivers:
             position["drivers"] = {
                 str(link): None
                 if splitting is None
-                else {"class": splitting.mechanism_class, "groups": [list(group.links) for group in splitting.groups]}
+                else {"class": splitting.mechanism_class, "formula": formula_of(splitting)}
                 for link, splitting in self.other_drivers.items()
             }
         return ResultEntries([position])

@@ -12,6 +12,7 @@ from reportgen.base.template_folders import languages
 from reportgen.marking.judging import mark
 from reportgen.marking.marking_scheme import marking_scheme
 from reportgen.marking.toleranced_key import Ask
+from reportgen.results.result_files import result_rows
 from reportgen.structure import structure_ids as names
 from reportgen.structure.structure_solution import formula_of
 from tests.marking import students
@@ -128,3 +129,11 @@ def test_reports_and_tasks_are_complete_documents(language: str) -> None:
         case: Any = built.case(file, language)
         assert formula_of(case.splitting) in str(case.document())
         assert case.plates()["structure"]
+
+
+def test_results_are_a_table_too() -> None:
+    """A row with the links of each group as a text and with the formula of structure for each other driver."""
+    heads, row = result_rows(solve(load(FOLDER / "class-three.yaml")))
+    values = dict(zip(heads, row, strict=True))
+    assert (values["groups.2.links"], values["groups.2.class"], values["groups.2.order"]) == ("2, 3, 4, 5", 3, 3)
+    assert values["drivers.4.formula"] == "I(0, 4) → II(3, 5) → II(1, 2)"
