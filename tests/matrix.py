@@ -86,6 +86,8 @@ class Desk:
     language: Language | Literal[""] = OWN
     engine: api.Engine = "typst"
     extent: Extent = "short"
+    turn: int | None = None
+    """Number that differs by one from the next language and the next subject; None for one that has a single case."""
 
     @property
     def brief(self) -> bool:
@@ -93,8 +95,14 @@ class Desk:
         return self.language == OWN
 
     def formats(self, known: Sequence[str], enough: str) -> str:
-        """Return the formats of a command to make: those without a typesetter do not depend on the engine."""
-        return enough if self.brief else ",".join(known) if self.engine == "typst" else "pdf"
+        """Return the formats of a command to make."""
+        return enough if self.brief else ",".join(known)
+
+    def in_turn(self, known: Sequence[str], enough: str) -> str:
+        """Return the format that has its turn: the languages of a subject make all, and so do the subjects of one."""
+        if self.turn is None or self.brief:
+            return self.formats(known, enough)
+        return known[self.turn % len(known)]
 
     @property
     def out(self) -> Path:
@@ -164,7 +172,14 @@ def desk(subject: str, folder: Path, capture: pytest.CaptureFixture[str], **want
     content, beside = inputs(source)
     for name, data in {**beside, source.name: content}.items():
         (folder / name).write_bytes(data)
+    language = wanted.get("language")
+    if language and subject != ATLAS:
+        wanted["turn"] = _turn(subject, language)
     return Desk(folder / source.name, capture, **wanted)  # type: ignore[arg-type]
+
+
+def _turn(subject: str, language: object) -> int:
+    return [*subjects()].index(subject) + [*languages()].index(language)  # type: ignore[arg-type]
 
 
 # --- the commands ---------------------------------------------------------------------------------
@@ -203,8 +218,13 @@ def solve_format(at: Desk) -> None:
 
 
 def build(at: Desk) -> None:
-    """Check the report in every format."""
+    """Check the report: as PDF, the full one by typst in every other format too, the short one in one of them."""
     formats = at.formats(api.FORMATS, "pdf")
+    if at.engine == "latex":
+        formats = "pdf"
+    elif at.extent == "short":
+        further = at.in_turn([format for format in api.FORMATS if format != "pdf"], "")
+        formats = f"pdf,{further}".rstrip(",")
     paths = at.made("build", "--extent", at.extent, "--engine", at.engine, "--format", formats)
     assert ",".join(path.suffix[1:] for path in paths) == formats
     for path in paths:
@@ -214,7 +234,7 @@ def build(at: Desk) -> None:
 
 
 def sheet(at: Desk) -> None:
-    formats = at.formats(api.SHEET_FORMATS, "dxf")
+    formats = at.in_turn(api.SHEET_FORMATS, "dxf")
     paths = at.made("sheet", "--format", formats)
     assert {path.suffix[1:] for path in paths} == set(formats.split(","))
     assert paths[0].stem == "sheet-1"
@@ -230,7 +250,7 @@ def figure(at: Desk) -> None:
         lines = at.run("figure", at.file, "--list").splitlines()
         assert lines[0].split()[0] == name
         assert sum("/".join(MOVING) in line for line in lines) == sum(len(one.panes) for one in case.animations())
-    formats = at.formats(STILL, "svg")
+    formats = at.in_turn(STILL, "svg")
     paths = at.made("figure", name, "--format", formats)
     assert {path.suffix[1:] for path in paths} == set(formats.split(","))
     assert paths[0].stem.startswith(name)
@@ -247,7 +267,7 @@ def plot(at: Desk) -> None:
             app(["plot", str(at.file), "--of", next(iter(case.ledger.families)), "--out", str(at.out)])
         assert (end.value.code, at.capture.readouterr().out) == (1, "")
         return
-    formats = at.formats(PLOT_FORMATS, "svg")
+    formats = at.in_turn(PLOT_FORMATS, "svg")
     paths = at.made("plot", "--of", id, "--format", formats)
     assert [path.name for path in paths] == [f"{id}.{format}" for format in formats.split(",")]
 
@@ -315,30 +335,42 @@ def edit(at: Desk) -> None:
 COMMANDS: tuple[Callable[[Desk], None], ...] = (
     *(check, solve, solve_json, solve_format, build, sheet, figure, plot, key, task, compare, grade, watch, edit),
 )
-BY_ENGINE, BY_EXTENT = {build, key, task, grade}, {build}
-"""Commands that typeset their output, and the one that makes it in two extents."""
+BY_ENGINE, BY_EXTENT, BY_FILE = {build, key, task, grade}, {build}, {check}
+"""Commands that typeset their output, the one that makes it in two extents, and the one that takes no language."""
+ATLAS = Path(ATLAS_MACHINE).name
 
 
 def cases() -> Iterator[tuple[str, str, Language | Literal[""], api.Engine, Extent]]:
-    """Yield subject, command, language, engine, extent: first briefly in the file's language, then all combinations.
+    """Yield subject, command, language, engine, extent: first briefly in the file's language, then by the languages.
 
-    A language that no native speaker has read has the engine and extent that are the usual ones alone.
+    Of the product of all settings, each subject and command has every pair at least once: every language, every engine
+    in every extent; and all subjects together have every language with every engine and extent.  A language that no
+    native speaker has read has the engine and extent that are the usual ones alone.  All cases of a language follow
+    each other, because few calculations are cached.
     """
     for subject in subjects():
         for command in COMMANDS:
-            engines = get_args(api.Engine) if command in BY_ENGINE else ("typst",)
-            extents = ("short", "full") if command in BY_EXTENT else ("short",)
             yield subject, command.__name__, OWN, "typst", "short"
-            if subject == Path(ATLAS_MACHINE).name:
-                yield subject, command.__name__, DEFAULT_LANGUAGE, "typst", "short"
-                continue
-            yield from (
-                (subject, command.__name__, language, engine, extent)
-                for language in languages()
-                for engine in engines
-                for extent in extents
-                if not setting_of(language).is_draft() or (engine, extent) == ("typst", "short")
-            )
+        for language in (DEFAULT_LANGUAGE,) if subject == ATLAS else languages():
+            for command in COMMANDS:
+                if command not in BY_FILE or language == DEFAULT_LANGUAGE:
+                    for engine, extent in _settings(command, subject, language):
+                        yield subject, command.__name__, language, engine, extent
+
+
+def _settings(command: Callable[[Desk], None], subject: str, language: Language) -> Iterator[tuple[api.Engine, Extent]]:
+    """Yield the engines and extents of a language; its engine is another one with the next language and subject."""
+    engines: tuple[api.Engine, ...] = get_args(api.Engine)
+    if command not in BY_ENGINE or subject == ATLAS or setting_of(language).is_draft():
+        yield "typst", "short"
+        return
+    engine = engines[_turn(subject, language) % len(engines)]
+    if command not in BY_EXTENT:
+        yield engine, "short"
+        return
+    yield engine, "full"
+    if engine == "typst":
+        yield "latex", "short"
 
 
 def do(command: str, at: Desk) -> None:

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from functools import cache
+from itertools import combinations
 from pathlib import Path
+from typing import get_args
 
 import pytest
 
 from reportgen import api
 from reportgen.assignment.common import Extent
+from reportgen.base.languages import setting_of
+from reportgen.base.template_folders import languages
 from reportgen.base.units import Language
 from tests import kinds, matrix
 from tests.lanes import matrix as lanes
@@ -63,6 +67,25 @@ def test_every_command_answers(
 ) -> None:
     at = matrix.desk(subject, folders(subject), capsys, language=language, engine=engine, extent=extent)
     matrix.do(command, at)
+
+
+def test_the_settings_have_every_pair_of_their_product() -> None:
+    """So has each subject with the engines in their extents."""
+    used = [case for case in ALL if case[0] != matrix.ATLAS and case[2] != matrix.OWN and case[1] != "check"]
+    product = {
+        (subject, command.__name__, language, engine, extent)
+        for subject in {case[0] for case in used}
+        for command in matrix.COMMANDS
+        if command.__name__ != "check"
+        for language in languages()
+        for engine in (get_args(api.Engine) if command in matrix.BY_ENGINE else ("typst",))
+        for extent in (("short", "full") if command in matrix.BY_EXTENT else ("short",))
+        if not setting_of(language).is_draft() or (engine, extent) == ("typst", "short")
+    }
+    assert set(used) < product
+    for columns in [*combinations(range(5), 2), (0, 1, 2), (0, 1, 3, 4)]:
+        pairs = {tuple(case[column] for column in columns) for case in product}
+        assert {tuple(case[column] for column in columns) for case in used} == pairs, columns
 
 
 def test_a_kind_enters_by_being_there() -> None:
