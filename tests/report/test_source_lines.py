@@ -114,9 +114,9 @@ def assert_variants_hold(path: Path, count: int, folder: Path) -> None:
         assert len(lines) > 200
 
 
-@pytest.mark.parametrize("path", matrix(built.TYPESET, [SLIDER]), ids=lambda path: path.stem)
-def test_a_variant(path: Path, tmp_path: Path) -> None:
-    assert_variants_hold(path, 1, tmp_path)
+def test_a_variant(tmp_path: Path) -> None:
+    """The first of those that `make proof` takes."""
+    assert_variants_hold(SLIDER, 1, tmp_path)
 
 
 @pytest.mark.proof
