@@ -145,10 +145,26 @@ def formula(text: str, known: frozenset[str]) -> Formula:
             warnings.simplefilter("ignore")
             tree = ast.parse(_QUANTITY.sub(named, plain), mode="eval").body
     except (SyntaxError, ValueError, MemoryError, RecursionError):
-        raise FormulaError("formula-syntax", text=text) from None
+        raise FormulaError("formula-syntax", text=text, **_with_products(text, known)) from None
     names: list[str] = []
     _check(tree, text, known | constants.keys(), names)
     return Formula(text, tree, constants, tuple(dict.fromkeys(name for name in names if name not in constants)))
+
+
+def _with_products(text: str, known: frozenset[str]) -> dict[str, str]:
+    """Return the text with a `*` between each number and the parameter after it; {} if it still is not a formula."""
+
+    def product(match: re.Match[str]) -> str:
+        return f"{match[1]}*{match[2]}" if match[2] in known else match[0]
+
+    meant = re.sub(r"(?<![\w.])(\d+(?:\.\d+)?)\s*([A-Za-z][A-Za-z0-9]*)", product, text)
+    if meant == text:
+        return {}
+    try:
+        formula(meant, known)
+    except FormulaError:
+        return {}
+    return {"close": meant}
 
 
 def _check(node: ast.expr, text: str, known: frozenset[str], names: list[str]) -> None:

@@ -164,6 +164,11 @@ def is_own_machine(file: Path) -> bool:
     return not file.is_relative_to(templates())
 
 
+def is_machine_name(name: str) -> bool:
+    """Return True for a name that a file of the atlas can have, without its ending."""
+    return _MACHINE_NAME.fullmatch(name) is not None
+
+
 def _changed(folder: Path) -> int:
     try:
         return folder.stat().st_mtime_ns
@@ -181,7 +186,7 @@ def _machines_in(folder: Path, _changed: int) -> Mapping[str, Path]:
         files = sorted(folder.glob("*.yaml"))
     except (OSError, ValueError):
         return {}
-    named = [file for file in files if _MACHINE_NAME.fullmatch(file.stem) and not leads_out(file, folder)]
+    named = [file for file in files if is_machine_name(file.stem) and not leads_out(file, folder)]
     return {f"{ATLAS}/{file.stem}": file for file in named[:MOST_MACHINES]}
 
 

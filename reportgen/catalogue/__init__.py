@@ -48,6 +48,8 @@ from reportgen.machine import Linkage
 from reportgen.machine.analysis import Machine
 from reportgen.machine.load_laws import FULL_TURN, STEPS
 
+SPEC_KEYS = ("variants", "salt")
+"""Keys of a spec for a class, from which assignments are drawn; no assignment has them."""
 _KIND = re.compile(r"(?m)^kind: (\S+)$")
 
 
@@ -248,12 +250,21 @@ def check(path: Path | str, language: Language | None = None) -> list[Problem]:
 def examine(path: Path | str, language: Language | None = None) -> list[Problem]:
     """Return all faults of an assignment file; if it has none, its warnings and the positions that labels refer to.
 
-    Of a machine's file for the atlas, the faults are returned; if it has none, warnings about its bounds.
+    Of a machine's file for the atlas, the faults are returned; if it has none, warnings about its words and bounds.
+    A spec for a class has a single fault.
     """
     if atlas.is_machine_file(source := read_source(Path(path))):
         faults = [as_problem(fault, language) for fault in atlas.faults_in(source)]
         return faults or [as_problem(fault, language, "warning") for fault in atlas.doubts_in(source)]
+    if (key := _key_of_spec(source)) is not None:
+        return [as_problem(Fault("is-a-spec", key.location, {"key": key.text}), language)]
     return problems_of(source, Path(path), language)
+
+
+def _key_of_spec(source: Source) -> Scalar | None:
+    """Return the key that only a spec for a class has; None for an assignment."""
+    entries = source.top.entries if isinstance(source.top, MappingNode) else ()
+    return next((key for key, _ in entries if key.text in SPEC_KEYS), None)
 
 
 def problems_of(source: Source, path: Path, language: Language | None = None) -> list[Problem]:

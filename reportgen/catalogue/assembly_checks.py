@@ -60,8 +60,9 @@ class DriverTravel:
     turning: bool = True
 
     def printed(self, place: float) -> str:
-        """Return a coordinate in degrees, −180…180, or in millimetres, without trailing zeros."""
-        return f"{np.degrees(np.angle(np.exp(1j * place))) if self.turning else place * 1e3:.4g}"
+        """Return a coordinate in degrees, 0…360, or in millimetres, with four figures and two decimals at most."""
+        rounded = round(float(np.degrees(place)) % 360 if self.turning else place * 1e3, 2)
+        return f"{0.0 if self.turning and rounded == 360 else rounded + 0.0:.4g}"
 
 
 WHOLE_TURN = DriverTravel()

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from pathlib import Path
 from textwrap import wrap
 from typing import Annotated, Any, ClassVar
 
@@ -15,16 +16,16 @@ from pydantic import create_model
 
 from reportgen.assignment.common import Assignment, Draft, Drawing, Kind, Positions
 from reportgen.assignment.parameter_formulas import FormulaError
-from reportgen.assignment.reading import read_section
+from reportgen.assignment.reading import placed, read_section
 from reportgen.base.atlas_words import machine_source, machine_words
 from reportgen.base.errors import Fault, Finding, Where
 from reportgen.base.field_words import FieldWords
-from reportgen.base.template_folders import ATLAS_BASE, atlas_files, is_own_machine
+from reportgen.base.template_folders import ATLAS_BASE, atlas_files, is_machine_name, is_own_machine
 from reportgen.base.units import Given, Language
 from reportgen.base.words import as_error
 from reportgen.base.yaml_source import MappingNode, Source
 from reportgen.catalogue import linkage, linkage_file
-from reportgen.catalogue.atlas_file import CompiledMachine, at_bounds, checked, read_machine
+from reportgen.catalogue.atlas_file import CompiledMachine, at_bounds, checked, read_machine, without_names
 from reportgen.catalogue.linkage_words import rods
 from reportgen.catalogue.parameters import UnderGravity
 from reportgen.catalogue.topic_sections import with_topics
@@ -247,9 +248,13 @@ def faults_in(source: Source) -> list[Fault]:
 
 
 def doubts_in(source: Source) -> list[Fault]:
-    """Return warnings about the bounds in a machine's file that has no faults."""
+    """Return warnings about the name, the words and the bounds of a machine's file that has no faults."""
     compiled, _ = read_machine(source, BASE)
-    return [] if compiled is None else at_bounds(compiled, source, linkage.CHECKS)
+    if compiled is None:
+        return []
+    stem = Path(source.file).stem
+    misnamed = [] if is_machine_name(stem) else placed(source, [Finding("machine-file-name", (), {"text": stem})])
+    return [*misnamed, *without_names(compiled, source), *at_bounds(compiled, source, linkage.CHECKS)]
 
 
 def _read(kind: str) -> tuple[AtlasMachine | None, tuple[Fault, ...]]:

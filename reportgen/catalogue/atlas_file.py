@@ -6,6 +6,7 @@ to the content of a `linkage` file. All faults have their places in the machine'
 
 from __future__ import annotations
 
+import ast
 import keyword
 import math
 import re
@@ -344,12 +345,20 @@ def _is_literal(text: str, unit: str, is_number: bool, known: frozenset[str]) ->
         if problem.code == "unexpected-unit" and unit:
             # In a list of numbers with a common unit, `2 kN` is a formula without parameters.
             return False
-        if problem.code not in ("not-a-number", "unknown-unit", "unexpected-unit"):
+        if problem.code not in ("not-a-number", "unknown-unit", "unexpected-unit", "wrong-unit"):
             return True
-        # A faulty value begins with a number; the name of a parameter makes it a formula.
+        # A faulty value begins with a number; the name of a parameter, or a sign, makes it a formula.
         words = set(re.findall(r"[A-Za-z][A-Za-z0-9]*", text))
-        return problem.code != "not-a-number" and not words & known
+        return problem.code != "not-a-number" and not words & known and not _is_calculation(text)
     return True
+
+
+def _is_calculation(text: str) -> bool:
+    """Return True for a formula of quantities alone, such as `180 mm/2`."""
+    try:
+        return isinstance(formula(text, frozenset()).tree, ast.BinOp)
+    except FormulaError:
+        return False
 
 
 def _copied(content: Any) -> Any:
@@ -413,6 +422,16 @@ def at_bounds(machine: CompiledMachine, source: Source, checks: Sequence[Check])
                 is_right = False
             if not is_right:
                 findings.append(Finding("bound-fails", ("parameters", name, key), {"name": name, "text": text}))
+    return placed(source, findings)
+
+
+def without_names(machine: CompiledMachine, source: Source) -> list[Fault]:
+    """Return faults for languages whose words do not name all parameters."""
+    findings = []
+    for language, words in machine.content.words.items():
+        if missing := [name for name in machine.parameters if name not in words.parameters]:
+            names = {"key": language, "known": ", ".join(missing)}
+            findings.append(Finding("parameters-unnamed", ("words", language), names, at="key"))
     return placed(source, findings)
 
 

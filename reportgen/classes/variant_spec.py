@@ -44,7 +44,6 @@ from reportgen.base.yaml_values import at, path_text, put, without
 from reportgen.classes.roster import RosterColumn, columns, records
 from reportgen.workbook import read
 
-OWN_KEYS = ("variants", "salt")
 DRAWN_SECTIONS = ("parameters", "positions", "drawing", "indicator")
 RANGE_KEYS = ("from", "to", "step")
 MOST_CHOICES = 10_000
@@ -178,7 +177,7 @@ def read_spec(path: Path, language: Language | None = None, shared: Sequence[Pat
         raise as_error(catalogue.assess(source, path)[1], language)
     kind = catalogue.kind(name.text)
     faults: list[Fault] = []
-    base = without(top, OWN_KEYS)
+    base = without(top, catalogue.SPEC_KEYS)
     axes = list(_axes(base, (), kind, faults))
     base, of_parts, unread = parts.in_place(base, path)
     faults += unread

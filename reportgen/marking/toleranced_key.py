@@ -74,14 +74,16 @@ def key_of(case: Case) -> Key:
         scale = family.how.scale
         values, written = _values(ledger, id), _values(printed, id)
         sense = case.sense(id)
-        role = _role(ledger, family)
+        # The component of a reaction on a link without loads is zero by definition: neither given nor asked for.
+        nothing = family.definition is not None and not refs(family.definition) and not values.any()
+        role = Role.asked if nothing else _role(ledger, family)
         part = KeyChapter.data if role is Role.given and len(values) == 1 else family.chapter
         # A value read from a diagram can be computed on paper; an integral over the cycle cannot.
         integral = family.definition is None or ids.rest(id) in ledger
         reached = part is not KeyChapter.cycle or complete
         workable = not family.residue and (len(values) > 1 or not integral) and is_workable(ledger, id, by_rule)
         chosen = role is Role.scale and not is_round_scale(family)
-        asked = reached and (chosen or (role is Role.asked and workable))
+        asked = reached and (chosen or (role is Role.asked and workable and not nothing))
         return KeyRow(
             id=id,
             part=part,

@@ -67,10 +67,10 @@ def test_what_no_machine_has_is_out_of_range(tmp_path: Path, text: str, old: str
     ("text", "old", "new", "group", "place"),
     [
         (SLIDER, "r: 150 mm", "r: 599.9999999 mm", "(2, 3)", "90°"),
-        (SLIDER, "r: 150 mm", "r: 150 mm, e: 449.999999 mm", "(2, 3)", "-90°"),
+        (SLIDER, "r: 150 mm", "r: 150 mm, e: 449.999999 mm", "(2, 3)", "270°"),
         (FOUR_BAR, "490 mm", "499.9999999 mm", "(2, 3)", "180°"),
-        (LEVER, "140 mm", "100.0001 mm", "(2, 3)", "-90°"),
-        (LEVER, "140 mm", "99.9999 mm", "(2, 3)", "-90°"),
+        (LEVER, "140 mm", "100.0001 mm", "(2, 3)", "270°"),
+        (LEVER, "140 mm", "99.9999 mm", "(2, 3)", "270°"),
         (TWIN, "1/3.6", "0.999999999", "(2, 3)", "°"),
     ],
 )

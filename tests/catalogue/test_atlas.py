@@ -41,7 +41,7 @@ words:
   en:
     title: A slotter <b>& more</b> %% given
     description: "Crank *1* turns {{ own.about }} steadily; $x$ is said."
-    parameters: {a: length of the crank}
+    parameters: {a: length of the crank, h: distance of the axes, w: speed of the crank}
     links: {3: the slotted link}
 parameters:
   a: {default: 50 mm, least: 20 mm, most: 90 mm}
@@ -115,7 +115,7 @@ def test_a_machine_of_a_department_is_served_as_any_kind(department: Path, tmp_p
     assert made is not None
     assert made.linkage.driver.length == pytest.approx(0.045)
     assert made.linkage.points[0].local == pytest.approx(0.215)
-    assert made.facts["called"] == {"l.AB": "Length of the crank"}
+    assert made.facts["called"] == {"l.AB": "Length of the crank", "n": "Speed of the crank"}
     words = field_words("atlas/slotter", "vi")["parameters.a"]
     assert (words.name, words.remark) == ("length of the crank", "20 mm … 90 mm")
     about = next(
@@ -362,7 +362,45 @@ def test_bounds_and_links_of_a_machine_are_checked(department: Path, tmp_path: P
     assert catalogue.examine(department / "slotter.yaml", "en") == []
 
 
+def test_a_machine_without_names_or_with_a_wrong_name_is_told(department: Path) -> None:
+    """Both are warnings: the machine is right, but the form shows keys, and no kind has this name."""
+    file = department / "Slotter_2.yaml"
+    file.write_text(SLOTTER.replace(", h: distance of the axes", ""), "utf-8")
+    found = catalogue.examine(file, "en")
+    assert [(one.code, one.level) for one in found] == [
+        ("machine-file-name", "warning"),
+        ("parameters-unnamed", "warning"),
+    ]
+    assert found[1].message.endswith(": h")
+
+
+@pytest.mark.parametrize("text", ["180 mm/2", "20 mm + 30 mm", "20 mm + a", "h - 2*3 mm"])
+def test_a_formula_may_begin_with_a_quantity(department: Path, text: str) -> None:
+    file = department / "slotter.yaml"
+    file.write_text(SLOTTER.replace("h + a + 20 mm", text), "utf-8")
+    assert catalogue.examine(file, "en") == []
+
+
+@pytest.mark.parametrize(
+    ("text", "hint"), [("0.4h", "write “0.4*h”"), ("2a + h", "write “2*a + h”"), ("h 2", "a formula has parameters")]
+)
+def test_a_missing_sign_of_a_product_is_named(department: Path, text: str, hint: str) -> None:
+    file = department / "slotter.yaml"
+    file.write_text(SLOTTER.replace("h + a + 20 mm", text), "utf-8")
+    (problem,) = catalogue.examine(file, "en")
+    assert problem.code == "formula-syntax"
+    assert str(problem.hint).startswith(hint)
+
+
 def test_a_machine_that_is_not_there_asks_for_its_folder(department: Path, tmp_path: Path) -> None:
     (found,) = examined("atlas/sloter", "{}", tmp_path)
     assert "unknown-machine" in found
     assert "--atlas" in found
+
+
+def test_a_spec_is_told_from_an_assignment() -> None:
+    """Each choice of a spec would be a fault of an assignment; it has one, which says what to do."""
+    spec = Path(__file__).parents[2] / "assignments" / "class-demo" / "spec.yaml"
+    (problem,) = catalogue.examine(spec, "en")
+    assert problem.code == "is-a-spec"
+    assert "reportgen variants" in str(problem.hint)

@@ -106,3 +106,11 @@ def test_every_place_of_a_mass_centre_has_its_line(tmp_path: Path, kind: str, ex
     worked = {id for id in places if families[id].definition is not None}
     assert any(id.endswith("S1") for id in worked)
     assert {id for id, _ in report.lines} >= worked
+
+
+def test_a_component_that_is_zero_by_definition_is_not_given(tmp_path: Path) -> None:
+    """The rod without loads turns no moment into a reaction: the key has this zero among the forces, not the data."""
+    key = key_of(opened(api.load(written(tmp_path, "slider-crank", CRANK | {"m3": "6 kg"}))))
+    zero = key.row("R.12.t")
+    assert not zero.values.any()
+    assert (zero.role, zero.part, zero.positions) == ("asked", "forces", ())
