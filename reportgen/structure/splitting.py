@@ -194,6 +194,23 @@ def split(chain: KinematicChain, driver: int) -> Splitting:
     return Splitting(driver, tuple(groups))
 
 
+def rigid_links(chain: KinematicChain) -> tuple[int, ...]:
+    """Return the smallest set of links, the frame perhaps among them, that a chain with one freedom makes one body.
+
+    A motion between any two links that are in a pair could drive the chain, unless they belong to one body. Return ()
+    if there is no such set.
+    """
+    equations = _equations(chain, None)
+    for joint in chain.joints:
+        first, *others = joint.links
+        for second in others:
+            driven = [*equations, (("link", first), ("link", second))]
+            excess = _excess(driven)
+            if excess:
+                return tuple(sorted(number for sort, number in _smallest(driven, excess) if sort == "link"))
+    return ()
+
+
 def _links(nodes: Iterable[Unknown]) -> set[int]:
     return {number for sort, number in nodes if sort == "link" and number != FRAME}
 
@@ -217,12 +234,12 @@ Equation = tuple[Unknown, Unknown]
 """One equation between the coordinates of two nodes."""
 
 
-def _equations(chain: KinematicChain, driver: int) -> list[Equation]:
-    """Return all equations: two a pair, a third one for the pair of the driver with the frame.
+def _equations(chain: KinematicChain, driver: int | None) -> list[Equation]:
+    """Return all equations: two a pair, a third one for the pair of the driver, if there is one, with the frame.
 
     The point of a multiple joint is a node of its own, so the result does not depend on how its links are paired.
     """
-    equations, driven = list[Equation](), False
+    equations, driven = list[Equation](), driver is None
     for index, joint in enumerate(chain.joints):
         if len(joint.links) == 2:
             first, second = joint.links
@@ -232,7 +249,7 @@ def _equations(chain: KinematicChain, driver: int) -> list[Equation]:
             equations += [(("link", first), ("link", second))] * count
         else:
             equations += [(("link", link), ("point", index)) for link in joint.links for _ in range(PAIR_EQUATIONS)]
-    if not driven:
+    if driver is not None and not driven:
         equations.append((("link", FRAME), ("link", driver)))
     return equations
 

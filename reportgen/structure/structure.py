@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
 from reportgen.assignment.checks import of_parameters
 from reportgen.base.errors import Finding
 from reportgen.structure import structure_file
-from reportgen.structure.splitting import FRAME, StructureError, split
+from reportgen.structure.splitting import FRAME, StructureError, rigid_links, split
 from reportgen.structure.structure_file import active
 
 if TYPE_CHECKING:
@@ -84,14 +84,21 @@ def _of_links(given: Parameters) -> Iterator[Finding]:
 
 
 def _of_mechanism(given: Parameters) -> Iterator[Finding]:
-    """Require that the driver determines the motion of every link, with no pair too many."""
+    """Require that the driver determines the motion of every link, with no pair too many and no links in one body."""
     chain, added = given.needed_chain.with_lower_pairs()
+
+    def named(links: Iterable[int]) -> dict[str, str]:
+        texts = (f"{link} ({'–'.join(map(str, added[link]))})" if link in added else str(link) for link in links)
+        return {"links": ", ".join(texts)}
+
     try:
         split(chain, given.driver)
     except StructureError as error:
-        named = (f"{link} ({'–'.join(map(str, added[link]))})" if link in added else str(link) for link in error.links)
         code = "structure-overdetermined" if error.overdetermined else "structure-loose"
-        yield Finding(code, (*TOP, "pairs"), {"links": ", ".join(named)})
+        yield Finding(code, (*TOP, "pairs"), named(error.links))
+    else:
+        if rigid := rigid_links(chain):
+            yield Finding("structure-rigid", (*TOP, "pairs"), named(rigid))
 
 
 CHECKS = (of_parameters(check),)

@@ -9,6 +9,7 @@ import pytest
 
 from reportgen import api, load, solve
 from reportgen.base.template_folders import languages
+from reportgen.classes.variants import make_variants
 from reportgen.marking.judging import mark
 from reportgen.marking.marking_scheme import marking_scheme
 from reportgen.marking.toleranced_key import Ask
@@ -35,6 +36,7 @@ FAULTS = [
     ((CAM, "higher: [[1, 2]]"), "4:10 structure-loose"),
     ((FOUR_BAR.replace("]]", "], [2, 4], [4, 0]]"),), "4:10 structure-overdetermined"),
     ((FOUR_BAR.replace("[3, 0]", "[3, 4], [4, 0]"),), "4:10 structure-loose"),
+    ((FOUR_BAR.replace("]]", "], [3, 4], [4, 5], [5, 3]]"),), "4:10 structure-rigid"),
 ]
 
 
@@ -129,6 +131,30 @@ def test_reports_and_tasks_are_complete_documents(language: str) -> None:
         case: Any = built.case(file, language)
         assert formula_of(case.splitting) in str(case.document())
         assert case.plates()["structure"]
+
+
+SPEC = """kind: structure
+salt: spring
+report: {language: en}
+parameters:
+  pairs: [[0, 1], [1, 2], [2, 3], [3, 0], [[1, 2, 3], 4], [4, 5], [5, [0, 1, 2, 3]]]
+  driver: [1, 3]
+"""
+
+
+def test_a_class_has_twelve_mechanisms_and_all_marks(tmp_path: Path) -> None:
+    """The links that a dyad joins are drawn, never one link twice, which would make one body with the dyad."""
+    (tmp_path / "spec.yaml").write_text(SPEC, encoding="utf-8")
+    rows = "".join(f"S{number:02d},Student {number}\n" for number in range(1, 13))
+    (tmp_path / "roster.csv").write_text(f"id,name\n{rows}", encoding="utf-8")
+    files = make_variants(tmp_path / "spec.yaml", tmp_path / "roster.csv", tmp_path / "out").files
+    cases: list[Any] = [built.case(file.path, "en") for file in files]
+    assert len({(case.given.pairs, case.given.driver) for case in cases}) == 12
+    assert all(case.given.pairs[4][0] != case.given.pairs[6][1] for case in cases)
+    for case in cases:
+        scheme = marking_scheme(case)
+        marked = mark(scheme, students.written(scheme, students.worked_out(scheme)))
+        assert marked.points == marked.out_of
 
 
 def test_results_are_a_table_too() -> None:
