@@ -106,6 +106,8 @@ def check_unknowns(given: Parameters) -> Iterator[Finding]:
         solution = unknown_plane(given)
         if solution is None:
             yield Finding("rotor-no-plane", where)
+        elif solution.near == 0:
+            yield Finding("rotor-one-suffices", where, {"at": f"{(given.planes.A.si + solution.distance) * 1e3:.4g}"})
         elif solution.near < 0:
             yield Finding("rotor-other-side", where, turned(angle))
 
@@ -120,7 +122,8 @@ def check_sought_masses(given: Parameters) -> Iterator[Finding]:
         return
     unbalances = unknown_masses(given)
     if unbalances is None or not all(unbalances.values()):
-        yield Finding("rotor-sought-parallel", (*TOP, "masses", int(list(sought)[1]) - 1, "angle"))
+        code = "rotor-sought-parallel" if unbalances is None else "rotor-sought-none"
+        yield Finding(code, (*TOP, "masses", int(list(sought)[1]) - 1, "angle"))
         return
     for place, U in unbalances.items():
         if U < 0:

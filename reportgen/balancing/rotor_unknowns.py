@@ -36,6 +36,8 @@ class UnknownPlane:
 def unknown_plane(given: Parameters) -> UnknownPlane | None:
     """Return the corrections with the place of plane B; None if no plane balances the rotor.
 
+    `near` is 0 if the correction in B balances it alone.
+
     With the sum F of all m r and the sum M of their moments about A: F + U_A e + U_B = 0, M + U_B L = 0.
     """
     known = given.known_angle
@@ -49,8 +51,9 @@ def unknown_plane(given: Parameters) -> UnknownPlane | None:
         return None
     near = -cross(F, M) / cross(e, M)
     far = -(F + near * e)
-    if abs(near) <= PARALLEL * every or abs(far) <= PARALLEL * every:
+    if abs(far) <= PARALLEL * every:
         return None
+    near = 0.0 if abs(near) <= PARALLEL * every else near
     return UnknownPlane(near, far, -(M.conjugate() * far).real / abs(far) ** 2)
 
 
@@ -66,5 +69,5 @@ def unknown_masses(given: Parameters) -> dict[str, float] | None:
         return None
     parts = cross(M, w), cross(e, M)
     if min(map(abs, parts)) <= PARALLEL * abs(M):
-        return None
+        return {first: 0.0, second: 0.0}
     return {first: -parts[0] / cross(e, w) / arms[0], second: -parts[1] / cross(e, w) / arms[1]}

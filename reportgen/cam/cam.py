@@ -153,8 +153,10 @@ def _displacements(s: Sequence[float], where: Where) -> Iterator[Finding]:
         yield Finding("table-end", (*where, "s", 0), {"key": "s", "end": "0"})
         return
     falls = [i + 1 for i, (before, after) in enumerate(pairwise(s)) if after < before]
-    if falls or s[-1] == 0:
-        yield Finding("cam-falls", (*where, "s", falls[0] if falls else len(s) - 1), {"key": "s"})
+    if falls:
+        yield Finding("cam-falls", (*where, "s", falls[0]), {"key": "s"})
+    elif s[-1] == 0:
+        yield Finding("cam-no-rise", (*where, "s", len(s) - 1))
 
 
 def _segments(law: LawTable, where: Where) -> Iterator[Finding]:

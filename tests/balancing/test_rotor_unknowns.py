@@ -207,14 +207,14 @@ FAULTS = [
     ("plane", "B: {r: 80 mm}", "B: {r: 80 mm, angle: 20 deg}", ["4:61 unknown-key"]),
     ("plane", "B: find", "B: 400 mm", ["4:30 rotor-angle-known"]),
     ("plane", "angle: 190 deg", "angle: 10 deg", ["4:37 rotor-other-side"]),
-    ("plane", "angle: 100 deg, z", "angle: 0 deg, z", ["4:37 rotor-no-plane"]),
+    ("plane", "angle: 100 deg, z", "angle: 0 deg, z", ["4:37 rotor-one-suffices"]),
     ("plane", "m: 18 kg", "m: find", ["6:11 rotor-sought"]),
     ("masses", "{A: 0 mm}", "{A: 0 mm, B: 500 mm}", ["7:11 rotor-sought"]),
     ("masses", "m: 7 kg", "m: find", ["6:11 rotor-sought"]),
     ("masses", "z: 200 mm", "z: 0 mm", ["7:11 rotor-sought"]),
     ("masses", "angle: 240 deg", "angle: 60 deg", ["8:35 rotor-other-side"]),
     ("masses", "angle: 240 deg", "angle: 270 deg", ["8:35 rotor-sought-parallel"]),
-    ("masses", "angle: 0 deg", "angle: 270 deg", ["8:35 rotor-sought-parallel"]),
+    ("masses", "angle: 0 deg", "angle: 270 deg", ["8:35 rotor-sought-none"]),
     ("masses", "m: 7 kg", "m: seek", ["6:11 not-a-number"]),
 ]
 
@@ -226,6 +226,20 @@ def test_faults_are_located(name: str, old: str, new: str, faults: list[str], tm
     for language in languages():
         found = api.check(tmp_path / "rotor.yaml", language)
         assert [f"{one.location.line}:{one.location.column} {one.code}" for one in found] == faults
+
+
+def test_one_correction_that_suffices_is_named_with_its_plane(tmp_path: Path) -> None:
+    """Masses of one direction have one resultant, at (2·100 + 3·200)/5 = 160 mm."""
+    file = tmp_path / "rotor.yaml"
+    masses = "[{m: 2 kg, r: 50 mm, angle: 30 deg, z: 100 mm}, {m: 3 kg, r: 50 mm, angle: 30 deg, z: 200 mm}]"
+    correction = "{A: {r: 80 mm, angle: 190 deg}, B: {r: 80 mm}}"
+    file.write_text(
+        f"kind: rotor\nparameters:\n  planes: {{A: 0 mm, B: find}}\n  correction: {correction}\n  masses: {masses}\n",
+        encoding="utf-8",
+    )
+    (problem,) = api.check(file, "en")
+    assert problem.code == "rotor-one-suffices"
+    assert "160 mm" in problem.message
 
 
 def test_a_known_correction_in_a_third_plane_is_one_more_mass() -> None:

@@ -105,6 +105,7 @@ def test_the_report_of_a_law_of_ones_own(rise: str, tmp_path: Path) -> None:
     ("rise", "fault"),
     [
         ("{x: [0, 0.5, 1], s: [0, 6, 5]}", "9:38 cam-falls"),
+        ("{x: [0, 0.5, 1], s: [0, 0, 0]}", "9:38 cam-no-rise"),
         ("{x: [0, 0.5, 1], s: [1, 6, 9]}", "9:32 table-end"),
         ("{x: [0, 0.5, 0.5, 1], s: [0, 6, 6, 9]}", "9:24 not-increasing"),
         ("{x: [0, 0.5, 1], s: [0, 9]}", "9:31 row-length"),
