@@ -272,7 +272,7 @@ class OffsetSlider:
         return Linkage(
             ground={"A": 0j},
             driver=Crank("A", "B", self.r),
-            dyads=(Dyad("RRP", (2, 3), "B", "C", Guide(self.line, self.axis), (self.l, 0.0)),),
+            groups=(Dyad("RRP", (2, 3), "B", "C", Guide(self.line, self.axis), (self.l, 0.0)),),
             points=() if centre is None else (LinkPoint("S2", 2, complex(centre)),),
             inertias=tuple(inertias),
             gravity=-1j * gravity,

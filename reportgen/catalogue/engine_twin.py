@@ -129,7 +129,7 @@ def machine(assignment: Assignment) -> Machine:
     linkage = Linkage(
         ground={"O1": 0j},
         driver=Crank("O1", "A", radius),
-        dyads=(Dyad("RRP", (2, 3), "A", "B", guide, (rod, 0.0)), Dyad("RRP", (4, 5), "C", "D", guide, (rod, 0.0))),
+        groups=(Dyad("RRP", (2, 3), "A", "B", guide, (rod, 0.0)), Dyad("RRP", (4, 5), "C", "D", guide, (rod, 0.0))),
         points=(LinkPoint("C", 1, second_pin), LinkPoint("S2", 2, centre), LinkPoint("S4", 4, centre)),
         inertias=q.inertias({2: "S2", 3: "B", 4: "S4", 5: "D"}),
         gravity=-1j * given.gravity,

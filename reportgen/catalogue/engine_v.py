@@ -160,7 +160,7 @@ def _linkage(given: Parameters, q: GivenData) -> Linkage:
     return Linkage(
         ground={"A": 0j},
         driver=Crank("A", "B", q.si("R")),
-        dyads=(
+        groups=(
             Dyad("RRP", (2, 3), "B", "C", first, (q.si("L"), 0.0)),
             Dyad("RRP", (4, 5), given.joint, "E", second, (given.DE.si, 0.0)),
         ),

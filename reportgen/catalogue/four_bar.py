@@ -325,7 +325,7 @@ def _linkage(given: Parameters, q: GivenData) -> Linkage:
     return Linkage(
         ground={"A": 0j, "D": cmath.rect(q.si("l.AD"), given.frame.si)},
         driver=Crank("A", "B", q.si("l.AB")),
-        dyads=(Dyad("RRR", (2, 3), "B", "C", "D", lengths=lengths, sign=given.side),),
+        groups=(Dyad("RRR", (2, 3), "B", "C", "D", lengths=lengths, sign=given.side),),
         points=(*e, *f, *q.centre_points({link: start for link, (start, _) in LINKS.items()})),
         inertias=q.inertias({link: f"S{link}" for link in LINKS}),
         gravity=-1j * given.gravity,

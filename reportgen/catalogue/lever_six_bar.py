@@ -140,7 +140,7 @@ def _linkage(given: Parameters, q: GivenData) -> Linkage:
     return Linkage(
         ground={"B": 0j, "D": complex(q.si("D.x"), q.si("D.y"))},
         driver=Crank("B", "A", q.si("l.BA")),
-        dyads=(
+        groups=(
             Dyad("RRR", (2, 3), "A", "C", "D", lengths=(q.si("l.AC"), q.si("l.DC")), sign=left),
             Dyad("RRP", (4, 5), "E", "F", Guide(1j * q.si("F.y"), 0.0), lengths=(q.si("l.EF"), 0.0), sign=right),
         ),

@@ -340,7 +340,7 @@ class Parameters(UnderGravity):
         return Linkage(
             ground={name: place(at) for name, at in self.frame.items()},
             driver=self.driver.driver,
-            dyads=tuple(group.dyad for group in self.groups),
+            groups=tuple(group.dyad for group in self.groups),
             points=tuple(LinkPoint(name, one.link, place(one.at)) for name, one in self.points.items()),
             inertias=tuple(body for body in bodies if body.mass or body.moment),
             gravity=-1j * self.gravity,

@@ -58,7 +58,7 @@ def machine(assignment: Assignment) -> Machine:
     linkage = Linkage(
         ground={"O": 0j},
         driver=Crank("O", "A", radius),
-        dyads=(Dyad("RPP", (2, 3), "A", "B", Guide(0j, axis), slide_angle=math.pi / 2),),
+        groups=(Dyad("RPP", (2, 3), "A", "B", Guide(0j, axis), slide_angle=math.pi / 2),),
         inertias=q.inertias({2: "A", 3: "B"}),
         gravity=-1j * given.gravity,
     )

@@ -153,7 +153,7 @@ class Ram:
         return Linkage(
             ground=self.crank.ground,
             driver=self.crank.driver,
-            dyads=(self.crank.group, Dyad("RRP", (4, 5), "D", "E", guide, lengths=(self.link, 0.0), sign=-1)),
+            groups=(self.crank.group, Dyad("RRP", (4, 5), "D", "E", guide, lengths=(self.link, 0.0), sign=-1)),
             points=(LinkPoint("D", 3, complex(self.lever)), *points),
             inertias=tuple(inertias),
             gravity=-1j * gravity,

@@ -89,7 +89,7 @@ def machine(assignment: Assignment) -> Machine:
     linkage = Linkage(
         ground=geometry.ground,
         driver=geometry.driver,
-        dyads=(geometry.group,),
+        groups=(geometry.group,),
         points=(LinkPoint("D", 3, complex(q.si(l))), *q.centre_points({3: "C"})),
         inertias=q.inertias({2: "B", 3: "S3"}),
         gravity=-1j * given.gravity,

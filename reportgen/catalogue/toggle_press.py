@@ -60,7 +60,7 @@ def _linkage(given: Parameters, q: GivenData) -> Linkage:
     return Linkage(
         ground={"O": 0j, "D": pivot},
         driver=Crank("O", "A", q.si("l.OA")),
-        dyads=(
+        groups=(
             Dyad("RRR", (2, 3), "A", "B", "D", lengths=(q.si("l.AB"), link), sign=1 if given.B == "left" else -1),
             Dyad("RRP", (4, 5), "B", "C", Guide(pivot, math.pi / 2), lengths=(link, 0.0), sign=-1),
         ),

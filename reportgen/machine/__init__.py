@@ -108,13 +108,13 @@ class Inertia:
 class Linkage:
     """A whole mechanism.
 
-    `ground` gives the fixed points (m) and `points` further points on moving links; the driver and the dyads declare
-    the points of their joints themselves. `gravity` is in m/s², as a complex vector.
+    `ground` gives the fixed points (m) and `points` further points on moving links; the driver and the groups, in the
+    order of their assembly, declare the points of their joints themselves. `gravity` is in m/s², as a complex vector.
     """
 
     ground: Mapping[str, complex]
     driver: Crank | SlidingDriver
-    dyads: tuple[Dyad, ...]
+    groups: tuple[Dyad, ...]
     points: tuple[LinkPoint, ...] = ()
     inertias: tuple[Inertia, ...] = ()
     gravity: complex = -9.81j
@@ -122,7 +122,12 @@ class Linkage:
     @property
     def links(self) -> tuple[int, ...]:
         """Numbers of the moving links, the driver first."""
-        return (DRIVER, *(link for dyad in self.dyads for link in dyad.links))
+        return (DRIVER, *(link for group in self.groups for link in group.links))
+
+    @property
+    def dyads(self) -> tuple[Dyad, ...]:
+        """The groups of class II."""
+        return self.groups
 
 
 def rods(linkage: Linkage) -> Mapping[int, tuple[str, str]]:

@@ -67,7 +67,7 @@ def rebuilt(linkage: Linkage, given: Complexes) -> Linkage:
         start, end = (guide(end) if isinstance(end, Guide) else end for end in (dyad.start, dyad.end))
         dyads.append(replace(dyad, lengths=lengths, slide_angle=slide, start=start, end=end))
     points = tuple(replace(point, local=complex(next(following))) for point in linkage.points)
-    return replace(linkage, ground=ground, driver=driver, dyads=tuple(dyads), points=points)
+    return replace(linkage, ground=ground, driver=driver, groups=tuple(dyads), points=points)
 
 
 @dataclass(frozen=True)

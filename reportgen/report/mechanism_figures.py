@@ -222,7 +222,7 @@ def swing(report: ReportContext) -> FigureScenes:
     marks = SwingMarks(centre, pivot, ends, (ledger.symbol("theta"), ledger.symbol("swing")), circle)
     scale = drawing_scale(report)
     points = tuple(point for point in linkage.points if point.link in (DRIVER, *first.links))
-    four_bar = replace(linkage, dyads=(first,), points=points)
+    four_bar = replace(linkage, groups=(first,), points=points)
     motion = solve_motion(four_bar, angles, machine.turn * machine.speed)
     dense = _motion(machine, np.linspace(0.0, FULL_TURN, DENSE))
     shows = PositionPlan((linkage.driver.pin, first.middle), (first.middle,), labels=("1", "2"))

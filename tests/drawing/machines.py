@@ -23,7 +23,7 @@ def twin_engine() -> Linkage:
     return Linkage(
         ground={"O1": 0j},
         driver=Crank("O1", "A", R),
-        dyads=(Dyad("RRP", (2, 3), "A", "B", VERTICAL, (L, 0.0)), Dyad("RRP", (4, 5), "C", "D", VERTICAL, (L, 0.0))),
+        groups=(Dyad("RRP", (2, 3), "A", "B", VERTICAL, (L, 0.0)), Dyad("RRP", (4, 5), "C", "D", VERTICAL, (L, 0.0))),
         points=(LinkPoint("C", 1, -R), LinkPoint("S2", 2, 0.35 * L), LinkPoint("S4", 4, 0.35 * L)),
         inertias=(
             Inertia(2, "S2", m2, m2 * L**2 / 12),
@@ -39,7 +39,7 @@ def four_bar() -> Linkage:
     return Linkage(
         ground={"O1": 0j, "O3": 0.3 + 0.05j},
         driver=Crank("O1", "A", 0.1),
-        dyads=(
+        groups=(
             Dyad("RRR", (2, 3), "A", "B", "O3", (0.28, 0.2)),
             Dyad("RRP", (4, 5), "E", "F", Guide(0.26j, 0.0), (0.3, 0.0)),
         ),
@@ -52,7 +52,7 @@ def slotted_lever() -> Linkage:
     return Linkage(
         ground={"O1": 0.27j, "O3": 0j},
         driver=Crank("O1", "A", 0.10309),
-        dyads=(Dyad("RPR", (2, 3), "A", "A3", "O3"), Dyad("RRP", (4, 5), "D", "E", Guide(0.52j, math.pi), (0.1, 0.0))),
+        groups=(Dyad("RPR", (2, 3), "A", "A3", "O3"), Dyad("RRP", (4, 5), "D", "E", Guide(0.52j, math.pi), (0.1, 0.0))),
         points=(LinkPoint("D", 3, 0.55), LinkPoint("S3", 3, 0.3)),
     )
 
@@ -62,7 +62,7 @@ def sine_drive() -> Linkage:
     return Linkage(
         ground={"O1": 0j},
         driver=Crank("O1", "A", 0.08),
-        dyads=(Dyad("RPP", (2, 3), "A", "Q", Guide(0j, 0.0), slide_angle=math.pi / 2),),
+        groups=(Dyad("RPP", (2, 3), "A", "Q", Guide(0j, 0.0), slide_angle=math.pi / 2),),
     )
 
 
@@ -71,7 +71,7 @@ def elliptic_drive() -> Linkage:
     return Linkage(
         ground={"O1": 0j, "O3": 0.2 + 0j},
         driver=Crank("O1", "A", 0.08),
-        dyads=(
+        groups=(
             Dyad("RRR", (2, 3), "A", "B", "O3", (0.2, 0.081)),
             Dyad("PRP", (4, 5), Guide(0.03j, 0.0, link=2), "P", Guide(0.1 + 0j, math.pi / 2)),
         ),

@@ -18,7 +18,7 @@ COUPLER = 0.15 + 0.11j
 LINKAGE = Linkage(
     ground={"A": 0j, "D": 0.4 + 0j},
     driver=Crank("A", "B", 0.12),
-    dyads=(Dyad("RRR", (2, 3), "B", "C", "D", (0.34, 0.28)),),
+    groups=(Dyad("RRR", (2, 3), "B", "C", "D", (0.34, 0.28)),),
     points=(LinkPoint("E", 2, COUPLER), LinkPoint("F", 2, 0.22 + 0j), LinkPoint("K", 3, 0.4 + 0j)),
 )
 

@@ -179,7 +179,7 @@ def _with_dyad(draw: Any, linkage: Linkage, kind: DyadKind, links: tuple[int, in
         dyad = Dyad(kind, links, guide()[0], middle, guide()[0])
     else:
         dyad = Dyad(kind, links, point()[0], middle, guide()[0], slide_angle=draw(hundredths(30, 284)))
-    return replace(linkage, dyads=(*linkage.dyads, dyad))
+    return replace(linkage, groups=(*linkage.dyads, dyad))
 
 
 @st.composite

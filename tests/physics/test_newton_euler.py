@@ -129,7 +129,7 @@ def test_accelerations_by_differences_in_time() -> None:
     four_bar = Linkage(
         ground={"A": 0j, "D": 0.4 + 0j},
         driver=Crank("A", "B", 0.12),
-        dyads=(Dyad("RRR", (2, 3), "B", "C", "D", (0.35, 0.3)),),
+        groups=(Dyad("RRR", (2, 3), "B", "C", "D", (0.35, 0.3)),),
     )
     slide = replace(four_bar, driver=SlidingDriver("B", Guide(0.05j, 0.3)))
     for linkage, first, rate, acceleration in ((four_bar, math.radians(50), 12.0, 60.0), (slide, 0.05, 0.3, -2.0)):
@@ -152,7 +152,7 @@ def test_joints_that_lie_in_one_point_but_for_rounding() -> None:
     linkage = Linkage(
         ground={"O": 0j},
         driver=Crank("O", "A", 0.1),
-        dyads=(
+        groups=(
             Dyad("RRP", (2, 3), "A", "M0", guide, (math.hypot(0.1, 0.04), 0.0), -1),
             Dyad("RPP", (4, 5), "T3", "M1", guide, (0.0, 0.0), slide_angle=0.3),
         ),

@@ -40,7 +40,7 @@ WORKING = TableLaw(OUTWARD, by_stroke((0.0, 1.0), (1500.0, 1500.0), (-200.0, -20
 SLIDER_CRANK = Linkage(
     ground={"O": 0j},
     driver=Crank("O", "A", 0.1),
-    dyads=(Dyad("RRP", (2, 3), "A", "B", Guide(0j, 0.0), (0.4, 0.0)),),
+    groups=(Dyad("RRP", (2, 3), "A", "B", Guide(0j, 0.0), (0.4, 0.0)),),
     points=(LinkPoint("S2", 2, 0.14),),
     inertias=(Inertia(1, "O", 0.0, 0.8), Inertia(2, "S2", 4.0, 0.08), Inertia(3, "B", 6.0)),
     gravity=0j,
@@ -396,7 +396,7 @@ def made_at_random(seed: int) -> tuple[Machine, float, Drive]:
     linkage = Linkage(
         ground={"O": 0j, "D": 0.4 + 0.05j},
         driver=Crank("O", "A", r),
-        dyads=(dyad,),
+        groups=(dyad,),
         points=(LinkPoint("S2", 2, complex(l / 3, rng.uniform(-0.05, 0.05))),),
         inertias=(
             Inertia(1, "O", 0.0, rng.uniform(0.02, 0.2)),

@@ -337,7 +337,7 @@ def test_point_masses_give_the_same_force() -> None:
 def test_a_mirrored_machine_is_mirrored() -> None:
     """A clockwise crank has the counterweight of its mirrored twin, at the opposite angle."""
     twin = four_bar((0.05, 0.15, 0.12, 0.18), (0.4, 1.1, 0.9), (0.025 + 0j, 0.0675 - 0.020j, 0.060 + 0j))
-    twin = replace(twin, dyads=(replace(twin.dyads[0], sign=-1),))
+    twin = replace(twin, groups=(replace(twin.dyads[0], sign=-1),))
     here = seen_from_crank(machine_of(SKEW, 20.0))
     there = seen_from_crank(replace(machine_of(twin, 20.0), turn=-1))
     assert there.mean == pytest.approx(here.mean.conjugate(), rel=1e-12)

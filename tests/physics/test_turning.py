@@ -234,7 +234,7 @@ def changed(linkage: Linkage, turn: complex, mirror: bool) -> Linkage:
         linkage,
         ground={name: turn * place(p) for name, p in linkage.ground.items()},
         driver=replace(linkage.driver, length=size * linkage.driver.length),
-        dyads=tuple(dyad(old) for old in linkage.dyads),
+        groups=tuple(dyad(old) for old in linkage.dyads),
         points=tuple(replace(point, local=size * place(point.local)) for point in linkage.points),
         inertias=tuple(replace(body, moment=size**2 * body.moment) for body in linkage.inertias),
         gravity=size * np.exp(1j * angle) * place(linkage.gravity),

@@ -27,7 +27,7 @@ def twin() -> Linkage:
     return Linkage(
         ground={"O1": 0},
         driver=Crank("O1", "A", R),
-        dyads=(Dyad("RRP", (2, 3), "A", "B", upward, (L, 0)), Dyad("RRP", (4, 5), "C", "D", upward, (L, 0))),
+        groups=(Dyad("RRP", (2, 3), "A", "B", upward, (L, 0)), Dyad("RRP", (4, 5), "C", "D", upward, (L, 0))),
         points=(LinkPoint("C", 1, -R), LinkPoint("S2", 2, 0.35 * L), LinkPoint("S4", 4, 0.35 * L)),
         inertias=(
             Inertia(2, "S2", rod, rod * L**2 / 12),
