@@ -16,7 +16,8 @@ from reportgen.base.arrays import Complexes, Floats
 from reportgen.drawing import Circle, Pen, Polyline, style
 from reportgen.drawing.animation import BarScale, MovingBody, MovingItem, MovingVector, Still, Track
 from reportgen.formula import Symbol, vocabulary
-from reportgen.machine.kinematics import Motion, unit
+from reportgen.machine.kinematics import Motion
+from reportgen.machine.rigid_motion import unit
 from reportgen.page.topic_layers import LayerHooks
 from reportgen.report.context import ReportContext
 

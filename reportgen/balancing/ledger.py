@@ -50,7 +50,7 @@ from reportgen.formula.calculation import Calculation, is_short
 from reportgen.formula.vocabulary import KeyChapter
 from reportgen.machine import DRIVER, Crank, Inertia
 from reportgen.machine.analysis import Analysis
-from reportgen.machine.kinematics import unit as unit_vector
+from reportgen.machine.rigid_motion import unit as unit_vector
 
 AXES = ("x", "y")
 BEFORE, AFTER = "before", "after"

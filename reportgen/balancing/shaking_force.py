@@ -29,8 +29,9 @@ from reportgen.base.arrays import Complexes, Floats
 from reportgen.machine import DRIVER, GROUND, Crank, Linkage, joints
 from reportgen.machine.analysis import Analysis, Machine, analyse, motion_at
 from reportgen.machine.force_analysis import inertia_loads, reaction_name, solve_forces
-from reportgen.machine.kinematics import Motion, cross, unit
+from reportgen.machine.kinematics import Motion
 from reportgen.machine.load_laws import FULL_TURN
+from reportgen.machine.rigid_motion import cross, unit
 
 SAMPLES, MOST_SAMPLES = 1440, 46080
 """Smallest and largest number of samples of the curve over a turn; a curve with corners needs more samples."""

@@ -20,8 +20,8 @@ from reportgen.drawing import Diagram, PlottedCurve, Scene, charts
 from reportgen.formula import Chain, Symbol, ids
 from reportgen.formula.vocabulary import KINDS
 from reportgen.machine import DRIVER
-from reportgen.machine.kinematics import unit
 from reportgen.machine.load_laws import FULL_TURN
+from reportgen.machine.rigid_motion import unit
 from reportgen.report.context import ReportContext
 from reportgen.report.mechanism_figures import drawing_scale, looks, reduction, shown_at
 from reportgen.report.quantity_tables import QuantityTable, RowTable, bare

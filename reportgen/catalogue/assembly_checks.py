@@ -16,9 +16,10 @@ from reportgen.base.arrays import Complexes, Flags, Floats
 from reportgen.base.errors import Finding, Where
 from reportgen.base.units import MM, nice_down
 from reportgen.machine import GROUND, Crank, Dyad, Guide, Linkage
-from reportgen.machine.kinematics import SINGULAR, Motion, cross, solve_motion, unit
+from reportgen.machine.kinematics import Motion, solve_motion
 from reportgen.machine.load_laws import FULL_TURN, STEPS, MotionAt, halved
 from reportgen.machine.loads import turning_count
+from reportgen.machine.rigid_motion import SINGULAR, cross, unit
 
 HALVINGS = 40
 SMALL_TRANSMISSION = 0.3

@@ -8,8 +8,8 @@ import numpy as np
 
 from reportgen.machine.analysis import Analysis, Machine
 from reportgen.machine.force_analysis import reaction_name
-from reportgen.machine.kinematics import cross
 from reportgen.machine.loads import carriers
+from reportgen.machine.rigid_motion import cross
 from reportgen.machine.slider_faces import Faces
 
 

@@ -27,8 +27,9 @@ from reportgen.friction.bearing_equations import BearingEquations
 from reportgen.machine import GROUND, Joint, Linkage, joints
 from reportgen.machine.analysis import Analysis, Machine
 from reportgen.machine.force_analysis import Equilibrium, Forces, Load, Reaction, reaction_name
-from reportgen.machine.kinematics import LinkMotion, Motion, cross
+from reportgen.machine.kinematics import Motion
 from reportgen.machine.motion_sense import pace, sense_of
+from reportgen.machine.rigid_motion import LinkMotion, cross
 from reportgen.machine.slider_faces import Faces
 
 STANDS = 1e-12

@@ -18,7 +18,8 @@ import numpy as np
 from reportgen.base.arrays import Complexes, Flags, Floats
 from reportgen.formula import ids
 from reportgen.machine import DRIVER, GROUND, Dyad, Joint, Linkage, joints
-from reportgen.machine.kinematics import Motion, cross, dot, solve2
+from reportgen.machine.kinematics import Motion
+from reportgen.machine.rigid_motion import cross, dot, solve2
 
 
 @dataclass(frozen=True, slots=True)

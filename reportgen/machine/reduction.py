@@ -13,7 +13,8 @@ import numpy as np
 from reportgen.base.arrays import Floats
 from reportgen.machine.analysis import Machine
 from reportgen.machine.force_analysis import Load, virtual_work_torque, weights
-from reportgen.machine.kinematics import Motion, dot, solve_motion
+from reportgen.machine.kinematics import Motion, solve_motion
+from reportgen.machine.rigid_motion import dot
 
 
 def reduced_inertia(machine: Machine, motion: Motion) -> Floats:

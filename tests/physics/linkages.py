@@ -16,7 +16,8 @@ from hypothesis import strategies as st
 
 from reportgen.machine import Crank, Dyad, DyadKind, Guide, Inertia, Linkage, LinkPoint, SlidingDriver
 from reportgen.machine.force_analysis import Load
-from reportgen.machine.kinematics import Motion, cross, dot, solve_motion
+from reportgen.machine.kinematics import Motion, solve_motion
+from reportgen.machine.rigid_motion import cross, dot
 
 KINDS: tuple[DyadKind, ...] = ("RRR", "RRP", "RPR", "PRP", "RPP")
 REFERENCE = 0.7

@@ -24,7 +24,8 @@ from reportgen.document import text_of
 from reportgen.friction.joints import Friction, FrictionForces, relative_sense, solve_with_friction
 from reportgen.machine import Crank, Dyad, Guide, Linkage, joints
 from reportgen.machine.force_analysis import Load, inertia_loads, reaction_name, solve_forces, weights
-from reportgen.machine.kinematics import Motion, cross, dot, solve_motion
+from reportgen.machine.kinematics import Motion, solve_motion
+from reportgen.machine.rigid_motion import cross, dot
 from reportgen.machine.slider_faces import Faces
 
 r, L, f = 0.1, 0.4, 0.12

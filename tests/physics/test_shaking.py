@@ -35,8 +35,9 @@ from reportgen.formula.calculation import Calculation
 from reportgen.machine import GROUND, Crank, Dyad, Guide, Inertia, Linkage, LinkPoint, joints
 from reportgen.machine.analysis import Machine, analyse, motion_at
 from reportgen.machine.force_analysis import inertia_loads, reaction_name, solve_forces
-from reportgen.machine.kinematics import cross, solve_motion
+from reportgen.machine.kinematics import solve_motion
 from reportgen.machine.load_laws import FULL_TURN
+from reportgen.machine.rigid_motion import cross
 from tests.lanes import matrix, proof
 
 ASSIGNMENTS = Path(__file__).parents[2] / "assignments"

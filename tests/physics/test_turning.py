@@ -18,8 +18,9 @@ from reportgen.machine.force_analysis import (
     virtual_work_torque,
     weights,
 )
-from reportgen.machine.kinematics import Motion, cross, solve_motion
+from reportgen.machine.kinematics import Motion, solve_motion
 from reportgen.machine.quadrature import mean_over
+from reportgen.machine.rigid_motion import cross
 
 COUNT = 256
 """Positions of a turn: the machines' spectra fall below rounding long before the 128th harmonic."""
