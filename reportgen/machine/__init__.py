@@ -95,6 +95,54 @@ class Dyad:
 
 
 @dataclass(frozen=True, slots=True)
+class TriadLeg:
+    """A rod of a triad: `link` of the `length` (m), from the placed point `outer` to the joint `inner` on the plate."""
+
+    link: int
+    outer: str
+    inner: str
+    length: float
+
+
+@dataclass(frozen=True, slots=True)
+class Triad:
+    """An Assur group of class III (3RRR): a ternary link, the `plate`, on three legs.
+
+    `at` are the places (m) of the second and third inner joint in the plate's axes, whose origin is the first inner
+    joint. Of the at most six assembly modes, the group has the one whose joints are nearest to the points `near` (m)
+    when the driver is at the coordinate `near_at` (rad or m); it keeps this mode while the driver moves.
+
+    Frames. A leg at its outer joint, towards its inner joint. The plate at the first inner joint, with the axes of
+    `at`.
+    """
+
+    plate: int
+    legs: tuple[TriadLeg, TriadLeg, TriadLeg]
+    at: tuple[complex, complex]
+    near: tuple[tuple[str, complex], ...]
+    near_at: float = 0.0
+
+    @property
+    def kind(self) -> str:
+        """The name of the kind, as in files."""
+        return "3RRR"
+
+    @property
+    def links(self) -> tuple[int, int, int, int]:
+        """Numbers of the links: the first leg, the plate, the two other legs."""
+        first, second, third = self.legs
+        return first.link, self.plate, second.link, third.link
+
+    @property
+    def locals(self) -> tuple[complex, complex, complex]:
+        """Places of the inner joints (m) in the plate's axes."""
+        return (0j, *self.at)
+
+
+Group = Dyad | Triad
+
+
+@dataclass(frozen=True, slots=True)
 class Inertia:
     """Mass, mass centre (a named point of the link) and moment of inertia about it; kg, kg·m²."""
 
@@ -114,7 +162,7 @@ class Linkage:
 
     ground: Mapping[str, complex]
     driver: Crank | SlidingDriver
-    groups: tuple[Dyad, ...]
+    groups: tuple[Group, ...]
     points: tuple[LinkPoint, ...] = ()
     inertias: tuple[Inertia, ...] = ()
     gravity: complex = -9.81j
@@ -127,7 +175,12 @@ class Linkage:
     @property
     def dyads(self) -> tuple[Dyad, ...]:
         """The groups of class II."""
-        return self.groups
+        return tuple(group for group in self.groups if isinstance(group, Dyad))
+
+    @property
+    def triads(self) -> tuple[Triad, ...]:
+        """The groups of class III."""
+        return tuple(group for group in self.groups if isinstance(group, Triad))
 
 
 def rods(linkage: Linkage) -> Mapping[int, tuple[str, str]]:
@@ -144,6 +197,9 @@ def rods(linkage: Linkage) -> Mapping[int, tuple[str, str]]:
             ends[i] = first, dyad.middle
         if isinstance(last, str):
             ends[j] = last, str(first) if dyad.kind == "RPR" else dyad.middle
+    for triad in linkage.triads:
+        ends[triad.plate] = triad.legs[0].inner, triad.legs[1].inner
+        ends |= {leg.link: (leg.outer, leg.inner) for leg in triad.legs}
     return ends
 
 
@@ -161,7 +217,7 @@ class Joint:
     """A lower pair: "R" revolute or "P" prismatic, between `links` at the named `point`.
 
     In a prismatic joint the first link has the guide and the second slides; in a revolute one the
-    first was placed first.  `group` are the links of the dyad it came with, () for the driver's.
+    first was placed first.  `group` are the links of the group it came with, () for the driver's.
     """
 
     kind: Literal["R", "P"]
@@ -180,7 +236,7 @@ class Mobility:
     lower_pairs: int
     W: int
     joints: tuple[Joint, ...]
-    groups: tuple[Dyad, ...]
+    groups: tuple[Group, ...]
     mechanism_class: int
     higher_pairs: int = 0
     passive: int = 0
@@ -188,17 +244,18 @@ class Mobility:
 
 
 def mobility(linkage: Linkage) -> Mobility:
-    """Count links and joints, all of them lower pairs: W = 3n − 2t; class II with any dyad, else I."""
+    """Count links and joints, all of them lower pairs: W = 3n − 2t; the class is that of the highest group, else I."""
     listed = joints(linkage)
     n, pairs = len(linkage.links), len(listed)
-    return Mobility(n, pairs, 3 * n - 2 * pairs, listed, linkage.dyads, 2 if linkage.dyads else 1)
+    highest = 3 if linkage.triads else 2 if linkage.groups else 1
+    return Mobility(n, pairs, 3 * n - 2 * pairs, listed, linkage.groups, highest)
 
 
 def owners(linkage: Linkage) -> Mapping[str, int]:
     """Return the link that each named point belongs to; a joint belongs to the link that was placed first.
 
-    A slide's `middle` (RPR, RPP) is a point of the group's second link.  Raises `ValueError` when a
-    name is given to two points.
+    A slide's `middle` (RPR, RPP) is a point of the group's second link, a triad's inner joint one of its plate.
+    Raises `ValueError` when a name is given to two points.
     """
     names: dict[str, int] = {}
 
@@ -210,32 +267,46 @@ def owners(linkage: Linkage) -> Mapping[str, int]:
     for name in linkage.ground:
         enter(name, GROUND)
     enter(linkage.driver.pin, DRIVER)
-    for dyad in linkage.dyads:
-        enter(dyad.middle, dyad.links[1] if dyad.kind in {"RPR", "RPP"} else dyad.links[0])
+    for group in linkage.groups:
+        if isinstance(group, Triad):
+            for leg in group.legs:
+                enter(leg.inner, group.plate)
+        else:
+            enter(group.middle, group.links[1] if group.kind in {"RPR", "RPP"} else group.links[0])
     for point in linkage.points:
         enter(point.name, point.link)
     return names
 
 
 def joints(linkage: Linkage) -> tuple[Joint, ...]:
-    """Return all joints in the order of assembly: the driver's, then start, inner and end of every dyad.
+    """Return all joints in the order of assembly: the driver's, then start, inner and end of every dyad, or the outer
+    and the inner joint of every leg of a triad.
 
-    Raises `ValueError` for a dyad that hangs on the `middle` of an RPR: that point of the guide link
+    Raises `ValueError` for a group that hangs on the `middle` of an RPR: that point of the guide link
     changes from moment to moment, so no pin can be there (the slider's own pin can be named instead).
     """
     owner = owners(linkage)
     passing = {dyad.middle for dyad in linkage.dyads if dyad.kind == "RPR"}
-    for dyad in linkage.dyads:
-        for end in (dyad.start, dyad.end):
+    for group in linkage.groups:
+        for end in (leg.outer for leg in group.legs) if isinstance(group, Triad) else (group.start, group.end):
             if end in passing:
-                raise ValueError(f"dyad {dyad.links} cannot hang on {end}, which slides along its link")
+                raise ValueError(f"group {group.links} cannot hang on {end}, which slides along its link")
     driver = linkage.driver
     first = (
         Joint("R", (GROUND, DRIVER), driver.centre)
         if isinstance(driver, Crank)
         else Joint("P", (GROUND, DRIVER), driver.pin)
     )
-    return (first, *(joint for dyad in linkage.dyads for joint in _of_dyad(dyad, owner)))
+    return (first, *(joint for group in linkage.groups for joint in _of_group(group, owner)))
+
+
+def _of_group(group: Group, owner: Mapping[str, int]) -> Iterator[Joint]:
+    if isinstance(group, Dyad):
+        yield from _of_dyad(group, owner)
+        return
+    for leg in group.legs:
+        yield Joint("R", (owner[leg.outer], leg.link), leg.outer, group.links)
+        yield Joint("R", (leg.link, group.plate), leg.inner, group.links)
 
 
 def _of_dyad(dyad: Dyad, owner: Mapping[str, int]) -> Iterator[Joint]:

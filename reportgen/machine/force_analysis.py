@@ -1,7 +1,8 @@
 """Weights and inertia forces, the reactions in every joint, and the driver's balancing torque.
 
 Every joint has two unknowns: the two components of a force in a revolute joint, the force across the guide and a
-couple in a prismatic one. Two links and three joints give six equations with six unknowns for a group of any kind.
+couple in a prismatic one. Two links and three joints give six equations with six unknowns for a group of class II of
+any kind; four links and six joints give twelve for a group of class III.
 All positions are solved in one batch. Groups are solved in reverse order of assembly, so that the reactions of each
 become loads on the links that it hangs on. The work of the same loads gives the torque a second time, without any
 reaction.
@@ -17,7 +18,7 @@ import numpy as np
 
 from reportgen.base.arrays import Complexes, Flags, Floats
 from reportgen.formula import ids
-from reportgen.machine import DRIVER, GROUND, Dyad, Joint, Linkage, joints
+from reportgen.machine import DRIVER, GROUND, Dyad, Group, Joint, Linkage, joints
 from reportgen.machine.kinematics import Motion
 from reportgen.machine.rigid_motion import cross, dot, solve2
 
@@ -184,7 +185,7 @@ class Equilibrium:
     links: tuple[int, ...]
     driving: Joint
     """The driver's joint with the ground."""
-    groups: tuple[_Group, ...]
+    groups: tuple[_Equations, ...]
     """Groups from the outermost on: the reactions in a group's joints are loads on the links that it hangs on."""
 
     @classmethod
@@ -192,8 +193,8 @@ class Equilibrium:
         """Return the equations of every Assur group, and those of the driver."""
         listed = joints(linkage)
         groups = (
-            _Group.of(dyad, tuple(joint for joint in listed if joint.group == dyad.links), motion)
-            for dyad in reversed(linkage.dyads)
+            _Equations.of(group, tuple(joint for joint in listed if joint.group == group.links), motion)
+            for group in reversed(linkage.groups)
         )
         return cls(motion, tuple(linkage.links), listed[0], tuple(groups))
 
@@ -221,26 +222,26 @@ class Equilibrium:
 
 
 @dataclass(frozen=True, slots=True)
-class _Group:
-    """The six equations of a group's two links.
+class _Equations:
+    """The three equations of each link of a group.
 
-    Rows: ΣF_x, ΣF_y, ΣM/l about the middle point, of the one link and of the other; columns: two
-    unknowns of each joint.  The length l only brings forces and moments to one size.
+    Rows: ΣF_x, ΣF_y, ΣM/l about the middle point of a dyad or the first inner joint of a triad, link by link; columns:
+    two unknowns of each joint.  The length l only brings forces and moments to one size.
     """
 
-    links: tuple[int, int]
+    links: tuple[int, ...]
     joints: tuple[Joint, ...]
     pole: Complexes
     length: float
     columns: tuple[_Wrench, ...]
     matrix: Floats
-    """Coefficients [N, 6, 6]; the unit matrix where the position is unreachable."""
+    """Coefficients [N, 6, 6] or [N, 12, 12]; the unit matrix where the position is unreachable."""
 
     @classmethod
-    def of(cls, dyad: Dyad, own: tuple[Joint, ...], motion: Motion) -> _Group:
-        """Return the equations of a dyad with its joints."""
-        pole = motion.points[dyad.middle].p
-        valid = motion.reachable
+    def of(cls, group: Group, own: tuple[Joint, ...], motion: Motion) -> _Equations:
+        """Return the equations of a group with its joints."""
+        pole = motion.points[group.middle if isinstance(group, Dyad) else group.legs[0].inner].p
+        size, valid = 3 * len(group.links), motion.reachable
 
         def farthest(points: Iterable[str]) -> float:
             return max(float(np.max(np.abs(motion.points[name].p - pole)[valid], initial=0.0)) for name in points)
@@ -248,21 +249,22 @@ class _Group:
         # The joints may coincide except for rounding errors; then the size of the mechanism replaces their distance.
         reach, whole = farthest(joint.point for joint in own), farthest(motion.points)
         length = reach if reach > NO_FORCE * whole else whole or 1.0
-        matrix = np.zeros((6, 6, pole.size))
+        matrix = np.zeros((size, size, pole.size))
         columns = tuple(column for joint in own for column in _unknowns(joint, motion, length))
-        for row, link in zip((0, 3), dyad.links, strict=True):
+        for row, link in zip(range(0, size, 3), group.links, strict=True):
             for column, wrench in enumerate(columns):
                 joint = own[column // 2]
                 if link in joint.links:
                     sense = 1.0 if link == joint.links[1] else -1.0
                     matrix[row : row + 3, column] = _components(wrench, pole, length, sense)
-        matrix[:, :, ~valid] = np.eye(6)[:, :, None]
-        return cls(dyad.links, own, pole, length, columns, np.ascontiguousarray(np.moveaxis(matrix, 2, 0)))
+        matrix[:, :, ~valid] = np.eye(size)[:, :, None]
+        return cls(group.links, own, pole, length, columns, np.ascontiguousarray(np.moveaxis(matrix, 2, 0)))
 
     def balance(self, carried: Mapping[int, Sequence[_Wrench]], valid: Flags) -> list[_Wrench]:
         """Return the wrenches of the joints on their second links, for the loads `carried` by the links."""
-        known = np.zeros((6, self.pole.size))
-        for row, link in zip((0, 3), self.links, strict=True):
+        size = 3 * len(self.links)
+        known = np.zeros((size, self.pole.size))
+        for row, link in zip(range(0, size, 3), self.links, strict=True):
             for wrench in carried[link]:
                 known[row : row + 3] += _components(wrench, self.pole, self.length, -1.0)
         known[:, ~valid] = np.nan

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import TypeVar
 
 import numpy as np
@@ -16,8 +17,21 @@ from numpy.typing import ArrayLike, NDArray
 
 from reportgen.base.arrays import Complexes, Flags, Floats
 from reportgen.formula.constructions import SquareRoot, along_line, circle_circle
-from reportgen.machine import DRIVER, GROUND, Crank, Dyad, DyadKind, Guide, Linkage
+from reportgen.machine import (
+    DRIVER,
+    GROUND,
+    Crank,
+    Dyad,
+    DyadKind,
+    Group,
+    Guide,
+    Linkage,
+    LinkPoint,
+    SlidingDriver,
+    Triad,
+)
 from reportgen.machine.rigid_motion import LinkMotion, PointMotion, Rail, SlideMotion, carried, solve2, unit
+from reportgen.machine.triads import ModeCourse, followed, moving, poses_on
 
 TOUCHING = 1e-13
 """A square that is negative by less than this, relative, counts as 0: a dead point, not an unreachable position."""
@@ -207,9 +221,10 @@ def solve_motion(linkage: Linkage, driver: ArrayLike, rate: ArrayLike, accelerat
     """
     given = np.atleast_1d(np.asarray(driver, dtype=np.float64))
     path, kept = _path(given, isinstance(linkage.driver, Crank))
-    state = _State(linkage, path, _along(path, kept, rate), _along(path, kept, acceleration))
-    for dyad in linkage.dyads:
-        state.add(dyad)
+    rates, accelerations = _along(path, kept, rate), _along(path, kept, acceleration)
+    state = _State(linkage, path, rates, accelerations, _travel(linkage, path))
+    for group in linkage.groups:
+        state.add(group)
     return state.motion(given, kept)
 
 
@@ -238,11 +253,55 @@ def _path(driver: Floats, turning: bool) -> tuple[Floats, Places]:
     return path, kept
 
 
+Travel = tuple[float, float]
+"""Least and greatest coordinate (m) of a sliding driver."""
+
+
+def course_of(linkage: Linkage, triad: Triad, travel: Travel | None = None) -> ModeCourse:
+    """Return the course of a triad's assembly mode through a turn of the crank, or the `travel` of a sliding driver."""
+    before = linkage.groups[: linkage.groups.index(triad)]
+    return _course(tuple(linkage.ground.items()), linkage.driver, before, linkage.points, triad, travel)
+
+
+@lru_cache(maxsize=64)
+def _course(
+    ground: tuple[tuple[str, complex], ...],
+    driver: Crank | SlidingDriver,
+    before: tuple[Group, ...],
+    points: tuple[LinkPoint, ...],
+    triad: Triad,
+    travel: Travel | None,
+) -> ModeCourse:
+    carrying = Linkage(dict(ground), driver, before, points)
+
+    def outer(at: Floats) -> tuple[Complexes, Complexes]:
+        state = _State(carrying, at, np.ones_like(at), np.zeros_like(at), travel)
+        for group in before:
+            state.add(group)
+        joints = [state.points[leg.outer] for leg in triad.legs]
+        return np.array([joint.p for joint in joints]), np.array([joint.v for joint in joints])
+
+    if travel is None:
+        return followed(triad, outer, triad.near_at, triad.near_at + 2 * np.pi, 2 * np.pi)
+    return followed(triad, outer, *travel, 0.0)
+
+
+def _travel(linkage: Linkage, path: Floats) -> Travel | None:
+    """Return the travel of a sliding driver over its path and to the places where assembly modes are given."""
+    if isinstance(linkage.driver, Crank):
+        return None
+    ends = [*path[np.isfinite(path)], *(triad.near_at for triad in linkage.triads)]
+    return (float(min(ends)), float(max(ends))) if ends else (0.0, 0.0)
+
+
 class _State:
     """The links and points placed so far while the groups are assembled one after another."""
 
-    def __init__(self, linkage: Linkage, path: Floats, rate: Floats, acceleration: Floats) -> None:
+    def __init__(
+        self, linkage: Linkage, path: Floats, rate: Floats, acceleration: Floats, travel: Travel | None
+    ) -> None:
         self.linkage, self.path, self.rate, self.acceleration = linkage, path, rate, acceleration
+        self.travel = travel
         zero = np.zeros_like(path)
         self.still: Complexes = zero.astype(np.complex128)
         self.links: dict[int, LinkMotion] = {GROUND: LinkMotion(zero, zero, zero)}
@@ -285,8 +344,14 @@ class _State:
         at = carried(origin, carrier, origin.p + end.at * turned)
         return Rail(end.link, at, turned * unit(end.angle), carrier)
 
-    def add(self, dyad: Dyad) -> None:
+    def add(self, group: Group) -> None:
         """Assemble one group; positions at which that is impossible become unreachable."""
+        if isinstance(group, Triad):
+            self._add_triad(group)
+        else:
+            self._add_dyad(group)
+
+    def _add_dyad(self, dyad: Dyad) -> None:
         sign = np.full(self.path.shape, float(dyad.sign))
         group = assemble(dyad, self._end(dyad.start), self._end(dyad.end), sign)
         parts = (group.middle.p, group.middle.a, *(part for link in group.links for part in (link.angle, link.epsilon)))
@@ -295,6 +360,19 @@ class _State:
         self.slides.update(group.slides)
         for number, link, origin in zip(dyad.links, group.links, group.origins, strict=True):
             self._place(number, LinkMotion(_continuous(link.angle), link.omega, link.epsilon), origin)
+
+    def _add_triad(self, triad: Triad) -> None:
+        """Assemble a group of class III in the mode of its course."""
+        outer = [self.points[leg.outer] for leg in triad.legs]
+        course = course_of(self.linkage, triad, self.travel)
+        pose = poses_on(triad, course, self.path, [point.p for point in outer])
+        group = moving(triad, outer, *pose)
+        parts = [part for link in group.links.values() for part in (link.angle, link.epsilon)]
+        self.reachable = self.reachable & np.isfinite(parts).all(axis=0)
+        self.points |= group.points
+        for number, link in group.links.items():
+            turned = LinkMotion(_continuous(link.angle), link.omega, link.epsilon)
+            self._place(number, turned, group.origins[number])
 
     def motion(self, driver: Floats, kept: Places) -> Motion:
         """Return the result at the requested positions [N]; the substeps are dropped."""

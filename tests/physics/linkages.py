@@ -14,8 +14,8 @@ import newton_euler as ne
 import numpy as np
 from hypothesis import strategies as st
 
-from reportgen.machine import Crank, Dyad, DyadKind, Guide, Inertia, Linkage, LinkPoint, SlidingDriver
-from reportgen.machine.force_analysis import Load
+from reportgen.machine import Crank, Dyad, DyadKind, Guide, Inertia, Linkage, LinkPoint, SlidingDriver, Triad
+from reportgen.machine.force_analysis import Load, reaction_name
 from reportgen.machine.kinematics import Motion, solve_motion
 from reportgen.machine.rigid_motion import cross, dot
 
@@ -42,6 +42,9 @@ def _on(linkage: Linkage, link: int, name: str) -> complex:
     if link == 1:
         # The crank's own axis, a point of the ground.
         return 0j
+    legs = {leg.link: leg for triad in linkage.triads for leg in triad.legs}
+    if link in legs:
+        return complex(legs[link].length) if name == legs[link].inner else 0j
     dyad = next(dyad for dyad in linkage.dyads if link in dyad.links)
     return complex(dyad.lengths[1]) if name == dyad.middle else 0j
 
@@ -59,11 +62,14 @@ def locals_of(linkage: Linkage) -> dict[str, tuple[int, complex]]:
             places[dyad.middle] = (i, 0j)
         elif dyad.kind == "RPP":
             places[dyad.middle] = (j, 0j)
+    for triad in linkage.triads:
+        for leg, local in zip(triad.legs, (0j, *triad.at), strict=True):
+            places[leg.inner] = (triad.plate, local)
     return places | {point.name: (point.link, point.local) for point in linkage.points}
 
 
 def joints(linkage: Linkage) -> list[ne.Pin | ne.Slot]:
-    """Driver's joint, then start, inner and end of every dyad."""
+    """Driver's joint, then those of the groups: start, inner and end of a dyad, outer and inner of a triad's legs."""
     at = locals_of(linkage)
     driver = linkage.driver
     found: list[ne.Pin | ne.Slot] = [
@@ -77,7 +83,11 @@ def joints(linkage: Linkage) -> list[ne.Pin | ne.Slot]:
             return ne.Slot(end.link, end.at, end.angle, link, 0j, end.angle)
         return ne.Pin(*at[end], link, 0j)
 
-    for dyad in linkage.dyads:
+    for dyad in linkage.groups:
+        if isinstance(dyad, Triad):
+            for leg in dyad.legs:
+                found += [ne.Pin(*at[leg.outer], leg.link, 0j), ne.Pin(leg.link, leg.length, *at[leg.inner])]
+            continue
         i, j = dyad.links
         inner: dict[str, ne.Pin | ne.Slot] = {
             "RRR": ne.Pin(i, dyad.lengths[0], j, dyad.lengths[1]),
@@ -92,7 +102,7 @@ def joints(linkage: Linkage) -> list[ne.Pin | ne.Slot]:
 
 def reaction_keys(linkage: Linkage) -> list[str]:
     """Names of the reactions on the second body of each joint of `joints`."""
-    return [f"R{joint.a}{joint.b}" for joint in joints(linkage)]
+    return [reaction_name(joint.a, joint.b) for joint in joints(linkage)]
 
 
 def told(linkage: Linkage) -> tuple[dict[int, ne.Body], list[ne.Pin | ne.Slot], list[str]]:
@@ -180,7 +190,7 @@ def _with_dyad(draw: Any, linkage: Linkage, kind: DyadKind, links: tuple[int, in
         dyad = Dyad(kind, links, guide()[0], middle, guide()[0])
     else:
         dyad = Dyad(kind, links, point()[0], middle, guide()[0], slide_angle=draw(hundredths(30, 284)))
-    return replace(linkage, groups=(*linkage.dyads, dyad))
+    return replace(linkage, groups=(*linkage.groups, dyad))
 
 
 @st.composite
