@@ -7,19 +7,22 @@ group does not reach, so that minima between the samples are found, too.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+import cmath
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
 from reportgen.base.arrays import Complexes, Flags, Floats
 from reportgen.base.errors import Finding, Where
 from reportgen.base.units import MM, nice_down
-from reportgen.machine import GROUND, Crank, Dyad, Guide, Linkage
-from reportgen.machine.kinematics import Motion, solve_motion
+from reportgen.machine import GROUND, Crank, Dyad, Group, Guide, Linkage, Triad
+from reportgen.machine.kinematics import Motion, course_of, solve_motion
 from reportgen.machine.load_laws import FULL_TURN, STEPS, MotionAt, halved
 from reportgen.machine.loads import turning_count
 from reportgen.machine.rigid_motion import SINGULAR, cross, unit
+from reportgen.machine.triads import Rows, assemblies, misfit, plate_size, reach
 
 HALVINGS = 40
 SMALL_TRANSMISSION = 0.3
@@ -36,6 +39,10 @@ SHEET = (1.08, 0.70)
 """Largest extent (m on paper) of a mechanism over all positions on paper A0, landscape or portrait; labels take the
 rest.
 """
+CLEARLY, FAR = 2.0, 0.5
+"""An assembly mode is selected if the next one is this many times as far from the points given, and if it is nearer
+than this share of the longest leg.
+"""
 LEAST_ANGLE = 0.1
 """Transmission angle (degrees) of a group above which its forces are accurate to nine figures or more."""
 
@@ -50,6 +57,10 @@ class Member:
 
     rods: str
     where: Where
+
+
+Members = Mapping[Any, Member]
+"""The groups in messages, by the tuples of their links."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,9 +80,7 @@ class DriverTravel:
 WHOLE_TURN = DriverTravel()
 
 
-def findings(
-    linkage: Linkage, members: Mapping[tuple[int, int], Member], driven: DriverTravel = WHOLE_TURN
-) -> Iterator[Finding]:
+def findings(linkage: Linkage, members: Members, driven: DriverTravel = WHOLE_TURN) -> Iterator[Finding]:
     """Report the first group that the driver cannot carry through its whole travel, with its links and the driver's
     coordinates.
     """
@@ -79,9 +88,15 @@ def findings(
     motion = solve_motion(linkage, places, 1.0)
     size = _size(motion)
     of_slide = "" if driven.turning else "-slide"
-    for dyad in linkage.dyads:
+    for dyad in linkage.groups:
         member = members[dyad.links]
-        about = {"group": f"{dyad.links[0]}, {dyad.links[1]}", "rods": member.rods}
+        about = {"group": listed(dyad), "rods": member.rods}
+        if isinstance(dyad, Triad):
+            finding = _of_triad(linkage, dyad, member, driven)
+            if finding is not None:
+                yield finding
+                return
+            continue
         clearances = clearance(dyad, motion, size)
         inside = clearances >= -ROUND_OF_CLEARANCE
 
@@ -107,6 +122,69 @@ def findings(
             return
 
 
+def listed(group: Group) -> str:
+    """Return the numbers of a group's links as text for a message."""
+    return ", ".join(map(str, group.links))
+
+
+def _of_triad(linkage: Linkage, triad: Triad, member: Member, driven: DriverTravel) -> Finding | None:
+    """Return the fault of a triad that the driver cannot carry through its travel; None if it can.
+
+    The mode is followed from the place where it is selected; it ends at a dead point, where the lines of the three legs
+    meet in one point or are parallel.
+    """
+    about = {"group": listed(triad), "rods": member.rods}
+    course = course_of(linkage, triad, None if driven.turning else _span(linkage, driven))
+    if not course.driver.size:
+        return Finding("never-assembled", member.where, about)
+    if course.closes:
+        return None
+    if course.whole:
+        return Finding("mode-changes", member.where, about)
+    dead = course.driver[-1] if course.driver[-1] < course.high else course.driver[0]
+    key, code = ("angle", "dead-point") if driven.turning else ("first", "dead-point-slide")
+    return Finding(code, member.where, {**about, key: driven.printed(float(dead))})
+
+
+def _span(linkage: Linkage, driven: DriverTravel) -> tuple[float, float]:
+    """Return the least and greatest coordinate (m) of a sliding driver, with the places where modes are selected."""
+    ends = (driven.start, driven.end, *(triad.near_at for triad in linkage.triads))
+    return min(ends), max(ends)
+
+
+def unclear_modes(linkage: Linkage, members: Members) -> Iterator[Finding]:
+    """Report the first triad whose points `near` do not select exactly one of its assembly modes; list all modes."""
+    turning = isinstance(linkage.driver, Crank)
+    for index, triad in enumerate(linkage.groups):
+        if not isinstance(triad, Triad):
+            continue
+        before = solve_motion(replace(linkage, groups=linkage.groups[:index]), [triad.near_at], 1.0)
+        outer = [complex(before.points[leg.outer].p[0]) for leg in triad.legs]
+        if not np.isfinite(outer).all():
+            return  # An earlier group does not assemble there.
+        modes = sorted(assemblies(triad, outer), key=lambda mode: misfit(triad, mode))
+        misfits = [misfit(triad, mode) for mode in modes]
+        selected = len(modes) == 1 or (len(modes) > 1 and misfits[1] > CLEARLY * misfits[0])
+        if selected and misfits[0] < FAR * reach(triad):
+            continue
+        at = f"{DriverTravel(turning=turning).printed(triad.near_at)}{'°' if turning else ' mm'}"
+        about = {"group": listed(triad), "at": at}
+        where = members[triad.links].where
+        if not modes:
+            yield Finding("no-assembly-at", where, about)
+            return
+        joints = [leg.inner for leg in triad.legs]
+        modes.sort(key=lambda mode: cmath.phase(mode.turn))
+        about["known"] = "; ".join(_placed(joints, mode.joints(triad)) for mode in modes)
+        yield Finding("no-single-mode", (*where, "near"), about)
+        return
+
+
+def _placed(names: Sequence[str], places: Sequence[complex]) -> str:
+    """Return points with their coordinates (mm) as text for a message."""
+    return ", ".join(f"{name} ({at.real * MM:.4g}, {at.imag * MM:.4g})" for name, at in zip(names, places, strict=True))
+
+
 def near_dead_point(linkage: Linkage, driven: DriverTravel, where: Where) -> Iterator[Finding]:
     """Report the first group that comes so close to a dead point that its accelerations and forces are rounding
     errors.
@@ -115,17 +193,17 @@ def near_dead_point(linkage: Linkage, driven: DriverTravel, where: Where) -> Ite
     motion = solve_motion(linkage, places, 1.0)
     size, of_slide = _size(motion), "" if driven.turning else "-slide"
     limit = np.sin(np.radians(LEAST_ANGLE))
-    for dyad in linkage.dyads:
+    for dyad in linkage.groups:
 
-        def clear(at: Floats, dyad: Dyad = dyad) -> Floats:
+        def clear(at: Floats, dyad: Group = dyad) -> Floats:
             return clearance(dyad, solve_motion(linkage, at, 1.0), size)
 
         place, least = _least(clear, driven, places, clearance(dyad, motion, size))
         if not least < limit**2:
             continue
         sine = float(np.sqrt(max(least, 0.0)))
-        about = {"group": f"{dyad.links[0]}, {dyad.links[1]}", "at": driven.printed(place)}
-        if dyad.kind == "RPR" and not dyad.lengths[1]:
+        about = {"group": listed(dyad), "at": driven.printed(place)}
+        if isinstance(dyad, Dyad) and dyad.kind == "RPR" and not dyad.lengths[1]:
             about |= {"near": f"{sine * size * 1e3:.3g}", "least": f"{limit * size * 1e3:.3g}"}
             yield Finding(f"near-pivot{of_slide}", where, about, at="key")
         else:
@@ -143,11 +221,11 @@ def at_instants(linkage: Linkage, places: Floats, turning: bool) -> Iterator[Fin
     size, limit = _size(motion), np.sin(np.radians(LEAST_ANGLE))
     for index, place in enumerate(map(float, places)):
         where = ("positions", "at", index)
-        for dyad in linkage.dyads:
+        for dyad in linkage.groups:
             least = float(clearance(dyad, motion, size)[index])
             if not least >= limit**2:
                 at = f"{printed(place)}{'°' if turning else ' mm'}"
-                about = {"group": f"{dyad.links[0]}, {dyad.links[1]}", "at": at}
+                about = {"group": listed(dyad), "at": at}
                 yield Finding("no-assembly-at" if least < 0 else "dead-point-at", where, about)
                 break
 
@@ -158,7 +236,7 @@ def goes_through(linkage: Linkage, driven: DriverTravel = WHOLE_TURN) -> bool:
         # Most linkages that do not go through are told from few places.
         if not solve_motion(linkage, np.linspace(driven.start, driven.end, steps + 1), 1.0).reachable.all():
             return False
-    nowhere = {dyad.links: Member("", ()) for dyad in linkage.dyads}
+    nowhere = {group.links: Member("", ()) for group in linkage.groups}
     return next(findings(linkage, nowhere, driven), None) is None
 
 
@@ -208,13 +286,19 @@ def turns_fully(linkage: Linkage, link: int) -> bool:
     return bool(abs(angle[-1] - angle[0]) > np.pi)
 
 
-def clearance(dyad: Dyad, motion: Motion, size: float) -> Floats:
+def clearance(dyad: Group, motion: Motion, size: float) -> Floats:
     """Return the clearance of a group from a dead point [N], from its ends: negative where it does not assemble.
 
     It is sin² of the angle between the rods (RRR), between a rod and the guide's normal (RRP), between the pin's path
     and the slot (RPR with an offset; without one the square of the pin's distance from the pivot over the linkage's
-    `size` in m), or between the two slides (PRP, RPP).
+    `size` in m), or between the two slides (PRP, RPP). For a triad it is the square of the determinant of its legs over
+    the size of the plate, −1 where it does not assemble.
     """
+    if isinstance(dyad, Triad):
+        outer, inner = ([motion.points[name].p for name in names] for names in zip(*_ends(dyad), strict=True))
+        turn = unit(motion.links[dyad.plate].angle)
+        determinant = Rows.of(dyad, outer, inner[0], turn).determinant / plate_size(dyad)
+        return np.asarray(np.where(motion.reachable, determinant**2, -1.0))
     l1, two = dyad.lengths
     match dyad.kind, dyad.start, dyad.end:
         case "RRR", str(p), str(t):
@@ -232,6 +316,10 @@ def clearance(dyad: Dyad, motion: Motion, size: float) -> Floats:
             return np.asarray(cross(_rail(first, motion)[1], _rail(second, motion)[1]) ** 2)
         case _:
             return np.full(motion.driver.shape, np.sin(dyad.slide_angle) ** 2)
+
+
+def _ends(triad: Triad) -> Iterator[tuple[str, str]]:
+    yield from ((leg.outer, leg.inner) for leg in triad.legs)
 
 
 def _rail(guide: Guide, motion: Motion) -> tuple[Complexes | complex, Complexes]:

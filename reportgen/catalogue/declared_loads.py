@@ -142,6 +142,9 @@ def pins(linkage: Linkage) -> dict[int, set[str]]:
         for link, end in zip(dyad.links, (dyad.start, dyad.end), strict=True):
             points_of[link] = set() if isinstance(end, Guide) else {end}
             points_of[link] |= {dyad.middle} if link in pinned else set()
+    for triad in linkage.triads:
+        points_of[triad.plate] = {leg.inner for leg in triad.legs}
+        points_of |= {leg.link: {leg.outer, leg.inner} for leg in triad.legs}
     for point in linkage.points:
         points_of.setdefault(point.link, set()).add(point.name)
     return points_of

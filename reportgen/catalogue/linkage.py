@@ -1,4 +1,4 @@
-"""A user-defined linkage: any mechanism of a driver and groups of class II.
+"""A user-defined linkage: any mechanism of a driver and groups of class II or III.
 
 The file declares frame points, the driver, the groups in the order of their assembly, points, masses and loads;
 `linkage_file` documents each key.
@@ -164,6 +164,9 @@ def _calculation(given: Parameters, linkage: Linkage, built: Machine, drawn: flo
                 q.datum(ids.length(outer, middle), length)
         elif isinstance(group, file.RRP):
             q.datum(ids.length(*group.joints), group.length)
+        elif isinstance(group, file.TernaryGroup):
+            for leg in group.legs:
+                q.datum(ids.length(*leg.joints), leg.length)
     if given.gravity and any(body.G or body.m for body in given.masses):
         q.datum("g", given.g)
     for body in given.masses:

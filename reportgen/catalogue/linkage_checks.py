@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -14,7 +14,7 @@ from reportgen.base.errors import Finding, Where
 from reportgen.base.units import Given
 from reportgen.catalogue import assembly_checks, declared_loads
 from reportgen.catalogue import linkage_file as file
-from reportgen.catalogue.assembly_checks import Member
+from reportgen.catalogue.assembly_checks import Member, Members
 from reportgen.catalogue.declared_loads import Constant, OverWay, listed, on_link, pins, table
 from reportgen.machine import DRIVER, GROUND, Crank, Linkage, mobility
 from reportgen.machine.kinematics import Motion, solve_motion
@@ -97,8 +97,8 @@ class _Placed:
 
 def _structure(given: file.Parameters) -> Iterator[Finding]:
     """Yield faults unless every point and link is new where it is declared and placed where it is used."""
-    middles = [group.joints[0 if group.type == "PRP" else 1] for group in given.groups]
-    placed = _Placed(coming=frozenset((*middles, *given.points)))
+    later = [name for group in given.groups for name in _placed_by(group)]
+    placed = _Placed(coming=frozenset((*later, *given.points)))
     placed.points |= set(given.frame)
     at: Where = (*TOP, "driver")
     driver = given.driver
@@ -129,12 +129,51 @@ def _fixed_points(given: file.Parameters, link: int, placed: _Placed) -> Iterato
             yield from placed.enter(name, (*TOP, "points", name))
 
 
-def _group(given: file.Parameters, group: file.GroupSection, at: Where, placed: _Placed) -> Iterator[Finding]:
+def _placed_by(group: file.GroupSection) -> tuple[str, ...]:
+    """Return the joints that a group places."""
+    if isinstance(group, file.TernaryGroup):
+        return group.inner
+    return (group.joints[0 if group.type == "PRP" else 1],)
+
+
+def _new_links(links: Iterable[tuple[int, Where]], placed: _Placed) -> Iterator[Finding]:
+    """Yield faults unless the links, each with its place in the file, are new."""
     taken = set(placed.links)
-    for index, link in enumerate(group.links):
+    for link, where in links:
         if link in taken:
-            yield Finding("link-taken", (*at, "links", index), {"text": str(link)})
+            yield Finding("link-taken", where, {"text": str(link)})
         taken.add(link)
+
+
+def _ternary(given: file.Parameters, group: file.TernaryGroup, at: Where, placed: _Placed) -> Iterator[Finding]:
+    """Yield the faults of a triad's names and numbers."""
+    plate = group.plate, (*at, "plate")
+    yield from _new_links([plate, *((leg.link, (*at, "legs", k, "link")) for k, leg in enumerate(group.legs))], placed)
+    for index, leg in enumerate(group.legs):
+        yield from placed.need(leg.joints[0], (*at, "legs", index, "joints", 0))
+    for index, name in enumerate(group.inner):
+        yield from placed.enter(name, (*at, "legs", index, "joints", 1))
+    _, second, third = group.inner
+    for key, names, known in (("at", group.at, (second, third)), ("near", group.near, group.inner)):
+        for name in names:
+            if name not in known:
+                yield Finding("no-such-point", (*at, key, name), {"text": name, "known": ", ".join(known)}, at="key")
+    for name in (second, third):
+        if name not in group.at:
+            yield Finding("missing-key", (*at, "at"), {"key": name})
+    if second in group.at and not (group.at[second][0].si > 0 and group.at[second][1].si == 0):
+        yield Finding("plate-axis", (*at, "at", second), {"text": second, "first": group.inner[0]})
+    for link in dict.fromkeys(group.links):
+        if link not in placed.links:
+            placed.links.add(link)
+            yield from _fixed_points(given, link, placed)
+
+
+def _group(given: file.Parameters, group: file.GroupSection, at: Where, placed: _Placed) -> Iterator[Finding]:
+    if isinstance(group, file.TernaryGroup):
+        yield from _ternary(given, group, at, placed)
+        return
+    yield from _new_links(((link, (*at, "links", index)) for index, link in enumerate(group.links)), placed)
     joints = (*at, "joints")
     middle = 0 if group.type == "PRP" else 1
     for index, name in enumerate(group.joints):
@@ -224,10 +263,17 @@ def _assembly(given: file.Parameters, positions: Positions) -> Iterator[Finding]
     At single instants the crank need not make a whole turn, unless a load depends on the stroke of a slider.
     """
     made = given.linkage
-    members = {
-        (group.links[0], group.links[1]): Member(_rods(group), (*TOP, "groups", index))
-        for index, group in enumerate(given.groups)
+    members: Members = {
+        tuple(group.links): Member(_rods(group), (*TOP, "groups", index)) for index, group in enumerate(given.groups)
     }
+    for index, group in enumerate(given.groups):
+        if isinstance(group, file.TernaryGroup) and group.near_at and isinstance(given.driver, file.SlideDriver):
+            yield Finding("no-crank", (*TOP, "groups", index, "near_at"), {"key": "near_at"}, at="key")
+            return
+    unclear = list(assembly_checks.unclear_modes(made, members))
+    yield from unclear
+    if unclear:
+        return
     if isinstance(given.driver, file.SlideDriver):
         if not positions.at:
             yield from _along_travel(given, given.driver, made, members)
@@ -249,7 +295,7 @@ def _assembly(given: file.Parameters, positions: Positions) -> Iterator[Finding]
 
 
 def _along_travel(
-    given: file.Parameters, driver: file.SlideDriver, made: Linkage, members: dict[tuple[int, int], Member]
+    given: file.Parameters, driver: file.SlideDriver, made: Linkage, members: Members
 ) -> Iterator[Finding]:
     start, end = driver.start, driver.end
     slot = driver.guide.slot
@@ -267,6 +313,8 @@ def _along_travel(
 
 def _rods(group: file.GroupSection) -> str:
     """Return a group's links by the letters of their joints."""
+    if isinstance(group, file.TernaryGroup):
+        return ", ".join("".join(leg.joints) for leg in group.legs)
     names = group.joints
     match group.type:
         case "RRR":
@@ -282,6 +330,8 @@ def _rods(group: file.GroupSection) -> str:
 def _slots(given: file.Parameters, made: Linkage, motion: Motion) -> Iterator[Finding]:
     """Yield faults unless every block stays in its slot, where a slot's ends are given."""
     for index, group in enumerate(given.groups):
+        if isinstance(group, file.TernaryGroup):
+            continue
         at = (*TOP, "groups", index)
         i, j = group.links
         slots = [(guide.slot, (*at, *where, "slot"), (guide.on, link)) for link, guide, where in file.rails(group)]

@@ -31,7 +31,7 @@ from reportgen.base.units import Given
 from reportgen.catalogue.declared_loads import LAST_LINK, LEVEL, Constant, Link, Name, OverAngle, OverWay
 from reportgen.catalogue.given_loads import Diagram
 from reportgen.catalogue.parameters import UnderGravity
-from reportgen.machine import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint, SlidingDriver
+from reportgen.machine import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint, SlidingDriver, Triad, TriadLeg
 
 MOST_GROUPS = 12
 MOST_NAMES = 60
@@ -43,6 +43,7 @@ NOWHERE = Given(0.0, 0.0, "mm", "0 mm")
 
 
 TwoGroupLinks = Annotated[tuple[GroupLink, ...], Field(min_length=2, max_length=2)]
+SomeGroupLinks = Annotated[tuple[GroupLink, ...], Field(min_length=2, max_length=4)]
 Two = Annotated[tuple[Name, ...], Field(min_length=2, max_length=2)]
 Three = Annotated[tuple[Name, ...], Field(min_length=3, max_length=3)]
 Lengths = Annotated[tuple[Length, ...], Field(min_length=2, max_length=2)]
@@ -97,6 +98,11 @@ class CrankDriver(Part):
         return given.si
 
     @property
+    def rest(self) -> float:
+        """The angle (rad) at which assembly modes are selected where a group names no other."""
+        return 0.0
+
+    @property
     def rate2(self) -> float:
         """ε1 (rad/s²), positive in the sense of ω1."""
         return 0.0 if self.epsilon1 is None else self.epsilon1.si
@@ -124,6 +130,11 @@ class SlideDriver(Part):
     def rate(self) -> float:
         """|v| (m/s)."""
         return self.speed.si
+
+    @property
+    def rest(self) -> float:
+        """The displacement (m) at which assembly modes are selected."""
+        return self.start.si
 
     @property
     def rate2(self) -> float:
@@ -239,7 +250,52 @@ class RPP(Part):
         return Dyad("RPP", _pair(self.links), start, middle, self.guide.line, slide_angle=self.across.si)
 
 
-GroupSection = Annotated[RRR | RRP | RPR | PRP | RPP, Field(discriminator="type")]
+class LegSection(Part):
+    """A leg of a triad: a rod of the `length` from the first of `joints` to the second, which is on the plate."""
+
+    link: GroupLink
+    joints: Two
+    length: Length
+
+
+class TernaryGroup(Part):
+    """A group of class III: the link `plate` on three `legs`.
+
+    `at` are the places of the second and third leg's joint in the axes of the plate, whose origin is the first leg's
+    joint. `near` are points near which joints of the plate lie when the crank is at the angle `near_at`, or the slide
+    at its start: they select the assembly mode.
+    """
+
+    type: Literal["3RRR"]
+    plate: GroupLink
+    legs: Annotated[tuple[LegSection, ...], Field(min_length=3, max_length=3)]
+    at: Annotated[dict[Name, PointCoordinates], Field(min_length=2, max_length=2)]
+    near: Annotated[dict[Name, PointCoordinates], Field(min_length=1, max_length=3)]
+    near_at: Angle | None = None
+
+    @property
+    def links(self) -> tuple[int, ...]:
+        """The first leg, the plate, the two other legs."""
+        first, *others = (leg.link for leg in self.legs)
+        return (first, self.plate, *others)
+
+    @property
+    def inner(self) -> tuple[str, ...]:
+        """The joints of the plate."""
+        return tuple(leg.joints[1] for leg in self.legs)
+
+    def triad(self, start: float) -> Triad:
+        """Return the group as the mechanism core knows it, for a driver that starts at the coordinate `start`."""
+        first, second, third = (TriadLeg(leg.link, leg.joints[0], leg.joints[1], leg.length.si) for leg in self.legs)
+        # A name that is missing is a fault that the checks report.
+        second_at, third_at = (place(self.at[name]) if name in self.at else 0j for name in self.inner[1:])
+        near = tuple((name, place(at)) for name, at in self.near.items())
+        near_at = start if self.near_at is None else self.near_at.si
+        return Triad(self.plate, (first, second, third), (second_at, third_at), near, near_at)
+
+
+Dyads = RRR | RRP | RPR | PRP | RPP
+GroupSection = Annotated[Dyads | TernaryGroup, Field(discriminator="type")]
 
 
 def rails(group: GroupSection) -> list[tuple[int, GuideSection, Where]]:
@@ -308,7 +364,7 @@ class Declared(Part):
 
     W: Annotated[int, Whole(0, 9)] | None = None
     class_: Annotated[int, Whole(1, 9)] | None = Field(default=None, alias="class")
-    groups: Annotated[tuple[TwoGroupLinks, ...], Field(max_length=MOST_GROUPS)] | None = None
+    groups: Annotated[tuple[SomeGroupLinks, ...], Field(max_length=MOST_GROUPS)] | None = None
 
 
 class Parameters(UnderGravity):
@@ -340,7 +396,10 @@ class Parameters(UnderGravity):
         return Linkage(
             ground={name: place(at) for name, at in self.frame.items()},
             driver=self.driver.driver,
-            groups=tuple(group.dyad for group in self.groups),
+            groups=tuple(
+                group.triad(self.driver.rest) if isinstance(group, TernaryGroup) else group.dyad
+                for group in self.groups
+            ),
             points=tuple(LinkPoint(name, one.link, place(one.at)) for name, one in self.points.items()),
             inertias=tuple(body for body in bodies if body.mass or body.moment),
             gravity=-1j * self.gravity,

@@ -12,7 +12,7 @@ from reportgen.catalogue import linkage_file as file
 from reportgen.catalogue.declared_loads import LoadRow, row_of
 from reportgen.catalogue.typed_quantities import as_typed
 from reportgen.formula import Number, ids, vocabulary
-from reportgen.machine import DyadKind, Guide
+from reportgen.machine import Guide
 
 
 @view("drawing")
@@ -20,8 +20,8 @@ from reportgen.machine import DyadKind, Guide
 class GroupRow:
     """A group: its links, kind, joints and the lengths of its rods, each with its ends."""
 
-    links: tuple[int, int]
-    kind: DyadKind
+    links: tuple[int, ...]
+    kind: str
     joints: tuple[str, ...]
     lengths: tuple[tuple[str, Number], ...] = ()
     choice: str = ""
@@ -150,6 +150,10 @@ def _axes(given: file.Parameters) -> dict[int, tuple[str, str]]:
     driver = given.driver
     axes = {1: (driver.centre, driver.pin) if isinstance(driver, file.CrankDriver) else (driver.pin, "guide")}
     for group in given.groups:
+        if isinstance(group, file.TernaryGroup):
+            axes |= {leg.link: (leg.joints[0], leg.joints[1]) for leg in group.legs}
+            axes[group.plate] = group.inner[0], group.inner[1]
+            continue
         first, last = group.joints[0], group.joints[-1]
         match group:
             case file.RRR():
@@ -168,6 +172,12 @@ def _motions(given: file.Parameters) -> Iterator[MotionRow]:
     # Links that do not turn: the frame, a sliding driver, and links that slide on such a link.
     level = {0} if isinstance(given.driver, file.CrankDriver) else {0, 1}
     for group in given.groups:
+        if isinstance(group, file.TernaryGroup):
+            for leg in group.legs:
+                outer = leg.joints[0]
+                yield MotionRow(leg.link, "rotation", outer) if outer in given.frame else MotionRow(leg.link, "plane")
+            yield MotionRow(group.plate, "plane")
+            continue
         dyad = group.dyad
         turns_alike = isinstance(group, file.RPP) and group.guide.on in level
         for link, end in zip(dyad.links, (dyad.start, dyad.end), strict=True):
@@ -183,6 +193,10 @@ def _motions(given: file.Parameters) -> Iterator[MotionRow]:
 
 
 def _group(group: file.GroupSection) -> GroupRow:
+    if isinstance(group, file.TernaryGroup):
+        names = tuple(name for leg in group.legs for name in leg.joints)
+        rods = tuple(("".join(leg.joints), as_typed(leg.length)) for leg in group.legs)
+        return GroupRow(group.links, group.type, names, rods)
     joints = group.joints
     row = partial(GroupRow, group.dyad.links, group.type, joints)
     match group:

@@ -17,7 +17,7 @@ from reportgen.base.units import Language
 from tests.kinds import KINDS
 
 LANGUAGES: tuple[Language, ...] = languages()
-PLAIN = re.compile(r"[A-Z]+[0-9]?|[0-9]+ pt|[0-9]+")
+PLAIN = re.compile(r"[0-9]?[A-Z]+[0-9]?|[0-9]+ pt|[0-9]+")
 """Choices that need no words: names of groups, sizes."""
 
 

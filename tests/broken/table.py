@@ -527,6 +527,28 @@ CHANGED: dict[str, list[tuple[Any, ...]]] = {
         ("toggle position", {"[340 mm, 280 mm]": "[300 mm, 220 mm]"}, "6:7 dead-point"),
         ("block leaves its slot", {"angle: 0 deg}": "angle: 0 deg, slot: [0 mm, 650 mm]}"}, "11:55 out-of-slot"),
     ],
+    "linkage-triad": [
+        ("a leg on a point to come", {"joints: [C, F]": "joints: [E, F]"}, "12:30 not-placed"),
+        ("a leg on no point", {"joints: [C, F]": "joints: [X, F]"}, "12:30 no-such-point"),
+        ("joint named twice", {"joints: [C, F]": "joints: [C, B]", "F: [60": "B: [60"}, "12:33 point-taken"),
+        ("plate as a leg", {"plate: 3": "plate: 4"}, "11:18 link-taken"),
+        ("place of no joint", {"F: [60": "G: [60"}, "13:11 missing-key, 13:31 no-such-point", "“F” is missing", "E, F"),
+        ("second joint off the axis", {"[100 mm, 0 mm]": "[100 mm, 4 mm]"}, "13:15 plate-axis", "right of D"),
+        ("near no joint", {"near: {D": "near: {O"}, "14:14 no-such-point"),
+        ("two legs", {"        - {link: 5, joints: [C, F], length: 150 mm}\n": ""}, "10:9 too-few"),
+        # R1 has two modes at 60°: D (82.739, 159.775) and (154.904, 38.315).
+        (
+            "between the modes",
+            {"[83 mm, 160 mm]": "[119 mm, 99 mm]"},
+            "14:13 no-single-mode",
+            "D (82.74, 159.8), E (166.6, 105.3)",
+            "D (154.9, 38.32)",
+        ),
+        ("far from any mode", {"[83 mm, 160 mm]": "[283 mm, 160 mm]"}, "14:13 no-single-mode"),
+        ("no mode at all", {"190 mm": "90 mm"}, "7:7 no-assembly-at"),
+        ("dead point", {"190 mm": "130 mm", "[83 mm, 160 mm]": "[148 mm, 84 mm]"}, "7:7 dead-point", "158.3°"),
+        ("another class", {"class: 3": "class: 2"}, "16:27 not-as-declared"),
+    ],
     "linkage-slide": [
         ("angle of the start", {"count: 5": "…, start: 30 deg"}, "2:23 no-crank"),
         ("direction", {"count: 5": "…, direction: clockwise"}, "2:23 no-crank"),
