@@ -22,7 +22,7 @@ from reportgen.machine.kinematics import Motion, course_of, solve_motion
 from reportgen.machine.load_laws import FULL_TURN, STEPS, MotionAt, halved
 from reportgen.machine.loads import turning_count
 from reportgen.machine.rigid_motion import SINGULAR, cross, unit
-from reportgen.machine.triads import Rows, assemblies, misfit, plate_size, reach
+from reportgen.machine.triads import assemblies, misfit, plate_size, reach, rows_of
 
 HALVINGS = 40
 SMALL_TRANSMISSION = 0.3
@@ -297,7 +297,7 @@ def clearance(dyad: Group, motion: Motion, size: float) -> Floats:
     if isinstance(dyad, Triad):
         outer, inner = ([motion.points[name].p for name in names] for names in zip(*_ends(dyad), strict=True))
         turn = unit(motion.links[dyad.plate].angle)
-        determinant = Rows.of(dyad, outer, inner[0], turn).determinant / plate_size(dyad)
+        determinant = rows_of(dyad, outer, inner[0], turn).determinant / plate_size(dyad)
         return np.asarray(np.where(motion.reachable, determinant**2, -1.0))
     l1, two = dyad.lengths
     match dyad.kind, dyad.start, dyad.end:

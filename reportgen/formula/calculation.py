@@ -39,7 +39,7 @@ BELOW_A_TURN = 1e-12
 """An angle that is less than this (rad) below a full turn counts as a full turn."""
 
 CONSTRUCTIONS = frozenset(
-    {"meet", "circle_line", "circle_circle", "abs", "cis", "turned", "arg", "re", "im", "cross", "dot"}
+    {"meet", "circle_line", "circle_circle", "plate_place", "abs", "cis", "turned", "arg", "re", "im", "cross", "dot"}
     | {
         "mean",
         "level",

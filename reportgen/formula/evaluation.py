@@ -27,6 +27,7 @@ from reportgen.formula import (
     Sum,
     Symbol,
     constructions,
+    plate_pose,
 )
 from reportgen.formula.constructions import Value
 
@@ -315,6 +316,8 @@ FUNCTIONS: Mapping[str, Callable[..., Value]] = {
     "meet": constructions.meet,
     "circle_line": circle_line,
     "circle_circle": constructions.circle_circle,
+    "plate_place": plate_pose.plate_place,
+    "plate_turn": plate_pose.plate_turn,
     "turned": lambda vector: 1j * vector,
     "min": lambda *values: reduce(np.minimum, values),
     "max": lambda *values: reduce(np.maximum, values),

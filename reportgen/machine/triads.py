@@ -1,9 +1,6 @@
 """The Assur group of class III: three legs on a ternary link, its assembly modes, and its rates by special points.
 
-Unknown is the pose of the plate: the place d of its first inner joint and the direction e^{iφ} of its axes. With the
-outer joints P_j, the inner joints Q_j = d + q_j e^{iφ} and the unit vectors e_j along the legs, a leg demands
-|Q_j − P_j| = l_j. A change of the pose by δ and θ changes that length by e_j·δ + m_j θ, m_j = (q_j e^{iφ}) × e_j. The
-determinant of the rows (e_j, m_j) is 0 where the lines of the legs meet in one point or are parallel: a dead point.
+Unknown is the pose of the plate, as in `formula.plate_pose`.
 """
 
 from __future__ import annotations
@@ -17,18 +14,15 @@ import numpy as np
 
 from reportgen.base.arrays import Complexes, Flags, Floats
 from reportgen.formula.constructions import Value, circle_circle, cross, dot
+from reportgen.formula.plate_pose import EXACT, SAME, Rows, refined_pose
 from reportgen.machine import Triad
 from reportgen.machine.rigid_motion import SINGULAR, LinkMotion, PointMotion, carried
 
-EXACT = 1e-13
-"""A correction of a pose smaller than this, relative to the longest leg, ends the iteration."""
 ON_CIRCLE = 1e-4
 """A root of the equation of φ whose modulus differs from 1 by more than this is not an angle.
 
 A double root splits by the square root of the rounding errors.
 """
-SAME = 1e-7
-"""Two poses nearer than this, relative to the longest leg, are one; a pose is found with the square of it."""
 STRAY = 0.1
 """Largest correction (relative, or rad) of a predicted pose; a larger one could lead to another assembly mode."""
 STEPS = 180
@@ -39,39 +33,9 @@ LEAST_STEP = 2.0**-24
 # --- one pose -------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True, slots=True)
-class Rows:
-    """The equations of the pose: unit vectors along the legs, their moments about d (m), the misses of length (m)."""
-
-    along: tuple[Value, Value, Value]
-    moments: tuple[Value, Value, Value]
-    misses: tuple[Value, Value, Value]
-
-    @classmethod
-    def of(cls, triad: Triad, outer: Sequence[Value], d: Value, turn: Value) -> Rows:
-        """Return the equations at the pose d, e^{iφ}, with legs from the `outer` joints (m)."""
-        rows = []
-        for leg, local, start in zip(triad.legs, triad.locals, outer, strict=True):
-            arm = local * turn
-            rod = d + arm - start
-            length = abs(rod)
-            e = rod / length
-            rows.append((e, cross(arm, e), leg.length - length))
-        along, moments, misses = zip(*rows, strict=True)
-        return cls(along, moments, misses)
-
-    @property
-    def determinant(self) -> Value:
-        """The determinant (m) of the rows; it does not depend on the point d."""
-        (e, f, g), (k, m, n) = self.along, self.moments
-        return k * cross(f, g) + m * cross(g, e) + n * cross(e, f)
-
-    def solve(self, right: Sequence[Value]) -> tuple[Value, Value]:
-        """Return δ and θ with e_j·δ + m_j θ = `right`_j, by Cramer's rule."""
-        (e, f, g), (k, m, n), (x, y, z) = self.along, self.moments, right
-        whole = self.determinant
-        shift = 1j * (x * (m * g - n * f) + y * (n * e - k * g) + z * (k * f - m * e)) / whole
-        return shift, (x * cross(f, g) + y * cross(g, e) + z * cross(e, f)) / whole
+def rows_of(triad: Triad, outer: Sequence[Value], d: Value, turn: Value) -> Rows:
+    """Return the equations at the pose d, e^{iφ}, with legs from the `outer` joints (m)."""
+    return Rows.of([leg.length for leg in triad.legs], triad.locals, outer, (d, turn))
 
 
 def plate_size(triad: Triad) -> float:
@@ -93,7 +57,7 @@ def _refined(triad: Triad, outer: Sequence[complex], d: complex, turn: complex) 
     size, before = reach(triad), STRAY
     for _ in range(12):
         try:
-            rows = Rows.of(triad, outer, d, turn)
+            rows = rows_of(triad, outer, d, turn)
             shift, angle = rows.solve(rows.misses)
         except ZeroDivisionError:
             return None
@@ -282,7 +246,7 @@ class _Walk:
         if known is None:
             places, rates = self.outer(np.array([driver]))
             known = places[:, 0], rates[:, 0]
-        rows = Rows.of(self.triad, [complex(place) for place in known[0]], pose.d, pose.turn)
+        rows = rows_of(self.triad, [complex(place) for place in known[0]], pose.d, pose.turn)
         right = [dot(complex(rate), e) for rate, e in zip(known[1], rows.along, strict=True)]
         try:
             shift, turning = rows.solve(right)
@@ -365,19 +329,9 @@ def poses_on(
         )
     elif reached.any():
         d[reached], angle[reached] = course.d[0], course.angle[0]
-    turn = np.exp(1j * angle)
-    size = reach(triad)
     with np.errstate(divide="ignore", invalid="ignore"):
-        for _ in range(8):
-            rows = Rows.of(triad, outer, d, turn)
-            shift, theta = rows.solve(rows.misses)
-            change = np.abs(shift) / size + np.abs(theta)
-            d, turn = d + shift, turn * np.exp(1j * theta)
-            if not (change > EXACT).any():
-                break
-        turn = turn / np.abs(turn)
-        lost = ~(change < SAME)
-    return np.where(lost, np.nan, d), np.where(lost, np.nan, turn)
+        lengths = [leg.length for leg in triad.legs]
+        return refined_pose(lengths, triad.locals, outer, (d, np.asarray(np.exp(1j * angle))))
 
 
 def _cubic(a: Value, b: Value, rate_a: Value, rate_b: Value, t: Floats) -> Value:
