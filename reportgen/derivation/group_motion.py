@@ -17,36 +17,13 @@ import cmath
 from collections.abc import Callable, Mapping, Sequence
 
 from reportgen.derivation.equation_sides import Side, image, scheme, sides
-from reportgen.derivation.kinematic_entries import (
-    NOWHERE,
-    POLES,
-    Kinematics,
-    PlacedLink,
-    What,
-    chosen_scale,
-    crank,
-    enter_centres,
-    slide,
-)
-from reportgen.formula import (
-    Expression,
-    Symbol,
-    call,
-    circle_circle,
-    circle_line,
-    cross,
-    ids,
-    meet,
-    quotient,
-    sign,
-    sqrt,
-    turned,
-    unit,
-    vocabulary,
-)
+from reportgen.derivation.kinematic_entries import Kinematics, What, chosen_scale, crank, enter_centres, slide
+from reportgen.derivation.link_points import enter_rod, images, places
+from reportgen.derivation.side_motion import acceleration, velocity
+from reportgen.formula import Expression, call, circle_circle, circle_line, ids, meet, sqrt, turned, vocabulary
 from reportgen.formula.calculation import Calculation
-from reportgen.formula.vocabulary import drawn_length, on_plan, segment
-from reportgen.machine import DRIVER, Crank, Dyad, DyadKind, Guide, Linkage, LinkPoint, under
+from reportgen.formula.vocabulary import drawn_length
+from reportgen.machine import DRIVER, Crank, Dyad, DyadKind, Guide, Linkage, under
 
 
 def enter_kinematics(
@@ -92,135 +69,6 @@ def _enter(
 # Both follow from two vector equations for the point where the group's two sides meet (`sides`).
 
 
-def velocity(k: Kinematics, first: Side, second: Side) -> None:
-    """Solve v_M = v_P + v_MP, each side with one unknown size along a known direction: the second lines meet in m."""
-    for side in (first, second):
-        _guide_point(k, "v", side)
-    start1, start2 = _start(k, "v", first), _start(k, "v", second)
-    k.vertex("v", image(first.point), meet(start1, _sought(k, first), start2, _sought(k, second)))
-    for side in (first, second):
-        if not side.still:
-            _relative_velocity(k, side)
-    k.absolute("v", first.point)
-    for side in (first, second):
-        if side.still and (side.turns or side.turning):
-            # Relative to a fixed point the velocity is the velocity itself.
-            _enter_relative(k, side, k.q[ids.velocity(side.point)])
-
-
-def acceleration(k: Kinematics, first: Side, second: Side) -> None:
-    """Solve a_M = a_P + aⁿ_MP + aᵗ_MP or a_G + aᵏ_MG + aʳ_MG: known vectors first, then second lines meet in m′."""
-    for side in (first, second):
-        _guide_point(k, "a", side)
-    starts = [_known_acceleration(k, side) for side in (first, second)]
-    crossing = meet(starts[0], _sought(k, first), starts[1], _sought(k, second))
-    k.vertex("a", image(first.point), crossing)
-    same_letter = first.part == second.part
-    for side, start in zip((first, second), starts, strict=True):
-        _unknown_acceleration(k, side, start, same_letter)
-    k.absolute("a", first.point)
-
-
-def _guide_point(k: Kinematics, what: What, side: Side) -> None:
-    """Enter the point of a moving guide's link that lies under the sliding point."""
-    if side.carrier is not None and not side.still:
-        arm = k.place(side.point) - k.place(k.links[side.carrier].origin)
-        k.vertex(what, image(side.base), k.image_at(what, side.carrier, arm))
-        k.absolute(what, side.base)
-
-
-def _start(k: Kinematics, what: What, side: Side) -> Expression:
-    return NOWHERE if side.still else k.image(what, side.base)
-
-
-def _sought(k: Kinematics, side: Side) -> Expression:
-    """Return the direction of the unknown velocity or acceleration of a side."""
-    return turned(k.q[ids.rod(side.link)]) if side.turns else k.q[side.along]
-
-
-def _along(k: Kinematics, side: Side) -> Expression:
-    """Return the relative velocity on the plan, from the base's image to the point's."""
-    return k.q[ids.plan_point("v", image(side.point))] - _start(k, "v", side)
-
-
-def _symbol(base: str, side: Side, sup: str = "") -> Symbol:
-    return Symbol(base, side.pair, sup)
-
-
-def _relative_velocity(k: Kinematics, side: Side) -> None:
-    """Enter the velocity of the point relative to its base, and ω of the link that turns with it."""
-    id = ids.segment("v", image(side.base), image(side.point))
-    drawn = k.segment(id, on_plan(side.base), on_plan(side.point), _along(k, side), "v")
-    _enter_relative(k, side, k.q["mu.v"] * drawn)
-
-
-def _enter_relative(k: Kinematics, side: Side, definition: Expression) -> None:
-    q, sizes = k.q, k.sizes
-    relative = q.define(ids.velocity(side.relative), definition, _symbol("v", side), scale=sizes.velocity)
-    if side.turns:
-        size, rotation = relative / q[ids.length(side.rod)], ids.angular_velocity(side.link)
-        omega = q.define(rotation, size, scale=sizes.rotation)
-        sense = sign(cross(q[ids.rod(side.link)], _along(k, side)))
-        q.define(ids.signed("omega", side.link), omega * sense, scale=sizes.rotation, of=rotation)
-
-
-def _known_acceleration(k: Kinematics, side: Side) -> Expression:
-    """Enter aⁿ = v²/l towards the base, or aᵏ = 2ω v_r square to v_r; return the start of the unknown part."""
-    q, start, part = k.q, _start(k, "a", side), side.part
-    if not part:
-        return start
-    corner, relative = ids.relative_corner(part, side.relative), q[ids.velocity(side.relative)]
-    formula = (
-        relative**2 / q[ids.length(side.rod)] if side.turns else 2 * q[ids.angular_velocity(side.turning)] * relative
-    )
-    known = q.define(
-        ids.acceleration(side.relative, part), formula, _symbol("a", side, part), scale=k.sizes.acceleration
-    )
-    first = Symbol(POLES["a"]) if side.still else on_plan(side.base, True)
-    last = Symbol(part, side.pair)
-    drawn = q.define(
-        ids.relative_segment(part, side.relative), known / q["mu.a"], segment(first, last), scale=k.paper("a")
-    )
-    if side.turns:
-        laid: Expression = -(drawn * unit(q[ids.rod(side.link)]))
-    else:
-        # The relative velocity turned by 90° in the sense of ω.
-        laid = drawn * sign(k.omega(side.turning)) * turned(unit(_along(k, side)))
-    return k.vertex("a", corner, start + q.construct(ids.laid("a", corner), laid))
-
-
-def _unknown_acceleration(k: Kinematics, side: Side, start: Expression, same_letter: bool) -> None:
-    """Enter the tangential or sliding part, from the end of the known parts to the point's image; and ε of a
-    turning link.
-
-    If the known parts of both sides have the `same_letter`, n or k, their ends are distinguished by their vectors.
-    """
-    if not side.sought:
-        return
-    q, relative = k.q, side.relative
-    part, sup = side.sought, "τ" if side.turns else "r"
-    along = q[ids.plan_point("a", image(side.point))] - start
-    begin, end = Symbol(side.part), on_plan(side.point, True)
-    if not begin.base:
-        begin = on_plan(side.base, True)
-    elif same_letter:
-        begin, end = end, Symbol(begin.base, side.pair)
-    drawn = k.segment(ids.relative_segment(part, relative), begin, end, along, "a")
-    size = q["mu.a"] * drawn
-    sought = q.define(ids.acceleration(relative, part), size, _symbol("a", side, sup), scale=k.sizes.acceleration)
-    if side.turns:
-        rotation, scale = ids.angular_acceleration(side.link), k.sizes.rotation**2
-        eps = q.define(rotation, sought / q[ids.length(side.rod)], scale=scale)
-        sense = sign(cross(q[ids.rod(side.link)], along))
-        q.define(ids.signed("eps", side.link), eps * sense, scale=scale, of=rotation)
-
-
-OFF_LINE = 1e-9
-"""A point counts as on the line of a link's joints if its distance from the line is below this share of its distance
-from the origin.
-"""
-
-
 def group(k: Kinematics, dyad: Dyad) -> None:
     """Enter the places, velocities and accelerations of a group and of the points of its links."""
     both = sides(k.scheme, dyad)
@@ -242,6 +90,11 @@ def _motion(k: Kinematics, dyad: Dyad, what: What, turns: Mapping[int, Side | No
         images(k, what, link, turn)
 
 
+def _turn_of(link: int, sides: tuple[Side, Side]) -> Side | None:
+    """Return the side that a link turns on, None for one that slides."""
+    return next((side for side in sides if side.turns and side.link == link), None)
+
+
 def _pin(end: str | Guide) -> str:
     assert isinstance(end, str)
     return end
@@ -252,22 +105,14 @@ def _guide(end: str | Guide) -> Guide:
     return end
 
 
-def _rod(k: Kinematics, link: int, start: str, middle: str) -> None:
-    """Enter a rod of fixed length from an outer joint to the inner one; its unit axis, if it carries a guide."""
-    rod = k.q.construct(ids.rod(link), k.place(middle) - k.place(start))
-    ends = (end for dyad in k.scheme.linkage.dyads for end in (dyad.start, dyad.end))
-    carries = any(isinstance(end, Guide) and end.link == link for end in ends)
-    k.put(link, start, k.q.construct(ids.link_axis(link), unit(rod)) if carries else None, middle)
-
-
 def _rrr(k: Kinematics, dyad: Dyad) -> None:
     start, end, middle = _pin(dyad.start), _pin(dyad.end), dyad.middle
     k.length(start, middle, dyad.lengths[0])
     k.length(end, middle, dyad.lengths[1])
     first, second = k.drawn(start, middle), k.drawn(end, middle)
     k.q.construct(ids.place(middle), circle_circle(k.place(start), first, k.place(end), second, float(dyad.sign)))
-    _rod(k, dyad.links[0], start, middle)
-    _rod(k, dyad.links[1], end, middle)
+    enter_rod(k, dyad.links[0], start, middle)
+    enter_rod(k, dyad.links[1], end, middle)
 
 
 def _rrp(k: Kinematics, dyad: Dyad) -> None:
@@ -277,7 +122,7 @@ def _rrp(k: Kinematics, dyad: Dyad) -> None:
     k.length(start, middle, dyad.lengths[0])
     length = k.drawn(start, middle)
     k.q.construct(ids.place(middle), circle_line(k.place(start), length, at, along, float(dyad.sign)))
-    _rod(k, i, start, middle)
+    enter_rod(k, i, start, middle)
     k.put(j, middle, along)
 
 
@@ -339,114 +184,3 @@ PLACES: Mapping[DyadKind, Callable[[Kinematics, Dyad], None]] = {
     "PRP": _prp,
     "RPP": _rpp,
 }
-
-
-# --- points of links --------------------------------------------------------------------------------
-
-
-def _points(k: Kinematics, link: int) -> tuple[LinkPoint, ...]:
-    """Return the named points of a link besides its joints."""
-    return tuple(place for place in k.scheme.linkage.points if place.link == link)
-
-
-def _off_line(point: LinkPoint) -> bool:
-    """Return True if a point forms a triangle with its link's joints."""
-    return abs(point.local.imag) > OFF_LINE * abs(point.local)
-
-
-def _turn_of(link: int, sides: tuple[Side, Side]) -> Side | None:
-    """Return the side that a link turns on, None for one that slides."""
-    return next((side for side in sides if side.turns and side.link == link), None)
-
-
-def places(k: Kinematics, link: int, turn: Side | None) -> None:
-    """Enter the places of a link's named points besides its joints.
-
-    On a rod their axis is the line of the rod, otherwise the axis of the link's frame; `turn` is the side that the link
-    turns on, None for a link that slides.
-    """
-    q, placed = k.q, k.links[link]
-    for point in _points(k, link):
-        x, y = point.local.real, point.local.imag
-        k.distance(placed.origin, point.name, x, y)
-        angle = k.constant(ids.point_turn(point.name), cmath.exp(1j * cmath.phase(point.local)) if point.local else 1)
-        if turn is not None and not turn.measured:
-            if _off_line(point):
-                k.distance(turn.point, point.name, x, y, q[ids.length(turn.rod)])
-            axis: Expression = unit(q[ids.rod(link)])
-        else:
-            axis = k.axis(link)
-        length = k.drawn(placed.origin, point.name)
-        q.construct(ids.place(point.name), k.place(placed.origin) + length * angle * axis)
-
-
-def images(k: Kinematics, what: What, link: int, turn: Side | None) -> None:
-    """Enter velocities or accelerations of a link's named points besides its joints.
-
-    They follow by similarity if the link turns on a side (`turn`), otherwise from its rotation, or are those of its
-    origin if it does not rotate.
-    """
-    placed = k.links[link]
-    for point in _points(k, link):
-        if turn is not None:
-            _by_similarity(k, what, point, turn)
-        elif placed.omega is not None:
-            _by_rotation(k, what, point, placed)
-        else:
-            _by_translation(k, what, point, placed)
-
-
-def _by_similarity(k: Kinematics, what: What, point: LinkPoint, turn: Side) -> None:
-    """Enter a point by the similarity theorem: the figure in the plan is similar to that of the link, with the same
-    sense.
-    """
-    q, base, tip = k.q, turn.base, turn.point
-    first, last, new = "p" if turn.still else image(base), image(tip), image(point.name)
-    along = k.image(what, tip) - k.image(what, base)
-    ratio = q[ids.length(base, point.name)] / q[ids.length(turn.rod)]
-    angle = q[ids.point_turn(point.name)]
-    if turn.measured:
-        id = ids.similar(point.name)
-        if id not in q:
-            q.construct(id, angle * quotient(k.axis(point.link), unit(q[ids.rod(point.link)])))
-        angle = q[id]
-    whole = ids.segment(what, first, last)
-    letters = k.letter(what, base), on_plan(tip, what == "a")
-    if whole not in q:
-        k.segment(whole, *letters, along, what)
-    target = on_plan(point.name, what == "a")
-    part = q.define(ids.segment(what, first, new), ratio * q[whole], segment(letters[0], target))
-    laid = q.construct(ids.laid(what, f"{first}{new}"), ratio * angle * along, of=part.id)
-    k.vertex(what, new, k.image(what, base) + laid)
-    if _off_line(point) and not turn.measured:
-        leg_ratio = q[ids.length(tip, point.name)] / q[ids.length(turn.rod)]
-        q.define(ids.segment(what, last, new), leg_ratio * q[whole], segment(letters[1], target))
-    k.absolute(what, point.name)
-
-
-def _by_rotation(k: Kinematics, what: What, point: LinkPoint, placed: PlacedLink) -> None:
-    """Enter v_E = v_O + ω l_OE, a_E = a_O + ω² l_OE + ε l_OE, as the link turns about its origin."""
-    q, name, link = k.q, point.name, point.link
-    length, relative = q[ids.length(placed.origin, name)], f"{name}{placed.origin}"
-    if point.local:
-        omega, size = q[ids.angular_velocity(link)], k.sizes.of(what)
-        if what == "v":
-            q.define(ids.velocity(relative), omega * length, scale=size)
-        else:
-            q.define(ids.acceleration(relative, "n"), omega**2 * length, scale=size)
-            if placed.eps is not None:
-                q.define(ids.acceleration(relative, "t"), q[ids.angular_acceleration(link)] * length, scale=size)
-    arm = k.place(name) - k.place(placed.origin)
-    k.vertex(what, image(name), k.image_at(what, link, arm))
-    k.absolute(what, name)
-
-
-def _by_translation(k: Kinematics, what: What, point: LinkPoint, placed: PlacedLink) -> None:
-    """Enter a point of a link that does not turn: all its points have one velocity and one acceleration."""
-    q, name = k.q, point.name
-    plan = k.vertex(what, image(name), k.image(what, placed.origin))
-    k.segment(ids.segment(what, "p", image(name)), Symbol(POLES[what]), on_plan(name, what == "a"), abs(plan), what)
-    rate = ids.POINT_RATE[what]
-    same = NOWHERE if k.scheme.still(placed.origin) else q[rate(placed.origin)]
-    q.define(rate(name), same, scale=k.sizes.of(what))
-    k.direction(what, name)
