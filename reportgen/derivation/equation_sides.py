@@ -25,7 +25,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 from reportgen.formula import ids
-from reportgen.machine import DRIVER, GROUND, Crank, Dyad, DyadKind, Guide, Linkage, owners, under
+from reportgen.machine import DRIVER, GROUND, Crank, Dyad, DyadKind, Guide, Linkage, Triad, owners, under
 
 
 def image(name: str) -> str:
@@ -146,7 +146,10 @@ def scheme(linkage: Linkage) -> Scheme:
     Raises `ValueError` for two points of one name.
     """
     spins = {GROUND: 0, DRIVER: DRIVER if isinstance(linkage.driver, Crank) else 0}
-    for dyad in linkage.dyads:
+    for dyad in linkage.groups:
+        if isinstance(dyad, Triad):
+            spins |= {link: link for link in dyad.links}
+            continue
         i, j = dyad.links
         first, second = (
             link if isinstance(end, str) else spins[end.link]

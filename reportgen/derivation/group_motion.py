@@ -20,10 +20,11 @@ from reportgen.derivation.equation_sides import Side, image, scheme, sides
 from reportgen.derivation.kinematic_entries import Kinematics, What, chosen_scale, crank, enter_centres, slide
 from reportgen.derivation.link_points import enter_rod, images, places
 from reportgen.derivation.side_motion import acceleration, velocity
+from reportgen.derivation.triad_motion import enter_triad
 from reportgen.formula import Expression, call, circle_circle, circle_line, ids, meet, sqrt, turned, vocabulary
 from reportgen.formula.calculation import Calculation
 from reportgen.formula.vocabulary import drawn_length
-from reportgen.machine import DRIVER, Crank, Dyad, DyadKind, Guide, Linkage, under
+from reportgen.machine import DRIVER, Crank, Dyad, DyadKind, Guide, Linkage, Triad, under
 
 
 def enter_kinematics(
@@ -58,8 +59,11 @@ def _enter(
         places(k, DRIVER, None)
         for what in ("v", "a"):
             images(k, what, DRIVER, None)
-    for dyad in linkage.dyads:
-        group(k, dyad)
+    for member in linkage.groups:
+        if isinstance(member, Triad):
+            enter_triad(k, member)
+        else:
+            group(k, member)
     enter_centres(k)
     return k
 

@@ -253,6 +253,7 @@ def longest(linkage: Linkage) -> float:
     fixed = list(linkage.ground.values())
     spans = [abs(p - q) for p in fixed for q in fixed]
     rods = [length for dyad in linkage.dyads for length in dyad.lengths]
+    rods += [leg.length for triad in linkage.triads for leg in triad.legs]
     return max((*rods, *spans, *(abs(place.local) for place in linkage.points)), default=0.0) or 1.0
 
 

@@ -138,6 +138,7 @@ guide = Name("guide.{link}")
 guide_on_link = Name("guide.{link}.local")
 guide_place = Name("guide.{link}.at")
 guide_place_on_link = Name("guide.{link}.at.local")
+plate_trial = Name("near.{link}.{of}")  # pose of a ternary link near which it is drawn
 similar = Name("similar.{point}")  # its image by the similarity theorem
 angle = Name("phi.{of}")
 inclination = Name("beta.{link}")

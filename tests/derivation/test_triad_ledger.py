@@ -1,0 +1,79 @@
+"""The ledger's plans of a group of class III give what the arrays give.
+
+The arrays choose the special point of each position, the ledger one for all, and draws: only rounding is common.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from made_triads import R1, clear_places, random_linkages
+
+from reportgen.derivation.group_motion import enter_kinematics
+from reportgen.formula.calculation import Calculation
+from reportgen.machine import Crank, Dyad, Guide, Linkage
+from reportgen.machine.kinematics import solve_motion
+
+RATE = 7.0
+RELATIVE = 1e-9
+"""Of the greatest size: positions may be ten times nearer to a dead point than is usual."""
+
+
+def check_plans(linkage: Linkage, driver: np.ndarray, turn: int = 1) -> Calculation:
+    motion = solve_motion(linkage, driver, turn * RATE)
+    q = Calculation(len(driver))
+    if isinstance(linkage.driver, Crank):
+        q.give("phi.1", driver)
+        q.give("omega.1", RATE)
+    else:
+        q.give("s.1", driver)
+        q.give(f"v.{linkage.driver.pin}", RATE)
+    enter_kinematics(q, linkage, turn)
+    for name, point in motion.points.items():
+        assert np.abs(q.value(f"p.{name}") - point.p).max() < RELATIVE
+        for what in ("v", "a"):
+            rate = getattr(point, what)
+            if f"plan.{what}.{name.lower()}" not in q:
+                assert np.abs(rate).max() == 0
+                continue
+            size = max(float(np.abs(getattr(every, what)).max()) for every in motion.points.values())
+            drawn = q.value(f"plan.{what}.{name.lower()}") * q.value(f"mu.{what}")
+            assert np.abs(drawn - rate).max() < RELATIVE * size, (what, name)
+            assert np.abs(q.value(f"{what}.{name}") - np.abs(rate)).max() < RELATIVE * size, (what, name)
+    for id, rate in (("turn.omega", "omega"), ("turn.eps", "epsilon")):
+        size = max(float(np.abs(getattr(link, rate)).max()) for link in motion.links.values())
+        for number, link in motion.links.items():
+            if number != 1:
+                known = q.value(f"{id}.{number}") if f"{id}.{number}" in q else 0.0
+                assert np.abs(known - getattr(link, rate)).max() < RELATIVE * size, (id, number)
+    return q
+
+
+@pytest.mark.parametrize("turn", [1, -1])
+def test_r1_over_a_turn(turn: int) -> None:
+    """S24 is the special point that stays within 203 mm of O; v_S24 and ω₃ at 60° are those of the reference case."""
+    q = check_plans(R1, np.radians(60 + 30.0 * turn * np.arange(12)), turn)
+    assert np.abs(q.value("p.S24")).max() < 0.203
+    assert q.value("v.S24")[0] / RATE * 20 == pytest.approx(0.0669941, abs=1e-7)
+    assert q.value("dir.v.S24")[0] == pytest.approx(math.radians(44.60203 if turn > 0 else 224.60203), abs=1e-7)
+    assert q.value("omega.3")[0] / RATE * 20 == pytest.approx(0.261241, abs=1e-6)
+
+
+def test_a_dyad_hung_on_the_plate() -> None:
+    slider = Dyad("RRP", (6, 7), "F", "G", Guide(0.4 + 0.3j, 0.2), (0.3, 0.0))
+    check_plans(replace(R1, groups=(*R1.groups, slider)), np.radians(np.arange(0, 360, 45.0)))
+
+
+def test_random_triads_and_chains() -> None:
+    rng = np.random.default_rng(650)
+    used = 0
+    for chained in (False, True):
+        for linkage in random_linkages(6, rng, chained):
+            places = clear_places(linkage, rng, 3)
+            if places.size:
+                used += 1
+                check_plans(linkage, places)
+    assert used >= 7
