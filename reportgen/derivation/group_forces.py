@@ -33,12 +33,14 @@ from reportgen.derivation.load_entries import (
     moments,
     opposite,
     read,
+    tangential,
 )
 from reportgen.derivation.plan_scales import Scaling, own_scales
-from reportgen.formula import Expression, Ref, Sum, Symbol, call, dot, ids, meet, quotient, sign, total, turned, unit
+from reportgen.derivation.triad_forces import ternary_group
+from reportgen.formula import Expression, Ref, Sum, Symbol, call, dot, ids, meet, quotient, sign, total, turned
 from reportgen.formula.calculation import ZERO, Calculation
 from reportgen.formula.vocabulary import drawn_length
-from reportgen.machine import DRIVER, Crank, Dyad, DyadKind, Guide, Linkage
+from reportgen.machine import DRIVER, Crank, Dyad, DyadKind, Guide, Linkage, Triad
 
 
 def enter_forces(
@@ -60,9 +62,10 @@ def enter_forces(
     loads = enter_loads(statics, applied, torques or {})
     statics = replace(statics, loads=loads)
     polygons = []
-    for dyad in reversed(linkage.dyads):
-        carried = carried_reactions(statics, dyad.links)
-        polygons.append(group(replace(statics, loads=(*carried, *loads)), dyad))
+    for member in reversed(linkage.groups):
+        carried = carried_reactions(statics, member.links)
+        under = replace(statics, loads=(*carried, *loads))
+        polygons.append(ternary_group(under, member) if isinstance(member, Triad) else group(under, member))
     carried = carried_reactions(statics, (DRIVER,))
     polygons.append(driver(replace(statics, loads=(*carried, *loads))))
     lever(statics, loads)
@@ -142,14 +145,14 @@ def group(statics: Statics, dyad: Dyad) -> Polygon:
 def _rrr(g: Group) -> Polygon:
     assert isinstance(g.dyad.end, str)
     middle = g.dyad.middle
-    _tangential(g, g.i, g.outer, g.start, middle, g.on_i)
-    _tangential(g, g.j, g.end, g.dyad.end, middle, g.on_j)
+    tangential(g.statics, g.i, g.outer, (g.start, middle), g.on_i)
+    tangential(g.statics, g.j, g.end, (g.dyad.end, middle), g.on_j)
     return _close(g, g.q[ids.rod(g.i)], g.q[ids.rod(g.j)], tangents=(True, True))
 
 
 def _rrp(g: Group) -> Polygon:
     middle = g.dyad.middle
-    _tangential(g, g.i, g.outer, g.start, middle, g.on_i)
+    tangential(g.statics, g.i, g.outer, (g.start, middle), g.on_i)
     polygon = _close(g, g.q[ids.rod(g.i)], turned(g.q[ids.guide(g.j)]), tangents=(True, False))
     _slide(g, g.end, middle, g.on_j, g.j)
     return polygon
@@ -193,15 +196,6 @@ def _rpp(g: Group) -> Polygon:
 
 
 # --- steps ----------------------------------------------------------------------------------------
-
-
-def _tangential(g: Group, link: int, digits: str, pin: str, middle: str, loads: tuple[LoadOn, ...]) -> None:
-    """Enter the moments of a rod about the inner joint: Rᵗ l = ΣM, positive along the rod turned by 90°."""
-    q, length = g.q, g.q[ids.length(pin, middle)]
-    moment = moments(g.statics, loads, middle)
-    size = q.define(ids.reaction(digits, "t"), 0.0 if moment is None else moment / length, scale=g.statics.force)
-    assumed = q.construct(ids.assumed(ids.reaction_force(digits, "t")), turned(unit(q[ids.rod(link)])))
-    q.construct(ids.force_vector(ids.reaction_force(digits, "t")), size * assumed, of=size.id)
 
 
 def _reach(g: Group) -> Ref:

@@ -6,7 +6,7 @@ R42), `couple.X` its couple if it has one, `h.X.D` its signed arm about a point 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from enum import IntEnum
 
@@ -16,11 +16,25 @@ from reportgen.base.arrays import Complexes
 from reportgen.derivation.equation_sides import Scheme, image
 from reportgen.derivation.kinematic_entries import NOWHERE, Sizes, longest
 from reportgen.derivation.plan_scales import LEAST_FORCES, Scaling, extents, own_scales
-from reportgen.formula import Expression, Number, Ref, Sum, Symbol, call, cross, heading, ids, quotient, sign
+from reportgen.formula import (
+    Expression,
+    Number,
+    Ref,
+    Sum,
+    Symbol,
+    call,
+    cross,
+    heading,
+    ids,
+    quotient,
+    sign,
+    turned,
+    unit,
+)
 from reportgen.formula.calculation import Calculation
 from reportgen.formula.evaluation import evaluate
 from reportgen.formula.vocabulary import segment
-from reportgen.machine import DRIVER, GROUND, Crank, Guide, Inertia
+from reportgen.machine import DRIVER, GROUND, Crank, Group, Guide, Inertia, Triad
 
 FAINT = 1e-12
 """A reaction below this share of the loads is rounding and has no line of action."""
@@ -180,23 +194,34 @@ def _centre_of_percussion(statics: Statics, link: int, centre: str) -> None:
         for dyad in statics.scheme.linkage.dyads
         for moved, end in zip(dyad.links, (dyad.start, dyad.end), strict=True)
     }
+    ends |= {leg.link: leg.outer for triad in statics.scheme.linkage.triads for leg in triad.legs}
     start = ends.get(link)
+    if start is None:
+        return
     arm = ids.length(start, centre)
     if isinstance(start, str) and arm in q and q.si(arm) > 0:
         q.define(ids.percussion(centre, link), q[ids.inertia(link)] / (q[ids.mass(link)] * q[arm]))
 
 
+def _outer_joints(group: Group) -> Iterator[tuple[int, str | Guide, str]]:
+    """Yield the links of a group that hang on others, with their outer joint or guide, and the point of that joint."""
+    if isinstance(group, Triad):
+        yield from ((leg.link, leg.outer, leg.outer) for leg in group.legs)
+        return
+    for link, outer in zip(group.links, (group.start, group.end), strict=True):
+        yield link, outer, outer if isinstance(outer, str) else group.middle
+
+
 def carried_reactions(statics: Statics, links: tuple[int, ...]) -> tuple[LoadOn, ...]:
     """Enter the reactions of later groups on these links as loads, R42 = −R24; return them in the order of assembly."""
     q, loads = statics.q, []
-    for dyad in statics.scheme.linkage.dyads:
-        for link, outer in zip(dyad.links, (dyad.start, dyad.end), strict=True):
+    for group in statics.scheme.linkage.groups:
+        for link, outer, place in _outer_joints(group):
             carrier = outer.link if isinstance(outer, Guide) else statics.scheme.owner[outer]
             if carrier == GROUND or carrier not in links:
                 continue
             here, there = ids.joint(link, carrier), ids.joint(carrier, link)
-            place = outer if isinstance(outer, str) else dyad.middle
-            loads.append(opposite(q, here, there, carrier, place, ids.joint(*dyad.links)))
+            loads.append(opposite(q, here, there, carrier, place, ids.members(group.links)))
             if ids.reaction_couple(there) in q:
                 q.construct(ids.couple(ids.reaction_force(here)), q[ids.reaction_couple(there)])
     return tuple(loads)
@@ -264,6 +289,19 @@ def lone_couple(statics: Statics, load: LoadOn) -> Expression:
         alone = call("if_zero", _divisor(statics, load), couple)
         q.define(id, alone, Symbol("M", letters), "torque", optional=True)
     return Sum((q[id],))  # a separate term, so that it can be left out
+
+
+def tangential(statics: Statics, link: int, digits: str, rod: tuple[str, str], loads: tuple[LoadOn, ...]) -> Ref:
+    """Enter the moments of a rod about its inner joint: Rᵗ l = ΣM, positive along the rod turned by 90°.
+
+    `rod` are its outer and inner joint. Return Rᵗ.
+    """
+    q, length = statics.q, statics.q[ids.length(*rod)]
+    moment = moments(statics, loads, rod[1])
+    size = q.define(ids.reaction(digits, "t"), 0.0 if moment is None else moment / length, scale=statics.force)
+    assumed = q.construct(ids.assumed(ids.reaction_force(digits, "t")), turned(unit(q[ids.rod(link)])))
+    q.construct(ids.force_vector(ids.reaction_force(digits, "t")), size * assumed, of=size.id)
+    return size
 
 
 # --- force plans ----------------------------------------------------------------------------------

@@ -9,12 +9,12 @@ leg and aⁿ_SQ = ω² QS of the plate.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from reportgen.derivation.equation_sides import Side, image
+from reportgen.derivation.equation_sides import Scheme, Side, image
 from reportgen.derivation.kinematic_entries import Kinematics, What
 from reportgen.derivation.link_points import enter_rod, images, places
 from reportgen.derivation.side_motion import (
@@ -25,6 +25,7 @@ from reportgen.derivation.side_motion import (
     unknown_acceleration,
 )
 from reportgen.formula import Expression, Ref, Symbol, call, cross, ids, meet, sign, turned, unit
+from reportgen.formula.calculation import Calculation
 from reportgen.formula.vocabulary import drawn_length, on_plan, segment
 from reportgen.machine import Crank, SlidingDriver, Triad, TriadLeg
 from reportgen.machine.kinematics import Motion, solve_motion
@@ -40,19 +41,32 @@ class SpecialPoint:
     third: TriadLeg
 
 
-def special_point(k: Kinematics, triad: Triad, motion: Motion) -> SpecialPoint:
+def special_points(triad: Triad, taken: Collection[str]) -> list[SpecialPoint]:
+    """Return the three special points of a triad; their names are not among those `taken`."""
+    points = []
+    for i, j, third in PAIRS:
+        first, second = sorted((triad.legs[i], triad.legs[j]), key=lambda leg: leg.link)
+        name = f"S{first.link}{second.link}"
+        while name in taken:
+            name = name.replace("S", "S′", 1)
+        points.append(SpecialPoint(name, (first, second), triad.legs[third]))
+    return points
+
+
+def nearest_point(k: Kinematics, triad: Triad, motion: Motion) -> SpecialPoint:
     """Return the special point that stays nearest: the one of the legs whose lines cross at the largest angles.
 
     Over the positions of the motion, the least sine of the angle between both legs decides.
     """
     e = [motion.points[leg.inner].p - motion.points[leg.outer].p for leg in triad.legs]
     sines = [float(np.nanmin(np.abs(np.sin(np.angle(e[i] / e[j]))))) for i, j, _ in PAIRS]
-    i, j, third = PAIRS[int(np.argmax(sines))]
-    first, second = sorted((triad.legs[i], triad.legs[j]), key=lambda leg: leg.link)
-    name = f"S{first.link}{second.link}"
-    while name in k.scheme.owner:
-        name = name.replace("S", "S′", 1)
-    return SpecialPoint(name, (first, second), triad.legs[third])
+    return special_points(triad, k.scheme.owner)[int(np.argmax(sines))]
+
+
+def entered_point(q: Calculation, scheme: Scheme, triad: Triad) -> SpecialPoint:
+    """Return the special point by which the plans of a triad were entered."""
+    points = special_points(triad, scheme.owner)
+    return next(point for point in points if ids.velocity(f"{point.third.inner}{point.name}") in q)
 
 
 def enter_triad(k: Kinematics, triad: Triad) -> None:
@@ -65,7 +79,7 @@ def enter_triad(k: Kinematics, triad: Triad) -> None:
     turns = {triad.plate: plate} | {side.link: side for side in legs.values()}
     for link, turn in turns.items():
         places(k, link, turn)
-    entry = _Entry(k, triad, special_point(k, triad, motion), legs)
+    entry = _Entry(k, triad, nearest_point(k, triad, motion), legs)
     entry.velocities()
     for link, turn in turns.items():
         images(k, "v", link, turn)

@@ -9,7 +9,7 @@ machines differ: s.3 is the displacement of a slider, or the place of the mass c
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -288,6 +288,11 @@ relative_corner = Name("{part}.{pair}")
 def joint(acting: int, acted_on: int) -> str:
     """Return the digits of the force of one link on another: 12, or 1,12 with long numbers."""
     return f"{acting}{acted_on}" if max(acting, acted_on) < 10 else f"{acting},{acted_on}"
+
+
+def members(links: Sequence[int]) -> str:
+    """Return the digits of a group by its links: 23, 2345, or 8,9,10,11 with long numbers."""
+    return ("" if max(links) < 10 else ",").join(map(str, links))
 
 
 def linked(joint: str) -> tuple[str, str]:

@@ -44,9 +44,10 @@ def keep(
     turn: int = 1,
     pushes: tuple[Push, ...] = (),
     torques: tuple[tuple[int, float], ...] = (),
+    rate: float = RATE,
 ) -> Book:
     """Enter a linkage's motion and forces at driver coordinates; weights and inertia are the linkage's."""
-    motion = solve_motion(linkage, driver, turn * RATE)
+    motion = solve_motion(linkage, driver, turn * rate)
     still = np.zeros_like(motion.driver)
     applied = [
         Load(f"P{link}", link, still + size * sense, motion.points[point].p, still)
@@ -57,10 +58,10 @@ def keep(
     b = Calculation(len(driver))
     if isinstance(linkage.driver, Crank):
         b.give("phi.1", driver)
-        b.give("omega.1", RATE)
+        b.give("omega.1", rate)
     else:
         b.give("s.1", driver)
-        b.give(f"v.{linkage.driver.pin}", RATE)
+        b.give(f"v.{linkage.driver.pin}", rate)
     for body in linkage.inertias:
         b.give(f"m.{body.link}", body.mass)
         b.give(f"J.{body.link}", body.moment)

@@ -1,4 +1,4 @@
-"""The ledger's plans of a group of class III give what the arrays give.
+"""The ledger's plans and force plans of a group of class III give what the arrays give.
 
 The arrays choose the special point of each position, the ledger one for all, and draws: only rounding is common.
 """
@@ -10,6 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from books import Book, keep
 from made_triads import R1, clear_places, random_linkages
 
 from reportgen.derivation.group_motion import enter_kinematics
@@ -76,4 +77,50 @@ def test_random_triads_and_chains() -> None:
             if places.size:
                 used += 1
                 check_plans(linkage, places)
+    assert used >= 7
+
+
+# --- forces ---------------------------------------------------------------------------------------
+
+
+def check_forces(book: Book) -> None:
+    q, found = book.b, book.forces
+    size = max(float(np.abs(reaction.force).max()) for reaction in found.reactions.values())
+    listed = [name for name in found.reactions if f"F.{name}" in q]
+    assert len(listed) >= len(found.reactions) // 2
+    for name in listed:
+        force = found.reactions[name].force
+        assert np.abs(q.value(f"F.{name}") - force).max() < RELATIVE * size, name
+        assert np.abs(q.value(f"R.{name[1:]}") - np.abs(force)).max() < RELATIVE * size, name
+    reach = max(float(np.abs(point.p).max()) for point in book.motion.points.values())
+    for id in ("M.eq", "M.vw"):
+        assert np.abs(q.value(id) - found.torque).max() < RELATIVE * size * reach, id
+
+
+def test_forces_of_r1() -> None:
+    """The parts of the reactions at 60°, with the torque of 60 N·m on link 4, at the speed of the reference case."""
+    book = keep(R1, np.radians(60 + 30.0 * np.arange(12)), 1, (), ((4, 60.0),), rate=20.0)
+    check_forces(book)
+    for id, value in (
+        ("R.12.n", 263.412642),
+        ("R.12.t", 5.565147),
+        ("R.04.n", 277.686570),
+        ("R.04.t", 321.403416),
+        ("R.05.n", -235.872410),
+        ("R.05.t", -2.067564),
+        ("M.eq", 1.111835),
+    ):
+        assert book.b.value(id)[0] == pytest.approx(value, abs=1e-6), id
+
+
+def test_forces_of_random_chains() -> None:
+    rng = np.random.default_rng(651)
+    used = 0
+    for chained in (False, True):
+        for linkage in random_linkages(6, rng, chained):
+            places = clear_places(linkage, rng, 3)
+            if places.size:
+                used += 1
+                pushes = tuple((link, f"S{link}", 0.6 - 0.8j, 30.0) for link in linkage.links)
+                check_forces(keep(linkage, places, 1, pushes))
     assert used >= 7
