@@ -112,10 +112,8 @@ def skeleton(linkage: Linkage, motion: Motion, index: int, scale: float) -> Skel
             pin(dyad.start, i)
         if isinstance(dyad.end, str):
             pin(dyad.end, j)
-        if dyad.kind in ("RRR", "RRP"):
-            pin(dyad.middle, i)
-        if dyad.kind == "RRR":
-            pin(dyad.middle, j)
+        for link in {"RRR": (i, j), "RRP": (i,)}.get(dyad.kind, ()):
+            pin(dyad.middle, link)
         if dyad.kind in ("RPR", "RPP"):
             slide(i, str(dyad.start), dyad)
         for link, end in ((i, dyad.start), (j, dyad.end)):
@@ -123,6 +121,10 @@ def skeleton(linkage: Linkage, motion: Motion, index: int, scale: float) -> Skel
                 slide(link, dyad.middle, end, turns=dyad.kind != "RPP")
         if dyad.kind == "PRP":
             joints.append(dyad.middle)
+    for triad in linkage.triads:
+        for leg in triad.legs:
+            for name, link in ((leg.outer, leg.link), (leg.inner, leg.link), (leg.inner, triad.plate)):
+                pin(name, link)
     return Skeleton(
         points=points,
         bars={link: tuple(names) for link, names in bars.items()},
@@ -192,7 +194,7 @@ def groups(
     """Return scenes of the driver with the ground and of each Assur group, at `scale` mm per m, each with its title."""
     bones = skeleton(linkage, motion, index, scale)
     parts = [mechanism(bones, (GROUND, DRIVER), looks) + driver_marks(linkage, motion, bones)]
-    parts += [mechanism(bones, dyad.links, looks) for dyad in linkage.dyads]
+    parts += [mechanism(bones, group.links, looks) for group in linkage.groups]
     return tuple(finish(part, title=title) for part, title in zip(parts, titles or [""] * len(parts), strict=True))
 
 

@@ -19,7 +19,7 @@ from reportgen.base.errors import Where
 from reportgen.base.units import NUMBER
 from reportgen.base.yaml_source import MappingNode, Node, Scalar, SequenceNode, Source
 from reportgen.base.yaml_values import put
-from reportgen.machine import Crank, Dyad, Guide, Linkage
+from reportgen.machine import Crank, Dyad, Guide, Linkage, TriadLeg
 from reportgen.machine.analysis import Machine, analyse
 
 SHARE = 1.01
@@ -113,6 +113,14 @@ def _bars(before: Linkage, after: Linkage) -> Iterator[Bar]:
         for end, length, new in zip((dyad.start, dyad.end), dyad.lengths, changed.lengths, strict=True):
             if isinstance(end, str) and _differ(length, new):
                 yield end, dyad.middle
+    for leg, changed_leg in _leg_pairs(before, after):
+        if _differ(leg.length, changed_leg.length):
+            yield leg.outer, leg.inner
+
+
+def _leg_pairs(before: Linkage, after: Linkage) -> Iterator[tuple[TriadLeg, TriadLeg]]:
+    for triad, changed in zip(before.triads, after.triads, strict=False):
+        yield from zip(triad.legs, changed.legs, strict=True)
 
 
 def _points(before: Linkage, after: Linkage) -> Iterator[str]:
@@ -121,6 +129,10 @@ def _points(before: Linkage, after: Linkage) -> Iterator[str]:
     for dyad, changed in zip(before.dyads, after.dyads, strict=False):
         if _guides(dyad) != _guides(changed) or _differ(dyad.slide_angle, changed.slide_angle):
             yield dyad.middle
+    for triad, changed_triad in zip(before.triads, after.triads, strict=False):
+        for leg, at, new_at in zip(triad.legs, triad.locals, changed_triad.locals, strict=True):
+            if _differ(at, new_at):
+                yield leg.inner
     for point, changed_point in zip(before.points, after.points, strict=False):
         if _differ(point.local, changed_point.local):
             yield point.name
@@ -153,6 +165,8 @@ def _loaded(machine: Machine, changed: Machine) -> Iterator[str]:
 
 
 def _pins(linkage: Linkage) -> dict[int, str]:
-    """Return a point of each moving link by the link's number: the inner joint of its group."""
+    """Return a point of each moving link by the link's number: the inner joint of its dyad or leg."""
     pins = {link: dyad.middle for dyad in linkage.dyads for link in dyad.links}
+    pins |= {triad.plate: triad.legs[0].inner for triad in linkage.triads}
+    pins |= {leg.link: leg.inner for triad in linkage.triads for leg in triad.legs}
     return {1: linkage.driver.pin, **pins}

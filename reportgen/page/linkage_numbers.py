@@ -12,19 +12,19 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from reportgen.base.arrays import Complexes
-from reportgen.machine import Crank, Guide, Linkage
+from reportgen.machine import Crank, Group, Guide, Linkage, Triad
 
 SAME = 1e-9
 """Relative difference below which two numbers are equal."""
 
 
 def numbers(linkage: Linkage) -> Complexes:
-    """Return fixed points (m), the driver's and the dyads' lengths (m) and angles (rad), points of links (m) [N]."""
+    """Return fixed points (m), the driver's and the groups' lengths (m) and angles (rad), points of links (m) [N]."""
     return np.array([number for _, number in _entries(linkage)], dtype=np.complex128)
 
 
 def placed(linkage: Linkage) -> list[str]:
-    """Return the point that each of the `numbers` places [N]: the pin of a crank or dyad, or a point by its name."""
+    """Return the point that each of the `numbers` places [N]: the pin of a crank or group, or a point by its name."""
     return [point for point, _ in _entries(linkage)]
 
 
@@ -35,7 +35,13 @@ def _entries(linkage: Linkage) -> Iterator[tuple[str, complex]]:
         yield driver.pin, driver.length
     else:
         yield from _of_guide(driver.pin, driver.guide)
-    for dyad in linkage.dyads:
+    for dyad in linkage.groups:
+        if isinstance(dyad, Triad):
+            yield from ((leg.inner, leg.length) for leg in dyad.legs)
+            yield from zip((leg.inner for leg in dyad.legs[1:]), dyad.at, strict=True)
+            yield from dyad.near
+            yield dyad.legs[0].inner, dyad.near_at
+            continue
         yield from ((dyad.middle, number) for number in (*dyad.lengths, dyad.slide_angle))
         for end in (dyad.start, dyad.end):
             if isinstance(end, Guide):
@@ -61,13 +67,23 @@ def rebuilt(linkage: Linkage, given: Complexes) -> Linkage:
     ground = {name: complex(next(following)) for name in linkage.ground}
     driver = linkage.driver
     driver = replace(driver, length=real()) if isinstance(driver, Crank) else replace(driver, guide=guide(driver.guide))
-    dyads = []
-    for dyad in linkage.dyads:
+
+    def triad(old: Triad) -> Triad:
+        first, second, third = (replace(leg, length=real()) for leg in old.legs)
+        at = complex(next(following)), complex(next(following))
+        near = tuple((name, complex(next(following))) for name, _ in old.near)
+        return replace(old, legs=(first, second, third), at=at, near=near, near_at=real())
+
+    groups: list[Group] = []
+    for dyad in linkage.groups:
+        if isinstance(dyad, Triad):
+            groups.append(triad(dyad))
+            continue
         lengths, slide = (real(), real()), real()
         start, end = (guide(end) if isinstance(end, Guide) else end for end in (dyad.start, dyad.end))
-        dyads.append(replace(dyad, lengths=lengths, slide_angle=slide, start=start, end=end))
+        groups.append(replace(dyad, lengths=lengths, slide_angle=slide, start=start, end=end))
     points = tuple(replace(point, local=complex(next(following))) for point in linkage.points)
-    return replace(linkage, ground=ground, driver=driver, groups=tuple(dyads), points=points)
+    return replace(linkage, ground=ground, driver=driver, groups=tuple(groups), points=points)
 
 
 @dataclass(frozen=True)
