@@ -290,11 +290,12 @@ def _whole_rods(machine: Machine, entered: tuple[str, ...]) -> Mapping[str, str]
     """Return the length of the rod on which `l.AS2` places a mass centre; it precedes that id in `entered`."""
     centres = {body.centre for body in machine.linkage.inertias}
     rods: dict[str, str] = {}
-    for dyad in machine.linkage.dyads:
-        for end in (dyad.start, dyad.end):
-            names = {ids.length(end, dyad.middle), ids.length(dyad.middle, end)}
-            for id in (ids.length(end, centre) for centre in centres):
-                rod = next((name for name in takewhile(id.__ne__, entered) if name in names), "")
-                if id in entered and rod:
-                    rods.setdefault(id, rod)
+    ends = [(end, dyad.middle) for dyad in machine.linkage.dyads for end in (dyad.start, dyad.end)]
+    ends += [(leg.outer, leg.inner) for triad in machine.linkage.triads for leg in triad.legs]
+    for end, middle in ends:
+        names = {ids.length(end, middle), ids.length(middle, end)}
+        for id in (ids.length(end, centre) for centre in centres):
+            rod = next((name for name in takewhile(id.__ne__, entered) if name in names), "")
+            if id in entered and rod:
+                rods.setdefault(id, rod)
     return rods

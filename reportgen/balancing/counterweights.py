@@ -87,7 +87,7 @@ def crank_rods(linkage: Linkage) -> tuple[CrankRod, ...]:
     rod.
     """
     driver = linkage.driver
-    if not isinstance(driver, Crank):
+    if not isinstance(driver, Crank) or linkage.triads:
         return ()
     pins = {driver.pin: complex(driver.length)}
     pins |= {point.name: point.local for point in linkage.points if point.link == DRIVER}
@@ -124,6 +124,12 @@ def place_on_link(linkage: Linkage, link: int, name: str) -> complex:
     points = {point.name: point.local for point in linkage.points if point.link == link}
     if link == DRIVER and isinstance(driver, Crank):
         points |= {driver.centre: 0j, driver.pin: complex(driver.length)}
+    for triad in linkage.triads:
+        if link == triad.plate:
+            points |= {leg.inner: local for leg, local in zip(triad.legs, triad.locals, strict=True)}
+        for leg in triad.legs:
+            if leg.link == link:
+                points |= {leg.outer: 0j, leg.inner: complex(leg.length)}
     for dyad in linkage.dyads:
         if link not in dyad.links:
             continue
@@ -156,7 +162,7 @@ def four_bar(linkage: Linkage) -> Dyad | None:
     """Return the coupler and rocker if the linkage is a four-bar (one group of rods between crank and a fixed point),
     else None.
     """
-    if not isinstance(linkage.driver, Crank) or len(linkage.dyads) != 1:
+    if not isinstance(linkage.driver, Crank) or len(linkage.groups) != 1 or linkage.triads:
         return None
     (dyad,) = linkage.dyads
     fits = dyad.kind == "RRR" and dyad.start == linkage.driver.pin and dyad.end in linkage.ground

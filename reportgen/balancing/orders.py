@@ -90,4 +90,6 @@ def on_sliders(linkage: Linkage) -> bool:
     """Return True if every group is a rod to a slider on the frame, as in an engine; a rod may be articulated on
     another one.
     """
-    return all(dyad.kind == "RRP" and isinstance(dyad.end, Guide) and dyad.end.link == GROUND for dyad in linkage.dyads)
+    return not linkage.triads and all(
+        dyad.kind == "RRP" and isinstance(dyad.end, Guide) and dyad.end.link == GROUND for dyad in linkage.dyads
+    )

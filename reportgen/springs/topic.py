@@ -209,7 +209,8 @@ def _faults(spring: Spring, linkage: Linkage, points: Mapping[int, set[str]], at
 
 def _swinging(linkage: Linkage) -> dict[str, tuple[int, str]]:
     """Return the fixed pins about which links of groups turn, with the link and the point that gives its angle."""
-    return {
+    legs = (leg for triad in linkage.triads for leg in triad.legs)
+    return {leg.outer: (leg.link, leg.inner) for leg in legs if leg.outer in linkage.ground} | {
         end: (link, str(dyad.start) if dyad.kind == "RPR" and end == dyad.end else dyad.middle)
         for dyad in linkage.dyads
         for link, end in zip(dyad.links, (dyad.start, dyad.end), strict=True)
