@@ -22,6 +22,7 @@ from reportgen.formula.ledger import follow
 from reportgen.machine import DRIVER
 from reportgen.marking.marking_data import Cells, Marked, Place, Verdict
 from reportgen.marking.marking_scheme import MarkingScheme, Values
+from reportgen.marking.special_point_mistakes import of_special_points
 from reportgen.marking.student_values import ChangeValue, Working
 from reportgen.marking.tolerance_bands import half_unit, is_direction
 
@@ -83,6 +84,7 @@ def general_mistakes(scheme: MarkingScheme) -> Iterator[Mistake]:
         if family.kind == "acceleration" and family.symbol.sup == "k":
             yield Mistake(NO_CORIOLIS, id, {id: _times(0)})
     yield from _of_an_accelerated_driver(scheme)
+    yield from (Mistake(*made) for made in of_special_points(ledger))
 
 
 def _of_an_accelerated_driver(scheme: MarkingScheme) -> Iterator[Mistake]:

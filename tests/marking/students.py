@@ -40,6 +40,9 @@ OF_FURTHER_KEYS = {
 }
 """The mistakes with what few files give: an acceleration of the driving link, springs, friction."""
 
+OF_TRIADS = {*("special-point-fixed", "rotation-from-special-point", "special-point-even")}
+"""The mistakes about the special point of a group of class III."""
+
 OF_BALANCING = {*("omega-not-squared", "counterweight-on-pin-side", "share-of-turning-part", "order-with-single-angle")}
 """The mistakes about the force on the frame."""
 OF_TRUE_MOTION = {

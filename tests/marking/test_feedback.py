@@ -27,7 +27,7 @@ from reportgen.marking.summary_comment import comment
 from reportgen.workbook import write_csv, write_xlsx
 from reportgen.workbook.table_writing import FILLS
 from tests.marking.keys import small_key
-from tests.marking.students import NAMES, OF_BALANCING, OF_FURTHER_KEYS, OF_TRUE_MOTION
+from tests.marking.students import NAMES, OF_BALANCING, OF_FURTHER_KEYS, OF_TRIADS, OF_TRUE_MOTION
 
 FILE = "/somewhere/of/the/instructor/work.xlsx"
 LANGUAGES: tuple[Language, ...] = languages()
@@ -190,6 +190,7 @@ def test_there_are_words_for_every_mistake_verdict_and_warning(language: Languag
         *OF_FURTHER_KEYS,
         *OF_TRUE_MOTION,
         *OF_BALANCING,
+        *OF_TRIADS,
         *SLIPS,
         *OF_PLANS,
         WRONG_DATUM,
