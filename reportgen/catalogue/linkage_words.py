@@ -28,6 +28,10 @@ class GroupRow:
     """The chosen one of two ways of assembly: left, right, far, near, towards, away, or ""."""
     offset: Number | None = None
     across: Number | None = None
+    near: tuple[tuple[str, Number, Number], ...] = ()
+    """The points near which joints of a ternary link lie, which select the assembly mode."""
+    near_at: Number | None = None
+    """The angle of the crank at which they lie there; None if a slide drives, which is then at its start."""
 
     @property
     def drawing(self) -> str:
@@ -81,7 +85,7 @@ def facts(given: file.Parameters, loads: tuple[str, ...], acting: Container[str]
 
     Only the loads in `acting` are included.
     """
-    rows = tuple(map(_group, given.groups))
+    rows = tuple(_group(group, isinstance(given.driver, file.CrankDriver)) for group in given.groups)
     axes = _axes(given)
     acting_loads = tuple(_load(load, name) for load, name in zip(given.loads, loads, strict=True) if name in acting)
     return {
@@ -93,9 +97,17 @@ def facts(given: file.Parameters, loads: tuple[str, ...], acting: Container[str]
         "quantities": tuple(_quantities(given, rows)),
         "groups": rows,
         "guides": tuple(_guides(given)),
-        "points": tuple(
-            PointRow(name, point.link, *axes[point.link], *map(as_typed, point.at))
-            for name, point in given.points.items()
+        "points": (
+            *(
+                PointRow(name, group.plate, *axes[group.plate], *map(as_typed, at))
+                for group in given.groups
+                if isinstance(group, file.TernaryGroup)
+                for name, at in group.at.items()
+            ),
+            *(
+                PointRow(name, point.link, *axes[point.link], *map(as_typed, point.at))
+                for name, point in given.points.items()
+            ),
         ),
         "motions": tuple(_motions(given)),
         "listed": "given" if given.masses else "massless",
@@ -192,11 +204,14 @@ def _motions(given: file.Parameters) -> Iterator[MotionRow]:
                 yield MotionRow(link, "rotation", end) if end in given.frame else MotionRow(link, "plane")
 
 
-def _group(group: file.GroupSection) -> GroupRow:
+def _group(group: file.GroupSection, cranked: bool = True) -> GroupRow:
     if isinstance(group, file.TernaryGroup):
         names = tuple(name for leg in group.legs for name in leg.joints)
         rods = tuple(("".join(leg.joints), as_typed(leg.length)) for leg in group.legs)
-        return GroupRow(group.links, group.type, names, rods)
+        near = tuple((name, *map(as_typed, at)) for name, at in group.near.items())
+        at = Number(0.0, unit="°") if group.near_at is None else as_typed(group.near_at)
+        near_at = at if cranked else None
+        return GroupRow(group.links, group.type, names, rods, choice="nearest", near=near, near_at=near_at)
     joints = group.joints
     row = partial(GroupRow, group.dyad.links, group.type, joints)
     match group:

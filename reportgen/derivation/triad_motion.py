@@ -26,6 +26,7 @@ from reportgen.derivation.side_motion import (
 )
 from reportgen.formula import Expression, Ref, Symbol, call, cross, ids, meet, sign, turned, unit
 from reportgen.formula.calculation import Calculation
+from reportgen.formula.ledger import Ledger
 from reportgen.formula.vocabulary import drawn_length, on_plan, segment
 from reportgen.machine import Crank, SlidingDriver, Triad, TriadLeg
 from reportgen.machine.kinematics import Motion, solve_motion
@@ -63,7 +64,7 @@ def nearest_point(k: Kinematics, triad: Triad, motion: Motion) -> SpecialPoint:
     return special_points(triad, k.scheme.owner)[int(np.argmax(sines))]
 
 
-def entered_point(q: Calculation, scheme: Scheme, triad: Triad) -> SpecialPoint:
+def entered_point(q: Calculation | Ledger, scheme: Scheme, triad: Triad) -> SpecialPoint:
     """Return the special point by which the plans of a triad were entered."""
     points = special_points(triad, scheme.owner)
     return next(point for point in points if ids.velocity(f"{point.third.inner}{point.name}") in q)

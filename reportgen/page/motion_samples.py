@@ -205,7 +205,7 @@ class Samples:
         yield self.mechanism()
         yield self._plan_of_motion("v", words["velocity_plan"], "velocity")
         yield self._plan_of_motion("a", words["acceleration_plan"], "acceleration")
-        titles = {group.polygon.name: f"{group.i}, {group.j}" for group in report.groups if group.polygon is not None}
+        titles = {group.polygon.name: group.members for group in report.groups if group.polygon is not None}
         for polygon in self.case.polygons:
             of = titles.get(polygon.name)
             yield self._plan_of_forces(polygon, words["force_plan"].format(name=of) if of else words["driver_plan"])

@@ -73,7 +73,7 @@ def gas_forces(report: ReportContext) -> list[str]:
 
 def without_mass(report: ReportContext) -> list[str]:
     """Return the numbers of the links without a given mass."""
-    links = sorted({1, *(link for group in report.groups for link in (group.i, group.j))})
+    links = sorted({1, *(link for group in report.groups for link in group.links)})
     return [str(link) for link in links if ids.mass(link) not in report.mass_lines]
 
 
@@ -120,6 +120,12 @@ def work_lines(report: ReportContext) -> list[str]:
 def crank_lines(report: ReportContext) -> list[str]:
     """Return the ids of the arms about the crank's centre and of the balancing torque."""
     return [*report.crank_arms, "M.eq"]
+
+
+def mechanism_class(report: ReportContext) -> str:
+    """Return the class of the mechanism, the highest one of its groups, as the language writes it."""
+    second, third = report.words["mechanism_class"]
+    return str(third if report.triads else second)
 
 
 def shares_pins(report: ReportContext) -> bool:

@@ -23,14 +23,17 @@ from reportgen.document.template_rendering import Prose
 from reportgen.drawing.charts import Area
 from reportgen.formula import Symbol, ids, vocabulary
 from reportgen.formula.ledger import Ledger
-from reportgen.machine import GROUND, Crank, Mobility, mobility
+from reportgen.machine import DRIVER, GROUND, Crank, Mobility, Triad, mobility
 from reportgen.machine.analysis import Analysis, Machine, Position, analyse
 from reportgen.machine.cycle_torque import SAME_ANGLE
 from reportgen.machine.load_laws import FULL_TURN
 from reportgen.machine.loads import Applied, Piston, Torque
+from reportgen.report.body_views import BodyView, PlaneLink, displaced_inertia
+from reportgen.report.driver_view import DriverView
 from reportgen.report.given_names import given_names
-from reportgen.report.link_views import BodyView, DriverView, GroupView, PlaneLink, displaced_inertia
+from reportgen.report.link_views import GroupView
 from reportgen.report.report_extents import LEFT_OUT, OF_A_TURN, OPENING
+from reportgen.report.triad_views import TriadView
 
 PLATES_UP_TO = 24
 """Above this many positions of a turn, plates show the worked positions only, and tables leave out some positions."""
@@ -81,11 +84,24 @@ class ReportContext:
         return self.case.printed
 
     @cached_property
-    def groups(self) -> tuple[GroupView, ...]:
+    def groups(self) -> tuple[GroupView | TriadView, ...]:
         """The groups in the order of assembly."""
         plan, polygons = scheme(self.machine.linkage), self.case.polygons
-        dyads = self.machine.linkage.dyads
-        return tuple(GroupView(dyad, plan, self.driver, polygons, self.ledger) for dyad in dyads)
+        shared = plan, self.driver, polygons, self.ledger
+        return tuple(
+            TriadView(group, *shared) if isinstance(group, Triad) else GroupView(group, *shared)
+            for group in self.machine.linkage.groups
+        )
+
+    @property
+    def dyads(self) -> tuple[GroupView, ...]:
+        """The groups of class II in the order of assembly."""
+        return tuple(group for group in self.groups if isinstance(group, GroupView))
+
+    @property
+    def triads(self) -> tuple[TriadView, ...]:
+        """The groups of class III in the order of assembly."""
+        return tuple(group for group in self.groups if isinstance(group, TriadView))
 
     @cached_property
     def driver(self) -> DriverView:
@@ -384,14 +400,14 @@ class ReportContext:
     @cached_property
     def plane_links(self) -> tuple[PlaneLink, ...]:
         """The links in plane motion, in assembly order: they neither turn about a fixed point nor only slide."""
-        owner = {link: group.name for group in self.groups for link in (group.i, group.j)}
+        owner = {link: group.name for group in self.groups for link in group.links}
         turns = links_in_plane_motion(scheme(self.machine.linkage))
         return tuple(PlaneLink(turn, owner[turn.link]) for turn in turns)
 
     @property
     def sliding(self) -> tuple[GroupView, ...]:
         """Groups whose last link slides along a fixed guide."""
-        slides = (group for group in self.groups if group.kind in ("RRP", "RPP"))
+        slides = (group for group in self.dyads if group.kind in ("RRP", "RPP"))
         return tuple(group for group in slides if group.guide == ids.joint(GROUND, group.j))
 
     @property
@@ -423,12 +439,12 @@ class ReportContext:
     @property
     def displaced_reactions(self) -> bool:
         """Return True if the reaction of any slide may act at a distance from its pin."""
-        joints = [joint for group in self.groups for joint in (group.outer, group.inner, group.guide)]
+        joints = [joint for group in self.dyads for joint in (group.outer, group.inner, group.guide)]
         return any(ids.reaction_couple(joint) in self.computed for joint in joints)
 
     @property
     def has_slides(self) -> bool:
-        return any(group.kind != "RRR" for group in self.groups)
+        return any(group.kind != "RRR" for group in self.dyads)
 
     @property
     def driver_polygon(self) -> Polygon | None:
@@ -440,9 +456,9 @@ class ReportContext:
         return frozenset(edge.name for edge in self.driver_polygon.edges) if self.driver_polygon else frozenset()
 
     @property
-    def joined(self) -> list[GroupView]:
+    def joined(self) -> list[GroupView | TriadView]:
         """The groups that are joined to the driver."""
-        return [group for group in self.groups if group.carrier == 1]
+        return [group for group in self.groups if DRIVER in group.carriers]
 
     def arms_about(self, point: str) -> list[str]:
         """Return the ids of the arms of forces about a point."""
@@ -456,7 +472,7 @@ class ReportContext:
     @property
     def crank_pins(self) -> list[str]:
         """Names of the crank's pin and of further points of the crank to which groups are joined."""
-        hung = {pin for group in self.groups for pin in (group.P, group.T)}
+        hung = {pin for group in self.groups for _, pin in group.hung}
         return [self.driver.pin, *(place.name for place in self.driver.others if place.name in hung)]
 
     @property

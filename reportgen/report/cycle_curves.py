@@ -183,7 +183,8 @@ def polar(report: ReportContext) -> FigureScenes:
     for edge in report.driver_polygon.edges:
         if edge.unknown or not edge.is_reaction:
             continue
-        pin = next(group.P for group in report.groups if edge.name == ids.reaction_force(ids.joint(group.i, DRIVER)))
+        hung = (end for group in report.groups for end in group.hung)
+        pin = next(pin for link, pin in hung if edge.name == ids.reaction_force(ids.joint(link, DRIVER)))
         radius = fine.motion.points[pin].p - fine.motion.points[report.driver.centre].p
         load = fine.forces.reactions[edge.name].force * np.conj(radius / np.abs(radius)) * 1j
         loads.setdefault(pin, {})[subscripted(edge.name)] = load

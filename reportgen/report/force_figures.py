@@ -31,6 +31,7 @@ from reportgen.report.link_views import GroupView
 from reportgen.report.mechanism_figures import drawing_scale, looks
 from reportgen.report.plan_figures import force_plan, motion_plan
 from reportgen.report.slider_faces import at_ends, face, wide_sliders_of
+from reportgen.report.triad_views import LegView, TriadView
 
 
 @dataclass(frozen=True, slots=True)
@@ -175,7 +176,7 @@ def true_sense(report: ReportContext, name: str, k: int) -> complex:
 # --- groups and the driver
 
 
-def bodies(report: ReportContext, k: int, group: GroupView) -> FigureScenes:
+def bodies(report: ReportContext, k: int, group: GroupView | TriadView) -> FigureScenes:
     """Draw the group with all its forces at half size, then each link whose moments are taken, with the arms.
 
     If both links are drawn separately, the whole group is drawn only if the report has room for both.
@@ -183,9 +184,11 @@ def bodies(report: ReportContext, k: int, group: GroupView) -> FigureScenes:
     return beside_one_another(*separated(report, k, group))
 
 
-def separated(report: ReportContext, k: int, group: GroupView) -> list[Scene]:
+def separated(report: ReportContext, k: int, group: GroupView | TriadView) -> list[Scene]:
     """Return the scenes of a group's separated links."""
     assert group.polygon is not None
+    if isinstance(group, TriadView):
+        return _separated_triad(report, k, group)
     both = _Bodies(report, k, (group.i, group.j), share=0.5)
     forces = [
         *both.loads(),
@@ -193,7 +196,7 @@ def separated(report: ReportContext, k: int, group: GroupView) -> list[Scene]:
         *both.outer(group, group.i),
         *both.outer(group, group.j),
     ]
-    title = report.words["figure"]["group"].format(i=group.i, j=group.j)
+    title = group.title(report.words["figure"])
     alone = _moments(report, group, k)
     scenes = []
     if report.parts("links-together") or {link for link, _ in alone} != {group.i, group.j}:
@@ -214,6 +217,44 @@ def separated(report: ReportContext, k: int, group: GroupView) -> list[Scene]:
         turning = [*bodies.couples(), *bodies.of_guides(group), *bodies.couples_found_before(group.polygon)]
         scenes.append(bodies.scene(forces, arms=arms, turning=turning, extra=extra, title=title))
     return scenes
+
+
+def _separated_triad(report: ReportContext, k: int, group: TriadView) -> list[Scene]:
+    """Return a whole group of class III with the arms about its special point, and each leg with those about its joint.
+
+    Reactions that moments give are drawn by components; the plan finds the normal ones of the pair.
+    """
+    assert group.polygon is not None
+
+    def forces(bodies: _Bodies, legs: Sequence[LegView]) -> list[Force]:
+        assert group.polygon is not None
+        parts = [(ids.reaction_force(leg.outer, part), leg.P) for leg in legs for part in "tn"]
+        reactions = (bodies.reaction(name, bodies.at(pin)) for name, pin in parts)
+        return [*bodies.loads(), *bodies.found_before(group.polygon), *reactions]
+
+    whole = _Bodies(report, k, group.links)
+    arms = whole.arms([id for id in group.axial_lines if id in ids.arm], group.S)
+    extra = _special_lines(report, k, group, whole)
+    turning = [*whole.couples(), *whole.couples_found_before(group.polygon)]
+    title = group.title(report.words["figure"])
+    scenes = [whole.scene(forces(whole, group.legs), extra, arms=arms, turning=turning, title=title)]
+    for leg in group.legs:
+        alone = _Bodies(report, k, (leg.link,))
+        inner = alone.reaction(ids.reaction_force(leg.inner), alone.at(leg.Q))
+        arms = alone.arms([id for id in leg.lines if id in ids.arm], leg.Q)
+        extra = percussion.drawn(report, leg.link, k, alone.scale)
+        turning = [*alone.couples(), *alone.couples_found_before(group.polygon)]
+        title = f"{report.words['figure']['link']} {leg.link}"
+        scenes.append(alone.scene([*forces(alone, [leg]), inner], extra, arms=arms, turning=turning, title=title))
+    return scenes
+
+
+def _special_lines(report: ReportContext, k: int, group: TriadView, bodies: _Bodies) -> Canvas:
+    """Draw the special point of a group, where the lines of two legs meet, and the construction of single forces."""
+    at = bodies.at(group.S)
+    lines: list[Item] = [Line(bodies.at(leg.Q), at, CONSTRUCTION) for leg in group.pair]
+    mark = Canvas((*lines, Circle(at, 0.6, VISIBLE, PAPER)), (label(at, vocabulary.point(group.S), gap=1.2),))
+    return mark + percussion.drawn(report, group.plate, k, bodies.scale)
 
 
 def _moments(report: ReportContext, group: GroupView, k: int) -> tuple[tuple[int, str], ...]:

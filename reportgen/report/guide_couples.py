@@ -20,7 +20,7 @@ def is_couple(report: ReportContext, contact: Contact, k: int) -> bool:
 
 def guide_couples(report: ReportContext) -> list[Contact]:
     """Return the slides whose guide exerts a couple at any position, the outermost group first."""
-    slides = [contact for group in reversed(report.groups) for contact in group.contacts]
+    slides = [contact for group in reversed(report.dyads) for contact in group.contacts]
     return [slide for slide in slides if any(is_couple(report, slide, k) for k in report.all_positions)]
 
 
@@ -45,7 +45,7 @@ def handed_on(report: ReportContext, polygon: Polygon) -> list[tuple[Contact, in
     acts on.
     """
     carried = {edge.name: edge.link for edge in polygon.carried}
-    slides = [contact for group in report.groups for contact in group.contacts]
+    slides = [contact for group in report.dyads for contact in group.contacts]
     return [
         (slide, link)
         for slide in slides

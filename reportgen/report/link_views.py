@@ -1,4 +1,4 @@
-"""Views of a machine's driver, groups, links and points for templates and figures, with the ids of their quantities.
+"""Views of Assur groups of class II for templates and figures, with the ids of their quantities.
 
 Names of points are `NamedPoint`s, which templates print as symbols.
 """
@@ -12,82 +12,12 @@ from reportgen.base.template_access import template_members, view
 from reportgen.derivation.equation_sides import Scheme, Side, image, sides
 from reportgen.derivation.load_entries import Polygon
 from reportgen.document.template_rendering import NamedPoint
-from reportgen.formula import ids, refs
+from reportgen.formula import ids
 from reportgen.formula.ids import Name
 from reportgen.formula.ledger import Ledger
-from reportgen.machine import DRIVER, Crank, Dyad, Guide, Inertia, Linkage, Mobility
-from reportgen.machine.analysis import Machine, Position
-from reportgen.machine.loads import Applied, Torque
-
-# These classes belong to packages without templates, so their members are registered here.
-template_members("__str__")(Position)
-template_members("applied", "torques", "linkage", "sliders")(Machine)
-template_members("inertias")(Linkage)
-template_members("link", "centre")(Inertia)
-template_members("n", "lower_pairs", "W", "higher_pairs", "passive", "redundant")(Mobility)
-template_members("name", "link", "point")(Applied)
-template_members("name", "link")(Torque)
-view("turns", "way", "state", "guided", "relative", "rod", "known", "omega", "part", "pair", "velocity")(Side)
-template_members("carried")(Polygon)
-
-
-@template_members("__str__", "name", "link")
-@dataclass(frozen=True, slots=True)
-class PointView:
-    """A named point on a link, such as a mass centre."""
-
-    name: NamedPoint
-    link: int
-
-    def __str__(self) -> str:
-        return self.name
-
-
-def points_on(linkage: Linkage, link: int) -> tuple[PointView, ...]:
-    """Return the named points of a link."""
-    return tuple(PointView(NamedPoint(place.name), link) for place in linkage.points if place.link == link)
-
-
-@template_members(
-    *("centre", "pin", "others", "names", "arm", "kind", "rate", "drawn", "velocity"),
-    *("velocity_segment", "acceleration_segment", "round_velocity", "round_acceleration"),
-    *("velocity_lines", "acceleration_lines", "scale_lines"),
-    *("rate2", "accelerated", "normal_segment", "component_lines", "component_segments"),
-    *("component_scale_lines", "acceleration_scale_lines"),
-)
-class DriverView:
-    """The driver for templates: its centre O1 and pin A, its `arm` O1A, and further points on it.
-
-    `kind` is "crank" or "slide"; a slide has neither centre nor arm.  `rate` is the symbol of its speed, `rate2` that
-    of its acceleration if it is `accelerated`.  `component_lines` are the two components of the crank pin's
-    acceleration.  `round_velocity` and `round_acceleration` are True if the scale of a plan was chosen from the series
-    of round scales.
-    """
-
-    def __init__(self, linkage: Linkage, ledger: Ledger) -> None:
-        moved = linkage.driver
-        self.centre = NamedPoint(moved.centre if isinstance(moved, Crank) else "")
-        self.pin = NamedPoint(moved.pin)
-        self.others = points_on(linkage, DRIVER)
-        self.names = (self.pin, *(place.name for place in self.others))
-        self.arm = f"{self.centre}{self.pin}" if self.centre else ""
-        self.kind = "crank" if self.centre else "slide"
-        self.rate = ledger.symbol("omega.1" if self.centre else ids.velocity(self.pin))
-        self.drawn, self.velocity = ids.drawn(self.arm), ids.velocity(self.pin)
-        self.velocity_segment, self.acceleration_segment = (ids.segment(what, "p", image(self.pin)) for what in "va")
-        self.round_velocity, self.round_acceleration = (ledger[ids.scale(what)].definition is None for what in "va")
-        self.velocity_lines, self.acceleration_lines = (
-            [id for name in self.names if (id := rate(name)) in ledger] for rate in ids.POINT_RATE.values()
-        )
-        self.scale_lines = [self.velocity, "mu.v", self.velocity_segment]
-        faster = ids.angular_acceleration(DRIVER) if self.centre else ids.acceleration(self.pin)
-        self.accelerated = faster in ledger and bool(ledger[faster].values[0])
-        self.rate2 = ledger.symbol(faster if self.accelerated else ids.velocity(self.pin))
-        self.component_segments = [ids.relative_segment(part, self.pin) for part in "nt"]
-        self.normal_segment, tangential = self.component_segments
-        self.component_lines = ledger.known(ids.acceleration(self.pin, part) for part in "nt")
-        self.component_scale_lines = ["mu.a", tangential]
-        self.acceleration_scale_lines = ["mu.a", self.acceleration_segment]
+from reportgen.machine import Dyad, Guide
+from reportgen.report.assur_view import AssurView
+from reportgen.report.driver_view import DriverView, points_on
 
 
 @view("base", "omega", "epsilon")
@@ -148,15 +78,15 @@ class Contact:
 
 
 @template_members(
-    *("__str__", "kind", "form", "i", "j", "P", "Q", "T", "M", "one", "two", "sides", "relative", "rod", "drawn"),
-    *("carrier", "outer", "inner", "guide", "across", "name", "scale", "offset", "points_i", "points_j", "points"),
-    *("unknowns", "normal_by_segments", "moving", "under", "turning", "normals", "velocity_lines"),
-    *("acceleration_lines", "carried", "similar", "relative_segment"),
-    *("polygon", "outer_lines", "guide_lines", "slot_lines", "reactions", "joints", "contacts", "across_by_moments"),
-    *("pulls_across", "components", "last_known", "last_of_j", "opposite"),
+    *("form", "i", "j", "P", "Q", "T", "M", "one", "two", "sides", "relative", "rod", "drawn"),
+    *("carrier", "outer", "inner", "guide", "across", "offset", "points_i", "points_j"),
+    *("unknowns", "normal_by_segments", "under", "turning", "normals", "velocity_lines"),
+    *("acceleration_lines", "carried", "relative_segment"),
+    *("outer_lines", "guide_lines", "slot_lines", "reactions", "joints", "contacts"),
+    *("last_of_j", "opposite"),
 )
-class GroupView:
-    """An Assur group for templates.
+class GroupView(AssurView):
+    """An Assur group of class II, a dyad, for templates.
 
     `i`, `j` are its links; `P`, `Q` the outer and the inner pin (A, B), `T` the outer pin of j ("" on a guide); `M` is
     the point whose motion the `Side`s `one` and `two` express; `relative` is MP as in v_BA and `rod` PQ; `outer`,
@@ -165,9 +95,9 @@ class GroupView:
     """
 
     def __init__(self, dyad: Dyad, plan: Scheme, driver: DriverView, polygons: Iterable[Polygon], ledger: Ledger):
-        self.kind, (self.i, self.j), self.ledger = dyad.kind, dyad.links, ledger
-        i, j = dyad.links
+        self.i, self.j = i, j = dyad.links
         self.one, self.two = self.sides = sides(plan, dyad)
+        super().__init__(dyad, [side for side in self.sides if side.turns], plan, driver, polygons, ledger)
         self.P = NamedPoint(dyad.start if isinstance(dyad.start, str) else dyad.middle)
         self.Q = NamedPoint(dyad.middle)
         self.T = NamedPoint(dyad.end if isinstance(dyad.end, str) else "")
@@ -175,17 +105,11 @@ class GroupView:
         self.carrier, last = (end.link if isinstance(end, Guide) else plan.owner[end] for end in (dyad.start, dyad.end))
         self.outer, self.inner = ids.joint(self.carrier, i), ids.joint(j, i)
         self.guide, self.across = ids.joint(last, j), ids.joint(i, j)
-        self.name, self.opposite = ids.joint(i, j), ledger.known([ids.reaction(self.across)])
-        self.scale = ids.force_scale(self.name)
+        self.opposite = ledger.known([ids.reaction(self.across)])
         self.offset = dyad.kind == "RPR" and bool(dyad.lengths[1])
         self.points_i, self.points_j = (points_on(plan.linkage, link) for link in dyad.links)
-        self.points = (*self.points_i, *self.points_j)
-        self.polygon = next((polygon for polygon in polygons if polygon.name == self.name), None)
-        self.fixed, self.on_driver = frozenset(plan.linkage.ground), frozenset(driver.names)
+        self.fixed = frozenset(plan.linkage.ground)
         self.by_crank = driver.kind == "crank" and all(ledger[ids.scale(what)].definition is not None for what in "va")
-
-    def __str__(self) -> str:
-        return self.name
 
     # --- plans of velocity and acceleration
 
@@ -258,24 +182,6 @@ class GroupView:
             ids.angular_acceleration(self.j),
         )
 
-    def _in_order(self, *quantities: str) -> list[str]:
-        """Return the ids that exist, each after those that its definition refers to."""
-        known = self.ledger.known(quantities)
-        ordered: dict[str, None] = {}
-
-        def put(id: str) -> None:
-            if id in ordered:
-                return
-            definition = self.ledger[id].definition
-            for source in refs(definition) if definition is not None else ():
-                if source in known:
-                    put(source)
-            ordered[id] = None
-
-        for id in known:
-            put(id)
-        return list(ordered)
-
     def _point_lines(self, rate: Name, *parts: str) -> Iterator[str]:
         for place in self.points:
             relative = f"{place.name}{self._origin(place.link)}"
@@ -303,26 +209,6 @@ class GroupView:
                 points.append(CarriedPoint(place.name, place.link, origin, relative, still, swings))
         return points
 
-    def similar(self, what: str) -> list[str]:
-        """Return the ids of a link's segment ab and of those that similarity gives: as₂, be."""
-        segments: list[str] = []
-        for place in self.points:
-            for side in self.sides:
-                if side.turns and side.link == place.link:
-                    ends = "p" if side.still else image(side.base), image(self.M)
-                    segments += [ids.segment(what, *ends), *(ids.segment(what, end, image(place.name)) for end in ends)]
-        return self.ledger.known(segments)
-
-    def base(self, what: str, side: Side, k: int) -> str:
-        """Return the place of a base's vector on the plan: at the "pole", "drawn" before, or "new"."""
-        if self.ledger.number(self.base_segment(what, side), k).value == 0:
-            return "pole"
-        return "new" if side.guided or side.base in self.on_driver else "drawn"
-
-    def base_segment(self, what: str, side: Side) -> str:
-        """Return the id of the plan's segment for the velocity or acceleration of a side's base."""
-        return ids.segment(what, "p", image(side.base))
-
     @property
     def drawn(self) -> str:
         """Id of the drawn length of the rod."""
@@ -332,6 +218,38 @@ class GroupView:
     def relative_segment(self) -> str:
         """Id of the velocity plan's segment for the relative velocity of the rod's ends."""
         return ids.segment("v", image(self.P), image(self.Q))
+
+    # --- what all kinds of groups have
+
+    @property
+    def carriers(self) -> tuple[int, ...]:
+        """The link to which the group's first link is joined."""
+        return (self.carrier,)
+
+    @property
+    def hung(self) -> tuple[tuple[int, NamedPoint], ...]:
+        """The links of the group with their outer pins."""
+        return (self.i, self.P), (self.j, self.T)
+
+    @property
+    def pins(self) -> tuple[NamedPoint, ...]:
+        """The pins at the ends of its rods."""
+        return self.P, self.Q
+
+    @property
+    def found(self) -> tuple[NamedPoint, ...]:
+        """The joints that the plans find."""
+        return (self.M,)
+
+    @property
+    def rods(self) -> tuple[tuple[NamedPoint, NamedPoint], ...]:
+        """The ends of its rods of constant length."""
+        return ((self.P, self.Q), (self.T, self.Q)) if self.kind == "RRR" else ((self.P, self.Q),)
+
+    @property
+    def reaction_joints(self) -> tuple[str, ...]:
+        """The digits of the reactions in its joints, in the order of tables."""
+        return self.outer, self.inner, self.guide
 
     # --- forces
 
@@ -400,7 +318,7 @@ class GroupView:
 
     @property
     def by_moments(self) -> list[str]:
-        """Ids of the signed components that equilibrium of moments gives."""
+        """Ids of the signed parts of reactions that moments give before the force plan."""
         return [*self.tangential, *self.ledger.known([ids.reaction(self.across, "s")])]
 
     @property
@@ -414,85 +332,7 @@ class GroupView:
         return self.ledger.known((ids.reaction(self.outer, "t"), ids.reaction(self.guide, "t")))
 
     @property
-    def pulls_across(self) -> bool:
-        """Return True if a tangential component is not zero at some position, so that tables have a column for it."""
-        return any(self.ledger[id].values.any() for id in self.tangential)
-
-    def components(self, k: int) -> list[str]:
-        """Return the ids of the components that moments give before the plan; [] if all of them are zero."""
-        components = self.by_moments
-        return components if any(self.ledger.number(id, k).value != 0 for id in components) else []
-
-    @property
-    def last_known(self) -> str:
-        """The vertex of the force plan at which the known forces end."""
-        assert self.polygon is not None
-        return self.polygon.edges[-2].start
-
-    @property
     def last_of_j(self) -> str:
         """The vertex of the force plan at which the known forces on link j end."""
         assert self.polygon is not None
         return self.polygon.reads[-1].end
-
-
-@view("force", "couple")
-@dataclass(frozen=True, slots=True)
-class BodyView:
-    """A link with an inertia couple: its number, mass centre, the pin from which it is measured, the ids to show."""
-
-    link: int
-    centre: NamedPoint
-    start: NamedPoint
-    ids: list[str]
-    still: bool
-    """True if that pin is fixed to the frame."""
-
-    @property
-    def force(self) -> str:
-        return ids.inertia_force(self.link)
-
-    @property
-    def couple(self) -> str:
-        return ids.inertia_couple(self.link)
-
-
-@template_members(
-    *("__str__", "link", "rod", "group", "base", "point", "omega", "velocities", "rates"),
-    *("distances", "angles", "projections"),
-)
-class PlaneLink:
-    """A link in plane motion: its number, two points with drawn velocities, their `rod`, and its `group`.
-
-    The other members are ids of the quantities in the section on instant centres.
-    """
-
-    def __init__(self, turn: Side, group: str) -> None:
-        self.link, self.rod, self.group = turn.link, turn.rod, group
-        self.base, self.point = NamedPoint(turn.base), NamedPoint(turn.point)
-        self.omega = ids.angular_velocity(self.link)
-        self.velocities = [ids.velocity(point) for point in (self.base, self.point)]
-        self.rates = [ids.centre_omega(self.link), ids.centre_velocity(self.link)]
-        self.distances, self.angles, self.projections = (
-            [name(self.link, point) for point in (self.base, self.point)]
-            for name in (ids.centre_distance, ids.rod_angle, ids.projection)
-        )
-
-    def __str__(self) -> str:
-        return str(self.link)
-
-
-def displaced_inertia(linkage: Linkage, groups: Iterable[GroupView], ledger: Ledger) -> tuple[BodyView, ...]:
-    """Return the links whose inertia is a force and a couple, which a single force off the mass centre replaces."""
-    # A block turns about no base of a plan: the pin it sits on is its first joint.
-    starts = {group.i: group.P for group in groups}
-    starts |= {side.link: NamedPoint(side.base) for group in groups for side in group.sides if side.turns}
-    if isinstance(linkage.driver, Crank):
-        starts[DRIVER] = NamedPoint(linkage.driver.centre)
-    bodies = []
-    for body in linkage.inertias:
-        known = ledger.known((ids.inertia_offset(body.link), ids.percussion(body.centre, body.link)))
-        if len(known) == 2:
-            start = starts[body.link]
-            bodies.append(BodyView(body.link, NamedPoint(body.centre), start, known, start in linkage.ground))
-    return tuple(bodies)

@@ -43,8 +43,9 @@ from reportgen.machine.cycle_torque import SAME_ANGLE
 from reportgen.machine.kinematics import Motion, solve_motion
 from reportgen.machine.load_laws import FULL_TURN
 from reportgen.machine.loads import Piston
+from reportgen.report.body_views import PlaneLink
 from reportgen.report.context import DENSE, ReportContext
-from reportgen.report.link_views import GroupView, PlaneLink
+from reportgen.report.link_views import GroupView
 
 SCHEME_BOX = (120.0, 75.0)
 """Width and height (mm) in which a scheme must fit."""
@@ -81,7 +82,7 @@ def looks(report: ReportContext, scale: float, factor: float = 1.0) -> Looks:
         piston.link: (min(0.6 * piston.bore * scale, 24.0), min(piston.bore * scale, 40.0) * 0.5)
         for piston in report.machine.pistons
     }
-    jointed = {name for group in report.groups for name in (group.P, group.Q)}
+    jointed = {name for group in report.groups for name in group.pins}
     centres = tuple(body.centre for body in report.machine.linkage.inertias if body.centre not in jointed)
     return Looks(blocks, centres, scale_note(report, "mu.l", factor), report.machine.coils)
 
@@ -123,7 +124,7 @@ def groups(report: ReportContext) -> FigureScenes:
 
 def _groups(report: ReportContext, factor: float) -> tuple[Scene, ...]:
     scale, words = drawing_scale(report) * factor, report.words["figure"]
-    titles = (words["driver"], *(words["group"].format(i=group.i, j=group.j) for group in report.groups))
+    titles = (words["driver"], *(group.title(words) for group in report.groups))
     look = replace(looks(report, scale, factor), scale=None)
     return scheme_figure.groups(report.machine.linkage, report.analysis.motion, shown_at(report), scale, look, titles)
 
@@ -250,8 +251,10 @@ def _numbered(report: ReportContext) -> tuple[str, ...]:
     centres = {body.centre for body in report.machine.linkage.inertias}
     names = [*report.crank_pins]
     for group in report.groups:
-        ends = [place.name for place in group.points_j if place.name not in centres]
-        names += ends if group.kind == "RPR" else [group.Q]
+        if isinstance(group, GroupView) and group.kind == "RPR":
+            names += [place.name for place in group.points_j if place.name not in centres]
+        else:
+            names += [group.Q] if isinstance(group, GroupView) else group.found
     return tuple(names)
 
 

@@ -10,9 +10,17 @@ from typing import Any
 from reportgen.document import Figure, InlineMath, Inlines, Plate, Text
 from reportgen.document.figure_placement import FigureScenes, close
 from reportgen.machine.analysis import Position
-from reportgen.report import cycle_curves, force_figures, mechanism_figures, phrases, plan_figures, topic_views
+from reportgen.report import (
+    cycle_curves,
+    force_figures,
+    mechanism_figures,
+    phrases,
+    plan_figures,
+    topic_views,
+    triad_figures,
+)
+from reportgen.report.assur_view import AssurView
 from reportgen.report.context import ReportContext
-from reportgen.report.link_views import GroupView
 from reportgen.report.topic_views import DrawnFigure
 
 VELOCITY, ACCELERATION = plan_figures.MotionFigures("v"), plan_figures.MotionFigures("a")
@@ -41,6 +49,8 @@ FIGURES: Mapping[str, tuple[str, Callable[..., FigureScenes]]] = {
     # forces
     "indicator": ("fig.indicator", mechanism_figures.indicator),
     "bodies": ("fig.bodies", force_figures.bodies),
+    "special": ("fig.special", triad_figures.special),
+    "assemblies": ("fig.assemblies", triad_figures.assemblies),
     "forces": ("fig.R", plan_figures.forces),
     "force-stages": ("fig.R.stages", plan_figures.force_stages),
     "force-plates": ("fig.R.plates", plan_figures.force_plates),
@@ -66,11 +76,14 @@ def figure(report: ReportContext, name: str, *arguments: Any, words: str = "") -
         key, caption, *passed = arguments
     else:
         passed = list(arguments)
-        group = next((argument for argument in passed if isinstance(argument, GroupView)), None)
+        group = next((argument for argument in passed if isinstance(argument, AssurView)), None)
         position = next((argument for argument in passed if isinstance(argument, Position)), None)
         key = ".".join(str(part) for part in (key, group, position) if part is not None)
         at = "" if position is None else str(position)
-        links = {"i": group.i, "j": group.j} if group else None
+        links = None
+        if group is not None:
+            links = {"i": group.links[0], "j": group.links[-1], "members": group.members, "plate": group.plate}
+            links["joint"] = getattr(group, "joint", "")
         caption = report.words["captions"][words or name].format(k=position, g=links)
     drawn = draw(report, *passed)
     if drawn.paper is None and not drawn.turned and not report.parts("usual-type"):

@@ -41,7 +41,9 @@ def extremes(report: ReportContext, key: str, caption: str, head: Sequence[str])
 def _extremes(report: ReportContext) -> Iterator[Peak]:
     """Yield the peaks of sliding points, or else of all that a plan gives; then those of links, then of joints."""
     for what, rotation in (("v", "omega"), ("a", "eps")):
-        points = slider_rates(report, what) or report.known(ids.POINT_RATE[what](group.M) for group in report.groups)
+        points = slider_rates(report, what) or report.known(
+            ids.POINT_RATE[what](name) for group in report.groups for name in group.found
+        )
         yield from each_peak(report, [*points, *turning_rates(report, rotation)], report.positions)
     couples = [slide.moment for slide in guide_couples(report)]
     yield from each_peak(report, [*reaction_ids(report), *couples], report.all_positions)

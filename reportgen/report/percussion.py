@@ -19,8 +19,8 @@ from reportgen.drawing.style import CONSTRUCTION, PAPER, VISIBLE
 from reportgen.formula import Symbol, constructions, ids
 from reportgen.formula.calculation import ZERO
 from reportgen.machine.force_analysis import as_single_force, percussion_points
+from reportgen.report.body_views import BodyView
 from reportgen.report.context import ReportContext
-from reportgen.report.link_views import BodyView
 
 PercussionCase = Literal["none", "couple", "still", "pivot", "meet", "parallel", "far"]
 

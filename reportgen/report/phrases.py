@@ -23,7 +23,8 @@ from reportgen.derivation.kinematic_entries import POLES
 from reportgen.document import Inline, InlineMath, Inlines, Reference, Text, Value
 from reportgen.document.template_rendering import NamedPoint, subscripted
 from reportgen.document.value_insertion import inlines
-from reportgen.formula import Chain, Number, Symbol, ids
+from reportgen.formula import Chain, Number, Symbol, ids, vocabulary
+from reportgen.report.assur_view import AssurView
 from reportgen.report.context import ReportContext
 from reportgen.report.link_views import CarriedPoint, GroupView
 from reportgen.report.template_equations import a, image, math, quantity, slider_ways, v, value
@@ -340,7 +341,22 @@ def drawn_group(report: ReportContext, row: GroupRow) -> Inlines:
     first, *others = map(NamedPoint, row.joints)
     joints = {"start": first} | dict(zip(("inner", "end"), others, strict=False))
     words = report.words["linkage"]["drawing"][row.drawing]
+    if row.near:
+        ends = dict(zip(("start1", "inner1", "start2", "inner2", "start3", "inner3"), (first, *others), strict=True))
+        shown = Reference(f"fig.assemblies.{ids.members(row.links)}.{report.worked[0]}")
+        return say(report, words, plate=row.links[1], third=drawn[2], assemblies=shown, **rods, **ends)
     return say(report, words, row, last=row.links[1], **rods, **joints)
+
+
+def mode_of(report: ReportContext, row: GroupRow) -> Inlines:
+    """Return the sentence on the assembly mode of a group of class III."""
+    words, places = report.words["linkage"]["mode"], list[Inline]()
+    for name, x, y in row.near:
+        places += [*([Text(", ")] if places else ()), InlineMath(vocabulary.point(name))]
+        places += [Text(" ≈ ("), Value(x), Text("; "), Value(y), Text(")")]
+    key = "slide" if row.near_at is None else "crank"
+    members = ", ".join(map(str, row.links))
+    return say(report, words[key], members=members, places=tuple(places), near_at=row.near_at)
 
 
 # --- the steps in which a plan is drawn, in words -------------------------------------------------
@@ -383,7 +399,7 @@ def sought(report: ReportContext, what: str, group: GroupView, side: Side) -> Sy
     return a(report, group.M) if side.still and not side.turning else a(report, side, "r")
 
 
-def base_step(report: ReportContext, what: str, group: GroupView, side: Side, position: int) -> Inlines:
+def base_step(report: ReportContext, what: str, group: AssurView, side: Side, position: int) -> Inlines:
     """Return the step that draws the vector of a side's base on the plan."""
     return say(
         report,
@@ -414,7 +430,7 @@ def shows_coriolis(report: ReportContext, group: GroupView, side: Side, position
     return group.kind == "RPR" and moves and bool(report.parts("coriolis-turn"))
 
 
-def found_senses(report: ReportContext, group: GroupView, position: int) -> Inlines:
+def found_senses(report: ReportContext, group: AssurView, position: int) -> Inlines:
     """Return the meaning of the signs of the reactions that moments gave."""
     words, figure = report.words["plan"]["found"], Reference(f"fig.bodies.{group}.{position}")
     signs = [(id, sign(report, id, position)) for id in group.by_moments]

@@ -36,10 +36,12 @@ from reportgen.drawing.vector_plan import (
     stages,
 )
 from reportgen.formula import Chain, Symbol, ids, vocabulary
+from reportgen.report.assur_view import AssurView
 from reportgen.report.context import ReportContext
 from reportgen.report.link_views import GroupView
 from reportgen.report.mechanism_figures import scale_note
 from reportgen.report.phrases import counted
+from reportgen.report.triad_views import LegView, TriadView
 
 SHEET = (385.0, 232.0)
 """Width and height (mm) of an A3 page (landscape) that plans may fill."""
@@ -68,11 +70,6 @@ CLOSE_MARGIN = 2.0
 
 POLE = "pole"
 """The corner at which a plan of velocities or accelerations begins; all other corners have ids of the ledger."""
-STAGES = 3
-"""Number of stages of a group in a plan of velocity or acceleration: known vectors, the lines that meet, further
-points.
-"""
-
 # --- velocity and acceleration
 
 
@@ -86,9 +83,10 @@ class MotionFigures:
         """Draw the finished plan at position `k`."""
         return on_paper(_worked(report, self._plan(report, k), k))
 
-    def in_stages(self, report: ReportContext, k: int, group: GroupView) -> FigureScenes:
+    def in_stages(self, report: ReportContext, k: int, group: GroupView | TriadView) -> FigureScenes:
         """Draw the steps of one group's construction, numbered as in the text; earlier steps are gray."""
-        begin = STAGES * next(n for n, one in enumerate(report.groups) if one.name == group.name)
+        number = next(n for n, one in enumerate(report.groups) if one.name == group.name)
+        begin = sum(len(_steps(one, self.what)) for one in report.groups[:number])
         bounds = np.cumsum([0, *_steps(group, self.what)])
         names = report.words["figure"]
 
@@ -96,7 +94,7 @@ class MotionFigures:
             first, last = bounds[stages.start - begin] + 1, bounds[stages.stop - begin]
             return str(names["steps"].format(first, last) if first < last else names["step"].format(last))
 
-        until = self._plan(report, k).until(begin + STAGES - 1)
+        until = self._plan(report, k).until(begin + bounds.size - 2)
         return _stages(report, until, ids.scale(self.what), titles, begin)
 
     def on_plates(self, report: ReportContext) -> FigureScenes:
@@ -148,14 +146,20 @@ def motion_construction(report: ReportContext, what: What) -> Construction[str]:
     stage = 0
     drawn: set[str] = set()
     for group in report.groups:
-        for side in group.moving:
+        bases = [(side, stage) for side in group.moving]
+        if isinstance(group, TriadView):
+            bases += [(side, stage + 2) for side in group.later]
+        for side, when in bases:
             if side.base in report.driver.names and side.base not in drawn:
                 if what == "a" and side.base == report.driver.pin and report.driver.component_lines:
-                    sketch.components(side.base, stage)
-                sketch.absolute(side.base, "known", stage)
+                    sketch.components(side.base, when)
+                sketch.absolute(side.base, "known", when)
                 drawn.add(side.base)
-        sketch.group(group, stage)
-        stage += STAGES
+        if isinstance(group, TriadView):
+            sketch.triad(group, stage)
+        else:
+            sketch.group(group, stage)
+        stage += len(_steps(group, what))
     points = (PlanPoint(Symbol(POLES[what]), POLE), *sketch.points)
     return Construction(tuple(sketch.vectors), points, tuple(sketch.lines), _scale(report, ids.scale(what)))
 
@@ -171,8 +175,15 @@ def _scale(report: ReportContext, id: str, k: int | None = None) -> Chain:
     return Chain((report.ledger.symbol(id), report.ledger.number(id, k)))
 
 
-def _steps(group: GroupView, what: What) -> tuple[int, int, int]:
-    """Return the number of steps, as the text counts them, in each stage of a group's construction."""
+def _steps(group: GroupView | TriadView, what: What) -> tuple[int, ...]:
+    """Return the number of steps, as the text counts them, in each stage of a group's construction.
+
+    The stages of a group of class II are the known vectors, the lines that meet, and further points. One of class III
+    has the known vectors and the lines twice: for the special point, then for the joint of the third leg.
+    """
+    if isinstance(group, TriadView):
+        of_pair, of_third = (4, 2) if what == "a" else (0, 0)
+        return len(group.moving) + of_pair, 2, len(group.later) + of_third, 2, 1 + bool(group.similar(what))
     bases = 1 if group.kind == "RRP" and group.two.still else len(group.moving)
     known = sum(bool(side.part) for side in group.sides) if what == "a" else 0
     return bases + known, len(group.sides), len(group.carried) + bool(group.similar(what))
@@ -291,6 +302,54 @@ class _Sketch:
         for name in further:
             self.absolute(name, "found", stage + 1)
 
+    def triad(self, group: TriadView, stage: int) -> None:
+        """Enter the construction of a group of class III: its special point, the third joint, the other points."""
+        S, third = self.at(image(group.S)), group.third
+        self.meeting(group.S, [self._leg(leg, stage) for leg in group.pair], stage + 1)
+        if self.what == "v":
+            for leg in group.pair:
+                if not leg.side.still:
+                    self.relative(leg.special, "", self.at(image(leg.P)), S, stage + 1)
+        starts = S, POLE if third.side.still else self.at(image(third.P))
+        if self.what == "a":
+            starts = (
+                self._laid(group.about, "n", starts[0], stage + 2),
+                self._laid(third.side, "n", starts[1], stage + 2),
+            )
+        self.meeting(third.Q, starts, stage + 3)
+        for side, start in zip((group.about, third.side), starts, strict=True):
+            if self.what == "a" or not side.still:
+                self.relative(side, "τ" if self.what == "a" else "", start, self.at(image(third.Q)), stage + 3)
+        for leg in group.pair:
+            self.absolute(leg.Q, "found", stage + 4)
+            if self.what == "a":
+                start = self.at(ids.relative_corner("n", leg.side.relative))
+                self.relative(leg.side, "τ", start, self.at(image(leg.Q)), stage + 4)
+            elif not leg.side.still:
+                self.relative(leg.side, "", self.at(image(leg.P)), self.at(image(leg.Q)), stage + 4)
+        for place in group.points:
+            self.absolute(place.name, "found", stage + 4)
+
+    def meeting(self, name: str, starts: Sequence[str], stage: int) -> None:
+        """Enter the lines from two corners that meet in the image of a point, and the vector of this point."""
+        end = self.at(image(name))
+        self.lines += [PlanLine(start, end, stage) for start in starts]
+        self.absolute(name, "found", stage)
+
+    def _leg(self, leg: LegView, stage: int) -> str:
+        """Enter the known accelerations of the special point on the line of a leg; return where its line starts."""
+        start = POLE if leg.side.still else self.at(image(leg.P))
+        if self.what == "v":
+            return start
+        return self._laid(leg.across, "n", self._laid(leg.side, "n", start, stage), stage)
+
+    def _laid(self, side: Side, part: str, start: str, stage: int) -> str:
+        """Enter a known relative acceleration from a corner; return the corner at its end."""
+        end = self.at(ids.relative_corner(part, side.relative))
+        self.relative(side, part, start, end, stage)
+        self.points.append(PlanPoint(Symbol(part, side.pair), end, stage))
+        return end
+
     def _known(self, side: Side, stage: int) -> str:
         """Enter the known relative acceleration and return the corner at which the unknown part starts."""
         start = POLE if side.still else self.at(image(side.base))
@@ -305,7 +364,7 @@ class _Sketch:
 # --- forces
 
 
-def forces(report: ReportContext, k: int, group: GroupView) -> FigureScenes:
+def forces(report: ReportContext, k: int, group: AssurView) -> FigureScenes:
     """Draw the force plan of a group at position `k`."""
     assert group.polygon is not None
     # The separated links, too, show the directions on the mechanism.
@@ -313,14 +372,14 @@ def forces(report: ReportContext, k: int, group: GroupView) -> FigureScenes:
     return on_paper(_worked(report, force_plan(report, group.polygon, k), k, alone))
 
 
-def force_stages(report: ReportContext, k: int, group: GroupView) -> FigureScenes:
+def force_stages(report: ReportContext, k: int, group: GroupView | TriadView) -> FigureScenes:
     """Draw the force plan step by step: loads, forces that moments gave, closing edges, measured forces."""
     assert group.polygon is not None
     drawing = force_plan(report, group.polygon, k)
     edges, reads = group.polygon.edges, group.polygon.reads
     known = sum(not edge.unknown for edge in edges)
-    by_moments = {edge.start + edge.end for edge in edges if not edge.unknown and edge.part == "t"}
-    if group.across_by_moments:
+    by_moments = {edge.start + edge.end for edge in edges if not edge.unknown and edge.part}
+    if isinstance(group, GroupView) and group.across_by_moments:
         by_moments |= {edge.start + edge.end for edge in reads if edge.name == ids.reaction_force(group.inner)}
 
     def step(vector: PlanVector[complex]) -> int:
@@ -340,7 +399,7 @@ def force_stages(report: ReportContext, k: int, group: GroupView) -> FigureScene
     return _stages(report, steps, group.scale, k=k)
 
 
-def force_plates(report: ReportContext, group: GroupView) -> FigureScenes:
+def force_plates(report: ReportContext, group: AssurView) -> FigureScenes:
     """Draw the force plans of all positions."""
     assert group.polygon is not None
     return FigureScenes(tuple(ForcePlans(report, group.polygon).scenes()))

@@ -12,6 +12,7 @@ import numpy as np
 
 from reportgen.base.units import MM
 from reportgen.derivation.equation_sides import Side, image
+from reportgen.derivation.kinematic_entries import What
 from reportgen.document import FIRST_COLUMN, TEXT_WIDTH, Column, InlineMath, Inlines, Table, Text
 from reportgen.document.tables import list_table, side_by_side
 from reportgen.formula import Chain, Number, Power, Symbol, ids
@@ -24,6 +25,7 @@ from reportgen.report.link_views import GroupView
 from reportgen.report.quantity_tables import bare
 from reportgen.report.table_remarks import AT_REST
 from reportgen.report.topic_views import VIEWS
+from reportgen.report.triad_views import TriadView
 
 MOST_COORDINATES, MOST_WIDE = 10, 8
 """Largest number of coordinate columns in one table, and the number if a coordinate is −100 mm or less."""
@@ -140,6 +142,9 @@ def velocity_segments(report: ReportContext) -> list[str]:
     """Return the ids of the segments measured on the velocity plan."""
     columns: list[str] = []
     for group in report.groups:
+        if isinstance(group, TriadView):
+            columns += _segments_of_triad("v", group)
+            continue
         columns += [
             ids.segment("v", "p", image(group.M)),
             *(ids.segment("v", image(side.base), image(group.M)) for side in group.moving),
@@ -152,6 +157,9 @@ def velocities(report: ReportContext) -> list[str]:
     """Return the ids of the velocities and angular velocities that the plan gives."""
     columns: list[str] = []
     for group in report.groups:
+        if isinstance(group, TriadView):
+            columns += _rates_of_triad(report, "v", group)
+            continue
         # Relative to a fixed point a velocity is the point's own.
         relative = [side.velocity for side in group.moving if report.parts("relative")]
         columns += [ids.velocity(group.M), *relative, ids.velocity(group.Q)]
@@ -163,6 +171,9 @@ def acceleration_segments(report: ReportContext) -> list[str]:
     """Return the ids of the segments measured on the acceleration plan."""
     columns: list[str] = []
     for group in report.groups:
+        if isinstance(group, TriadView):
+            columns += _segments_of_triad("a", group)
+            continue
         columns.append(ids.segment("a", "p", image(group.M)))
         columns += [ids.relative_segment(part, side.relative) for side in group.sides for part in _parts(side)]
         columns += _images("a", group)
@@ -173,6 +184,9 @@ def accelerations(report: ReportContext) -> list[str]:
     """Return the ids of the accelerations and angular accelerations that the plan gives."""
     columns: list[str] = []
     for group in report.groups:
+        if isinstance(group, TriadView):
+            columns += _rates_of_triad(report, "a", group)
+            continue
         columns.append(ids.acceleration(group.M))
         if report.parts("relative"):
             columns += [ids.acceleration(side.relative, part) for side in group.sides for part in _parts(side)]
@@ -187,6 +201,31 @@ def _of_links(report: ReportContext, rate: str) -> list[str]:
 
 def _images(what: str, group: GroupView) -> list[str]:
     return [ids.segment(what, "p", image(place)) for place in (group.Q, *(place.name for place in group.points))]
+
+
+def _segments_of_triad(what: What, group: TriadView) -> list[str]:
+    """Return the ids of the segments measured on a plan of a group of class III: S first, then the third joint."""
+    legs = (group.third, *group.pair)
+    sides = [group.about, *(leg.side for leg in legs)]
+    if what == "v":
+        relative = [ids.segment("v", image(side.base), image(side.point)) for side in sides if not side.still]
+        of_special = [ids.segment("v", image(leg.P), image(group.S)) for leg in group.pair if not leg.side.still]
+    else:
+        relative = [ids.relative_segment(part, side.relative) for side in sides for part in "nt"]
+        of_special = [leg.across.known for leg in group.pair]
+    absolute = (group.S, *(leg.Q for leg in legs), *(place.name for place in group.points))
+    return [*of_special, *(ids.segment(what, "p", image(name)) for name in absolute), *relative]
+
+
+def _rates_of_triad(report: ReportContext, what: What, group: TriadView) -> list[str]:
+    """Return the ids of the velocities or accelerations that a plan of a group of class III gives."""
+    rate, legs = ids.POINT_RATE[what], (group.third, *group.pair)
+    sides = [group.about, *(leg.side for leg in legs)]
+    parts = [""] if what == "v" else ["n", "t"]
+    relative = [rate(side.relative, part) if part else rate(side.relative) for side in sides for part in parts]
+    shown = relative if report.parts("relative") else []
+    names = [group.S, *(leg.Q for leg in legs), *(place.name for place in group.points)]
+    return [*map(rate, names), *shown]
 
 
 def _parts(side: Side) -> list[str]:
@@ -243,14 +282,13 @@ def reactions(report: ReportContext) -> list[str]:
     """Return the ids of the reactions in all joints, and of the moments of guide couples."""
     columns: list[str] = []
     for group in reversed(report.groups):
-        columns += [ids.reaction(joint, "t") for joint in (group.outer, group.guide)]
-        columns += [ids.reaction(joint) for joint in (group.outer, group.inner, group.guide)]
+        columns += [*group.tangential, *(ids.reaction(joint) for joint in group.reaction_joints)]
     return report.known([*columns, "R.01", *(slide.moment for slide in guide_couples(report))])
 
 
 def reaction_angles(report: ReportContext) -> list[str]:
     """Return the ids of the directions of all reactions."""
-    joints = [name for group in reversed(report.groups) for name in (group.outer, group.inner, group.guide)]
+    joints = [name for group in reversed(report.groups) for name in group.reaction_joints]
     return report.known(ids.force_direction(ids.reaction_force(name)) for name in (*joints, "01"))
 
 
@@ -323,8 +361,7 @@ def _share(differences: Iterable[np.ndarray], values: Iterable[np.ndarray]) -> f
 def _closure(report: ReportContext) -> float:
     """Return the largest error of a distance between two points of a link, as a share of the longest distance."""
     motion, families = report.analysis.motion, report.case.ledger.families
-    pairs = [(group.P, group.Q) for group in report.groups]
-    pairs += [(group.T, group.Q) for group in report.groups if group.kind == "RRR"]
+    pairs = [ends for group in report.groups for ends in group.rods]
     rods = [
         (motion.points[p].p - motion.points[q].p, families[ids.length(p, q)].values)
         for p, q in pairs

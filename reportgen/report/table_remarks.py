@@ -161,7 +161,7 @@ class GuidedLink:
 def sliders(report: ReportContext) -> tuple[GuidedLink, ...]:
     """Return the links that slide along fixed guides, except a sliding driver."""
     slides = report.analysis.motion.slides
-    both = ((link, group.Q) for group in report.groups for link in (group.i, group.j))
+    both = ((link, group.Q) for group in report.dyads for link in group.links)
     return tuple(GuidedLink(link, pin) for link, pin in both if (GROUND, link) in slides)
 
 
@@ -215,7 +215,7 @@ def inertia_forces(report: ReportContext) -> list[str]:
 
 def reaction_ids(report: ReportContext) -> list[str]:
     """Return the ids of the reactions in all joints, each pair once."""
-    names = [name for group in reversed(report.groups) for name in (group.outer, group.inner, group.guide)]
+    names = [name for group in reversed(report.groups) for name in group.reaction_joints]
     ends = (ids.face_reaction(name, number) for name in names for number in (1, 2))
     return report.known((*(ids.reaction(name) for name in (*names, "01")), *ends))
 

@@ -36,8 +36,9 @@ from reportgen.formula import (
 )
 from reportgen.formula.vocabulary import on_plan, segment
 from reportgen.machine import mobility
+from reportgen.report.assur_view import AssurView
 from reportgen.report.context import ReportContext
-from reportgen.report.link_views import Contact, GroupView
+from reportgen.report.link_views import Contact
 
 # --- numbers and symbols
 
@@ -136,7 +137,7 @@ def lowered(report: ReportContext, text: str) -> str:
     return subscripted(text)
 
 
-def group_kind(report: ReportContext, group: GroupView) -> str:
+def group_kind(report: ReportContext, group: AssurView) -> str:
     """Return the name of a group's kind."""
     return str(report.words["groups"][group.kind])
 
@@ -146,7 +147,7 @@ def stroke_name(report: ReportContext, link: int, position: int) -> str:
     return str(report.words["strokes"][int(report.analysis.gas[ids.applied_force(link)].stroke[position - 1])])
 
 
-def force_list(report: ReportContext, group: GroupView, position: int) -> Inlines:
+def force_list(report: ReportContext, group: AssurView, position: int) -> Inlines:
     """Return the known edges of a force plan with their drawn lengths: ef = 40.30 mm for P_qt5, h ≡ i for a
     zero force.
     """
@@ -167,7 +168,7 @@ def force_list(report: ReportContext, group: GroupView, position: int) -> Inline
 # --- the sense of forces
 
 
-def by_moments(report: ReportContext, group: GroupView, position: int) -> Inlines:
+def by_moments(report: ReportContext, group: AssurView, position: int) -> Inlines:
     """Return the symbols of the reactions of a group that moments give; zero ones are left out."""
     sought = (id for id in group.by_moments if not report.is_zero(id, position))
     return listed(InlineMath(report.ledger.symbol(id)) for id in sought)

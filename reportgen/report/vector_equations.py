@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from reportgen.derivation.equation_sides import Side
+from reportgen.derivation.kinematic_entries import What
 from reportgen.derivation.load_entries import Edge
 from reportgen.document import Equation
 from reportgen.document.template_rendering import subscripted
@@ -15,6 +16,7 @@ from reportgen.formula import Chain, Expression, Symbol, Term, VectorEquation, i
 from reportgen.report.context import ReportContext
 from reportgen.report.link_views import GroupView
 from reportgen.report.template_equations import R
+from reportgen.report.triad_views import TriadView
 
 # --- vector equations of motion
 
@@ -40,6 +42,39 @@ def acceleration_equation(report: ReportContext, group: GroupView, position: int
             base = () if side.still else (_base(report, side, "a"),)
             sides.append((*base, *_relative(report, side)))
     return _equation(report, sides, "rows", f"eq.a.{group}.{position}")
+
+
+def special_equation(report: ReportContext, what: What, group: TriadView, position: int) -> Equation:
+    """Return the motion of the special point as a point of the plate on the lines of both legs."""
+    still = next((leg for leg in group.pair if leg.side.still), None) if what == "v" else None
+    known = None if still is None else f"⊥ {subscripted(still.rod)}"
+    sides: list[tuple[Term, ...]] = [(_term(report, what, group.S, "", direction=known),)]
+    for leg in group.pair:
+        across = f"⊥ {subscripted(leg.rod)}"
+        base = () if leg.side.still else (_base(report, leg.side, what),)
+        if what == "a":
+            normals = (_relative(report, side, side is leg.across)[0] for side in (leg.side, leg.across))
+            unknown = (_term(report, "a", side.pair, "τ", direction=across) for side in (leg.side, leg.across))
+            sides.append((*base, *normals, *unknown))
+        elif leg is not still:
+            sides.append((*base, _term(report, "v", leg.special.pair, "", direction=across)))
+    return _equation(report, sides, "rows", f"eq.{what}.{group}.S.{position}")
+
+
+def third_equation(report: ReportContext, what: What, group: TriadView, position: int) -> Equation:
+    """Return the motion of the third leg's joint from the special point and from the leg's outer joint."""
+    third = group.third
+    fixed = third.side if what == "v" and third.side.still else None
+    given = report.words["vector"]["given"]
+    special = _term(report, what, group.S, "", direction=given, sense=given, size=given)
+    sides: list[tuple[Term, ...]] = [(_unknown(report, what, third.Q, "", fixed),)]
+    for side, base in ((group.about, special), (third.side, _base(report, third.side, what))):
+        start = () if side.still else (base,)
+        if what == "a":
+            sides.append((*start, *_relative(report, side, side is group.about)))
+        elif side is not fixed:
+            sides.append((*start, _unknown(report, "v", side.pair, "", side)))
+    return _equation(report, sides, "rows", f"eq.{what}.{group}.{position}")
 
 
 def _equation(report: ReportContext, sides: Sequence[tuple[Term, ...]], rows: str, key: str = "") -> Equation:
@@ -83,12 +118,16 @@ def _slide(report: ReportContext, how: str, side: Side) -> str:
     return f"{phrase} {side.slide}" if side.alike else phrase
 
 
-def _relative(report: ReportContext, side: Side) -> tuple[Term, ...]:
-    """Return aⁿ and aᵗ of a turning side, aᵏ and aʳ of a sliding one."""
+def _relative(report: ReportContext, side: Side, omega: bool = False) -> tuple[Term, ...]:
+    """Return aⁿ and aᵗ of a turning side, aᵏ and aʳ of a sliding one; aⁿ = v²/l, or ω² l if `omega`."""
     words, ledger = report.words["vector"], report.ledger
     sought = _unknown(report, "a", side.pair, "τ" if side.turns else "r", side)
     if side.turns:
-        size = ledger.symbol(side.velocity) ** 2 / ledger.symbol(ids.length(side.rod))
+        if omega:
+            (length,) = ledger.known((ids.length(side.rod), ids.length(side.relative)))
+            size: Expression = ledger.symbol(ids.angular_velocity(side.link)) ** 2 * ledger.symbol(length)
+        else:
+            size = ledger.symbol(side.velocity) ** 2 / ledger.symbol(ids.length(side.rod))
         inwards = f"{subscripted(side.point)} → {subscripted(side.base)}"
         direction = f"∥ {subscripted(side.rod)}"
         return _term(report, "a", side.pair, "n", direction=direction, sense=inwards, size=size), sought
@@ -130,8 +169,8 @@ def _on_crank(report: ReportContext, name: str) -> bool:
 # --- equations of equilibrium
 
 
-def force_equation(report: ReportContext, group: GroupView, position: int) -> Equation:
-    """Return the equilibrium of a group's two links; only the two reactions that close the plan are unknown."""
+def force_equation(report: ReportContext, group: GroupView | TriadView, position: int) -> Equation:
+    """Return the equilibrium of a group's links; only the two reactions that close the plan are unknown."""
     assert group.polygon is not None
     terms = [_force(report, group, edge) for edge in group.polygon.edges]
     return _balance(report, terms, f"eq.R.{group}.{position}")
@@ -170,15 +209,17 @@ def driver_equation(report: ReportContext) -> Equation:
     return _balance(report, terms)
 
 
-def _force(report: ReportContext, group: GroupView, edge: Edge) -> Term:
+def _force(report: ReportContext, group: GroupView | TriadView, edge: Edge) -> Term:
     """Return a force of a group's plan with the known facts of it."""
     words = report.words["vector"]
-    side = group.one if edge.link == group.i else group.two
+    if isinstance(group, TriadView):
+        side = next(side for side in group.turns if side.link == edge.link)
+    else:
+        side = group.one if edge.link == group.i else group.two
     vector = report.force_vector(edge.name)
     if edge.part and side.turns:
-        normal = edge.part == "n"
-        along = f"{'∥' if normal else '⊥'} {subscripted(side.rod)}"
-        return Term(vector, (along, None if normal else words["computed"]))
+        along = f"{'∥' if edge.part == 'n' else '⊥'} {subscripted(side.rod)}"
+        return Term(vector, (along, None if edge.unknown else words["computed"]))
     if edge.unknown:
         return Term(vector, (_slide(report, "across", side) if side.guided else None, None))
     return Term(vector, (words["given"], words["given"]))

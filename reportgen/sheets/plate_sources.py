@@ -13,8 +13,8 @@ from reportgen.document.cjk_punctuation import set_out
 from reportgen.drawing import Content, Scene
 from reportgen.drawing.drawing_sheet import ENLARGED, grid, widths
 from reportgen.formula import Number
+from reportgen.report.assur_view import AssurView
 from reportgen.report.context import ReportContext
-from reportgen.report.link_views import GroupView
 
 WIDEST, MOST_ROWS = 180.0, 24
 """Largest width (mm) and largest number of positions of a table; further ones get another table beside it."""
@@ -44,9 +44,9 @@ class Sources:
         words: Mapping[str, Any] = self.report.words["plates"]
         return words
 
-    def called(self, group: GroupView) -> str:
+    def called(self, group: AssurView) -> str:
         """Return the name of a group in words: Group (2,3)."""
-        return str(self.report.words["figure"]["group"]).format(i=group.i, j=group.j)
+        return group.title(self.report.words["figure"])
 
     def place(self, k: int, of: str = "") -> str:
         """Return the name of a position, of a group `of` if given: Group (2,3), position 2."""
