@@ -208,7 +208,7 @@ def _group(group: file.GroupSection, cranked: bool = True) -> GroupRow:
     if isinstance(group, file.TernaryGroup):
         names = tuple(name for leg in group.legs for name in leg.joints)
         rods = tuple(("".join(leg.joints), as_typed(leg.length)) for leg in group.legs)
-        near = tuple((name, *map(as_typed, at)) for name, at in group.near.items())
+        near = tuple((name, as_typed(x), as_typed(y)) for name, (x, y) in group.near.items())
         at = Number(0.0, unit="°") if group.near_at is None else as_typed(group.near_at)
         near_at = at if cranked else None
         return GroupRow(group.links, group.type, names, rods, choice="nearest", near=near, near_at=near_at)

@@ -8,6 +8,8 @@ where the lines along both legs meet.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from reportgen.derivation.load_entries import (
     Edge,
     ForceChain,
@@ -15,13 +17,14 @@ from reportgen.derivation.load_entries import (
     Origin,
     Polygon,
     Statics,
+    arm,
     force_plan,
-    moments,
+    lone_couple,
     read,
     tangential,
 )
 from reportgen.derivation.triad_motion import entered_point
-from reportgen.formula import Number, Symbol, cross, ids, meet, unit
+from reportgen.formula import Expression, Number, Sum, Symbol, cross, ids, meet, unit
 from reportgen.machine import Triad, TriadLeg
 
 
@@ -85,12 +88,29 @@ def _tangential(statics: Statics, leg: TriadLeg, digits: str) -> LoadOn:
     return LoadOn(ids.reaction_force(digits, "t"), leg.link, leg.outer, size, Origin.reaction, letters=f"{digits},t")
 
 
+def _share(statics: Statics, loads: Iterable[LoadOn], centre: str) -> tuple[Expression | None, list[Expression]]:
+    """Return the sum of forces times their arms about a point for the loads on one link, and the couples (N·m)."""
+    terms: list[Expression] = []
+    couples: list[Expression] = []
+    for load in loads:
+        couple = statics.couple(load)
+        if not load.point:
+            couples.append(load.size)
+        elif load.point != centre or couple is not None:
+            terms.append(load.size * arm(statics, load, centre))
+            if couple is not None:
+                couples.append(lone_couple(statics, load))
+    return Sum(tuple(terms)) if terms else None, couples
+
+
 def _axial(statics: Statics, triad: Triad, leg: TriadLeg, digits: str, across: list[LoadOn]) -> None:
     """Enter Rⁿ of the third leg, positive from its outer joint inwards: Rⁿ h = −ΣM about the special point."""
     q = statics.q
     special = entered_point(q, statics.scheme, triad)
-    whole = [load for link in triad.links for load in statics.on(link)]
-    moment = moments(statics, (*whole, *across), special.name)
+    parts = [
+        _share(statics, (*statics.on(link), *(load for load in across if load.link == link)), special.name)
+        for link in triad.links
+    ]
     name = ids.reaction_force(digits, "n")
     assumed = q.construct(ids.assumed(name), unit(q[ids.rod(leg.link)]))
     lever = cross(q[ids.place(leg.outer)] - q[ids.place(special.name)], assumed) / q["drawing"]
@@ -103,7 +123,8 @@ def _axial(statics: Statics, triad: Triad, leg: TriadLeg, digits: str, across: l
         about=special.name,
         scale=statics.span,
     )
-    size = q.define(
-        ids.reaction(digits, "n"), 0.0 if moment is None else -moment / (h * q["mu.l"]), scale=statics.force
-    )
+    # A term for each link, so that the line can be broken between them.
+    terms = [-turning / h for turning, _ in parts if turning is not None]
+    terms += [-couple / (h * q["mu.l"]) for _, couples in parts for couple in couples]
+    size = q.define(ids.reaction(digits, "n"), Sum(tuple(terms)) if terms else 0.0, scale=statics.force)
     q.construct(ids.force_vector(name), size * assumed, of=size.id)

@@ -54,7 +54,6 @@ def template_curve(
     requests = []
     for number, places in enumerate(curve.trials.T, 1):
         first, second, third = map(complex, places)
-        items.append(Polyline((first, second, third, first), style.THIN))
         for at in (first, second, third):
             items.append(Circle(at, 0.45, style.THIN, style.PAPER))
         requests.append(label(third, Symbol(str(number)), gap=0.8, size=style.SMALL))

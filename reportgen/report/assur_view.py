@@ -38,7 +38,11 @@ class AssurView:
     `plate` is the ternary link, or 0.
     """
 
-    across_by_moments = False
+    @property
+    def across_by_moments(self) -> bool:
+        """Return True if moments give the whole force between the links; the plan then treats it as a load."""
+        return False
+
     bodies = "bodies"
     """Key of the caption of its separated links."""
 

@@ -250,5 +250,5 @@ class TriadView(AssurView):
 
     @property
     def by_moments(self) -> list[str]:
-        """Ids of the signed parts of reactions that moments give before the force plan."""
-        return [*self.tangential, *self.ledger.known([ids.reaction(self.third.outer, "n")])]
+        """Ids of the components across legs, positive where their moment is clockwise."""
+        return self.tangential
