@@ -25,7 +25,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 from reportgen.formula import ids
-from reportgen.machine import DRIVER, GROUND, Crank, Dyad, DyadKind, Guide, Linkage, Triad, owners, under
+from reportgen.machine import DRIVER, GROUND, Crank, Dyad, DyadKind, Group, Guide, Linkage, Triad, owners, under
 
 
 def image(name: str) -> str:
@@ -163,6 +163,18 @@ def scheme(linkage: Linkage) -> Scheme:
 def sides(plan: Scheme, dyad: Dyad) -> tuple[Side, Side]:
     """Return the two sides of a group's vector equations."""
     return SIDES[dyad.kind](plan, dyad)
+
+
+def triad_sides(plan: Scheme, triad: Triad) -> tuple[Side, ...]:
+    """Return each link of a triad as one joint that turns about another: the legs in their order, then the plate."""
+    first, second, _ = (leg.inner for leg in triad.legs)
+    legs = (_turn(plan, leg.inner, leg.outer, leg.link) for leg in triad.legs)
+    return *legs, Side(second, first, False, first, triad.plate)
+
+
+def group_sides(plan: Scheme, group: Group) -> tuple[Side, ...]:
+    """Return the sides of the vector equations of a group, for a triad one for each of its links."""
+    return triad_sides(plan, group) if isinstance(group, Triad) else sides(plan, group)
 
 
 def _turn(plan: Scheme, point: str, base: str | Guide, link: int, measured: bool = False) -> Side:

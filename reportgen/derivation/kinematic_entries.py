@@ -14,7 +14,7 @@ from typing import Literal
 import numpy as np
 
 from reportgen.base.units import nice_up
-from reportgen.derivation.equation_sides import Scheme, Side, image, sides
+from reportgen.derivation.equation_sides import Scheme, Side, group_sides, image
 from reportgen.derivation.plan_scales import LEAST_MOTION, PER_MM, SHEET_BOXES, common_scale, extents
 from reportgen.formula import (
     Expression,
@@ -415,8 +415,8 @@ FARTHEST = 0.4
 
 def links_in_plane_motion(scheme: Scheme) -> tuple[Side, ...]:
     """Return the links in plane motion, each as one moving point that turns about another."""
-    both = (side for dyad in scheme.linkage.dyads for side in sides(scheme, dyad))
-    return tuple(side for side in both if side.turns and not side.still)
+    every = (side for group in scheme.linkage.groups for side in group_sides(scheme, group))
+    return tuple(side for side in every if side.turns and not side.still)
 
 
 def centre_symbol(link: int) -> Symbol:
@@ -476,7 +476,8 @@ def _normal(k: Kinematics, name: str) -> Expression:
         if isinstance(driver, Crank):
             return k.place(name) - k.place(driver.centre)
         return turned(k.q["guide.1"])
-    for side in (side for dyad in scheme.linkage.dyads for side in sides(scheme, dyad) if side.still):
+    every = (side for group in scheme.linkage.groups for side in group_sides(scheme, group))
+    for side in (side for side in every if side.still):
         if side.turns:
             if side.point == name or side.link == owner:
                 return k.place(name) - k.place(side.base)

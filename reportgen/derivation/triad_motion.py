@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from reportgen.derivation.equation_sides import Scheme, Side, image
+from reportgen.derivation.equation_sides import Scheme, Side, image, triad_sides
 from reportgen.derivation.kinematic_entries import Kinematics, What
 from reportgen.derivation.link_points import enter_rod, images, places
 from reportgen.derivation.side_motion import (
@@ -74,10 +74,9 @@ def enter_triad(k: Kinematics, triad: Triad) -> None:
     """Enter the places, velocities and accelerations of a triad and of the points of its links."""
     motion = _trial(k)
     _places(k, triad, motion)
-    legs = {leg.inner: Side(leg.inner, leg.outer, k.scheme.still(leg.outer), leg.outer, leg.link) for leg in triad.legs}
-    first, second, _ = triad.legs
-    plate = Side(second.inner, first.inner, False, first.inner, triad.plate)
-    turns = {triad.plate: plate} | {side.link: side for side in legs.values()}
+    *rods, plate = triad_sides(k.scheme, triad)
+    legs = {side.point: side for side in rods}
+    turns = {side.link: side for side in (plate, *rods)}
     for link, turn in turns.items():
         places(k, link, turn)
     entry = _Entry(k, triad, nearest_point(k, triad, motion), legs)

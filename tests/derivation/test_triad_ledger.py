@@ -124,3 +124,16 @@ def test_forces_of_random_chains() -> None:
                 pushes = tuple((link, f"S{link}", 0.6 - 0.8j, 30.0) for link in linkage.links)
                 check_forces(keep(linkage, places, 1, pushes))
     assert used >= 7
+
+
+@pytest.mark.parametrize("turn", [1, -1])
+def test_the_plate_turns_about_its_instant_centre(turn: int) -> None:
+    """v_D + iω₃(P − D) = 0, as for the leg on the crank; projections on a link agree; legs on the frame have no P."""
+    driver = np.radians(60 + 30.0 * turn * np.arange(12))
+    motion, q = solve_motion(R1, driver, turn * RATE), check_plans(R1, driver, turn)
+    for link, base in ((2, "A"), (3, "D")):
+        left = motion.points[base].v + 1j * motion.links[link].omega * (q.value(f"ic.{link}") - motion.points[base].p)
+        assert np.abs(left).max() < 1e-9 * RATE
+        ends = [q.value(f"ic.along.{link}.{point}") for point in (base, "E" if link == 3 else "D")]
+        assert np.abs(ends[0] - ends[1]).max() < 1e-9 * RATE
+    assert "ic.4" not in q and "ic.5" not in q
