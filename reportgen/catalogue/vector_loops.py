@@ -147,7 +147,8 @@ class ClosedLoops:
     `equations` are by name and group `closure-23`, `velocity-23`, `acceleration-23`; `place-1`, … are those of the
     driver.  `compared` are plan quantities and the formulas that must give their sizes.  `fixed` are the coordinates of
     the fixed points, `guides` those of a point of each fixed guide, by its slider.  `accelerates` is > 0 if the driver
-    accelerates in the sense of its speed, < 0 against it, 0 if it does not.
+    accelerates in the sense of its speed, < 0 against it, 0 if it does not. A linkage with a group of class III has no
+    formulas but those of the driver: the position of such a group has no closed form.
     """
 
     linkage: Linkage
@@ -166,6 +167,8 @@ class ClosedLoops:
         self.owner = owners(self.linkage)
         self.points |= {name: Moving(self.fixed[name]) for name in self.linkage.ground}
         self._drive()
+        if self.linkage.triads:
+            return
         for dyad in self.linkage.dyads:
             self.group = ids.joint(*dyad.links)
             KINDS[dyad.kind](self, dyad)
