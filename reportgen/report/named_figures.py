@@ -7,6 +7,7 @@ from dataclasses import replace
 from operator import attrgetter
 from typing import Any
 
+from reportgen.base.languages import setting_of
 from reportgen.document import Figure, InlineMath, Inlines, Plate, Text
 from reportgen.document.figure_placement import FigureScenes, close
 from reportgen.machine.analysis import Position
@@ -22,6 +23,7 @@ from reportgen.report import (
 from reportgen.report.assur_view import AssurView
 from reportgen.report.context import ReportContext
 from reportgen.report.topic_views import DrawnFigure
+from reportgen.report.triad_views import TriadView
 
 VELOCITY, ACCELERATION = plan_figures.MotionFigures("v"), plan_figures.MotionFigures("a")
 
@@ -82,8 +84,10 @@ def figure(report: ReportContext, name: str, *arguments: Any, words: str = "") -
         at = "" if position is None else str(position)
         links = None
         if group is not None:
-            links = {"i": group.links[0], "j": group.links[-1], "members": group.members, "plate": group.plate}
-            links["joint"] = getattr(group, "joint", "")
+            between = ", " if setting_of(report.assignment.language).spaced else "，"
+            members = between.join(map(str, group.links))
+            links = {"i": group.links[0], "j": group.links[-1], "members": members, "plate": group.plate}
+            links["joint"] = group.joint if isinstance(group, TriadView) else ""
         caption = report.words["captions"][words or name].format(k=position, g=links)
     drawn = draw(report, *passed)
     if drawn.paper is None and not drawn.turned and not report.parts("usual-type"):
