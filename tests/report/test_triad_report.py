@@ -1,0 +1,94 @@
+"""The report of a machine with a group of class III: its sections, figures and plans, in all languages."""
+
+from __future__ import annotations
+
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from reportgen.base.units import MM
+from reportgen.cases import open_case
+from reportgen.document import Figure, Plate
+from reportgen.report.context import ReportContext
+from reportgen.report.force_figures import separated
+from reportgen.report.plan_figures import force_plan, motion_plan
+
+R1 = """\
+kind: linkage
+positions: {count: 8}
+report: {worked_positions: [3], extent: short}
+parameters:
+  frame: {O: [0 mm, 0 mm], B: [300 mm, -30 mm], C: [70 mm, 300 mm]}
+  driver: {type: crank, centre: O, pin: A, length: 50 mm, omega1: 20 rad/s}
+  groups:
+    - type: 3RRR
+      plate: 3
+      legs:
+        - {link: 2, joints: [A, D], length: 130 mm}
+        - {link: 4, joints: [B, E], length: 190 mm}
+        - {link: 5, joints: [C, F], length: 150 mm}
+      at: {E: [100 mm, 0 mm], F: [60 mm, 140 mm]}
+      near: {D: [83 mm, 160 mm]}
+      near_at: 60 deg
+  points: {S3: {link: 3, at: [53.3 mm, 46.7 mm]}}
+  masses: [{link: 3, at: S3, m: 4 kg, J: 0.012 kg m2}]
+  loads: [{by: constant, link: 4, M: 30 N m, against: motion}]
+"""
+
+
+@cache
+def report(folder: Path, language: str = "en") -> ReportContext:
+    file = folder / "r1.yaml"
+    file.write_text(R1, encoding="utf-8")
+    return ReportContext(open_case(file, language=language))
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("r1")
+
+
+@pytest.mark.parametrize("language", ["en", "vi", "ru", "zh"])
+def test_the_document_has_the_figures_of_the_group(folder: Path, language: str) -> None:
+    """Each figure is made, so every word and every member that the sections name exists."""
+    blocks = report(folder, language).case.document().blocks
+    keys = {block.key for block in blocks if isinstance(block, Figure | Plate)}
+    wanted = {"fig.assemblies.2345.3", "fig.special.2345.3", "fig.v.3", "fig.a.3", "fig.bodies.2345.3", "fig.R.2345.3"}
+    assert wanted <= keys
+
+
+@pytest.mark.parametrize("what", ["v", "a"])
+def test_the_plans_measure_as_the_motion(folder: Path, what: str) -> None:
+    """An arrow from the pole, measured and multiplied by the scale, is the velocity or acceleration of its point."""
+    context = report(folder)
+    motion, ledger = context.analysis.motion, context.ledger
+    drawn = {vector.name: vector for vector in motion_plan(context, what, 3).vectors}
+    scale = float(ledger[f"mu.{what}"].values[0]) / MM
+    for name in "DEF":
+        true = complex(getattr(motion.points[name], what)[2])
+        # The scale is printed with its digits, the drawing has 1e-6 mm.
+        assert abs((drawn[name].end - drawn[name].start) * scale - true) < 1e-3 * abs(true)
+
+
+def test_the_force_plan_closes(folder: Path) -> None:
+    """The forces laid head to tail come back to e, and each reaction measures as the forces from the arrays."""
+    context = report(folder)
+    (group,) = context.triads
+    assert group.polygon is not None
+    plan = force_plan(context, group.polygon, 3)
+    arrows = {vector.name: vector.end - vector.start for vector in plan.vectors}
+    around = [arrows[edge.start + edge.end] for edge in group.polygon.edges]
+    assert abs(np.sum(around)) < 1e-6
+    scale = float(context.ledger["mu.R2345"].at(3)) / MM
+    for edge in group.polygon.reads:
+        true = complex(context.analysis.forces.reactions[edge.name].force[2])
+        assert abs(arrows[edge.start + edge.end] * scale - true) < 2e-3 * abs(true)
+
+
+def test_links_are_separated_with_their_arms(folder: Path) -> None:
+    """One drawing of the group with arms about the special point, and one of each leg."""
+    context = report(folder)
+    (group,) = context.triads
+    assert len(separated(context, 3, group)) == 4
