@@ -55,6 +55,7 @@ SHOWN = {
     "engine-balance": ROOT / "assignments" / "engine-balance" / "v-six.yaml",
     "turning-moment": ROOT / "assignments" / "turning-moment" / "curve.yaml",
     "structure": ROOT / "assignments" / "structure" / "class-three.yaml",
+    "linkage-press": ROOT / "assignments" / "linkage" / "press.yaml",
 }
 """What the README shows of kinds with a folder of their own."""
 LAID_OUT = ROOT / "assignments" / "four-bar-01.yaml"
@@ -334,7 +335,7 @@ def main() -> None:
         class_of_60(language)
     notebook_study()
     curves()
-    for kind in kinds():
+    for kind in (*kinds(), "linkage-press"):
         save_scheme(kind)
 
 
