@@ -84,10 +84,10 @@ def special_point(
         away = at - start
         beyond = BEYOND * away / abs(away) if joint in on_lines and abs(away) > style.JOINT else 0j
         items.append(Line(start, at + beyond, style.NORMAL if joint in on_lines else style.CONSTRUCTION))
-    shown: Content = vocabulary.point(name)
+    text: Content = vocabulary.point(name)
     mark = Circle(at, style.POINT, style.VISIBLE, style.PAPER)
     facts = tuple(fact("direction", vocabulary.point(joint), direction(at - bones.points[joint])) for joint in on_lines)
-    whole = Canvas((*items, *draft.items, mark), (*draft.requests, label(at, shown, gap=1.2)), (*draft.says, *facts))
+    whole = Canvas((*items, *draft.items, mark), (*draft.requests, label(at, text, gap=1.2)), (*draft.says, *facts))
     return finish(whole, notes=looks.notes)
 
 

@@ -237,7 +237,7 @@ class GroupView(AssurView):
         return self.P, self.Q
 
     @property
-    def found(self) -> tuple[NamedPoint, ...]:
+    def found_joints(self) -> tuple[NamedPoint, ...]:
         """The joints that the plans find."""
         return (self.M,)
 

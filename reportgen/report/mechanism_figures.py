@@ -254,7 +254,7 @@ def _numbered(report: ReportContext) -> tuple[str, ...]:
         if isinstance(group, GroupView) and group.kind == "RPR":
             names += [place.name for place in group.points_j if place.name not in centres]
         else:
-            names += [group.Q] if isinstance(group, GroupView) else group.found
+            names += [group.Q] if isinstance(group, GroupView) else group.found_joints
     return tuple(names)
 
 

@@ -42,7 +42,7 @@ def _extremes(report: ReportContext) -> Iterator[Peak]:
     """Yield the peaks of sliding points, or else of all that a plan gives; then those of links, then of joints."""
     for what, rotation in (("v", "omega"), ("a", "eps")):
         points = slider_rates(report, what) or report.known(
-            ids.POINT_RATE[what](name) for group in report.groups for name in group.found
+            ids.POINT_RATE[what](name) for group in report.groups for name in group.found_joints
         )
         yield from each_peak(report, [*points, *turning_rates(report, rotation)], report.positions)
     couples = [slide.moment for slide in guide_couples(report)]

@@ -343,8 +343,8 @@ def drawn_group(report: ReportContext, row: GroupRow) -> Inlines:
     words = report.words["linkage"]["drawing"][row.drawing]
     if row.near:
         ends = dict(zip(("start1", "inner1", "start2", "inner2", "start3", "inner3"), (first, *others), strict=True))
-        shown = Reference(f"fig.assemblies.{ids.members(row.links)}.{report.worked[0]}")
-        return say(report, words, plate=row.links[1], third=drawn[2], assemblies=shown, **rods, **ends)
+        curve = Reference(f"fig.assemblies.{ids.members(row.links)}.{report.worked[0]}")
+        return say(report, words, plate=row.links[1], third=drawn[2], assemblies=curve, **rods, **ends)
     return say(report, words, row, last=row.links[1], **rods, **joints)
 
 

@@ -223,9 +223,9 @@ def _rates_of_triad(report: ReportContext, what: What, group: TriadView) -> list
     sides = [group.about, *(leg.side for leg in legs)]
     parts = [""] if what == "v" else ["n", "t"]
     relative = [rate(side.relative, part) if part else rate(side.relative) for side in sides for part in parts]
-    shown = relative if report.parts("relative") else []
+    columns = relative if report.parts("relative") else []
     names = [group.S, *(leg.Q for leg in legs), *(place.name for place in group.points)]
-    return [*map(rate, names), *shown]
+    return [*map(rate, names), *columns]
 
 
 def _parts(side: Side) -> list[str]:

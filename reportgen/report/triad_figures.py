@@ -32,9 +32,9 @@ def special(report: ReportContext, k: int, group: TriadView) -> FigureScenes:
             report.analysis.motion,
             k - 1,
             scale,
-            (str(group.S), at),
-            (on_lines, measured),
-            looks(report, scale, factor),
+            special=(str(group.S), at),
+            joints=(on_lines, measured),
+            looks=looks(report, scale, factor),
         )
 
     return as_large_as_asked(report, draw)

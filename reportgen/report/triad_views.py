@@ -82,12 +82,12 @@ class TriadView(AssurView):
             return LegView(
                 leg.link,
                 turn(leg),
-                Side(self.S, leg.outer, still(leg.outer), leg.outer, plate),
-                Side(self.S, leg.inner, False, leg.inner, plate),
-                outer,
-                ids.joint(plate, leg.link),
-                carrier,
-                [*self.arms(leg.inner, [leg.link]), ids.reaction(outer, "t")],
+                special=Side(self.S, leg.outer, still(leg.outer), leg.outer, plate),
+                across=Side(self.S, leg.inner, False, leg.inner, plate),
+                outer=outer,
+                inner=ids.joint(plate, leg.link),
+                carrier=carrier,
+                lines=[*self.arms(leg.inner, [leg.link]), ids.reaction(outer, "t")],
             )
 
         self.legs = tuple(map(leg_view, triad.legs))
@@ -199,7 +199,7 @@ class TriadView(AssurView):
         return tuple(pin for leg in self.legs for pin in (leg.P, leg.Q))
 
     @property
-    def found(self) -> tuple[NamedPoint, ...]:
+    def found_joints(self) -> tuple[NamedPoint, ...]:
         """The joints that the plans find."""
         return tuple(leg.Q for leg in self.legs)
 
