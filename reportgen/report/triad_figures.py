@@ -13,8 +13,10 @@ from reportgen.report.context import ReportContext
 from reportgen.report.mechanism_figures import as_large_as_asked, drawing_scale, looks
 from reportgen.report.triad_views import TriadView
 
-TRIALS = np.radians([-20.0, -12.0, -4.0, 4.0, 12.0, 20.0])
-"""Angles (rad) of the first leg from where it is assembled, at which points of the template curve are drawn."""
+TRIALS = np.radians([-15.0, -9.0, -3.0, 3.0, 9.0, 15.0])
+"""Angles (rad) of the plate from where it is assembled, at which points of the template curve are drawn."""
+CLOSE = 1e-9
+"""Relative distance within which a joint is on its arc."""
 BETWEEN = 61
 """Points of the template curve itself."""
 
@@ -47,8 +49,8 @@ def assemblies(report: ReportContext, k: int, group: TriadView) -> FigureScenes:
         scale = drawing_scale(report) * factor
         outer = [report.place(leg.P, k) * scale for leg in group.legs]
         inner = [report.place(leg.Q, k) * scale for leg in group.legs]
-        trials = _placed(outer, inner, TRIALS)
-        path = _placed(outer, inner, np.linspace(TRIALS[0], TRIALS[-1], BETWEEN))[2]
+        trials = placed(outer, inner, TRIALS)
+        path = placed(outer, inner, np.linspace(TRIALS[0], TRIALS[-1], BETWEEN))[2]
         curve = TemplateCurve(outer, inner, trials, path)
         look = looks(report, scale, factor)
         return template_curve(report.machine.linkage, report.analysis.motion, k - 1, scale, curve, look)
@@ -56,13 +58,19 @@ def assemblies(report: ReportContext, k: int, group: TriadView) -> FigureScenes:
     return as_large_as_asked(report, draw)
 
 
-def _placed(outer: list[complex], inner: list[complex], angles: np.ndarray) -> Complexes:
-    """Return the joints of the plate [3, N] with the first leg turned by some angles; unreachable ones are left out."""
+def placed(outer: list[complex], inner: list[complex], angles: np.ndarray) -> Complexes:
+    """Return the joints of the plate [3, N] with the plate turned by some angles and the first two on their arcs.
+
+    Angles at which the first two legs do not reach are left out.
+    """
     d, e, f = inner
-    first = outer[0] + (d - outer[0]) * np.exp(1j * angles)
-    side = 1 if ((outer[1] - d).conjugate() * (e - d)).imag > 0 else -1
+    turn = np.exp(1j * angles)
+    # Seen from the first joint, the second one runs on an arc about a centre moved by the plate's side.
+    centre = outer[1] - (e - d) * turn
+    radii = abs(d - outer[0]), abs(e - outer[1])
+    side = 1 if ((outer[1] - (e - d) - outer[0]).conjugate() * (d - outer[0])).imag > 0 else -1
     with np.errstate(invalid="ignore"):
-        second = circle_circle(first, abs(e - d), outer[1], abs(e - outer[1]), side)
-    third = first + (f - d) / (e - d) * (second - first)
-    places: Complexes = np.array([first, second, third])
-    return places[:, np.isfinite(second)]
+        first = circle_circle(outer[0], radii[0], centre, radii[1], side)
+        reached = np.abs(np.abs(first - centre) - radii[1]) < CLOSE * radii[1]
+    places: Complexes = np.array([first, first + (e - d) * turn, first + (f - d) * turn])
+    return places[:, reached]

@@ -14,6 +14,7 @@ from reportgen.document import Figure, Plate
 from reportgen.report.context import ReportContext
 from reportgen.report.force_figures import separated
 from reportgen.report.plan_figures import force_plan, motion_plan
+from reportgen.report.triad_figures import TRIALS, placed
 
 R1 = """\
 kind: linkage
@@ -92,3 +93,17 @@ def test_links_are_separated_with_their_arms(folder: Path) -> None:
     context = report(folder)
     (group,) = context.triads
     assert len(separated(context, 3, group)) == 4
+
+
+def test_the_template_curve_is_drawn_on_its_arcs(folder: Path) -> None:
+    """At each trial the first two joints keep their rods and the plate its sides; the curve crosses the third arc."""
+    context = report(folder)
+    (group,) = context.triads
+    outer = [context.place(leg.P, 3) for leg in group.legs]
+    inner = [context.place(leg.Q, 3) for leg in group.legs]
+    trials = placed(outer, inner, TRIALS)
+    for centre, joint, places in zip(outer[:2], inner[:2], trials[:2], strict=True):
+        assert np.abs(np.abs(places - centre) - abs(joint - centre)).max() < 1e-12
+    assert np.abs(np.abs(trials[2] - trials[0]) - abs(inner[2] - inner[0])).max() < 1e-12
+    misses = np.abs(trials[2] - outer[2]) - abs(inner[2] - outer[2])
+    assert misses.min() < 0 < misses.max()

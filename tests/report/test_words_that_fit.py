@@ -53,7 +53,17 @@ GUIDE = {
     "zh": "移动副的总反力",
 }
 EXERCISE = {"vi": "Bài tập: ", "en": "Exercise: ", "ru": "Задача: ", "zh": "题目"}
-WORKS = "friction", "rotor", "plane-motion", "engine-balance", "cam", "gear-pair", "planetary-train", "turning-moment", "structure"
+WORKS = (
+    "friction",
+    "rotor",
+    "plane-motion",
+    "engine-balance",
+    "cam",
+    "gear-pair",
+    "planetary-train",
+    "turning-moment",
+    "structure",
+)
 LEVER = "assignments/lever-six-bar-02.yaml"
 """A machine with a spring between two points and a torsion spring."""
 
