@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from reportgen import api
+from reportgen.cases import open_case
 from reportgen.classes.roster import read_roster
 from reportgen.classes.variant_draw import fault_finder
 from reportgen.classes.variant_spec import read_spec
@@ -34,6 +34,6 @@ def test_a_class_of_presses_from_variants_to_marks(put_file: Put) -> None:
     assert (len(result.drawn), result.faults) == (12, ())
     made = make_variants(path, roster, path.parent / "out").files
     assert len({file.text for file in made}) == 12
-    scheme = marking_scheme(api.open_case(made[7].path, "vi"))
+    scheme = marking_scheme(open_case(made[7].path, "vi"))
     marking = mark(scheme, students.sheet(scheme, lambda row, k, value: students.figures(value, 3)))
     assert (marking.points, marking.warnings) == (marking.out_of, ())

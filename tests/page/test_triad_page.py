@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from functools import cache
 
-from reportgen import api
-from reportgen.cases import MachineCase
+from reportgen.cases import MachineCase, open_case
 from reportgen.page.motion_samples import animation
 from reportgen.sheets import drawing_sheets
 from tests.report import built
@@ -15,7 +14,9 @@ PRESS = built.ROOT / "assignments" / "linkage" / "press.yaml"
 
 @cache
 def press() -> MachineCase:
-    return api.open_case(PRESS, "en")
+    case = open_case(PRESS, "en")
+    assert isinstance(case, MachineCase)
+    return case
 
 
 def test_the_page_names_the_group_by_its_four_links() -> None:
