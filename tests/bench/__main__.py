@@ -25,6 +25,8 @@ from .measure import Cost, in_turns, middle, ratio, repeated, run
 
 ROOT = Path(__file__).resolve().parents[2]
 SAMPLE = ROOT / "assignments" / "engine-twin-05.yaml"
+CLASS_III = ROOT / "assignments" / "linkage" / "class-iii.yaml"
+SIX_LINKS = Path(__file__).with_name("six-links.yaml")
 POSITIONS = 3600
 EIGHT_LINKS = ROOT / "assignments" / "linkage-8.yaml"
 RUBBING = 360
@@ -75,6 +77,11 @@ class Bench:
         """One report by the command line, in a cold process."""
         options = ("--out", str(self.folder / engine), "--engine", engine, "--keep-source")
         return run((sys.executable, "-c", BUILD, "build", str(self.file), *options), self.folder, self.installed())
+
+    def written(self, file: Path) -> Cost:
+        """The report of another file by typst, in a cold process."""
+        options = ("--out", str(self.folder / "other"), "--engine", "typst")
+        return run((sys.executable, "-c", BUILD, "build", str(file), *options), self.folder, self.installed())
 
     def drawn(self) -> Cost:
         """All drawing sheets of the usual size, in both formats."""
@@ -132,6 +139,7 @@ class Bench:
         size = self.ask("-m", "tests.bench.size", str(self.file), str(self.report(self.engines[0])))
         tasks: dict[str, Callable[[], Cost]] = {engine: partial(self.build, engine) for engine in self.engines}
         tasks |= {"typst alone": self.typst_alone, "sheets": self.drawn, "solve": self.solved}
+        tasks |= {file.stem: partial(self.written, file) for file in (CLASS_III, SIX_LINKS)}
         passes = 0
         if "latex" in self.engines:
             # From nothing, as nobody has kept page numbers for it.
@@ -147,6 +155,9 @@ class Bench:
             yield from _against_plain(costs, json.loads(size))
         else:
             yield Row("rows with LaTeX, plain script", "", "skipped", "pdflatex is not installed")
+        third, second = costs[CLASS_III.stem], costs[SIX_LINKS.stem]
+        detail = f"{middle(third).seconds:.2f} s, six links of class II {middle(second).seconds:.2f} s"
+        yield Row("report of a group of class III / of class II", "≤ 1.3", f"{ratio(third, second):.2f}", detail)
         count = len(list((self.folder / "sheets" / self.file.stem).glob("*.dxf")))
         yield _per_sheet(middle(costs["sheets"]), middle(costs["solve"]), count)
         solving = ("-m", "tests.bench.solving", str(self.file), str(EIGHT_LINKS), str(POSITIONS), str(RUBBING))
