@@ -125,6 +125,6 @@ def _axial(statics: Statics, triad: Triad, leg: TriadLeg, digits: str, across: l
     )
     # A term for each link, so that the line can be broken between them.
     terms = [-turning / h for turning, _ in parts if turning is not None]
-    terms += [-couple / (h * q["mu.l"]) for _, couples in parts for couple in couples]
+    terms += [-(couple / q["mu.l"]) / h for _, couples in parts for couple in couples]
     size = q.define(ids.reaction(digits, "n"), Sum(tuple(terms)) if terms else 0.0, scale=statics.force)
     q.construct(ids.force_vector(name), size * assumed, of=size.id)
