@@ -208,9 +208,10 @@ def _named(key: Key, text: str) -> tuple[Inlines, Callable[[str], bool]] | None:
     part = next((one for one in key.parts if folded(text) in (folded(one.name), folded(one.title))), None)
     if part is not None:
         return (Text(part.title),), lambda id: key.owner(id) == part.name
-    chapter = next((one for one in headed_chapters() if folded(text) in _titles(one)), None)
+    own: Mapping[str, str] = words_of(key)["parts"]
+    chapter = next((one for one in headed_chapters() if folded(text) in {*_titles(one), folded(own[one])}), None)
     if chapter is not None:
-        return (Text(words_of(key)["parts"][chapter]),), lambda id: key.row(id).part is chapter
+        return (Text(own[chapter]),), lambda id: key.row(id).part is chapter
     return None
 
 

@@ -43,9 +43,12 @@ def grade_rows(
     judged = {marking.key.row(cell.id).part for marking in markings for cell in marking.cells}
     parts = [part for part in KeyChapter if part in judged]
     owners = {part.name: part.title for marking in markings for part in marking.key.parts}
+    # A class of one kind has the headings of its sheets.
+    kinds = {marking.key.kind for marking in markings}
+    titles = _words(search_path(language, kinds.pop()))["parts"] if len(kinds) == 1 and not owners else words["parts"]
     head = (
         *(names[name] for name in ("id", "name", "class", "points", "out_of", "percent", "mark")),
-        *(str(words["parts"][part]) for part in parts),
+        *(str(titles[part]) for part in parts),
         *owners.values(),
         *(
             names[name]

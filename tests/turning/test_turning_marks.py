@@ -9,6 +9,7 @@ import pytest
 from reportgen import api
 from reportgen.base.template_folders import languages
 from reportgen.flywheel import turning_ids as names
+from reportgen.marking.class_marks import grade_rows
 from reportgen.marking.judging import mark
 from reportgen.marking.marking_scheme import marking_scheme
 from reportgen.marking.toleranced_key import Ask
@@ -76,6 +77,13 @@ def test_the_sheet_follows_the_report_and_names_each_quantity() -> None:
             assert row.what
             assert "clockwise" not in row.positive
             assert not row.id.startswith("turning.E.2") or not row.positive
+
+
+def test_the_table_of_a_class_has_the_headings_of_its_sheets() -> None:
+    scheme = marking_scheme(built.case(FOLDER / "curve.yaml", "en"))
+    head, _ = grade_rows([mark(scheme, students.written(scheme, students.worked_out(scheme)))], "en")
+    sections = ["Mean torque and points of intersection", "Areas of the diagram", "Energies", "Flywheel"]
+    assert list(head[7:11]) == sections
 
 
 MISTAKES = [
