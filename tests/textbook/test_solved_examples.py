@@ -127,3 +127,31 @@ def test_torque_that_holds_the_internal_wheel() -> None:
     ).case.ledger
     assert [float(ledger[train_ids.teeth(wheel)].at(1)) for wheel in "13"] == [16, 64]
     assert float(ledger[train_ids.torque("3")].at(1)) == pytest.approx(400)
+
+
+def test_sliding_of_a_pair() -> None:
+    """Khurmi 12.4 and 12.5, p. 399 and 400: 29.43° of the pinion; 3973 and 3610 mm/s at 2000 rpm, 455.3 at 1.2 m/s."""
+    ledger = opened("gear-pair", "m: 5 mm, z1: 20, z2: 40, shifts: {x1: 0, x2: 0}").case.ledger
+    path, base, first, last = (float(ledger[f"gears.{id}"].at(1)) for id in ("g_a", "d_b.1", "rho_p.1", "rho_a.1"))
+    assert path / (base / 2) * DEGREES == pytest.approx(29.43, abs=0.01)
+    pitch = 0.05 * math.sin(math.radians(20))
+    both = 2000 * math.pi / 30 * 1.5
+    assert [both * (pitch - first) * 1e3, both * (last - pitch) * 1e3] == pytest.approx([3973, 3610], abs=1)
+    assert 1.2 / 0.05 * 1.5 * (pitch - first) * 1e3 == pytest.approx(455.3, abs=0.05)
+
+
+def test_contact_of_a_pinion_with_17_teeth() -> None:
+    """Khurmi 12.6, p. 401: 34.6° of the pinion and 12° of the wheel."""
+    ledger = opened("gear-pair", "m: 6 mm, z1: 17, z2: 49, shifts: {x1: 0, x2: 0}").case.ledger
+    path, pinion, wheel = (float(ledger[f"gears.{id}"].at(1)) for id in ("g_a", "d_b.1", "d_b.2"))
+    assert path / (pinion / 2) * DEGREES == pytest.approx(34.6, abs=0.05)
+    assert path / (wheel / 2) * DEGREES == pytest.approx(12, abs=0.05)
+
+
+def test_contact_of_teeth_with_a_short_addendum() -> None:
+    """Khurmi 12.3, p. 398: 30 and 80 teeth, addendum 10 mm for a module of 12 mm: path 52.3 mm, arc 55.61 mm."""
+    ledger = opened("gear-pair", "m: 12 mm, z1: 30, z2: 80, ha: 0.833333333, shifts: {x1: 0, x2: 0}").case.ledger
+    path = float(ledger["gears.g_a"].at(1))
+    assert path * 1e3 == pytest.approx(52.3, abs=0.05)
+    assert path * 1e3 / math.cos(math.radians(20)) == pytest.approx(55.61, abs=0.05)
+    assert float(ledger["gears.epsilon"].at(1)) == pytest.approx(1.5, abs=0.05)
