@@ -1,7 +1,8 @@
 """Published engines: greatest and least forces of V twins by the books' factor A₂ = λ, cylinders that differ.
 
 Sources: Khurmi, Gupta, Theory of Machines, chapter 22 (V twins, four cylinders); books take the first term of each
-factor, which the exact one exceeds by λ²/4 of itself.
+factor, which the exact one exceeds by λ²/4 of itself. Bevan, The Theory of Machines, 3rd edition, chapter 14, as in the
+textbook companion at https://tbc-python.fossee.in.
 """
 
 from __future__ import annotations
@@ -71,3 +72,13 @@ def test_four_cylinders_with_masses_of_their_own() -> None:
     for id in (orders_ids.force(1), orders_ids.couple(1), "orders.U", "orders.U.M"):
         assert sheet.families[id].at(1) == 0
     assert sheet.families[orders_ids.force(2)].at(1) > 0
+
+
+def test_three_cylinders_around_one_crank() -> None:
+    """Bevan 14.12, p. 517: 4 lb each, stroke 5 in, rods 9 in, 1500 rpm: 4.29 lb at 3.5 in and 266 lb."""
+    cylinders = [{"crank": "0 deg", "bank": f"{bank} deg"} for bank in (0, 120, 240)]
+    sheet = calculation(r="63.5 mm", l="228.6 mm", n="1500 rpm", m3="4 kg", cylinders=cylinders)
+    ω, pound = 50 * math.pi, 32.2 * 0.3048
+    assert sheet.si(orders_ids.force(1)) / ω**2 / (3.5 * 0.0254) == pytest.approx(4.29, abs=0.005)
+    λ, exact = sheet.si("orders.lambda"), sheet.si(orders_ids.factor(2))
+    assert sheet.si(orders_ids.force(2)) * λ / exact / pound == pytest.approx(266, abs=0.5)

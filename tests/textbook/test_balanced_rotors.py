@@ -1,7 +1,9 @@
 """Published rotors: static and dynamic balance, a plane that is sought, masses that are sought.
 
 Sources: Norton, Design of Machinery, chapter 12 (static and dynamic balance); Khurmi, Gupta, Theory of Machines,
-chapter 21 (four masses on a shaft; its drawings differ from the exact values by up to 3 %).
+chapter 21 (four masses on a shaft; its drawings differ from the exact values by up to 3 %); Bevan, The Theory of
+Machines, 3rd edition, chapter 14, and Sarkar, Theory of Machines, 2002, chapter 8, with data, answers and pages of
+the textbook companions at https://tbc-python.fossee.in (pounds are written as kg, inches as 25.4 mm).
 """
 
 from __future__ import annotations
@@ -67,3 +69,25 @@ def test_two_masses_of_four() -> None:
     assert sheet.si(ids.mass("2")) == pytest.approx(3.5 * math.sqrt(3))
     assert sheet.si(ids.mass("A")) == pytest.approx(5, rel=0.03)
     assert degrees(sheet, "A") == pytest.approx(205, abs=2)
+
+
+def test_four_masses_in_one_plane() -> None:
+    """Bevan 14.2, p. 491: 57.9 lb at 24 in, opposite to 23.28°; Sarkar 8.1, p. 221: 8.1 kg at 100 mm, 267.5°."""
+    masses: list[tuple[str, float, float, float]]
+    masses = [("200 kg", 228.6, 0, 0), ("300 kg", 177.8, 45, 0), ("240 kg", 254, 120, 0), ("260 kg", 304.8, 255, 0)]
+    sheet = calculation(masses, planes={"A": "0 mm"}, correction={"r": "609.6 mm"})
+    assert sheet.si(ids.mass("A")) == pytest.approx(57.9, abs=0.05)
+    assert degrees(sheet, "A") == pytest.approx(180 + 23.28, abs=0.01)
+    masses = [("12 kg", 40, 0, 0), ("10 kg", 50, 60, 0), ("18 kg", 60, 130, 0), ("15 kg", 30, 270, 0)]
+    sheet = calculation(masses, planes={"A": "0 mm"}, correction={"r": "100 mm"})
+    assert sheet.si(ids.mass("A")) == pytest.approx(8.1, abs=0.05)
+    assert degrees(sheet, "A") == pytest.approx(267.5, abs=0.05)
+
+
+@pytest.mark.parametrize(("place", "near", "far", "side"), [(-254, 144, 24, 0), (254, 96, 24, 180)])
+def test_one_mass_and_two_planes(place: int, near: int, far: int, side: int) -> None:
+    """Bevan 14.1, p. 491: 200 lb at 9 in, 10 in outside or inside the first of two planes 50 in apart."""
+    masses = [("200 kg", 9 * 25.4, 0.0, float(place))]
+    sheet = calculation(masses, planes={"A": "0 mm", "B": "1270 mm"}, correction={"r": "381 mm"})
+    assert [sheet.si(ids.mass(plane)) for plane in "AB"] == pytest.approx([near, far])
+    assert [degrees(sheet, plane) for plane in "AB"] == pytest.approx([180, side])
