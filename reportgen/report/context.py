@@ -87,11 +87,8 @@ class ReportContext:
     def groups(self) -> tuple[GroupView | TriadView, ...]:
         """The groups in the order of assembly."""
         plan, polygons = scheme(self.machine.linkage), self.case.polygons
-        shared = plan, self.driver, polygons, self.ledger
-        return tuple(
-            TriadView(group, *shared) if isinstance(group, Triad) else GroupView(group, *shared)
-            for group in self.machine.linkage.groups
-        )
+        of, shared = self.machine.linkage.groups, (plan, self.driver, polygons, self.ledger)
+        return tuple(TriadView(g, *shared) if isinstance(g, Triad) else GroupView(g, *shared) for g in of)
 
     @property
     def dyads(self) -> tuple[GroupView, ...]:
