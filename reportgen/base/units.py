@@ -370,9 +370,9 @@ def by_power_of_ten(value: float, decimals: int | None) -> PowerOfTen | None:
     number = Decimal(repr(float(value)))
     if decimals is not None:
         number = Decimal(repr(rounded(float(value), decimals))).quantize(Decimal(1).scaleb(-decimals))
-    if number == 0:
-        return None
     exponent = number.adjusted()
+    if number == 0 or exponent == 0:
+        return None
     kept = None if fixed or decimals is None else exponent + decimals
     return PowerOfTen(float(number.scaleb(-exponent)), kept, exponent)
 
