@@ -166,7 +166,8 @@ def test_segments_of_force_plans_are_those_printed(name: str) -> None:
     ledger, words, measured = case.printed, case.words["figure"], 0
     for head, plan in scenes(name, False, "forces"):
         k = position(name, head)
-        called = {words["group"].format(i=one.name[0], j=one.name[1]): one.name for one in case.polygons[:-1]}
+        names = [polygon.name for polygon in case.polygons[:-1]]
+        called = {words["group"].format(links=words["between_links"].join(name)): name for name in names}
         group = next((one for place, one in called.items() if any(place in text for text in head.texts)), "1")
         for id, family in ledger.families.items():
             if (found := ids.force_segment.read(id)) and found["group"] == group:
