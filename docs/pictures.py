@@ -55,7 +55,7 @@ SHOWN = {
     "engine-balance": ROOT / "assignments" / "engine-balance" / "v-six.yaml",
     "turning-moment": ROOT / "assignments" / "turning-moment" / "curve.yaml",
     "structure": ROOT / "assignments" / "structure" / "class-three.yaml",
-    "linkage-press": ROOT / "assignments" / "linkage" / "press.yaml",
+    "linkage-press": ROOT / "assignments" / "linkage" / "press-class-iii.yaml",
 }
 """What the README shows of kinds with a folder of their own."""
 LAID_OUT = ROOT / "assignments" / "four-bar-01.yaml"

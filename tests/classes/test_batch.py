@@ -93,6 +93,11 @@ def test_files_are_matched_by_id_whatever_the_spelling(tmp_path: Path) -> None:
     assert done.exit_code == 0
 
 
+def test_the_examples_can_be_the_files_of_a_class() -> None:
+    stems = sorted(file.stem for file in (ROOT / "assignments").rglob("*.yaml"))
+    assert stems == sorted(set(stems))
+
+
 @pytest.mark.parametrize("second", ["K1.yml", "sub/K1.yaml", "k1.YAML"])
 def test_two_files_of_one_stem_are_a_fault(tmp_path: Path, second: str) -> None:
     batch = Batch(tmp_path, {"K1": "seconds: 0"})

@@ -14,7 +14,7 @@ from reportgen.marking.marking_scheme import marking_scheme
 from tests.classes.specs import ROOT, Put, draw, ids
 from tests.marking import students
 
-PRESS = ROOT / "assignments" / "linkage" / "press.yaml"
+PRESS = ROOT / "assignments" / "linkage" / "press-class-iii.yaml"
 DRAWN = {
     "variant: 6": "salt: press",
     "n: 90 rpm": "n: {from: 60 rpm, to: 90 rpm, step: 5 rpm}",

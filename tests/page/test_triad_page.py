@@ -9,7 +9,7 @@ from reportgen.page.motion_samples import animation
 from reportgen.sheets import drawing_sheets
 from tests.report import built
 
-PRESS = built.ROOT / "assignments" / "linkage" / "press.yaml"
+PRESS = built.ROOT / "assignments" / "linkage" / "press-class-iii.yaml"
 
 
 @cache
