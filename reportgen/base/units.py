@@ -63,6 +63,7 @@ PLAIN: Mapping[str, tuple[float, Dimension]] = {
     "N/cm2": (1e4, _PRESSURE),
     "kg m2": (1.0, _INERTIA),
     "N m": (1.0, _MOMENT),
+    "kN m": (1e3, _MOMENT),
     "s": (1.0, _TIME),
     "m/s": (1.0, _VELOCITY),
     "cm/s": (1e-2, _VELOCITY),

@@ -38,6 +38,8 @@ MOST_PARAMETERS = 40
 FIGURES = 6
 """Significant figures of a calculated value: it is printed with all its figures and used as printed."""
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9]{0,19}")
+_SUM = re.compile(r"\s[-+\N{MINUS SIGN}]\s")
+"""The sign of a sum, which no unit has."""
 _FRACTIONS = frozenset({"s", "height"})
 """Lists of pure numbers beside others in the `unit` of their table."""
 _SECTION = "linkage"
@@ -339,6 +341,8 @@ def _schemas(base: Kind, where: Where) -> list[Schema]:
 
 def _is_literal(text: str, unit: str, is_number: bool, known: frozenset[str]) -> bool:
     """Return True for a text that is a value, perhaps a faulty one, rather than a formula."""
+    if _SUM.search(text):
+        return False
     try:
         read_ratio(text) if is_number or not unit else read_quantity(text, unit)
     except QuantityFault as problem:
