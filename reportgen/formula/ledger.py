@@ -230,18 +230,20 @@ class Ledger:
                     return Sum(tuple(_negated(term) for term in inner.terms))
                 return _negated(inner)
             case Product(factors):
-                minus = sum(
-                    isinstance(factor, Ref)
-                    and self.families[factor.id].arm
-                    and float(self.families[factor.id].at(position).real) < 0
-                    for factor in factors
-                )
+                minus = sum(self._is_negative_arm(factor, position) for factor in factors)
                 product = Product(tuple(self._signs_out(factor, position) for factor in factors))
                 return Negative(product) if minus % 2 else product
+            case Fraction(top, Ref() as bottom) if self._is_negative_arm(bottom, position):
+                return _negated(Fraction(self._signs_out(top, position), bottom))
             case Call("branch", (Ref(id), *branches)):
                 return self._signs_out(branches[int(self.families[id].at(position))], position)
             case _:
                 return rebuild(node, lambda child: self._signs_out(child, position))
+
+    def _is_negative_arm(self, factor: Expression, position: int | None) -> bool:
+        if not isinstance(factor, Ref) or not self.families[factor.id].arm:
+            return False
+        return float(self.families[factor.id].at(position).real) < 0
 
     def _is_nothing(self, term: Expression, position: int | None) -> bool:
         return any(self.families[id].optional and self.families[id].at(position) == 0 for id in refs(term))

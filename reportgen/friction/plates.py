@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from reportgen.drawing.vector_plan import plan
 from reportgen.friction import views
+from reportgen.friction.force_plans import force_plan_with_friction
 from reportgen.sheets.plate_sources import Drawn, Sources
 from reportgen.sheets.topic_plates import PlateHooks
 
@@ -27,7 +28,7 @@ def _friction_plans(sources: Sources) -> Iterator[Drawn]:
         polygons = [(sources.called(group), group.polygon) for group in reversed(report.groups)]
         for called, polygon in (*polygons, (str(report.words["figure"]["driver"]), report.driver_polygon)):
             if polygon is not None:
-                scene = plan(views.force_plan_with_friction(small, polygon, k))
+                scene = plan(force_plan_with_friction(small, polygon, k))
                 yield Drawn("friction-plan", "forces", (scene,), (sources.place(k, called),))
 
 

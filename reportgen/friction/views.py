@@ -5,12 +5,10 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 
 from reportgen.base.template_access import view
-from reportgen.base.units import MM
-from reportgen.derivation.load_entries import Edge, Polygon
 from reportgen.document import FIRST_COLUMN, Column, Inlines, Table, Text
 from reportgen.document.figure_placement import FigureScenes, beside_one_another, on_paper
 from reportgen.document.tables import side_by_side
@@ -22,9 +20,10 @@ from reportgen.drawing.force_drawings import Force, draw_forces
 from reportgen.drawing.geometry import polar
 from reportgen.drawing.labels import label
 from reportgen.drawing.scheme import mechanism, skeleton
-from reportgen.drawing.vector_plan import SAME_POINT, Plan, PlanPoint, PlanVector, plan
+from reportgen.drawing.vector_plan import plan
 from reportgen.formula import Number, Symbol, ids, vocabulary
 from reportgen.friction import friction_ids
+from reportgen.friction.force_plans import force_plan_with_friction
 from reportgen.friction.joints import FrictionForces, friction_of, relative_sense, with_friction
 from reportgen.friction.ledger import RubbingJoint, rubbing_joints
 from reportgen.friction.tilting import FaceForce, Leaning, any_tilts, at_both_ends, face_forces, leaning_forces, tilting
@@ -34,7 +33,6 @@ from reportgen.report import template_equations
 from reportgen.report.context import ReportContext
 from reportgen.report.link_views import GroupView
 from reportgen.report.mechanism_figures import as_large_as_asked, drawing_scale, looks
-from reportgen.report.plan_figures import force_plan
 from reportgen.report.quantity_tables import QuantityTable, RowTable, bare
 from reportgen.report.slider_faces import face
 from reportgen.report.topic_views import Passages, ViewHooks
@@ -43,8 +41,6 @@ ENLARGED = 8.0
 """Largest radius (mm) of an enlarged friction circle."""
 REACH = 22.0
 """Length (mm) by which the lines of forces are drawn beyond their joints."""
-CLOSING = "n"
-"""The corner that closes a force plan."""
 ENLARGEMENTS = (2.0, 2.5, 4.0, 5.0, 10.0, 20.0, 25.0, 40.0, 50.0, 100.0, 200.0, 500.0, 1000.0)
 
 
@@ -376,68 +372,6 @@ def force_plan_of_driver(report: ReportContext, k: int) -> FigureScenes:
     """Return the force plan of the driver with friction over the one without."""
     assert report.driver_polygon is not None
     return on_paper(plan(force_plan_with_friction(report, report.driver_polygon, k)))
-
-
-def force_plan_with_friction(report: ReportContext, polygon: Polygon, k: int) -> Plan:
-    """Return the plan without friction, with whole reactions, and the plan with friction where it differs.
-
-    Both have the same loads; reactions from other groups and those that close the plan include friction in the second.
-    """
-    drawing, μ = force_plan(report, polygon, k), float(report.ledger[ids.force_scale(polygon.name)].at(k))
-    per_newton = MM / μ / report.enlarged
-    known = [edge for edge in polygon.edges if not edge.unknown and not edge.part]
-    closing = _closing(polygon)
-    named = {vector.name: vector for vector in drawing.vectors}
-    corners: dict[str, complex] = {}
-    vectors = []
-    for edge in (*known, *closing):
-        vectors.append(named[edge.start + edge.end])
-        corners |= {edge.start: vectors[-1].start, edge.end: vectors[-1].end}
-    at = first = corners[closing[-1].end]
-    moved: list[PlanVector[complex]] = []
-    points: list[PlanPoint[complex]] = []
-    for edge in (*known, *closing):
-        if edge is closing[-1]:
-            end = first
-        elif edge.is_reaction:
-            end = at + _with_friction(report, edge.name, k) * per_newton
-        else:
-            end = at + corners[edge.end] - corners[edge.start]
-        if abs(at - corners[edge.start]) > SAME_POINT or abs(end - corners[edge.end]) > SAME_POINT:
-            digits = edge.name.removeprefix("R")
-            symbol = report.named(Symbol("R", digits, "fr", "vector"))
-            # A load gets its name at its new place in the plan with friction.
-            vector = symbol if edge.is_reaction else report.force_vector(edge.name)
-            name = f"{edge.start}{edge.end}.fr"
-            moved.append(PlanVector(name, at, end, "relative", vector, lettered=not edge.is_reaction))
-            if end != first:
-                points.append(PlanPoint(Symbol(edge.end, sup="′"), end))
-        at = end
-    kept = {corners[letter] for letter in corners}
-    return replace(
-        drawing, vectors=(*vectors, *moved), points=(*(point for point in drawing.points if point.at in kept), *points)
-    )
-
-
-def _closing(polygon: Polygon) -> list[Edge]:
-    """Return the whole reactions that close a plan, head to tail from the end of its loads."""
-    edges = [edge for edge in (*polygon.edges, *polygon.reads) if edge.unknown and not edge.part]
-    loads = [edge for edge in polygon.edges if not edge.unknown and not edge.part]
-    # Without loads the reaction in the outer joint, which leads to the closing corner, begins where the plan does.
-    begin = next((edge.start for edge in edges if edge.end == CLOSING), "")
-    at, first = (loads[-1].end, loads[0].start) if loads else (begin, begin)
-    path: list[Edge] = []
-    while not path or at != first:
-        path.append(next(edge for edge in edges if edge.start == at and edge not in path))
-        at = path[-1].end
-    return path
-
-
-def _with_friction(report: ReportContext, name: str, k: int) -> complex:
-    """Return a reaction by its name (N), with the force of friction in its guide."""
-    solved = _solved_friction(report)
-    rubbing = sum(complex(load.force[k - 1]) for load in solved.loads if load.name == name)
-    return complex(solved.forces.reactions[name].force[k - 1]) + rubbing
 
 
 VALUES: Mapping[str, Callable[[ReportContext], object]] = {

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from books import MACHINES, RATE, keep
+from made_triads import R1
 
 from reportgen.formula.rounded_ledger import printed
 from tests.lanes import matrix
@@ -22,6 +23,17 @@ DEAD = np.radians([90.0, 270.0])
 def test_every_kind_recomputes(name: str, turn: int) -> None:
     ledger = printed(keep(MACHINES[name], turn * np.append(ROUND, DEAD), turn).ledger())
     lines = trees.lines(trees.every_chain(ledger), "en")
+    assert len(lines) > 200
+    assert misses(lines) == []
+
+
+def test_a_group_of_class_iii_recomputes() -> None:
+    """The arm by which the moments about the special point are divided is negative: all signs change."""
+    book = keep(R1, ROUND[:4], 1, (), ((4, 60.0),))
+    arms = [family for id, family in book.b.families.items() if id.startswith("h.R0") and ".n." in id]
+    assert arms
+    assert all((family.values < 0).all() for family in arms)
+    lines = trees.lines(trees.every_chain(printed(book.ledger())), "en")
     assert len(lines) > 200
     assert misses(lines) == []
 

@@ -15,6 +15,7 @@ from reportgen.document import text_of
 from reportgen.drawing import Circle, Label, Scene
 from reportgen.formula import Symbol
 from reportgen.friction import views as friction
+from reportgen.friction.force_plans import force_plan_with_friction
 from reportgen.friction.joints import relative_sense, with_friction
 from reportgen.friction.tilting import face_forces
 from reportgen.report.context import ReportContext
@@ -85,7 +86,7 @@ def test_the_plans_with_friction_close(file: Path) -> None:
     report, k = report_of(file)
     for group in report.groups:
         assert group.polygon is not None
-        plan = friction.force_plan_with_friction(report, group.polygon, k)
+        plan = force_plan_with_friction(report, group.polygon, k)
         moved = [vector for vector in plan.vectors if vector.name.endswith(".fr")]
         assert moved, group.name
         for earlier, later in pairwise(moved):
@@ -99,6 +100,27 @@ def test_the_plans_with_friction_close(file: Path) -> None:
             + sum(complex(load.force[k - 1]) for load in solved.loads if load.name == name)
         )
         assert closing.length == pytest.approx(force / μ * MM, abs=RULER)
+
+
+def test_the_plan_of_a_class_iii_group_has_all_its_outer_reactions(tmp_path: Path) -> None:
+    """With and without friction, the vectors go head to tail through the reaction of the third leg, and close."""
+    file = tmp_path / "press.yaml"
+    text = (ROOT / "linkage" / "press-class-iii.yaml").read_text(encoding="utf-8")
+    pins = ", ".join(f"{name}: {{f: 0.1, r: 10 mm}}" for name in "OABCDEF")
+    file.write_text(text.replace("  declared:", f"  friction: {{pins: {{{pins}}}}}\n  declared:"), encoding="utf-8")
+    report, k = report_of(file)
+    (group,) = report.triads
+    assert group.polygon is not None
+    plan = force_plan_with_friction(report, group.polygon, k)
+    with_it = [vector for vector in plan.vectors if vector.name.endswith(".fr")]
+    without = [vector for vector in plan.vectors if vector not in with_it]
+    for vectors in (without, with_it):
+        for earlier, later in pairwise(vectors):
+            assert abs(earlier.end - later.start) < RULER
+    assert abs(without[-1].end - without[0].start) < RULER
+    solved = with_friction(report.analysis)
+    μ = float(report.ledger[f"mu.R{group.polygon.name}"].at(k))
+    assert with_it[-1].length == pytest.approx(abs(solved.forces.reactions["R12"].force[k - 1]) / μ * MM, abs=RULER)
 
 
 def test_the_reaction_of_a_guide_leans_by_the_angle_of_friction() -> None:
