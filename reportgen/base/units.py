@@ -372,7 +372,7 @@ def by_power_of_ten(value: float, decimals: int | None) -> PowerOfTen | None:
     if decimals is not None:
         number = Decimal(repr(rounded(float(value), decimals))).quantize(Decimal(1).scaleb(-decimals))
     exponent = number.adjusted()
-    if number == 0 or exponent == 0:
+    if number == 0 or (exponent == 0 and decimals is not None):
         return None
     kept = None if fixed or decimals is None else exponent + decimals
     return PowerOfTen(float(number.scaleb(-exponent)), kept, exponent)
