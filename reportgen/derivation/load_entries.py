@@ -262,8 +262,8 @@ def arm(statics: Statics, load: LoadOn, centre: str) -> Ref:
     return q.define(id, drawn, letters, arm=True, of=load.name, about=centre, scale=statics.span)
 
 
-def moments(statics: Statics, loads: Iterable[LoadOn], centre: str) -> Expression | None:
-    """Return the sum of moments (N·m) about a point as it is printed: (ΣF·h)·μ_l, and couples; None without moments."""
+def moment_terms(statics: Statics, loads: Iterable[LoadOn], centre: str) -> tuple[list[Expression], list[Expression]]:
+    """Return the products of forces and their arms about a point, and the couples (N·m)."""
     terms: list[Expression] = []
     couples: list[Expression] = []
     for load in loads:
@@ -274,6 +274,12 @@ def moments(statics: Statics, loads: Iterable[LoadOn], centre: str) -> Expressio
             terms.append(load.size * arm(statics, load, centre))
             if couple is not None:
                 couples.append(lone_couple(statics, load))
+    return terms, couples
+
+
+def moments(statics: Statics, loads: Iterable[LoadOn], centre: str) -> Expression | None:
+    """Return the sum of moments (N·m) about a point as it is printed: (ΣF·h)·μ_l, and couples; None without moments."""
+    terms, couples = moment_terms(statics, loads, centre)
     if not terms:
         return Sum(tuple(couples)) if couples else None
     turned = Sum(tuple(terms)) * statics.q["mu.l"]

@@ -17,9 +17,8 @@ from reportgen.derivation.load_entries import (
     Origin,
     Polygon,
     Statics,
-    arm,
     force_plan,
-    lone_couple,
+    moment_terms,
     read,
     tangential,
 )
@@ -90,16 +89,7 @@ def _tangential(statics: Statics, leg: TriadLeg, digits: str) -> LoadOn:
 
 def _share(statics: Statics, loads: Iterable[LoadOn], centre: str) -> tuple[Expression | None, list[Expression]]:
     """Return the sum of forces times their arms about a point for the loads on one link, and the couples (N·m)."""
-    terms: list[Expression] = []
-    couples: list[Expression] = []
-    for load in loads:
-        couple = statics.couple(load)
-        if not load.point:
-            couples.append(load.size)
-        elif load.point != centre or couple is not None:
-            terms.append(load.size * arm(statics, load, centre))
-            if couple is not None:
-                couples.append(lone_couple(statics, load))
+    terms, couples = moment_terms(statics, loads, centre)
     return Sum(tuple(terms)) if terms else None, couples
 
 

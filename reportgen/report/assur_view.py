@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Iterable, Mapping
 from typing import Any
 
@@ -31,7 +32,7 @@ from reportgen.report.driver_view import DriverView, points_on
     ),
     *("pulls_across", "across_by_moments", "components", "last_known"),
 )
-class AssurView:
+class AssurView(ABC):
     """What the views of all Assur groups have in common: links, points, force plan.
 
     `turns` are the sides whose point turns with a link of the group; `scale` is the id of the scale of the force plan;
@@ -75,9 +76,9 @@ class AssurView:
         return str(words["group"]).format(links=str(words["between_links"]).join(map(str, self.links)))
 
     @property
+    @abstractmethod
     def moving(self) -> tuple[Side, ...]:
         """The sides with a moving base whose vectors begin its plans."""
-        raise NotImplementedError
 
     def _in_order(self, *quantities: str) -> list[str]:
         """Return the ids that exist, each after those that its definition refers to."""
@@ -120,14 +121,14 @@ class AssurView:
     # --- forces
 
     @property
+    @abstractmethod
     def tangential(self) -> list[str]:
         """Ids of the components across links that moments give."""
-        raise NotImplementedError
 
     @property
+    @abstractmethod
     def by_moments(self) -> list[str]:
         """Ids of the signed parts of reactions that moments give before the force plan."""
-        raise NotImplementedError
 
     @property
     def pulls_across(self) -> bool:

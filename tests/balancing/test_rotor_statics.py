@@ -17,6 +17,7 @@ from reportgen.base.errors import AssignmentError
 from reportgen.cases import opened
 from reportgen.document import text_of
 from reportgen.formula.array_evaluation import model
+from reportgen.formula.calculation import Calculation
 from tests.report import built
 
 FOLDER = Path(__file__).parents[2] / "assignments" / "rotor"
@@ -52,7 +53,7 @@ def test_the_reference_rotor_in_one_plane() -> None:
 COUNTS, EACH = (1, 2, 3, 5, 8), 200
 
 
-def sheet_of(count: int, **more: object):  # type: ignore[no-untyped-def]
+def sheet_of(count: int, **more: object) -> Calculation:
     """The sheet of some rotor of so many masses; its numbers do not matter."""
     masses = [{"m": "1 kg", "r": f"{50 + k} mm", "angle": f"{37 * k} deg", "z": f"{60 * k} mm"} for k in range(count)]
     given = {"planes": {"A": "30 mm", "B": "500 mm"}, "masses": masses, "correction": {"r": "80 mm"}}

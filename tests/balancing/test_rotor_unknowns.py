@@ -15,9 +15,11 @@ from reportgen.balancing.rotor_case import RotorCase
 from reportgen.balancing.rotor_drawings import moments_plan, unbalance_plan
 from reportgen.balancing.rotor_file import Parameters
 from reportgen.base.template_folders import languages
+from reportgen.base.units import Language
 from reportgen.cases import open_case
 from reportgen.document import Table, Text
 from reportgen.formula.array_evaluation import model
+from reportgen.formula.calculation import Calculation
 from reportgen.marking.judging import mark
 from reportgen.marking.marking_scheme import marking_scheme
 from reportgen.marking.toleranced_key import Ask, key_of
@@ -53,15 +55,15 @@ MANY = 250
 """Random rotors of each kind."""
 
 
-def case_of(name: str, folder: Path, language: str = "en") -> RotorCase:
+def case_of(name: str, folder: Path, language: Language = "en") -> RotorCase:
     file = folder / f"{name}.yaml"
     file.write_text(TEXTS[name], encoding="utf-8")
-    case = open_case(file, language)  # type: ignore[arg-type]
+    case = open_case(file, language)
     assert isinstance(case, RotorCase)
     return case
 
 
-def sheet_of(text: dict[str, object]):  # type: ignore[no-untyped-def]
+def sheet_of(text: dict[str, object]) -> Calculation:
     return RotorCalculation(Parameters.model_validate(text)).written()
 
 

@@ -22,7 +22,7 @@ from reportgen.marking.mistakes import Mistake
 from reportgen.marking.student_values import ChangeValue
 from tests.lanes import matrix
 from tests.marking import students
-from tests.marking.designs import STUDENTS, drawn_class, graded_class, named, telling_and_texts
+from tests.marking.designs import STUDENTS, check_named, drawn_class, graded_class, telling_and_texts
 from tests.report import built
 
 FOLDER = Path(__file__).parents[2] / "assignments" / "gears"
@@ -179,12 +179,7 @@ def test_another_way_stands_on_nothing_that_stands_on_its_result() -> None:
 
 @pytest.mark.parametrize(("name", "mistake", "where"), MISTAKES, ids=lambda one: str(one))
 def test_the_usual_mistakes_have_names(name: str, mistake: str, where: tuple[str, ...]) -> None:
-    scheme = marking_scheme(built.case(FOLDER / f"{name}.yaml", "en"))
-    sheet = students.written(scheme, students.worked_out(scheme, named(scheme, mistake, *where)))
-    first = mark(scheme, sheet).first_errors
-    assert first
-    assert {cell.mistake for cell in first} == {mistake}
-    assert {cell.id for cell in first} <= set(where)
+    check_named(FOLDER / f"{name}.yaml", mistake, where)
 
 
 def test_mistakes_have_words_in_both_languages() -> None:

@@ -13,7 +13,7 @@ from reportgen.marking.judging import mark
 from reportgen.marking.marking_scheme import marking_scheme
 from reportgen.marking.mistakes import Mistake
 from tests.marking import students
-from tests.marking.designs import STUDENTS, drawn_class, graded_class, named, telling_and_texts, with_ranges
+from tests.marking.designs import STUDENTS, check_named, drawn_class, graded_class, telling_and_texts, with_ranges
 from tests.report import built
 
 FOLDER = Path(__file__).parents[2] / "assignments" / "gears"
@@ -73,12 +73,7 @@ MISTAKES = [
 
 @pytest.mark.parametrize(("name", "mistake", "where"), MISTAKES, ids=lambda one: str(one))
 def test_the_usual_mistakes_have_names(name: str, mistake: str, where: tuple[str, ...]) -> None:
-    scheme = marking_scheme(built.case(FOLDER / f"{name}.yaml", "en"))
-    sheet = students.written(scheme, students.worked_out(scheme, named(scheme, mistake, *where)))
-    first = mark(scheme, sheet).first_errors
-    assert first
-    assert {cell.mistake for cell in first} == {mistake}
-    assert {cell.id for cell in first} <= set(where)
+    check_named(FOLDER / f"{name}.yaml", mistake, where)
 
 
 @pytest.mark.parametrize("goes_on", [True, False])

@@ -15,11 +15,13 @@ from reportgen.classes import class_marking
 from reportgen.classes.class_marking import Graded
 from reportgen.classes.variants import make_variants
 from reportgen.formula.evaluation import evaluate
+from reportgen.marking.judging import mark
 from reportgen.marking.marking_policy import Policy
 from reportgen.marking.marking_scheme import MarkingScheme, marking_scheme
 from reportgen.marking.mistakes import Mistake
 from reportgen.marking.toleranced_key import key_of
 from tests.marking import demo, students
+from tests.report import built
 
 STUDENTS = 12
 
@@ -66,6 +68,16 @@ def named(scheme: MarkingScheme, name: str, *where: str) -> Mistake:
                 changes[id] = lambda _, __, read=values: read
     assert changes, name
     return Mistake(name, where[0], changes)
+
+
+def check_named(file: Path, mistake: str, where: tuple[str, ...]) -> None:
+    """Check that marking names a mistake made in some quantities, and only there."""
+    scheme = marking_scheme(built.case(file, "en"))
+    sheet = students.written(scheme, students.worked_out(scheme, named(scheme, mistake, *where)))
+    first = mark(scheme, sheet).first_errors
+    assert first
+    assert {cell.mistake for cell in first} == {mistake}
+    assert {cell.id for cell in first} <= set(where)
 
 
 def telling_and_texts(file: Path) -> tuple[list[str], list[str]]:

@@ -17,7 +17,7 @@ from reportgen.results.result_files import result_rows
 from reportgen.structure import structure_ids as names
 from reportgen.structure.structure_solution import formula_of
 from tests.marking import students
-from tests.marking.designs import named
+from tests.marking.designs import check_named
 from tests.report import built
 
 FOLDER = Path(__file__).parents[2] / "assignments" / "structure"
@@ -104,12 +104,7 @@ MISTAKES = [
 
 @pytest.mark.parametrize(("name", "mistake", "where"), MISTAKES, ids=lambda one: str(one))
 def test_the_usual_mistakes_have_names(name: str, mistake: str, where: tuple[str, ...]) -> None:
-    scheme = marking_scheme(built.case(FOLDER / f"{name}.yaml", "en"))
-    sheet = students.written(scheme, students.worked_out(scheme, named(scheme, mistake, *where)))
-    first = mark(scheme, sheet).first_errors
-    assert first
-    assert {cell.mistake for cell in first} == {mistake}
-    assert {cell.id for cell in first} <= set(where)
+    check_named(FOLDER / f"{name}.yaml", mistake, where)
 
 
 @pytest.mark.parametrize("file", FILES, ids=lambda file: file.stem)
