@@ -170,6 +170,7 @@ def application(site: Site) -> Starlette:
         if site.prepares:
             handed.begin(handed.prepare_all(site))
         yield
+        await handed.end()
         site.queue.close()
         site.database.close()
 

@@ -38,6 +38,8 @@ VALUED = frozenset({"queued", "read"})
 """States of uploads that have values, or may have."""
 AGAIN = 30.0
 """Seconds until a file that the disk did not take is written again."""
+ENDING = 2.0
+"""Seconds that a server waits at its end for tasks that are not finished."""
 _running: set[asyncio.Task[None]] = set()
 """Tasks that are not finished: the loop itself would forget them."""
 
@@ -60,6 +62,13 @@ def begin(task: Any) -> None:
     running = asyncio.get_running_loop().create_task(task)
     _running.add(running)
     running.add_done_callback(_running.discard)
+
+
+async def end() -> None:
+    """Wait for the tasks of this loop: a thread would write on after its task is cancelled."""
+    loop = asyncio.get_running_loop()
+    if tasks := [task for task in _running if task.get_loop() is loop]:
+        await asyncio.wait(tasks, timeout=ENDING)
 
 
 async def prepare_all(site: Site) -> None:

@@ -5,9 +5,11 @@ from __future__ import annotations
 import datetime
 import sqlite3
 import threading
+import time
 from collections.abc import Iterator
 from contextlib import closing
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -180,6 +182,23 @@ def test_a_copy_of_a_class_in_use_can_be_served(served: Served, tmp_path: Path) 
         assert [upload["name"] for upload in again["uploads"]] == ["photo.jpg"]
         # The links are those that were handed out.
         assert copy.site.link("S1") == served.site.link("S1")
+
+
+def test_a_server_ends_when_an_upload_is_settled(
+    made_class: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    settle = Store.settle_upload
+
+    def settle_late(store: Store, *settled: Any) -> None:
+        time.sleep(0.3)
+        settle(store, *settled)
+
+    monkeypatch.setattr(Store, "settle_upload", settle_late)
+    with Served.copied(made_class, tmp_path / "class") as served:
+        served.person("S1").upload("photo.jpg", b"a photo of An")
+    database = Database(served.folder.server)
+    assert [row.state for row in Store(database).uploads()] == ["kept"]
+    database.close()
 
 
 def test_what_is_forgotten_names_nobody(made_class: Path, tmp_path: Path) -> None:
