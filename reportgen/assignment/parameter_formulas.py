@@ -66,11 +66,11 @@ class FormulaError(ValueError):
 
 @dataclass(frozen=True, slots=True)
 class Formula:
-    """A parsed formula: its text, its tree, the values of its quantities, and the names of its parameters."""
+    """A parsed formula: its text, its tree, its quantities as typed, and the names of its parameters."""
 
     text: str
     tree: ast.expr
-    constants: Mapping[str, Amount]
+    constants: Mapping[str, Given]
     names: tuple[str, ...]
 
     @property
@@ -95,7 +95,7 @@ class Formula:
             case ast.Constant(value=int(number) | float(number)):
                 return Amount(float(number))
             case ast.Name(id=name):
-                return self.constants[name] if name in self.constants else parameters[name]
+                return Amount.of(self.constants[name]) if name in self.constants else parameters[name]
             case ast.UnaryOp(op=op, operand=inner):
                 value = self._value(inner, parameters)
                 return Amount(-value.si, value.dimension) if isinstance(op, ast.USub) else value
@@ -132,12 +132,11 @@ def formula(text: str, known: frozenset[str]) -> Formula:
     if len(text) > LONGEST_FORMULA or not _LETTERS.fullmatch(text):
         raise FormulaError("formula-syntax", text=text)
     plain = "".join(_SIGNS.get(letter, letter) for letter in text.strip())
-    constants: dict[str, Amount] = {}
+    constants: dict[str, Given] = {}
 
     def named(match: re.Match[str]) -> str:
-        factor, dimension = scale(match[2])
-        name = f"_{len(constants)}"
-        constants[name] = Amount(float(match[1]) * factor, dimension)
+        value, name = float(match[1]), f"_{len(constants)}"
+        constants[name] = Given(value * scale(match[2])[0], value, match[2], match[0])
         return name
 
     try:

@@ -26,10 +26,10 @@ from reportgen.base.words import as_error
 from reportgen.base.yaml_source import MappingNode, Source
 from reportgen.catalogue import linkage, linkage_file
 from reportgen.catalogue.atlas_file import CompiledMachine, at_bounds, checked, read_machine, without_names
-from reportgen.catalogue.linkage_words import rods
+from reportgen.catalogue.derived_values import PLACES, derived_lines, free_parameters, ids_by_place
 from reportgen.catalogue.parameters import UnderGravity
 from reportgen.catalogue.topic_sections import with_topics
-from reportgen.formula import ids
+from reportgen.formula import Symbol
 from reportgen.machine import Linkage
 from reportgen.machine.analysis import Machine
 
@@ -170,7 +170,18 @@ class AtlasMachine:
         given: AtlasParameters = assignment.parameters
         expanded = given.expanded
         made = linkage.machine(replace(assignment, parameters=expanded))
-        return replace(made, facts={**made.facts, **self._facts(expanded, made, assignment.language)})
+        typed = {name: getattr(given, name) for name in self.compiled.parameters}
+        about = self.compiled, typed, expanded, made.calculation
+        lines, closed = derived_lines(*about), made.closed_formulas
+        words = self._facts(expanded, made, assignment.language)
+        names = machine_words(atlas_files()[self.kind], assignment.language).get("parameters", {})
+        free = [(FieldWords(names.get(name, name)).label, *row) for name, *row in free_parameters(*about)]
+        places = any(isinstance(first, Symbol) and first.base in PLACES for first, *_ in (one.parts for one in lines))
+        return replace(
+            made,
+            closed_formulas=replace(closed, equations={**closed.equations, "derived": lines}),
+            facts={**made.facts, **words, "parameters": free, "derived": bool(lines), "derived_places": places},
+        )
 
     def _facts(self, expanded: linkage_file.Parameters, made: Machine, language: Language) -> Mapping[str, Any]:
         """Return the words of the machine for the linkage's templates."""
@@ -188,27 +199,9 @@ class AtlasMachine:
     def _data(self, expanded: linkage_file.Parameters) -> Iterator[tuple[str, str]]:
         """Yield the ids of given data that are parameters as typed, with these."""
         bare = {at.where: at.formula.bare for at in self.compiled.formulas if at.formula.bare}
-        for where, id in _ids(expanded):
+        for where, id in ids_by_place(expanded):
             if where in bare:
                 yield id, bare[where]
-
-
-def _ids(given: linkage_file.Parameters) -> Iterator[tuple[Where, str]]:
-    """Yield the places of given data in a `linkage` file with their ids."""
-    driver = given.driver
-    if isinstance(driver, linkage_file.CrankDriver):
-        yield ("driver", "length"), ids.length(driver.centre, driver.pin)
-        yield from ((("driver", key), id) for key, id in (("n", "n"), ("omega1", "omega.1"), ("epsilon1", "eps.1")))
-    else:
-        yield ("driver", "speed"), ids.velocity(driver.pin)
-        yield ("driver", "acceleration"), ids.acceleration(driver.pin)
-    for index, group in enumerate(given.groups):
-        lengths = [ids.length(rod) for rod in rods(group)]
-        yield ("groups", index, "length"), lengths[0] if lengths else ""
-        yield from ((("groups", index, "lengths", number), id) for number, id in enumerate(lengths))
-    for index, body in enumerate(given.masses):
-        for key, id in (("G", ids.weight(body.link)), ("m", ids.mass(body.link)), ("J", ids.inertia(body.link))):
-            yield ("masses", index, key), id
 
 
 def findings_by_place(findings: Sequence[Finding]) -> list[Finding]:

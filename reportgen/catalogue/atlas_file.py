@@ -123,16 +123,20 @@ class PlacedFormula:
         bare = self.formula.bare
         if bare and not self.is_number and Amount.of(given[bare]).dimension == _dimension(self.unit):
             return given[bare].text
-        value = self.formula.value({name: Amount.of(given[name]) for name in self.formula.names})
-        if value.dimension != _dimension(self.unit):
-            raise FormulaError("formula-units", text=self.formula.text)
-        units = {given[name].unit for name in self.formula.names}
-        unit = self._typed_unit(units)
+        value, unit = self.value(given), self.result_unit(given)
         number = f"{value.si / read_unit(unit, unit) if unit else value.si:.{FIGURES}g}"
         return number if self.is_number or not unit else f"{number} {unit}"
 
-    def _typed_unit(self, units: set[str]) -> str:
-        """Return the unit of the parameters, if they have one and it fits; else that of the place."""
+    def value(self, given: Mapping[str, Given]) -> Amount:
+        """Return the value for some parameters.  Raises `FormulaError`, also if its unit is not that of the place."""
+        value = self.formula.value({name: Amount.of(given[name]) for name in self.formula.names})
+        if value.dimension != _dimension(self.unit):
+            raise FormulaError("formula-units", text=self.formula.text)
+        return value
+
+    def result_unit(self, given: Mapping[str, Given]) -> str:
+        """Return the unit of the value: that of the parameters, if they have one and it fits; else of the place."""
+        units = {given[name].unit for name in self.formula.names}
         unit = next(iter(units), "")
         fits = not self.is_number and len(units) == 1 and unit and _dimension(unit) == _dimension(self.unit)
         return unit if fits else self.unit

@@ -86,13 +86,16 @@ def facts(given: file.Parameters, loads: tuple[str, ...], acting: Container[str]
     Only the loads in `acting` are included.
     """
     rows = tuple(_group(group, isinstance(given.driver, file.CrankDriver)) for group in given.groups)
-    axes = _axes(given)
+    axes = link_axes(given)
     acting_loads = tuple(_load(load, name) for load, name in zip(given.loads, loads, strict=True) if name in acting)
     return {
         "about": "",
         "task": "",
         "called": {},
         "first": "",
+        "derived": False,
+        "derived_places": False,
+        "parameters": (),
         "frame": [(vocabulary.point(name), *map(as_typed, at)) for name, at in given.frame.items()],
         "quantities": tuple(_quantities(given, rows)),
         "groups": rows,
@@ -130,7 +133,7 @@ def arms(given: file.Parameters) -> Iterator[str]:
         yield f"{given.driver.centre}{given.driver.pin}"
     for group in given.groups:
         yield from rods(group)
-    axes = _axes(given)
+    axes = link_axes(given)
     yield from (f"{axes[point.link][0]}{name}" for name, point in given.points.items())
 
 
@@ -155,7 +158,7 @@ def _quantities(given: file.Parameters, rows: tuple[GroupRow, ...]) -> Iterator[
     yield "g", "g", ""
 
 
-def _axes(given: file.Parameters) -> dict[int, tuple[str, str]]:
+def link_axes(given: file.Parameters) -> dict[int, tuple[str, str]]:
     """Return the origin of each link's axes, and the joint to which they point or the line to which they are parallel
     ("guide", "slot").
     """

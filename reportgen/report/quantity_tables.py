@@ -121,6 +121,7 @@ def given_table(report: ReportContext, key: str, caption: str, names: Mapping[st
         for id, name in names.items()
         if id in report.ledger and _is_given(report, id)
     ]
+    rows += [(name, symbol, (Value(number),)) for name, symbol, number in report.own.get("parameters", ())]
     return list_table(
         report.prose, key, caption, (heads["quantity"], heads["symbol"], heads["value"]), rows, (92.0, 28.0, 40.0)
     )
