@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from reportgen.assignment.checks import of_parameters
 from reportgen.base.errors import Finding
 from reportgen.structure import structure_file
+from reportgen.structure.point_checks import of_points
 from reportgen.structure.splitting import FRAME, StructureError, rigid_links, split
 from reportgen.structure.structure_file import active
 
@@ -48,8 +49,8 @@ def table_rows(position: Mapping[str, Any]) -> dict[str, dict[str, float]]:
 
 
 def check(given: Parameters) -> Iterator[Finding]:
-    """Yield the faults of the pairs; without any, those of the named links; without any, those of the mechanism."""
-    yield from [*_of_pairs(given)] or [*_of_links(given)] or _of_mechanism(given)
+    """Yield the faults of the pairs; without any, of the named links, then of the mechanism, then of the points."""
+    yield from [*_of_pairs(given)] or [*_of_links(given)] or [*_of_mechanism(given)] or of_points(given)
 
 
 def _of_pairs(given: Parameters) -> Iterator[Finding]:

@@ -9,13 +9,13 @@ from typing import Any, ClassVar
 
 from reportgen.case.design_case import DesignPage
 from reportgen.case.result_entries import ResultEntries
-from reportgen.document import Column, Equation, Inlines, Table, Text
+from reportgen.document import Column, Equation, InlineMath, Inlines, Table, Text
 from reportgen.drawing import Scene
 from reportgen.drawing.drawing_sheet import lettered
 from reportgen.drawing.plates import DrawingPlate
-from reportgen.formula import Chain
+from reportgen.formula import Chain, vocabulary
 from reportgen.sheets.plates import drawn
-from reportgen.structure import structure_drawings
+from reportgen.structure import scheme_drawing, structure_drawings
 from reportgen.structure import structure_ids as ids
 from reportgen.structure.structure_solution import SolvedStructure, formula_of, roman
 
@@ -52,6 +52,7 @@ class StructurePage(DesignPage[SolvedStructure]):
             "words": case.words,
             "driver": str(given.driver),
             "pair_table": self.pair_table,
+            "has_points": bool(case.placed.joints),
             "rollers": listed(given.rollers or ()),
             "passive": listed(given.passive or ()),
             "has_multiple": any(len(joint.links) > 2 for joint in case.chain.joints),
@@ -86,14 +87,23 @@ class StructurePage(DesignPage[SolvedStructure]):
 
     @property
     def pair_table(self) -> Table:
-        """The table of the given pairs."""
+        """The table of the given pairs, with their letters in the scheme if it is drawn."""
         words, chain = self.words["heads"], self.case.given.whole_chain
-        heads = ((Text(str(words["number"])),), (Text(str(words["links"])),), (Text(str(words["pair"])),))
+        names = ("number", "links", "pair", *(["point"] if self.case.placed.joints else []))
+        heads = tuple((Text(str(words[name])),) for name in names)
+        letters = {frozenset(joint.links): joint for joint in self.case.placed.joints}
         rows: list[tuple[Inlines, ...]] = []
         for number, joint in enumerate(chain.joints, start=1):
             sort = "higher" if joint.higher else "multiple" if len(joint.links) > 2 else "lower"
-            rows.append(((Text(str(number)),), (Text(listed(joint.links)),), (Text(str(self.words["pairs"][sort])),)))
-        return self.table("pairs", (Column(NARROW), Column(MIDDLE), Column(WIDE)), (heads,), rows)
+            point = letters.get(frozenset(joint.links))
+            if point is not None and sort == "lower":
+                sort = "turning" if point.turns else "sliding"
+            cells: list[Inlines] = [
+                (Text(text),) for text in (str(number), listed(joint.links), self.words["pairs"][sort])
+            ]
+            rows.append((*cells, *([] if point is None else [(InlineMath(vocabulary.point(point.name)),)])))
+        widths = (NARROW, MIDDLE, WIDE, NARROW)[: len(names)]
+        return self.table("pairs", tuple(map(Column, widths)), (heads,), rows)
 
     @property
     def replacement_table(self) -> Table:
@@ -129,9 +139,13 @@ class StructurePage(DesignPage[SolvedStructure]):
         return self.table("drivers", (Column(NARROW), Column(110.0, "left"), Column(NARROW)), (heads,), rows)
 
     def scenes(self, name: str) -> Iterable[Scene]:
-        if name != "diagram":
-            raise KeyError(name)
-        return (structure_drawings.diagram(self.case),)
+        match name:
+            case "diagram":
+                return (structure_drawings.diagram(self.case),)
+            case "scheme":
+                return (scheme_drawing.scheme(self.case.placed, self.case.given.driver),)
+            case _:
+                raise KeyError(name)
 
 
 @dataclass(frozen=True)
@@ -173,10 +187,13 @@ class StructureCase(SolvedStructure):
         return ResultEntries([position])
 
     def plates(self, sets: Collection[str] = (), every: bool = False) -> Mapping[str, Sequence[DrawingPlate]]:
-        """Return the graph of the structure and the tables; `sets` is ignored, since there is only one."""
+        """Return the scheme, the graph of the structure and the tables; `sets` is ignored, since there is only one."""
         page, captions = StructurePage(self), self.words["structure"]["captions"]
         scene = lettered(structure_drawings.diagram(self))
         plates = [DrawingPlate(captions["figure-diagram"], (), "schemes", (scene,))]
+        if self.placed.joints:
+            whole = tuple(map(lettered, page.scenes("scheme")))
+            plates.insert(0, DrawingPlate(captions["figure-scheme"], (), "schemes", whole))
         if self.groups:
             table = page.group_table
             plates.append(

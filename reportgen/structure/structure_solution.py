@@ -12,6 +12,7 @@ from reportgen.formula import Expression, Number, Ref, call, plus
 from reportgen.formula.calculation import Calculation
 from reportgen.formula.ledger import MistakenValues
 from reportgen.structure import structure_ids as names
+from reportgen.structure.placed_joints import PlacedJoints, placed
 from reportgen.structure.splitting import AssurGroup, KinematicChain, Splitting, StructureError, split
 from reportgen.structure.structure_file import Parameters, active
 
@@ -54,6 +55,11 @@ class SolvedStructure(DesignCase):
     def replacements(self) -> Mapping[int, tuple[int, int]]:
         """The links in contact by the link that replaces their higher pair."""
         return self._equivalent[1]
+
+    @cached_property
+    def placed(self) -> PlacedJoints:
+        """The pairs as given, at their places; none without points."""
+        return placed(self.given)
 
     @cached_property
     def splitting(self) -> Splitting:
