@@ -28,7 +28,7 @@ from reportgen.assignment import Assignment
 from reportgen.assignment.common import Extent
 from reportgen.assignment.reading import inputs
 from reportgen.base.languages import setting_of
-from reportgen.base.template_folders import DEFAULT_LANGUAGE, languages, samples
+from reportgen.base.template_folders import DEFAULT_LANGUAGE, atlas_files, languages, samples
 from reportgen.base.units import Language
 from reportgen.case import Case
 from reportgen.case.answer_key import Key
@@ -63,13 +63,22 @@ def subjects() -> dict[str, Path]:
     """Return the shortest example of each kind that can be used alone, and each coursework, by name.
 
     One machine of the atlas stands for all (`tests/kinds.py`), in one language: its words are those of a `linkage`,
-    which is here in every combination.
+    which is here in every combination. The others share the commands and languages (`spread`).
     """
     examples = {Path(kind).name: catalogue.examples(kind) for kind in KINDS}
     examples = {kind: [path for path in paths.values() if not _has_parts(path)] for kind, paths in examples.items()}
     alone = {kind: min(paths, key=lambda path: path.stat().st_size) for kind, paths in examples.items()}
     whole = {f"whole-{path.stem}": path for path in sorted(samples().rglob("*.yaml")) if _has_parts(path)}
     return alone | whole
+
+
+@cache
+def machines() -> dict[str, Path]:
+    """Return the shortest example of each machine of the atlas but the one among the subjects, by name."""
+    kinds = [kind for kind in sorted(atlas_files()) if kind != ATLAS_MACHINE]
+    return {
+        Path(kind).name: min(catalogue.examples(kind).values(), key=lambda path: path.stat().st_size) for kind in kinds
+    }
 
 
 def _has_parts(path: Path) -> bool:
@@ -168,7 +177,7 @@ def _remembering(case: Case) -> Case:
 
 def desk(subject: str, folder: Path, capture: pytest.CaptureFixture[str], **wanted: object) -> Desk:
     """Return a subject's file with the files of its parts, copied into a folder."""
-    source = subjects()[subject]
+    source = (subjects() | machines())[subject]
     content, beside = inputs(source)
     for name, data in {**beside, source.name: content}.items():
         (folder / name).write_bytes(data)
@@ -179,7 +188,7 @@ def desk(subject: str, folder: Path, capture: pytest.CaptureFixture[str], **want
 
 
 def _turn(subject: str, language: object) -> int:
-    return [*subjects()].index(subject) + [*languages()].index(language)  # type: ignore[arg-type]
+    return [*subjects(), *machines()].index(subject) + [*languages()].index(language)  # type: ignore[arg-type]
 
 
 # --- the commands ---------------------------------------------------------------------------------
@@ -338,6 +347,8 @@ COMMANDS: tuple[Callable[[Desk], None], ...] = (
 BY_ENGINE, BY_EXTENT, BY_FILE = {build, key, task, grade}, {build}, {check}
 """Commands that typeset their output, the one that makes it in two extents, and the one that takes no language."""
 ATLAS = Path(ATLAS_MACHINE).name
+EVERY = 5
+"""Each further machine of the atlas has a command of so many; a number without a factor of that of the languages."""
 
 
 def cases() -> Iterator[tuple[str, str, Language | Literal[""], api.Engine, Extent]]:
@@ -371,6 +382,21 @@ def _settings(command: Callable[[Desk], None], subject: str, language: Language)
     yield engine, "full"
     if engine == "typst":
         yield "latex", "short"
+
+
+def spread() -> Iterator[tuple[str, str, Language, api.Engine, Extent]]:
+    """Yield cases of the further machines: each has every fifth command, beginning with the next one, in its language.
+
+    With 20 machines, each command has every language.
+    """
+    spoken, engines = [*languages()], get_args(api.Engine)
+    for number, machine in enumerate(machines()):
+        language = spoken[number % len(spoken)]
+        is_draft, turn = setting_of(language).is_draft(), number // len(spoken)
+        for command in COMMANDS[number % EVERY :: EVERY]:
+            engine = "typst" if is_draft or command not in BY_ENGINE else engines[turn % len(engines)]
+            extent: Extent = "full" if command in BY_EXTENT and not is_draft else "short"
+            yield machine, command.__name__, language, engine, extent
 
 
 def do(command: str, at: Desk) -> None:

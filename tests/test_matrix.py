@@ -37,7 +37,7 @@ CASES = [case for case in ALL if case[2] != matrix.OWN or case in TELLING]
 def named(case: tuple[str, ...]) -> str:
     """Return the file of a case, so that the cases of one file are run by one process."""
     subject, *others = filter(None, case)
-    return "-".join((matrix.subjects()[subject].stem, *others))
+    return "-".join(((matrix.subjects() | matrix.machines())[subject].stem, *others))
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -67,6 +67,33 @@ def test_every_command_answers(
 ) -> None:
     at = matrix.desk(subject, folders(subject), capsys, language=language, engine=engine, extent=extent)
     matrix.do(command, at)
+
+
+@pytest.mark.parametrize(
+    ("subject", "command", "language", "engine", "extent"),
+    lanes([pytest.param(*case, marks=MARKS[case[3]], id=named(case)) for case in matrix.spread()], []),
+)
+def test_every_machine_of_the_atlas_answers_some_commands(
+    folders: Callable[[str], Path],
+    capsys: pytest.CaptureFixture[str],
+    subject: str,
+    command: str,
+    language: Language,
+    engine: api.Engine,
+    extent: Extent,
+) -> None:
+    at = matrix.desk(subject, folders(subject), capsys, language=language, engine=engine, extent=extent)
+    matrix.do(command, at)
+
+
+def test_the_machines_of_the_atlas_share_all_commands_and_languages() -> None:
+    cases = list(matrix.spread())
+    assert {case[0] for case in cases} == matrix.machines().keys()
+    assert {case[1] for case in cases} == COMMANDS
+    assert {case[2] for case in cases} == set(languages())
+    # No two machines have the same commands in the same language.
+    shares = [tuple(case[1:3] for case in cases if case[0] == machine) for machine in matrix.machines()]
+    assert len(set(shares)) == len(shares)
 
 
 def test_the_settings_have_every_pair_of_their_product() -> None:
