@@ -121,7 +121,7 @@ def machine(assignment: Assignment) -> Machine:
         calculation=q,
         topics=topics.subjects,
         beside=tuple(load.name for load in topics.loads),
-        closed_formulas=ClosedFormulas(loops.write, tuple(() if linkage.triads else loops.compared), loops.equations),
+        closed_formulas=ClosedFormulas(loops.write, tuple(loops.compared), loops.equations),
         applied=loads.applied,
         torques=loads.torques,
         idle=loads.idle,

@@ -15,33 +15,21 @@ RPR  r_T + s e_j + e n_j = r_P                                              ω_j
 PRP  r_G + s e_i = r_H + t e_j                                              v = ṡ, w = ṫ
 RPP  r_G + s e_j + t e_k = r_P, e_k the slide's direction on link j         v = ṡ, w = ṫ
 ==== ====================================================================== =====================
+
+`ternary_loop` has the two loops of a group of class III.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass
 
-from reportgen.catalogue.given_data import natural_sizes
-from reportgen.catalogue.vector_components import (
-    STILL,
-    VectorComponents,
-    across,
-    add,
-    along,
-    degrees,
-    less,
-    on,
-    scaled,
-    turned,
-    typed,
-)
+from reportgen.catalogue.loop_bodies import LoopBody, Moving
+from reportgen.catalogue.loop_builder import LoopBuilder
+from reportgen.catalogue.ternary_loop import enter_ternary
+from reportgen.catalogue.vector_components import across, add, along, degrees, less, on, scaled, turned
 from reportgen.formula import (
     MINUS_ONE,
-    NOTHING,
-    Chain,
-    Expression,
-    Matrix,
     Number,
     Ref,
     Symbol,
@@ -50,7 +38,6 @@ from reportgen.formula import (
     asin,
     atan2,
     between,
-    column,
     cos,
     cosine,
     ids,
@@ -64,246 +51,17 @@ from reportgen.formula import (
     sqrt,
     square,
     times,
-    vocabulary,
 )
-from reportgen.formula.calculation import Calculation
-from reportgen.machine import DRIVER, GROUND, Crank, Dyad, DyadKind, Guide, Linkage, LinkPoint, owners, under
+from reportgen.machine import GROUND, Dyad, DyadKind, Triad
 
 TWO = Number(2.0)
 STRAIGHT = Number(180.0, unit="°")
 
 
-# --- what moves -----------------------------------------------------------------------------------
-
-
-@dataclass(frozen=True, slots=True)
-class Moving:
-    """A point: its coordinates, its velocity and its acceleration by components."""
-
-    p: VectorComponents
-    v: VectorComponents = STILL
-    a: VectorComponents = STILL
-
-
-@dataclass(frozen=True, slots=True)
-class LoopBody:
-    """A link: the origin of its frame by name and motion, the frame's angle, ω and ε."""
-
-    start: str
-    origin: Moving
-    angle: Expression
-    omega: Expression = NOTHING
-    eps: Expression = NOTHING
-
-    def place(self, local: complex) -> VectorComponents:
-        """Return the place of a point by its typed distances (m) along the link and across it."""
-        e, (u, w) = along(self.angle), typed(local)
-        return add(self.origin.p, scaled(u, e), scaled(w, turned(e)))
-
-    def carried(self, at: VectorComponents) -> Moving:
-        """Return the link's point at a place, with v = v_O + ω ir, a = a_O + ε ir − ω² r."""
-        r = less(at, self.origin.p)
-        v = add(self.origin.v, scaled(self.omega, turned(r)))
-        inward = scaled(minus(square(self.omega)), r)
-        return Moving(at, v, add(self.origin.a, scaled(self.eps, turned(r)), inward))
-
-
-FRAME = LoopBody("", Moving(STILL), Number(0.0, unit="°"))
-
-
-@dataclass(frozen=True, slots=True)
-class LoopRail:
-    """A guide: a point of its line, its angle, the link that has it."""
-
-    at: VectorComponents
-    angle: Expression
-    carrier: LoopBody
-    link: int
-
-
-@dataclass(frozen=True, slots=True)
-class LoopLine:
-    """A quantity with its formula, and the name of the part of the equations to which it belongs."""
-
-    id: str
-    formula: Expression
-    symbol: Symbol | str
-    kind: str
-    part: str
-
-
-Sides = tuple[Expression, Expression, VectorComponents]
-"""Both unknown rates and the right-hand side of their equations."""
-RATES = {"v": "velocity", "a": "acceleration"}
-
-
-# --- the loops ------------------------------------------------------------------------------------
-
-
-@dataclass
-class ClosedLoops:
-    """The loops of a linkage during their construction, group by group in the order of assembly.
-
-    `equations` are by name and group `closure-23`, `velocity-23`, `acceleration-23`; `place-1`, … are those of the
-    driver.  `compared` are plan quantities and the formulas that must give their sizes.  `fixed` are the coordinates of
-    the fixed points, `guides` those of a point of each fixed guide, by its slider.  `accelerates` is > 0 if the driver
-    accelerates in the sense of its speed, < 0 against it, 0 if it does not. A linkage with a group of class III has no
-    formulas but those of the driver: the position of such a group has no closed form.
-    """
-
-    linkage: Linkage
-    turn: int
-    fixed: Mapping[str, VectorComponents]
-    guides: Mapping[int, VectorComponents] = field(default_factory=dict)
-    accelerates: float = 0.0
-    lines: list[LoopLine] = field(default_factory=list)
-    equations: dict[str, tuple[Chain, ...]] = field(default_factory=dict)
-    compared: list[tuple[str, str]] = field(default_factory=list)
-    points: dict[str, Moving] = field(default_factory=dict)
-    links: dict[int, LoopBody] = field(default_factory=lambda: {GROUND: FRAME})
-    group: str = str(DRIVER)
-
-    def __post_init__(self) -> None:
-        self.owner = owners(self.linkage)
-        self.points |= {name: Moving(self.fixed[name]) for name in self.linkage.ground}
-        self._drive()
-        if self.linkage.triads:
-            return
-        for dyad in self.linkage.dyads:
-            self.group = ids.joint(*dyad.links)
-            KINDS[dyad.kind](self, dyad)
-
-    def write(self, q: Calculation) -> None:
-        """Enter everything in a calculation that has the given data and the plans."""
-        driver = self.linkage.driver
-        if isinstance(driver, Crank):
-            q.angle(ids.formula_angle(DRIVER), q.value(ids.angle(DRIVER)))
-            sizes = natural_sizes(driver.length, q.si("omega.1"))
-        else:
-            sizes = natural_sizes(1.0, q.si(ids.velocity(driver.pin)))
-        for group in (str(DRIVER), *(ids.joint(*dyad.links) for dyad in self.linkage.dyads)):
-            for part in ("place", *RATES.values()):
-                q.set_out(f"{part}-{group}")
-        for line in self.lines:
-            scale = sizes.get(line.kind or vocabulary.row(line.id).kind, 1.0)
-            q.set_out(line.part, q.define(line.id, line.formula, line.symbol, line.kind, scale=scale))
-
-    # --- lines
-
-    def line(self, part: str, id: str, formula: Expression, symbol: Symbol | str = "", kind: str = "") -> Ref:
-        """Add a quantity to the places, velocities or accelerations of the group."""
-        self.lines.append(LoopLine(id, formula, symbol, kind, f"{part}-{self.group}"))
-        return Ref(id)
-
-    def point(self, name: str, moving: Moving, plan: bool = True) -> Moving:
-        """Add a point: coordinates, velocity and acceleration, with their sizes if a `plan` has them."""
-        at = self.coordinates(name, moving.p)
-        v, a = (self.components(what, name, of, plan) for what, of in (("v", moving.v), ("a", moving.a)))
-        self.points[name] = Moving(at, v, a)
-        return self.points[name]
-
-    def coordinates(self, name: str, at: VectorComponents) -> VectorComponents:
-        x, y = (
-            part if isinstance(part, Ref | Number) else self.line("place", ids.formula_coordinate(axis, name), part)
-            for axis, part in zip("xy", at, strict=True)
-        )
-        return x, y
-
-    def components(self, what: str, name: str, of: VectorComponents, plan: bool) -> VectorComponents:
-        kind = RATES[what]
-        x, y = (
-            part
-            if isinstance(part, Ref | Number)
-            else self.line(kind, ids.formula_component(axis, name, what), part, Symbol(what, f"{name}{axis}"), kind)
-            for axis, part in zip("xy", of, strict=True)
-        )
-        if plan and (x, y) != STILL:
-            whole = sqrt(plus(square(x), square(y))) if NOTHING not in (x, y) else plus(x, y)
-            self.known(kind, ids.POINT_RATE[what](name), whole)
-        return x, y
-
-    def known(self, part: str, plan: str, formula: Expression) -> Ref:
-        """Enter a formula of a quantity that a plan also gives, and list it for comparison."""
-        written = self.line(part, ids.formula(plan), formula)
-        self.compared.append((plan, written.id))
-        return written
-
-    def omega(self, link: int, formula: Expression) -> Ref:
-        return self.known("velocity", ids.angular_velocity(link), formula)
-
-    def eps(self, link: int, formula: Expression) -> Ref:
-        return self.known("acceleration", ids.angular_acceleration(link), formula)
-
-    def enter_matrix_form(self, u: VectorComponents, w: VectorComponents, velocity: Sides, acceleration: Sides) -> None:
-        """Enter the equations in matrix form: both unknowns and the right-hand side of each."""
-        A = Matrix(((u[0], w[0]), (u[1], w[1])))
-        for what, sides in {"velocity": velocity, "acceleration": acceleration}.items():
-            first, second, right = sides
-            self.equations[f"{what}-{self.group}"] = (Chain((A * column(first, second), column(*right))),)
-
-    def closure(self, outward: VectorComponents, back: VectorComponents) -> None:
-        self.equations[f"closure-{self.group}"] = tuple(Chain(sides) for sides in zip(outward, back, strict=True))
-
-    # --- ends of a group
-
-    def rail(self, slider: int, end: str | Guide) -> LoopRail:
-        """Return a guide with its motion."""
-        assert isinstance(end, Guide)
-        body = self.links[end.link]
-        if end.link == GROUND:
-            return LoopRail(self.guides.get(slider) or typed(end.at), degrees(end.angle), body, GROUND)
-        angle = plus(body.angle, *((degrees(end.angle),) if end.angle else ()))
-        turned_angle = angle if isinstance(angle, Ref) else self.line("place", ids.formula_angle(slider), angle)
-        return LoopRail(body.place(end.at), turned_angle, body, end.link)
-
-    def beneath(self, name: str, rail: LoopRail, at: VectorComponents, plan: bool = True) -> Moving:
-        """Return the point of a guide's link that lies under a point."""
-        if rail.link == GROUND:
-            return Moving(at)
-        point_beneath = under(name, rail.link, self.owner)
-        return self.points.get(point_beneath) or self.point(point_beneath, rail.carrier.carried(at), plan)
-
-    def put(self, link: int, body: LoopBody) -> None:
-        """Place a link and its points."""
-        self.links[link] = body
-        for point in self.linkage.points:
-            if point.link == link:
-                self.point(point.name, body.carried(self.coordinates(point.name, self._place_of(point, body))))
-
-    def _place_of(self, point: LinkPoint, body: LoopBody) -> VectorComponents:
-        """Return the place of a point: by its length on the line of its link, elsewhere by its two typed distances."""
-        if point.local.imag or not point.local:
-            return body.place(point.local)
-        length = Ref(ids.length(body.start, point.name))
-        return add(body.origin.p, scaled(length if point.local.real > 0 else minus(length), along(body.angle)))
-
-    # --- the driver
-
-    def _drive(self) -> None:
-        driver = self.linkage.driver
-        if isinstance(driver, Crank):
-            centre, ω1 = self.points[driver.centre], signed(self.turn, Ref("omega.1"))
-            ε1 = signed(self.turn * self.accelerates, Ref("eps.1")) if self.accelerates else NOTHING
-            body = LoopBody(driver.centre, centre, Ref(ids.formula_angle(DRIVER)), ω1, ε1)
-            reach = scaled(Ref(ids.length(driver.centre, driver.pin)), along(body.angle))
-            self.point(driver.pin, body.carried(self.coordinates(driver.pin, add(body.origin.p, reach))))
-        else:
-            direction = along(degrees(driver.guide.angle))
-            at = self.coordinates(driver.pin, add(typed(driver.guide.at), scaled(Ref("s.1"), direction)))
-            speed = scaled(signed(self.turn, Ref(ids.velocity(driver.pin))), direction)
-            moving = Moving(at, self.components("v", driver.pin, speed, plan=False))
-            if self.accelerates:
-                rate2 = signed(self.turn * self.accelerates, Ref(ids.acceleration(driver.pin)))
-                moving = replace(moving, a=self.components("a", driver.pin, scaled(rate2, direction), plan=False))
-            self.points[driver.pin] = moving
-            body = LoopBody(driver.pin, self.points[driver.pin], degrees(driver.guide.angle))
-        self.put(DRIVER, body)
-
-
 # --- the kinds ------------------------------------------------------------------------------------
 
 
-def _rrr(k: ClosedLoops, dyad: Dyad) -> None:
+def _rrr(k: LoopBuilder, dyad: Dyad) -> None:
     i, j = dyad.links
     P, T, Q = k.points[str(dyad.start)], k.points[str(dyad.end)], dyad.middle
     l_i, l_j = Ref(ids.length(str(dyad.start), Q)), Ref(ids.length(str(dyad.end), Q))
@@ -333,7 +91,7 @@ def _rrr(k: ClosedLoops, dyad: Dyad) -> None:
     k.put(j, LoopBody(str(dyad.end), T, φ_j, ω_j, ε_j))
 
 
-def _rrp(k: ClosedLoops, dyad: Dyad) -> None:
+def _rrp(k: LoopBuilder, dyad: Dyad) -> None:
     i, j = dyad.links
     P, Q, rail = k.points[str(dyad.start)], dyad.middle, k.rail(j, dyad.end)
     l, α, joint = Ref(ids.length(str(dyad.start), Q)), rail.angle, ids.joint(rail.link, j)  # noqa: E741
@@ -375,7 +133,7 @@ def _rrp(k: ClosedLoops, dyad: Dyad) -> None:
     k.put(j, LoopBody(Q, k.points[Q], α, rail.carrier.omega, rail.carrier.eps))
 
 
-def _rpr(k: ClosedLoops, dyad: Dyad) -> None:
+def _rpr(k: LoopBuilder, dyad: Dyad) -> None:
     i, j = dyad.links
     P, T, joint = k.points[str(dyad.start)], k.points[str(dyad.end)], ids.joint(j, i)
     relative, e = f"{dyad.middle}{dyad.start}", as_expression(0.0)
@@ -405,7 +163,7 @@ def _rpr(k: ClosedLoops, dyad: Dyad) -> None:
     k.put(j, lever)
 
 
-def _prp(k: ClosedLoops, dyad: Dyad) -> None:
+def _prp(k: LoopBuilder, dyad: Dyad) -> None:
     i, j = dyad.links
     Q = dyad.middle
     rail1, rail2 = k.rail(i, dyad.start), k.rail(j, dyad.end)
@@ -434,7 +192,7 @@ def _prp(k: ClosedLoops, dyad: Dyad) -> None:
         k.put(link, LoopBody(Q, k.points[Q], rail.angle, rail.carrier.omega, rail.carrier.eps))
 
 
-def _rpp(k: ClosedLoops, dyad: Dyad) -> None:
+def _rpp(k: LoopBuilder, dyad: Dyad) -> None:
     i, j = dyad.links
     P, Q, rail = k.points[str(dyad.start)], dyad.middle, k.rail(j, dyad.end)
     on_guide, in_slot = ids.joint(rail.link, j), ids.joint(j, i)
@@ -463,10 +221,24 @@ def _rpp(k: ClosedLoops, dyad: Dyad) -> None:
     k.put(j, LoopBody(Q, k.points[Q], α, ω, rail.carrier.eps))
 
 
-KINDS: Mapping[DyadKind, Callable[[ClosedLoops, Dyad], None]] = {
+KINDS: Mapping[DyadKind, Callable[[LoopBuilder, Dyad], None]] = {
     "RRR": _rrr,
     "RRP": _rrp,
     "RPR": _rpr,
     "PRP": _prp,
     "RPP": _rpp,
 }
+
+
+@dataclass
+class ClosedLoops(LoopBuilder):
+    """The loops of a whole linkage."""
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        for group in self.linkage.groups:
+            self.group = ids.members(group.links)
+            if isinstance(group, Triad):
+                enter_ternary(self, group)
+            else:
+                KINDS[group.kind](self, group)

@@ -73,7 +73,8 @@ class Family:
     an arm the id of the load; `about` is the point from which an arm is measured. Both are "" for any other quantity.
     `written` is a formula of the same value that replaces the definition on the page, where printed figures would be
     too few for that. A `residue` is the rounding difference of two computations of one number. A `converted` value was
-    typed in a unit that gives more figures than anyone types; it is rounded like a result.
+    typed in a unit that gives more figures than anyone types; it is rounded like a result. A `trial` value belongs to a
+    step of an iteration: it depends on where the iteration starts, so nobody is asked for it.
     """
 
     id: str
@@ -92,6 +93,7 @@ class Family:
     written: Expression | None = None
     residue: bool = False
     converted: bool = False
+    trial: bool = False
 
     @property
     def line(self) -> Expression | None:

@@ -108,8 +108,8 @@ def key_of(case: Case) -> Key:
         )
 
     parts, families = list(KeyChapter), ledger.families.values()
-    # No rows for points, optional quantities and the sizes of signed rotations.
-    seen = (family for family in families if not (family.hidden or family.is_plane or family.optional))
+    # No rows for points, optional quantities, steps of iterations and the sizes of signed rotations.
+    seen = (one for one in families if not (one.hidden or one.is_plane or one.optional or one.trial))
     visible = (family.id for family in seen if family.id not in ledger.signed)
     rows = sorted([row(id) for id in visible], key=lambda row: parts.index(row.part))
     student = assignment.report.student

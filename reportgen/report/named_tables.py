@@ -8,7 +8,7 @@ from typing import Any
 
 from reportgen.document import Paragraph, Table
 from reportgen.machine.analysis import Position
-from reportgen.report import overview, quantity_tables, result_tables, topic_views
+from reportgen.report import iteration_table, overview, quantity_tables, result_tables, topic_views
 from reportgen.report.context import ReportContext
 from reportgen.report.quantity_tables import QuantityTable, RowTable
 
@@ -37,6 +37,7 @@ TABLES: Mapping[str, Callable[..., Any]] = {
     # motion
     "omega": RowTable(result_tables.angular_velocities, (34.0, 40.0, 60.0)),
     "eps": RowTable(result_tables.angular_accelerations, (34.0, 40.0, 60.0)),
+    "iteration": iteration_table.iteration,
     "summary": RowTable(result_tables.summary, (46.0, 46.0, 46.0)),
     "v.segments": QuantityTable(result_tables.velocity_segments),
     "v": QuantityTable(result_tables.velocities, groups={"turning": ("turn.omega.",)}),

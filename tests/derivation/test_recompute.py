@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from books import MACHINES, RATE, keep
 from made_triads import R1
+from test_loops import looped
 
 from reportgen.formula.rounded_ledger import printed
 from tests.lanes import matrix
@@ -28,13 +29,18 @@ def test_every_kind_recomputes(name: str, turn: int) -> None:
 
 
 def test_a_group_of_class_iii_recomputes() -> None:
-    """The arm by which the moments about the special point are divided is negative: all signs change."""
+    """The arm by which the moments about the special point are divided is negative: all signs change.
+
+    The lines of its closed formulas contain every number of the iteration for its angles.
+    """
     book = keep(R1, ROUND[:4], 1, (), ((4, 60.0),))
+    looped(book)
     arms = [family for id, family in book.b.families.items() if id.startswith("h.R0") and ".n." in id]
     assert arms
     assert all((family.values < 0).all() for family in arms)
     lines = trees.lines(trees.every_chain(printed(book.ledger())), "en")
-    assert len(lines) > 200
+    assert len(lines) > 400
+    assert sum("Δφ" in str(line) for line in lines) >= 2 * 2 * 4
     assert misses(lines) == []
 
 

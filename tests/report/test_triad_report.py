@@ -10,7 +10,7 @@ import pytest
 
 from reportgen.base.units import MM
 from reportgen.cases import open_case
-from reportgen.document import Figure, Plate
+from reportgen.document import Cell, Figure, Plate, Table, Value
 from reportgen.report.context import ReportContext
 from reportgen.report.force_figures import separated
 from reportgen.report.plan_figures import force_plan, motion_plan
@@ -40,9 +40,9 @@ parameters:
 
 
 @cache
-def report(folder: Path, language: str = "en") -> ReportContext:
-    file = folder / "r1.yaml"
-    file.write_text(R1, encoding="utf-8")
+def report(folder: Path, language: str = "en", extent: str = "short") -> ReportContext:
+    file = folder / f"r1-{extent}.yaml"
+    file.write_text(R1.replace("short", extent), encoding="utf-8")
     return ReportContext(open_case(file, language=language))
 
 
@@ -107,3 +107,24 @@ def test_the_template_curve_is_drawn_on_its_arcs(folder: Path) -> None:
     assert np.abs(np.abs(trials[2] - trials[0]) - abs(inner[2] - inner[0])).max() < 1e-12
     misses = np.abs(trials[2] - outer[2]) - abs(inner[2] - outer[2])
     assert misses.min() < 0 < misses.max()
+
+
+@pytest.mark.parametrize("language", ["en", "vi", "ru", "zh"])
+def test_the_table_of_the_iteration_adds_up(folder: Path, language: str) -> None:
+    """Each printed angle and its printed correction make the angle of the next column; the last gaps are zero."""
+    blocks = report(folder, language, "full").case.document().blocks
+    (table,) = (block for block in blocks if isinstance(block, Table) and block.key == "tab.iteration.2345.3")
+    rows = [[_number(cell) for cell in row[2:]] for row in table.rows]
+    assert [len(row) for row in rows] == [len(rows[0])] * 16
+    for angle, correction in zip(rows[:2], rows[-2:], strict=True):
+        for before, step, after in zip(angle, correction, angle[1:], strict=False):
+            assert before is not None
+            assert step is not None
+            assert after == pytest.approx(before + step, abs=1e-9)
+    assert [rows[n][-2] for n in (5, 11, 14, 15)] == [0.0] * 4
+
+
+def _number(cell: Cell) -> float | None:
+    """The number of a cell; None for an empty one."""
+    (content,) = cell.inlines
+    return content.number.printed if isinstance(content, Value) else None
