@@ -13,6 +13,8 @@ from reportgen.machine.load_laws import FULL_TURN
 
 KINDS_SI = {
     "angle": "rad",
+    "trial angle": "rad",
+    "trial length": "m",
     "diameter": "m",
     "area": "m2",
     "speed of rotation": "rpm",

@@ -38,7 +38,8 @@ def program(report: ReportContext) -> Listing:
     """
     ledger, kind = report.case.ledger, report.assignment.kind
     changing = [id for id, one in ledger.families.items() if one.chapter is KeyChapter.formulas and len(one.values) > 1]
-    changing_lines = [id for id in changing if ledger[id].definition is not None and not ledger[id].hidden]
+    worked_out = (one for one in changing if ledger[one].definition is not None)
+    changing_lines = [id for id in worked_out if not (ledger[id].hidden or ledger[id].trial)]
     if not changing_lines:
         raise NotOfferedError(word("no_listing", report.assignment.language, kind=kind))
     needed = {other for id in changing_lines for other in (id, *ledger.ancestors(id))}

@@ -95,16 +95,23 @@ LEVER: Mapping[str, Callable[[Results], list[float]]] = {
     "y_E": of_point("E", "p", 1),
 }
 EIGHT = {f"omega_{link}": of_link(link, "omega") for link in range(2, 7)} | {"v_K": of_point("K", "v", 0)}
+TERNARY = {f"omega_{link}": of_link(link, "omega") for link in range(2, 6)} | {
+    **{f"eps_{link}": of_link(link, "epsilon") for link in range(2, 6)},
+    **{f"{what}_{name}": size(name, what) for name in "DEF" for what in "va"},
+}
 
 
-CASES = [("shaper-01", RAM), ("shaper-02", RAM), ("lever-six-bar-01", LEVER), ("linkage-8", EIGHT)]
+CASES = [
+    *(("shaper-01", RAM), ("shaper-02", RAM), ("lever-six-bar-01", LEVER), ("linkage-8", EIGHT)),
+    ("linkage/class-iii", TERNARY),
+]
 
 
 @pytest.mark.parametrize(("name", "told"), matrix(CASES, CASES[:1]))
 def test_it_prints_what_solve_says(tmp_path: Path, name: str, told: Mapping[str, Callable[[Results], Any]]) -> None:
     file = ASSIGNMENTS / f"{name}.yaml"
     api.build(file, tmp_path, listing=True, formats=("html",))
-    table = tabulated(tmp_path, tmp_path / name / "report.py")
+    table = tabulated(tmp_path, tmp_path / file.stem / "report.py")
     # It draws them, too, without a window.
     assert (tmp_path / "alone" / "curves.png").read_bytes().startswith(b"\x89PNG")
     positions = api.solve(api.load(file))["positions"]
