@@ -87,8 +87,8 @@ def table(files: tuple[str, ...], language: Language, met: set[str]) -> str:
 def lines_of(file: str, language: Language, met: set[str]) -> Iterator[tuple[int, str]]:
     """Yield the lines of the ids of one file, each with the place of its chapter."""
     chapters = list(KeyChapter)
-    key = marking_scheme(opened(api.load(ROOT / "assignments" / f"{file}.yaml", language))).key
-    parts = load_words(search_path(language))["parts"]
+    assignment = api.load(ROOT / "assignments" / f"{file}.yaml", language)
+    key, parts = marking_scheme(opened(assignment)).key, load_words(search_path(language, assignment.kind))["parts"]
     for row in key.rows:
         if (family := family_of(row.id)) not in met:
             met.add(family)

@@ -50,13 +50,17 @@ def result_rows(results: Mapping[str, Any]) -> list[list[Cell]]:
 
 
 def _leaves(value: Any, path: str = "") -> Iterator[tuple[str, Cell]]:
-    """Yield the numbers and texts of an entry with their paths; a pair is a plane vector."""
+    """Yield the numbers and texts of an entry with their paths.
+
+    A pair of numbers is a plane vector; entries of any other list are numbered from 1.
+    """
     match value:
         case Mapping():
             for name, inner in value.items():
                 yield from _leaves(inner, f"{path}.{name}" if path else str(name))
         case list():
-            for axis, part in zip(AXES, value, strict=True):
-                yield f"{path}.{axis}", part
+            is_vector = len(value) == len(AXES) and not any(isinstance(part, (Mapping, list)) for part in value)
+            for name, part in zip(AXES if is_vector else range(1, len(value) + 1), value, strict=True):
+                yield from _leaves(part, f"{path}.{name}")
         case _:
             yield path, value

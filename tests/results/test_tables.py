@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from reportgen import api
+from reportgen.results.result_files import result_rows
 from reportgen.results.terminal_tables import _column, print_tables, tables
 
 ASSIGNMENTS = Path(__file__).parents[2] / "assignments"
@@ -96,3 +97,13 @@ def test_what_is_not_nothing_is_never_printed_as_0(
     values: list[float | str | None], scale: float, shown: list[str]
 ) -> None:
     assert _column(values, scale, "en") == shown
+
+
+def test_a_list_in_the_results_has_a_column_for_each_entry() -> None:
+    """A pair of numbers is a plane vector; any other list, also one of lists or tables, is numbered."""
+    entries = {"v": [3.0, 4.0], "three": [1.0, 2.0, 3.0], "pairs": [[5.0, 6.0], {"m": 7.0}], "none": []}
+    assert result_rows({"positions": [entries, None]}) == [
+        ["v.x", "v.y", "three.1", "three.2", "three.3", "pairs.1.x", "pairs.1.y", "pairs.2.m", "number"],
+        [3.0, 4.0, 1.0, 2.0, 3.0, 5.0, 6.0, 7.0, None],
+        [*[None] * 8, 2.0],
+    ]
