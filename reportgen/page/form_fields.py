@@ -48,6 +48,8 @@ class FieldLine:
     """Largest number of items of a list, or None."""
     taken: bool = False
     """True if the text is not in the file: a part takes it from the machine."""
+    named: bool = False
+    """True if the user chose the key, and may choose another one."""
 
     @property
     def key(self) -> str:
@@ -74,6 +76,8 @@ class FieldGroup:
     required: bool = False
     file: str = ""
     """Separate file of a part."""
+    named: bool = False
+    """True if the user chose its key, and may choose another one."""
 
     @property
     def id(self) -> str:
@@ -161,7 +165,7 @@ class Form:
         if tables:
             return self._table(where, path, tables, node)
         if names:
-            return self._named(where, path, names, node)
+            return replace(self._named(where, path, names, node), required=required)
         return None
 
     def _table(self, where: Where, path: str, tables: Sequence[Schema], node: Node | None) -> FieldGroup:
@@ -251,7 +255,7 @@ class Form:
         for key, value in node.entries if isinstance(node, MappingNode) else ():
             entry = self._at((*where, key.text), path, {"anyOf": list(names)}, value, True)
             if isinstance(entry, FieldGroup):
-                made.append(FieldGroup(entry.where, key.text, entries=entry.entries, of_list=True))
+                made.append(FieldGroup(entry.where, key.text, entries=entry.entries, of_list=True, named=True))
             elif isinstance(entry, FieldLine):
                 made.append(_called(entry, key.text))
         form = (
@@ -345,7 +349,7 @@ def _with_switch(entry: FieldLine, instead: tuple[tuple[str, str], ...], require
 
 
 def _called(entry: FieldLine, name: str) -> FieldLine:
-    return replace(entry, words=FieldWords(name), required=False)
+    return replace(entry, words=FieldWords(name), required=False, named=True)
 
 
 def _below(inner: Any, where: Where) -> Any:

@@ -13,6 +13,7 @@ from reportgen.base.kinds import program_kinds
 from reportgen.base.template_folders import REFERENCE
 from reportgen.base.yaml_edit import exchanged, with_value
 from reportgen.base.yaml_lists import with_items
+from reportgen.base.yaml_names import renamed
 from reportgen.base.yaml_remarks import removed, renumbered
 from reportgen.base.yaml_source import MappingNode, Node, Scalar, SequenceNode, read_own, read_text
 from reportgen.base.yaml_values import at
@@ -36,6 +37,8 @@ def changed_text(text: str, operation: str, where: Where, asked: Mapping[str, An
             return with_items(text, where, new) if isinstance(new, SequenceNode) else with_value(text, where, new)
         case "remove":
             return removed(text, where)
+        case "rename":
+            return renamed(text, where, str(asked["name"]).strip())
         case "instead":
             return with_instead(text, where, str(asked["key"]), str(asked.get("value", "")))
         case "add" if "name" in asked:

@@ -34,7 +34,7 @@ class FormReader(HTMLParser):
             self.choices[tuple(place)] = []
         if tag == "option" and self._open[-1][0] == "select" and "data-w" in self._open[-1][1]:
             self.choices[tuple(json.loads(self._open[-1][1]["data-w"] or "[]"))].append(about.get("value") or "")
-        if tag == "button" and about.keys() & {"data-remove", "data-remedy", "data-add"}:
+        if tag == "button" and about.keys() & {"data-remove", "data-remedy", "data-add", "data-name"}:
             self.mended.add(tuple(json.loads(self._around("field")["data-w"] or "[]")))
         if tag == "button" and "data-goto" in about:
             self.faults.append(tuple(json.loads(about["data-goto"] or "[]")))

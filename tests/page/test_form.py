@@ -20,7 +20,7 @@ import pytest
 
 from reportgen import catalogue
 from reportgen.assignment.schema import alternatives, file_schema
-from reportgen.base import yaml_edit, yaml_source
+from reportgen.base import yaml_edit, yaml_names, yaml_source
 from reportgen.base.errors import Where
 from reportgen.base.kinds import kinds
 from reportgen.base.template_folders import search_path
@@ -244,9 +244,8 @@ def test_what_is_refused_is_told_in_the_language_of_the_form(language: Language)
     """Every reason that the code names has its words, and no words are left over."""
     words = load_words(search_path(language))["edit"]
     named = re.compile(r'(?:EditError|RefusedChangeError)\("(\w+)"')
-    keys = {
-        key for module in (yaml_edit, edit_session, form_choices) for key in named.findall(inspect.getsource(module))
-    }
+    modules = yaml_edit, yaml_names, edit_session, form_choices
+    keys = {key for module in modules for key in named.findall(inspect.getsource(module))}
     assert keys == words["refused"].keys()
     assert {"ENOSPC", "EACCES", "EROFS"} <= words["reasons"].keys() <= set(errno.errorcode.values())
     full = OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
