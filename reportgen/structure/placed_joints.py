@@ -19,6 +19,10 @@ from reportgen.structure.structure_file import PairPoint, Parameters
 
 ROOM = 112.0, 78.0
 """Largest distances across and up between the points of a scheme (mm of paper)."""
+SMALL_ROOM = 47.0, 44.0
+"""The same in a drawing of which two are side by side (mm)."""
+WIDE_ROOM, MOST_SMALL = (95.0, 62.0), 8
+"""The same in one of a mechanism with more moving links than this."""
 SAME_PLACE = 1e-9
 """Points within this distance (m) are one place."""
 
@@ -82,6 +86,20 @@ class PlacedJoints:
         rest = (replace(joint, links=tuple(link for link in joint.links if link in kept)) for joint in self.joints)
         return replace(self, joints=tuple(joint for joint in rest if len(joint.links) > 1))
 
+    def split_off(self, links: Iterable[int]) -> PlacedJoints:
+        """Return the lower pairs that these links keep when all others are split off.
+
+        Where a moving link was joined to one that is gone, it keeps a free pin or its guide.
+        """
+        kept, joints = {*links}, list[PlacedJoint]()
+        for joint in self.joints:
+            rest = tuple(link for link in joint.links if link in kept)
+            if joint.slide is not None and rest == joint.links[:1]:
+                joint = replace(joint, slide=None)
+            if rest and rest != (FRAME,):
+                joints.append(replace(joint, links=rest))
+        return replace(self, joints=tuple(joints))
+
     def active(self, given: Parameters) -> PlacedJoints:
         """Return the joints without passive links and rollers, whose higher pairs pass to the links that carry them."""
         passive, rollers = {*(given.passive or ())}, {*(given.rollers or ())}
@@ -102,6 +120,11 @@ class PlacedJoints:
             points += [2 * each.axis - joint.at for each in joint.profiles if joint.gears and each.axis is not None]
         spread = np.array(points)
         return 1 / max(float(np.ptp(spread.real)) / room[0], float(np.ptp(spread.imag)) / room[1], 1e-6)
+
+    @property
+    def step_scale(self) -> float:
+        """Millimetres of paper per metre in drawings of the replacement and of the steps."""
+        return self.scale(SMALL_ROOM if len(self.links) <= MOST_SMALL else WIDE_ROOM)
 
     def scaled(self, by: float) -> PlacedJoints:
         """Return the joints with places multiplied by a factor, in its unit."""

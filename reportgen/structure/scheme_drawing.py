@@ -1,4 +1,5 @@
-"""Kinematic scheme of a structure exercise, drawn from the places of its pairs: the whole, or with some links in gray.
+"""Kinematic scheme of a structure exercise, drawn from the places of its pairs: the whole, with its higher pairs
+replaced, or a step in which a group is split off.
 
 Lengths are millimetres of paper. Bars and plates join the pairs of a link; the frame is hatched.
 """
@@ -7,7 +8,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import combinations
@@ -23,7 +24,7 @@ from reportgen.drawing.label_candidates import distances
 from reportgen.drawing.labels import Request, joined, label
 from reportgen.formula import vocabulary
 from reportgen.structure.placed_joints import ROOM, PlacedJoint, PlacedJoints, Profile
-from reportgen.structure.splitting import FRAME
+from reportgen.structure.splitting import FRAME, Splitting, formula_part
 
 TOGETHER = 0.3
 """Points within this distance are drawn as one."""
@@ -31,12 +32,16 @@ LARGEST_DISC = 24.0
 """Profiles with a larger radius are drawn as an arc at the contact, unless they are gears."""
 HALF_PROFILE = 8.0
 """Half the length of such an arc, or of a straight profile."""
+SMALL_MARGIN = 3.0
+"""Margin of drawings of which two are side by side."""
 RAIL = 5.0
 """Length of a guide beyond each end of its block."""
 TRAVEL = 5.0
 """Half the travel of a block on the frame, for which its guide is drawn."""
 RING = 4.0
 """Distance from a disc at which its number has room."""
+SHORT_CRANK = 9.0
+"""The arrow of a shorter crank goes around its pin."""
 CLEAR = 1.0
 """Least distance of the driver's arrow from the links."""
 LEGS = math.cos(math.radians(75))
@@ -48,15 +53,25 @@ FADED = Pen(0.2, style.GRAY)
 
 @dataclass(frozen=True)
 class Sketch:
-    """A mechanism to be drawn: its joints (mm), its driver, and the links that are emphasized; None for a plain one."""
+    """A mechanism to be drawn: its joints (mm), its driver, and the links that are emphasized.
+
+    The other links may be drawn in gray, without their numbers and letters.
+    """
 
     joints: PlacedJoints
     driver: int
-    emphasized: Collection[int] | None = None
+    emphasized: Collection[int] = ()
+    others_gray: bool = False
 
     def plain(self, link: int) -> bool:
         """Return True if a link is not drawn in gray."""
-        return self.emphasized is None or link in self.emphasized
+        return link in self.emphasized or not self.others_gray
+
+    def pen(self, link: int) -> Pen:
+        """Return the pen of the bar or the plate of a link."""
+        if link in self.emphasized:
+            return style.NEW
+        return FADED if self.others_gray else style.HEAVY
 
     def clear_joint(self, joint: PlacedJoint) -> bool:
         """Return True if a joint has a link that is not drawn in gray."""
@@ -74,13 +89,14 @@ class Sketch:
                     discs.append(_disc(joint, profile))
                 else:
                     places.append(joint.at)
-            elif joint.slide is None or joint.links[0] == link:
+            elif joint.slide is None or joint.links[0] == link != joint.links[-1]:
                 places.append(joint.at)
         for centre, radius in discs:
             outside = [at for at in places if abs(at - centre) > radius + TOGETHER]
             places = [*outside, centre] if outside else []
         for joint in self.rails_of(link):
-            ends = rail_ends(joint)
+            # A rod may end behind the block; a plate, which the block would cover, ends at an end of the guide.
+            ends = (joint.at,) if _in_line(joint.at, places) else rail_ends(joint)
             places.append(min(ends, key=lambda end: settled(abs(end - places[0]))) if places else joint.at)
         return [group[0] for group in clusters(places, TOGETHER, lambda at: at)]
 
@@ -101,8 +117,7 @@ class Sketch:
         """Return the drawing with the requests of its labels."""
         discs, rails, bars, rims, blocks, pins = (list[Item]() for _ in range(6))
         for link in self.joints.links:
-            pen = style.HEAVY if self.emphasized is None else style.NEW if self.plain(link) else FADED
-            fill = style.TINT if self.plain(link) else None
+            pen, fill = self.pen(link), style.TINT if self.plain(link) else None
             bars += style.body(self.body_points(link), pen, fill)
             rails += [Line(*rail_ends(joint), pen) for joint in self.rails_of(link)]
         for joint in self.joints.joints:
@@ -119,6 +134,8 @@ class Sketch:
                     along = TRAVEL * polar(joint.slide)
                     ink = style.guide(joint.at - along, joint.at + along, style.BLOCK, self.sides)
                     rails += self._inked(ink, clear)
+                if len(joint.links) == 1:
+                    continue
                 blocks += self._inked((style.block(joint.at, joint.slide, style.BLOCK),), self.plain(joint.links[0]))
                 if not self._pinned(joint):
                     pins += self._inked((style.point(joint.at),), clear)
@@ -157,7 +174,8 @@ class Sketch:
             for contact in self.joints.of(self.driver)
             if contact.profiles and is_disc(contact, profile_of(contact, self.driver))
         ]
-        reach = max(5.0, min(0.55 * min(radii, default=12.0), 12.0))
+        nearest = min(radii, default=12.0)
+        reach = min(0.55 * nearest, 12.0) if nearest > SHORT_CRANK else nearest + 3.0
         starts = [angle + 0.25 + quarter * math.pi / 2 for quarter in range(4)]
         free = [start for start in starts if math.cos(start + SWEEP / 2 + math.pi / 2) < LEGS] or starts
 
@@ -179,7 +197,7 @@ class Sketch:
         named = [joint for joint in self.joints.joints if joint.name and self.clear_joint(joint)]
         for group in clusters(named, TOGETHER, lambda joint: joint.at):
             names = joined((vocabulary.point(joint.name) for joint in group), " ≡ ")
-            yield label(group[0].at, *names, gap=style.JOINT + 0.5)
+            yield label(group[0].at, *names, prefer=_beside_contact(group[0]), gap=style.JOINT + 0.5)
 
     def _number(self, link: int) -> Iterator[Request]:
         """Yield the ringed number of a link that is not gray: beside its longest bar, its block or its profile."""
@@ -187,7 +205,7 @@ class Sketch:
             return
         points, own = self.body_points(link), self.joints.of(link)
         across, gap = 0.0, 0.9
-        blocks = [joint for joint in own if joint.slide is not None and joint.links[0] == link]
+        blocks = [joint for joint in own if joint.slide is not None and joint.links[0] == link != joint.links[-1]]
         if len(points) > 1:
             start, end = max(combinations(points, 2), key=lambda pair: settled(abs(pair[1] - pair[0])))
             across = cmath.phase(end - start) + math.pi / 2
@@ -202,6 +220,7 @@ class Sketch:
             around = [(centre, radius, polar(k * math.pi / 6)) for centre, radius in rims for k in range(12)]
             around.sort(key=lambda rim: -settled(self._clearance([rim[0] + (rim[1] + RING) * rim[2]])))
             places = [centre + radius * out for centre, radius, out in around] or [joint.at for joint in own]
+            across = cmath.phase(around[0][2]) if around else 0.0
         yield label(places, str(link), prefer=(across, across + math.pi), gap=gap, size=style.SMALL, ring=True)
 
     def _facts(self) -> Iterator[Fact]:
@@ -212,7 +231,7 @@ class Sketch:
         for joint in filter(self.clear_joint, self.joints.joints):
             if joint.profiles:
                 yield fact("structure-contact", vocabulary.point(joint.name), *map(str, joint.links))
-            elif joint.slide is not None and joint.name:
+            elif joint.slide is not None and joint.name and len(joint.links) > 1:
                 block, on = joint.links
                 along, name = alignment(polar(joint.slide)), vocabulary.point(joint.name)
                 if on == FRAME:
@@ -229,6 +248,33 @@ class Sketch:
 def scheme(joints: PlacedJoints, driver: int) -> Scene:
     """Draw the whole mechanism."""
     return finish(Sketch(joints.scaled(joints.scale(ROOM)), driver).draft())
+
+
+def replacement(joints: PlacedJoints, driver: int) -> tuple[Scene, Scene]:
+    """Draw a mechanism with its higher pairs, and with a link and two lower pairs for each of them."""
+    joints = joints.scaled(joints.step_scale)
+    equivalent = joints.with_lower_pairs
+    sketches = Sketch(joints, driver), Sketch(equivalent, driver, emphasized=equivalent.added)
+    before, after = (
+        finish(sketch.draft(), margin=SMALL_MARGIN, title=title)
+        for sketch, title in zip(sketches, ("a)", "b)"), strict=True)
+    )
+    return before, after
+
+
+def steps(joints: PlacedJoints, splitting: Splitting) -> Iterator[Scene]:
+    """Draw each group as it is split off from the rest, the last of the assembly first, and then the driver.
+
+    The joints are lower pairs. The group is emphasized, the rest is gray; below is the group's part of the formula.
+    """
+    joints = joints.scaled(joints.step_scale)
+    rest = {FRAME, *joints.links}
+    for group in reversed(splitting.groups):
+        sketch = Sketch(joints.split_off(rest), splitting.driver, group.links, others_gray=True)
+        yield finish(sketch.draft(), margin=SMALL_MARGIN, title=formula_part(group.assur_class, group.links))
+        rest -= {*group.links}
+    sketch = Sketch(joints.split_off(rest), splitting.driver, (splitting.driver,), others_gray=True)
+    yield finish(sketch.draft(), margin=SMALL_MARGIN, title=formula_part(1, (FRAME, splitting.driver)))
 
 
 # --- profiles of higher pairs ---------------------------------------------------------------------
@@ -248,6 +294,20 @@ def rail_ends(joint: PlacedJoint) -> tuple[complex, complex]:
     """Return the ends of the guide of a sliding pair on a moving link."""
     on = polar(joint.slide or 0.0) * (style.BLOCK[0] / 2 + RAIL)
     return joint.at - on, joint.at + on
+
+
+def _in_line(at: complex, places: Sequence[complex]) -> bool:
+    """Return True if places are on a straight line through a point."""
+    arms = [place - at for place in places]
+    longest = max(arms, key=lambda arm: settled(abs(arm)), default=0j)
+    return all(abs((arm * longest.conjugate()).imag) <= TOGETHER * abs(longest) for arm in arms)
+
+
+def _beside_contact(joint: PlacedJoint) -> tuple[float, ...]:
+    """Return the directions (rad) of the common tangent of a higher pair; () for a lower pair."""
+    centre = next((profile.axis for profile in joint.profiles if profile.axis is not None), joint.at)
+    normal = cmath.phase(joint.at - centre)
+    return (normal + math.pi / 2, normal - math.pi / 2) if joint.profiles else ()
 
 
 def _disc(joint: PlacedJoint, profile: Profile) -> tuple[complex, float]:

@@ -228,6 +228,21 @@ def _group(chain: KinematicChain, links: tuple[int, ...], placed: set[Unknown]) 
     return AssurGroup(links, tuple(inner), tuple(outer))
 
 
+# --- writing ----------------------------------------------------------------------------------------
+
+ROMAN = ("0", "I", "II", "III", "IV", "V", "VI", "VII", "VIII", "IX", "X")
+
+
+def roman(number: int) -> str:
+    """Return the class of a group or mechanism as it is written."""
+    return ROMAN[number] if number < len(ROMAN) else str(number)
+
+
+def formula_part(number: int, links: Iterable[int]) -> str:
+    """Return the part of a formula of structure for the links of a class: II(2, 3)."""
+    return f"{roman(number)}({', '.join(map(str, links))})"
+
+
 # --- equations and unknowns -----------------------------------------------------------------------
 
 Equation = tuple[Unknown, Unknown]

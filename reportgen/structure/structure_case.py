@@ -17,7 +17,8 @@ from reportgen.formula import Chain, vocabulary
 from reportgen.sheets.plates import drawn
 from reportgen.structure import scheme_drawing, structure_drawings
 from reportgen.structure import structure_ids as ids
-from reportgen.structure.structure_solution import SolvedStructure, formula_of, roman
+from reportgen.structure.splitting import roman
+from reportgen.structure.structure_solution import SolvedStructure, formula_of
 
 LINES = "counts", "mobility", "equivalent"
 NARROW, MIDDLE, WIDE = 16.0, 34.0, 70.0
@@ -144,6 +145,10 @@ class StructurePage(DesignPage[SolvedStructure]):
                 return (structure_drawings.diagram(self.case),)
             case "scheme":
                 return (scheme_drawing.scheme(self.case.placed, self.case.given.driver),)
+            case "replacement":
+                return scheme_drawing.replacement(self.case.placed_active, self.case.given.driver)
+            case "steps":
+                return scheme_drawing.steps(self.case.placed_active.with_lower_pairs, self.case.splitting)
             case _:
                 raise KeyError(name)
 
@@ -192,8 +197,11 @@ class StructureCase(SolvedStructure):
         scene = lettered(structure_drawings.diagram(self))
         plates = [DrawingPlate(captions["figure-diagram"], (), "schemes", (scene,))]
         if self.placed.joints:
-            whole = tuple(map(lettered, page.scenes("scheme")))
-            plates.insert(0, DrawingPlate(captions["figure-scheme"], (), "schemes", whole))
+            figures = ("scheme", *(["replacement"] if self.replacements else []), "steps")
+            plates[:0] = [
+                DrawingPlate(captions[f"figure-{name}"], (), "schemes", tuple(map(lettered, page.scenes(name))))
+                for name in figures
+            ]
         if self.groups:
             table = page.group_table
             plates.append(

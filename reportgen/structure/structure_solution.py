@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -13,15 +13,16 @@ from reportgen.formula.calculation import Calculation
 from reportgen.formula.ledger import MistakenValues
 from reportgen.structure import structure_ids as names
 from reportgen.structure.placed_joints import PlacedJoints, placed
-from reportgen.structure.splitting import AssurGroup, KinematicChain, Splitting, StructureError, split
+from reportgen.structure.splitting import (
+    FRAME,
+    AssurGroup,
+    KinematicChain,
+    Splitting,
+    StructureError,
+    formula_part,
+    split,
+)
 from reportgen.structure.structure_file import Parameters, active
-
-ROMAN = ("0", "I", "II", "III", "IV", "V", "VI", "VII", "VIII", "IX", "X")
-
-
-def roman(number: int) -> str:
-    """Return the class of a group or mechanism as it is written."""
-    return ROMAN[number] if number < len(ROMAN) else str(number)
 
 
 def whole(number: int) -> Expression:
@@ -60,6 +61,11 @@ class SolvedStructure(DesignCase):
     def placed(self) -> PlacedJoints:
         """The pairs as given, at their places; none without points."""
         return placed(self.given)
+
+    @cached_property
+    def placed_active(self) -> PlacedJoints:
+        """The same without passive links and rollers, whose higher pairs pass to the links that carry them."""
+        return self.placed.active(self.given)
 
     @cached_property
     def splitting(self) -> Splitting:
@@ -194,9 +200,5 @@ def split_or_none(chain: KinematicChain, driver: int) -> Splitting | None:
 
 def formula_of(splitting: Splitting) -> str:
     """Return the formula of structure: I(0, 1) → II(2, 3)."""
-
-    def part(number: int, links: Iterable[int]) -> str:
-        return f"{roman(number)}({', '.join(map(str, links))})"
-
-    groups = (part(group.assur_class, group.links) for group in splitting.groups)
-    return " → ".join((part(1, (0, splitting.driver)), *groups))
+    groups = (formula_part(group.assur_class, group.links) for group in splitting.groups)
+    return " → ".join((formula_part(1, (FRAME, splitting.driver)), *groups))

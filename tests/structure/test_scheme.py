@@ -12,10 +12,11 @@ import pytest
 from reportgen import api
 from reportgen.base.template_folders import languages
 from reportgen.document import Document, Figure
-from reportgen.drawing import Arc, Arrow, Hatch, Label, Scene
+from reportgen.drawing import Arc, Arrow, Hatch, Label, Line, Polyline, Scene, style
 from reportgen.drawing.geometry import frame
 from reportgen.formula.plain_text import formula
-from reportgen.structure.scheme_drawing import Sketch, scheme
+from reportgen.structure.scheme_drawing import Sketch, replacement, scheme, steps
+from reportgen.structure.structure_solution import formula_of
 from tests.report import built
 
 FOLDER = Path(__file__).parents[2] / "assignments" / "structure"
@@ -157,3 +158,74 @@ def test_the_scheme_is_in_report_and_sheets_if_there_are_points(language: str, t
         assert figures(case.document()).count("fig.scheme") == count
         plates = [plate.title for plate in case.plates()["structure"]]
         assert plates.count(case.words["structure"]["captions"]["figure-scheme"]) == count
+
+
+# --- replacement and steps ------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("file", FILES, ids=lambda file: file.stem)
+def test_placed_joints_are_those_of_the_equivalent_mechanism(file: Path) -> None:
+    """Rollers and passive links are removed, and higher pairs replaced, in the drawing as in the count."""
+    case: Any = built.case(file, "en")
+    equivalent = case.placed_active.with_lower_pairs
+    joints = [frozenset(joint.links) for joint in equivalent.joints]
+    assert sorted(map(sorted, joints)) == sorted(sorted(joint.links) for joint in case.lower_chain.joints)
+    assert equivalent.added == tuple(case.replacements)
+
+
+def blue_bars(scene: Scene) -> list[Any]:
+    return [item for item in scene.items if isinstance(item, Line | Polyline) and item.stroke == style.NEW]
+
+
+@pytest.mark.parametrize("file", FILES, ids=lambda file: file.stem)
+def test_each_step_emphasizes_its_group_and_the_titles_are_the_formula(file: Path) -> None:
+    case: Any = built.case(file, "en")
+    scenes = list(steps(case.placed_active.with_lower_pairs, case.splitting))
+    assert " → ".join(scene.title for scene in reversed(scenes)) == formula_of(case.splitting)
+    links = [*(group.links for group in reversed(case.groups)), (case.given.driver,)]
+    for scene, group in zip(scenes, links, strict=True):
+        assert sorted(name for name in texts(scene) if name.isdigit()) == sorted(map(str, group))
+        assert blue_bars(scene)
+    # What is split off is not drawn again: the last step has the driver's pivot, and its bar to the next pair.
+    assert sum(isinstance(item, Hatch) for item in scenes[-1].items) == 1
+    assert len(blue_bars(scenes[-1])) == 1
+
+
+@pytest.mark.parametrize("name", ["cam-roller", "geared-bars"])
+def test_a_replacement_adds_a_bar_between_the_centres_of_curvature(name: str) -> None:
+    case: Any = built.case(FOLDER / f"{name}.yaml", "en")
+    before, after = replacement(case.placed_active, case.given.driver)
+    added = [str(link) for link in case.replacements]
+    assert not blue_bars(before)
+    assert sorted({*texts(after)} - {*texts(before)}) == added
+    (bar,) = blue_bars(after)
+    contact = next(joint for joint in case.placed_active.joints if joint.profiles)
+    scale = case.placed_active.step_scale
+    between = contact.profiles[1].centre - contact.profiles[0].centre
+    assert abs(bar.end - bar.start) == pytest.approx(abs(between) * scale)
+
+
+FLAT = """kind: structure
+report: {language: en}
+parameters:
+  pairs: [[0, 1], [2, 0]]
+  higher: [[1, 2]]
+  points:
+    A: {links: [0, 1], at: [0 mm, 0 mm]}
+    B: {links: [2, 0], at: [10 mm, 90 mm], slide: 90 deg}
+    K: {links: [1, 2], at: [10 mm, 40 mm], centres: [[10 mm, 10 mm]]}
+"""
+
+
+def test_a_flat_follower_gets_a_block_at_the_centre_of_the_cam(tmp_path: Path) -> None:
+    """The added link turns about the centre of curvature of the cam and slides along the straight profile."""
+    case = case_of(tmp_path, FLAT)
+    assert formula_of(case.splitting) == "I(0, 1) → II(2, 3)"
+    pin, slide = case.placed_active.with_lower_pairs.joints[-2:]
+    assert (pin.links, slide.links) == ((1, 3), (3, 2))
+    assert pin.at == slide.at == pytest.approx(0.010 + 0.010j)
+    assert math.degrees(slide.slide) % 180 == pytest.approx(0)
+    # The follower is a rod with a guide across it, on which the block of the added link slides.
+    assert {"1", "2", "3"} <= {*texts(replacement(case.placed_active, 1)[1])}
+    rod = Sketch(case.placed_active.with_lower_pairs.scaled(1000), 1).body_points(2)
+    assert [point.imag for point in rod] == pytest.approx([90, 10])
