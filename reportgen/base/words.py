@@ -227,7 +227,7 @@ def _table(source: Source, above: int = 0) -> Mapping[str, Any]:
 
 
 def _below(location: Location, above: int) -> Location:
-    return replace(location, line=location.line + above)
+    return replace(location, line=location.line + above) if above else location
 
 
 def _over(below: Mapping[str, Any], above: Mapping[str, Any], place: Path, where: Where = ()) -> Mapping[str, Any]:

@@ -344,9 +344,12 @@ class LoadedAssignment(Case):
         language.
         """
         standard: str = self.words["cover"]["course"]
-        names = {common_words(language)["cover"]["course"] for language in languages()}
         given = self.assignment.report.course
-        return given if given and given not in names else standard
+        if not given or given == standard:
+            # Usual, and the words of other languages take long to read.
+            return standard
+        names = (common_words(language)["cover"]["course"] for language in languages())
+        return standard if given in names else given
 
     @property
     def place_and_date(self) -> str:
