@@ -43,7 +43,6 @@ class Analysis:
     machine: Machine
     cycle_angle: np.ndarray
     motion: Motion
-    gas: Mapping[str, GasState]
     weights: tuple[Load, ...]
     inertia: tuple[Load, ...]
     applied: tuple[Load, ...]
@@ -66,6 +65,12 @@ class Analysis:
         if compute not in self._derived:
             self._derived[compute] = compute(self)
         return cast(Derived, self._derived[compute])
+
+    @cached_property
+    def gas(self) -> Mapping[str, GasState]:
+        """The gas in each cylinder, by the id of its force."""
+        pistons = self.machine.pistons
+        return {piston.name: gas_in(piston, self.motion, self.cycle_angle) for piston in pistons}
 
     @cached_property
     def summary(self) -> Summary:
@@ -105,11 +110,10 @@ def gas_in(piston: Piston, motion: Motion, cycle_angle: np.ndarray) -> GasState:
 
 
 def analyse(machine: Machine, cycle_angle: np.ndarray | None = None) -> Analysis:
-    """Solve motion, gas, forces and both torques at the machine's positions, or at other cycle angles [N] (rad)."""
+    """Solve motion, loads, forces and both torques at the machine's positions, or at other cycle angles [N] (rad)."""
     angles = machine.cycle_angles if cycle_angle is None else np.asarray(cycle_angle, dtype=float)
     linkage = machine.linkage
     motion = motion_at(machine, angles)
-    gas = {piston.name: gas_in(piston, motion, angles) for piston in machine.pistons}
     applied = tuple(load.load(angles, motion) for load in machine.loads)
     heavy, inert = weights(linkage, motion), inertia_loads(linkage, motion)
     loads = (*heavy, *inert, *applied)
@@ -118,7 +122,6 @@ def analyse(machine: Machine, cycle_angle: np.ndarray | None = None) -> Analysis
         machine=machine,
         cycle_angle=angles,
         motion=motion,
-        gas=gas,
         weights=heavy,
         inertia=inert,
         applied=applied,

@@ -160,9 +160,12 @@ class StrokeIndicator:
 
     def pressure(self, cycle_angle: ArrayLike, fraction: ArrayLike, dead_centres: ArrayLike = DEAD_CENTRES) -> Floats:
         """Return the pressure (Pa) [N] at cycle angles [N] (rad), with the piston at fractions [N] of its stroke."""
-        stroke = stroke_at(cycle_angle, dead_centres)
-        by_row = np.stack([np.interp(np.asarray(fraction), self.fractions, row) for row in self.rows])
-        return np.asarray(np.choose(stroke, by_row), dtype=np.float64)
+        stroke, at = stroke_at(cycle_angle, dead_centres), np.asarray(fraction)
+        nodes, rows = np.asarray(self.fractions), np.asarray(self.rows)
+        # Behind the last node, s/H = 1, a row goes on level.
+        slopes = np.diff(rows, append=rows[:, -1:]) / np.diff(nodes, append=np.inf)
+        before = np.clip(np.searchsorted(nodes, at, side="right") - 1, 0, nodes.size - 1)
+        return np.asarray(slopes[stroke, before] * (at - nodes[before]) + rows[stroke, before], dtype=np.float64)
 
     def breaks(
         self, fraction_of: Callable[[Floats], Floats], dead_centres: ArrayLike = DEAD_CENTRES

@@ -209,6 +209,11 @@ class Motion:
             return PointMotion(p, np.zeros_like(p), np.zeros_like(p))
         return carried(self.origins[link], self.links[link], p)
 
+    def velocity(self, link: int, at: Complexes | complex) -> Complexes:
+        """Return the velocity (m/s) [N] of the point `of` a moving link: v = v_O + iω r."""
+        origin = self.origins[link]
+        return origin.v + 1j * self.links[link].omega * (at - origin.p)
+
 
 def solve_motion(linkage: Linkage, driver: ArrayLike, rate: ArrayLike, acceleration: ArrayLike = 0.0) -> Motion:
     """Return the motion at the driver's coordinates `driver` [N] (rad, or m of a slide), passed through in this order.
@@ -306,6 +311,8 @@ class _State:
         self.still: Complexes = zero.astype(np.complex128)
         self.links: dict[int, LinkMotion] = {GROUND: LinkMotion(zero, zero, zero)}
         self.origins: dict[int, PointMotion] = {GROUND: self._fixed(0)}
+        self.axes: dict[int, Complexes] = {GROUND: np.ones_like(self.still)}
+        """Unit vectors along the links, those that were needed."""
         self.points = {name: self._fixed(p) for name, p in linkage.ground.items()}
         self.slides: dict[tuple[int, int], SlideMotion] = {}
         self.reachable = np.isfinite(path)
@@ -334,13 +341,18 @@ class _State:
         self.links[number], self.origins[number] = link, origin
         for point in self.linkage.points:
             if point.link == number:
-                self.points[point.name] = carried(origin, link, origin.p + point.local * unit(link.angle))
+                self.points[point.name] = carried(origin, link, origin.p + point.local * self._axis(number))
+
+    def _axis(self, link: int) -> Complexes:
+        if link not in self.axes:
+            self.axes[link] = unit(self.links[link].angle)
+        return self.axes[link]
 
     def _end(self, end: str | Guide) -> End:
         if isinstance(end, str):
             return self.points[end]
         carrier, origin = self.links[end.link], self.origins[end.link]
-        turned = unit(carrier.angle)
+        turned = self._axis(end.link)
         at = carried(origin, carrier, origin.p + end.at * turned)
         return Rail(end.link, at, turned * unit(end.angle), carrier)
 
