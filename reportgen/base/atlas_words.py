@@ -15,7 +15,7 @@ from typing import Any
 
 from reportgen.base.template_folders import DEFAULT_LANGUAGE, REFERENCE, atlas_files, is_own_machine
 from reportgen.base.units import Language
-from reportgen.base.yaml_source import STRANGE, Source, in_a_line, plain, read_source, read_words
+from reportgen.base.yaml_source import STRANGE, MappingNode, Source, in_a_line, plain, read_source, read_words
 
 GROUP = "atlas"
 """The group of the machines of the atlas in the form's first view."""
@@ -24,6 +24,12 @@ LONGEST_WORDS = 2000
 KEPT_MACHINES = 256
 TABLES = frozenset({"parameters", "links"})
 """Words of a machine that are tables; all others are texts."""
+
+
+def is_machine_file(source: Source) -> bool:
+    """Return True for the nodes of a machine's file, which has a linkage and no kind."""
+    top = source.top
+    return isinstance(top, MappingNode) and top.find("linkage") is not None and top.find("kind") is None
 
 
 def machine_source(file: Path) -> Source:

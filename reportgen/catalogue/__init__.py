@@ -22,6 +22,7 @@ from contextlib import suppress
 from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 import numpy as np
@@ -30,6 +31,7 @@ from reportgen.assignment import parts, reading
 from reportgen.assignment.common import Assignment, Drawing, Extended, Kind, Part, Positions, named_worked
 from reportgen.assignment.fields import UNIT_KEY
 from reportgen.assignment.schema import alternatives_to, choices_of, file_schema, places, schema_of
+from reportgen.base.atlas_words import is_machine_file
 from reportgen.base.errors import AssignmentError, Fault, Finding, Level, Problem, ReportgenError, TemplateError
 from reportgen.base.field_words import also, choice_words, field_words, remarked
 from reportgen.base.kinds import SAMPLE, kinds
@@ -41,7 +43,7 @@ from reportgen.base.words import as_error, as_problem, language_of, sections, sp
 from reportgen.base.yaml_source import MappingNode, Scalar, Source, read_source
 from reportgen.base.yaml_values import at as node_at
 from reportgen.base.yaml_values import put, text_of
-from reportgen.catalogue import assembly_checks, atlas, declared_loads
+from reportgen.catalogue import assembly_checks, declared_loads
 from reportgen.catalogue.parameters import Driven
 from reportgen.catalogue.topic_sections import TopicParameters, sections_of, topic_checks, with_topics
 from reportgen.machine import Linkage
@@ -58,12 +60,25 @@ def module(kind: str) -> Any:
 
     Raises `KeyError` for an unknown kind, and `AssignmentError` for a machine of the atlas whose file is faulty.
     """
-    return atlas.machine_of(kind) if is_of_atlas(kind) else import_module(kinds()[kind])
+    return _atlas().machine_of(kind) if is_of_atlas(kind) else import_module(kinds()[kind])
+
+
+def _atlas() -> ModuleType:
+    """Return the module of the machines of the atlas, which loads all of the kind `linkage`."""
+    from reportgen.catalogue import atlas
+
+    return atlas
+
+
+def faults_of(kind: str) -> tuple[Fault, ...]:
+    """Return the faults in the file of a machine of the atlas; () for one that is in order, and for any other kind."""
+    faults: tuple[Fault, ...] = _atlas().faults_of(kind) if is_of_atlas(kind) else ()
+    return faults
 
 
 def is_sound(name: str) -> bool:
     """Return True for a kind, unless it is a machine of the atlas whose file is faulty."""
-    return name in kinds() and not atlas.faults_of(name)
+    return name in kinds() and not faults_of(name)
 
 
 def sound_kinds() -> list[str]:
@@ -73,7 +88,7 @@ def sound_kinds() -> list[str]:
 
 def faulty_machines(language: Language | None = None) -> list[Problem]:
     """Return the errors in the files of the atlas."""
-    return [as_problem(fault, language) for name in kinds() for fault in atlas.faults_of(name)]
+    return [as_problem(fault, language) for name in kinds() for fault in faults_of(name)]
 
 
 def kind(name: str) -> Kind:
@@ -128,7 +143,7 @@ def understood(source: Source, path: Path) -> tuple[Assignment | None, list[Faul
 def _of_machine(source: Source) -> tuple[Fault, ...]:
     """Return the faults of the machine of the atlas that nodes name."""
     name = node_at(source.top, ("kind",))
-    return atlas.faults_of(name.text) if isinstance(name, Scalar) else ()
+    return faults_of(name.text) if isinstance(name, Scalar) else ()
 
 
 def unchecked(source: Source, path: Path) -> Assignment | None:
@@ -253,9 +268,9 @@ def examine(path: Path | str, language: Language | None = None) -> list[Problem]
     Of a machine's file for the atlas, the faults are returned; if it has none, warnings about its words and bounds.
     A spec for a class has a single fault.
     """
-    if atlas.is_machine_file(source := read_source(Path(path))):
-        faults = [as_problem(fault, language) for fault in atlas.faults_in(source)]
-        return faults or [as_problem(fault, language, "warning") for fault in atlas.doubts_in(source)]
+    if is_machine_file(source := read_source(Path(path))):
+        faults = [as_problem(fault, language) for fault in _atlas().faults_in(source)]
+        return faults or [as_problem(fault, language, "warning") for fault in _atlas().doubts_in(source)]
     if (key := _key_of_spec(source)) is not None:
         return [as_problem(Fault("is-a-spec", key.location, {"key": key.text}), language)]
     return problems_of(source, Path(path), language)
@@ -351,7 +366,7 @@ def sample(name: str, language: Language) -> str:
         raise TemplateError(f"{file}:1: there is no section {SAMPLE}")
     words, text = field_words(name, language), section.text
     if is_of_atlas(name):
-        text = atlas.starter(name, text, language)
+        text = _atlas().starter(name, text, language)
     return remarked(text, words, lambda path, value: _more(known, path.split("."), value, language))
 
 

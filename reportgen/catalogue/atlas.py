@@ -23,7 +23,7 @@ from reportgen.base.field_words import FieldWords
 from reportgen.base.template_folders import ATLAS_BASE, atlas_files, is_machine_name, is_own_machine
 from reportgen.base.units import Given, Language
 from reportgen.base.words import as_error
-from reportgen.base.yaml_source import MappingNode, Source
+from reportgen.base.yaml_source import Source
 from reportgen.catalogue import linkage, linkage_file
 from reportgen.catalogue.atlas_file import CompiledMachine, at_bounds, checked, read_machine, without_names
 from reportgen.catalogue.derived_values import PLACES, derived_lines, free_parameters, ids_by_place
@@ -224,14 +224,8 @@ def machine_of(kind: str) -> AtlasMachine:
 
 
 def faults_of(kind: str) -> tuple[Fault, ...]:
-    """Return the faults of a machine's file; () for one that is in order, and for any other kind."""
+    """Return the faults of a machine's file; () for one that is in order, and for an unknown kind."""
     return _read(kind)[1] if kind in atlas_files() else ()
-
-
-def is_machine_file(source: Source) -> bool:
-    """Return True for the nodes of a machine's file, which has a linkage and no kind."""
-    top = source.top
-    return isinstance(top, MappingNode) and top.find("linkage") is not None and top.find("kind") is None
 
 
 def faults_in(source: Source) -> list[Fault]:

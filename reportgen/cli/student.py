@@ -294,9 +294,9 @@ def solve(
 
 def check(files: Files, lang: LangOption = None, templates: TemplatesOption = None, atlas: AtlasOption = None) -> None:
     """Check each FILE and print its errors and warnings. Without errors, the exit code is 0."""
-    from reportgen import api
+    from reportgen.catalogue import examine
 
-    problems = [problem for file in files for problem in api.examine(file, lang)]
+    problems = [problem for file in files for problem in examine(file, lang)]
     for problem in problems:
         print(problem, file=sys.stderr)
     raise typer.Exit(AT_FAULT if any(problem.level == "error" for problem in problems) else 0)
