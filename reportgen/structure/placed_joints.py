@@ -117,7 +117,8 @@ class PlacedJoints:
         """Return the millimetres of paper per metre at which all points and gears fit a room (mm)."""
         points = [joint.at for joint in self.joints]
         for joint in self.joints:
-            points += [2 * each.axis - joint.at for each in joint.profiles if joint.gears and each.axis is not None]
+            circles = [(each.axis, abs(joint.at - each.axis)) for each in joint.profiles if each.axis is not None]
+            points += [axis + radius * 1j**k for axis, radius in circles if joint.gears for k in range(4)]
         spread = np.array(points)
         return 1 / max(float(np.ptp(spread.real)) / room[0], float(np.ptp(spread.imag)) / room[1], 1e-6)
 

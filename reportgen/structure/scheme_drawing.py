@@ -11,7 +11,7 @@ import math
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import combinations
+from itertools import combinations, pairwise
 
 import numpy as np
 
@@ -34,6 +34,8 @@ HALF_PROFILE = 8.0
 """Half the length of such an arc, or of a straight profile."""
 SMALL_MARGIN = 3.0
 """Margin of drawings of which two are side by side."""
+CHORD = 4.0
+"""Length of the strips that hatch a round profile of the frame."""
 RAIL = 5.0
 """Length of a guide beyond each end of its block."""
 TRAVEL = 5.0
@@ -124,7 +126,7 @@ class Sketch:
             ink: Iterable[Item]
             if joint.profiles:
                 for link in joint.links:
-                    ink = _profile(joint, profile_of(joint, link))
+                    ink = _profile(joint, link)
                     discs += self._inked(ink, self.plain(link))
                     # The outline again, which a plate would cover.
                     rims += self._inked((replace(i, fill=None) for i in ink if isinstance(i, Circle)), self.plain(link))
@@ -142,6 +144,8 @@ class Sketch:
             else:
                 ink = style.pivot(joint.at) if FRAME in joint.links else (style.joint(joint.at),)
                 pins += self._inked(ink, self.clear_joint(joint))
+        # A smaller disc, as a wheel in an internal gear, is in front of a larger one.
+        discs.sort(key=lambda item: -settled(item.radius) if isinstance(item, Circle) else -math.inf)
         items = (*discs, *rails, *bars, *rims, *blocks, *pins)
         requests = [*self._letters(), *(request for link in self.joints.links for request in self._number(link))]
         return Canvas((*items, *self._driver_arrow()), tuple(requests), tuple(self._facts()))
@@ -315,18 +319,37 @@ def _disc(joint: PlacedJoint, profile: Profile) -> tuple[complex, float]:
     return centre, abs(joint.at - centre)
 
 
-def _profile(joint: PlacedJoint, profile: Profile) -> tuple[Item, ...]:
-    """Draw a profile: a disc, or a piece of it at the contact."""
-    if is_disc(joint, profile):
-        centre, radius = _disc(joint, profile)
-        return (Circle(centre, radius, style.VISIBLE, style.TINT),) if radius > TOGETHER else ()
+def _profile(joint: PlacedJoint, link: int) -> tuple[Item, ...]:
+    """Draw the profile of a link: a disc, or a piece of it at the contact; that of the frame is hatched."""
+    profile = profile_of(joint, link)
     if profile.axis is None:
-        centre = next(other.axis for other in joint.profiles if other.axis is not None)
+        centre = next(each.axis for each in joint.profiles if each.axis is not None)
         across = HALF_PROFILE * polar(cmath.phase(joint.at - centre)) * 1j
-        return (Line(joint.at - across, joint.at + across, style.HEAVY),)
-    radius, angle = abs(joint.at - profile.axis), cmath.phase(joint.at - profile.axis)
-    half = HALF_PROFILE / radius
-    return (Arc(profile.axis, radius, angle - half, angle + half, style.HEAVY),)
+        outline: Item = Line(joint.at - across, joint.at + across, style.HEAVY)
+        points = [joint.at - across, joint.at + across]
+    else:
+        radius, angle = abs(joint.at - profile.axis), cmath.phase(joint.at - profile.axis)
+        if radius <= TOGETHER:
+            return ()
+        half = math.pi if is_disc(joint, profile) else HALF_PROFILE / radius
+        outline = Arc(profile.axis, radius, angle - half, angle + half, style.HEAVY)
+        if is_disc(joint, profile):
+            outline = Circle(profile.axis, radius, style.VISIBLE, None if link == FRAME else style.TINT)
+        chords = max(2, round(2 * half * radius / CHORD))
+        points = [profile.axis + radius * polar(angle - half + 2 * half * k / chords) for k in range(chords + 1)]
+    return (*(_hatched(joint, points) if link == FRAME else ()), outline)
+
+
+def _hatched(joint: PlacedJoint, points: Sequence[complex]) -> Iterator[Item]:
+    """Yield the hatching of a profile of the frame, on the side away from the link that touches it."""
+    touching = joint.profiles[1 - joint.links.index(FRAME)].axis
+    if touching is None:
+        touching = 2 * joint.at - (profile_of(joint, FRAME).axis or 0j)
+    start, end = min(pairwise(points), key=lambda chord: settled(abs(sum(chord) / 2 - joint.at)))
+    side = -1 if ((touching - joint.at) * (end - start).conjugate()).imag > 0 else 1
+    return (
+        item for start, end in pairwise(points) for item in style.ground(start, end, side) if isinstance(item, Hatch)
+    )
 
 
 def faded(item: Item) -> Item:

@@ -12,7 +12,7 @@ import pytest
 from reportgen import api
 from reportgen.base.template_folders import languages
 from reportgen.document import Document, Figure
-from reportgen.drawing import Arc, Arrow, Hatch, Label, Line, Polyline, Scene, style
+from reportgen.drawing import Arc, Arrow, Circle, Hatch, Label, Line, Polyline, Scene, style
 from reportgen.drawing.geometry import frame
 from reportgen.formula.plain_text import formula
 from reportgen.structure.scheme_drawing import Sketch, replacement, scheme, steps
@@ -141,6 +141,35 @@ def test_gears_touch_and_their_centres_of_curvature_are_on_the_base_circles(tmp_
         assert abs(profile.centre - profile.axis) == pytest.approx(radius * math.cos(math.radians(20)))
     normal = joint.profiles[1].centre - joint.profiles[0].centre
     assert abs(normal) == pytest.approx(0.070 * math.sin(math.radians(20)))
+
+
+PLANETARY = """kind: structure
+report: {language: en}
+parameters:
+  pairs: [[0, 1, 3], [3, 2]]
+  higher: [[1, 2], [2, 0]]
+  points:
+    A: {links: [0, 1, 3], at: [0 mm, 0 mm]}
+    B: {links: [3, 2], at: [30 mm, 20 mm]}
+    C: {links: [1, 2], at: [18 mm, 12 mm], teeth: 20 deg}
+    D: {links: [2, 0], at: [42 mm, 28 mm], teeth: 20 deg}
+"""
+
+
+def test_a_fixed_internal_gear_is_hatched_outside_and_behind_the_wheels(tmp_path: Path) -> None:
+    """Its radius is that of the sun plus the diameter of the planet."""
+    case = case_of(tmp_path, PLANETARY)
+    scene = scheme(case.placed, 1)
+    wheels = [item for item in scene.items if isinstance(item, Circle) and item.fill == style.TINT]
+    ring = max((item for item in scene.items if isinstance(item, Circle)), key=lambda circle: circle.radius)
+    sun, planet = sorted({round(wheel.radius, 6) for wheel in wheels}, reverse=True)
+    assert ring.radius == pytest.approx(sun + 2 * planet, abs=1e-5)
+    assert scene.items.index(ring) < min(map(scene.items.index, wheels))
+    hatches = [item for item in scene.items if isinstance(item, Hatch)]
+    # All but the strip of the pivot are outside, up to the sag of a chord.
+    outside = [all(abs(p - ring.centre) > 0.99 * ring.radius for p in hatch.points) for hatch in hatches]
+    assert outside.count(False) == 1
+    assert len(outside) > 12
 
 
 def figures(document: Document) -> list[str]:
