@@ -20,7 +20,7 @@ from reportgen.formula.evaluation import evaluate
 from reportgen.formula.ledger import Ledger
 from reportgen.formula.vocabulary import KINDS, KeyChapter
 from reportgen.machine import Crank, Linkage
-from reportgen.machine.analysis import Analysis, no_formulas, possible
+from reportgen.machine.analysis import Analysis, Machine, no_formulas, possible
 from reportgen.machine.gas_pressure import Bracket
 from reportgen.machine.load_laws import Stroke
 from reportgen.machine.loads import Applied, Torque
@@ -79,14 +79,7 @@ def enter_plans(
     `scaled` are drawn elsewhere at another scale, so theirs is arbitrary.
     """
     machine = analysis.machine
-    q = Calculation(len(analysis.cycle_angle))
-    if machine.span:
-        q.give("s.1", machine.angles(analysis.cycle_angle), exact=False)
-    else:
-        q.give("phi.1", machine.angles(analysis.cycle_angle))
-    q.extend(machine.calculation)
-    sense = -1 if machine.acceleration < 0 else 1
-    enter_kinematics(q, machine.linkage, machine.turn, worked, sense, scaled)
+    q = enter_motion(machine, analysis.cycle_angle, worked, scaled)
     with q.within(KeyChapter.formulas):
         formulas(q)
     if not analysis.loads:
@@ -98,6 +91,24 @@ def enter_plans(
     guides = tuple(hooks.enter_guide for hooks in LEDGER.among(machine.topics))
     scales = own_scales if scaled else no_scales
     return q, enter_forces(q, machine.linkage, machine.turn, applied, torques, scales=scales, guides=guides)
+
+
+def enter_motion(
+    machine: Machine, cycle_angle: np.ndarray, worked: Sequence[int] = (), scaled: bool = True
+) -> Calculation:
+    """Return the calculation of a machine at cycle angles [N] (rad): given data, and the plans of its motion.
+
+    `worked` and `scaled` are those of `enter_plans`.
+    """
+    q = Calculation(len(cycle_angle))
+    if machine.span:
+        q.give("s.1", machine.angles(cycle_angle), exact=False)
+    else:
+        q.give("phi.1", machine.angles(cycle_angle))
+    q.extend(machine.calculation)
+    sense = -1 if machine.acceleration < 0 else 1
+    enter_kinematics(q, machine.linkage, machine.turn, worked, sense, scaled)
+    return q
 
 
 def _masses(q: Calculation, analysis: Analysis) -> None:

@@ -16,7 +16,7 @@ import numpy as np
 
 from reportgen.base.units import MM
 from reportgen.case import MachineAnalysis
-from reportgen.derivation import enter_plans
+from reportgen.derivation import enter_motion, enter_plans
 from reportgen.derivation.kinematic_entries import What, centre_symbol
 from reportgen.derivation.load_entries import Polygon
 from reportgen.drawing import Circle, Pen, style
@@ -52,6 +52,7 @@ from reportgen.machine.force_analysis import Load, as_single_force
 from reportgen.machine.kinematics import Motion
 from reportgen.machine.load_laws import FULL_TURN
 from reportgen.page import panes
+from reportgen.page.straight_lines import errors_between
 from reportgen.page.topic_layers import LAYERS as TOPIC_LAYERS
 from reportgen.page.topic_layers import Box, LayerHooks
 from reportgen.report.context import ReportContext
@@ -77,6 +78,11 @@ LEVER, LONGER = 0.45, 0.2
 """Length of the arrows of forces on the lever, and addition for an arrow in the same place: shares of the lever."""
 
 
+def plan_of(polygon: Polygon) -> str:
+    """Return the name of the pane of a force plan."""
+    return f"R{polygon.name}"
+
+
 def animation(case: MachineAnalysis) -> Animation:
     """Return the animation on the page of a case."""
     return Samples(case).animation()
@@ -87,11 +93,17 @@ class Samples:
     """A case at the samples of its cycle.
 
     Values in `kept` (angles, scales, boxes) are chosen once, by name. A slightly changed machine is sampled with the
-    values of the original one, so that its changes are visible.
+    values of the original one, so that its changes are visible. Only what is `seen` is sampled: the panes and the
+    layers of the machine with these names, or everything if it is None.
     """
 
     case: MachineAnalysis
     kept: dict[str, Any] = field(default_factory=dict)
+    seen: frozenset[str] | None = None
+
+    def sees(self, *names: str) -> bool:
+        """Return True if any of the panes or layers with these names is sampled; "" is the layer of the machine."""
+        return self.seen is None or any(not name or name in self.seen for name in names)
 
     def chosen(self, name: str, choice: Callable[[], Any]) -> Any:
         """Return the value kept under this name, or else make and keep it."""
@@ -154,14 +166,17 @@ class Samples:
 
     @cached_property
     def report(self) -> ReportContext:
-        """The report, whose curves have these samples."""
-        return ReportContext(self.case, samples=self.analysis)
+        """The report, whose curves have these samples if they are all sampled."""
+        return ReportContext(self.case, samples=self.analysis if self.seen is None else None)
 
     @cached_property
     def corners(self) -> dict[str, np.ndarray]:
-        """The corners of all plans (mm) at the samples [N], and their scales (SI per mm), by id."""
+        """The corners of the plans that are seen (mm) at the samples [N], and their scales (SI per mm), by id."""
         # Each plan is drawn as large as fits its panel.
-        calculation, _ = enter_plans(self.analysis, scaled=False)
+        if self.sees(*(plan_of(polygon) for polygon in self.case.polygons)):
+            calculation, _ = enter_plans(self.analysis, scaled=False)
+        else:
+            calculation = enter_motion(self.machine, self.angles, scaled=False)
         drawn = ids.plan_point, ids.force_corner, ids.force_scale, ids.centre
         scales = [ids.scale("v"), ids.scale("a")]
         stored = (id for id in calculation.families if id in scales or any(id in name for name in drawn))
@@ -189,7 +204,7 @@ class Samples:
             charts=() if machine.instants else tuple(self.charts()),
             values=tuple(self.values()),
             units=self.report.ledger.units,
-            errors=Errors(0.0, 1.0, 0.0) if machine.instants else self.errors(self.scale),
+            errors=Errors(0.0, 1.0, 0.0) if machine.instants else errors_between(self.analysis, self.scale, BESIDE),
             layers=tuple(layer for layer in (*LAYERS, *of_topics) if layer in layers),
             runs=tuple(run for hooks in self._topics for run in hooks.runs(self.report)),
         )
@@ -201,15 +216,19 @@ class Samples:
     # --- drawings
 
     def panes(self) -> Iterator[Pane]:
+        """Yield the panes that are seen, first that of the machine, which always is."""
         report, words = self.report, self.report.words["page"]
         yield self.mechanism()
-        yield self._plan_of_motion("v", words["velocity_plan"], "velocity")
-        yield self._plan_of_motion("a", words["acceleration_plan"], "acceleration")
+        if self.sees("v"):
+            yield self._plan_of_motion("v", words["velocity_plan"], "velocity")
+        if self.sees("a"):
+            yield self._plan_of_motion("a", words["acceleration_plan"], "acceleration")
         titles = {group.polygon.name: group.members for group in report.groups if group.polygon is not None}
         for polygon in self.case.polygons:
-            of = titles.get(polygon.name)
-            yield self._plan_of_forces(polygon, words["force_plan"].format(name=of) if of else words["driver_plan"])
-        if report.arms_about("p"):
+            if self.sees(plan_of(polygon)):
+                of = titles.get(polygon.name)
+                yield self._plan_of_forces(polygon, words["force_plan"].format(name=of) if of else words["driver_plan"])
+        if self.sees("lever") and report.arms_about("p"):
             yield self._lever(words["lever"])
 
     def mechanism(self) -> Pane:
@@ -224,17 +243,22 @@ class Samples:
         items = ([] if self.machine.instants else path_items(linkage, motion, names, scale)) + items
         scales = [BarScale(1 / scale, "segment")]
         for kind, rate, layer in (("velocity", "v", "velocities"), ("acceleration", "a", "accelerations")):
-            arrows, per = self._rates(rate, layer, scale)
+            arrows, per = self._rates(rate, layer, scale) if self.sees(layer) else ([], 0.0)
             items += arrows
             scales += [BarScale(per, kind, (layer,))] if arrows else []
-        items += self._centres(scale, low, high)
-        forces, per = self._forces(scale)
-        items += forces
-        for hooks in self._topics:
-            items += hooks.with_forces(report, self.analysis, scale, per, self.knots.size)
+        items += self._centres(scale, low, high) if self.sees("centres") else []
         layers = (*FORCES, *(layer for hooks in self._topics for layer in hooks.force_layers))
-        scales += [BarScale(per, "force", layers)] if forces else []
-        items_of_topics = [hooks.with_bars(report, motion, scale, ARROW, self.chosen) for hooks in self._topics]
+        if self.sees(*layers):
+            forces, per = self._forces(scale)
+            items += forces
+            for hooks in self._topics:
+                items += hooks.with_forces(report, self.analysis, scale, per, self.knots.size)
+            scales += [BarScale(per, "force", layers)] if forces else []
+        for hooks in self._topics:
+            if self.sees(*(hooks.layers or ("",))):
+                more, bars = hooks.with_bars(report, motion, scale, ARROW, self.chosen)
+                items += more
+                scales += bars
         spots = tuple(
             Spot(
                 name,
@@ -249,10 +273,10 @@ class Samples:
         return Pane(
             "machine",
             report.words["page"]["machine"],
-            items=(*items, *(item for of_topic, _ in items_of_topics for item in of_topic)),
+            items=tuple(item for item in items if self.sees(item.layer)),
             low=low,
             high=high,
-            scales=(*scales, *(bar for _, bars in items_of_topics for bar in bars)),
+            scales=tuple(scales),
             spots=spots,
         )
 
@@ -265,6 +289,11 @@ class Samples:
     @cached_property
     def _topics(self) -> tuple[LayerHooks, ...]:
         return tuple(TOPIC_LAYERS.among(self.machine.topics))
+
+    @property
+    def reachable(self) -> bool:
+        """True if the machine assembles at all samples."""
+        return bool(self._one_turn.reachable.all())
 
     @cached_property
     def _one_turn(self) -> Motion:
@@ -375,7 +404,7 @@ class Samples:
         plan_fitted = self._fitted(
             polygon.name, {id: self.corners[id] * per for id in plan.corners}, "force", self.angles.size
         )
-        return panes.plan(f"R{polygon.name}", title, plan_items(plan, plan_fitted.tracks), plan_fitted)
+        return panes.plan(plan_of(polygon), title, plan_items(plan, plan_fitted.tracks), plan_fitted)
 
     def _lever(self, title: str) -> Pane:
         """Return Zhukovsky's lever: the velocity plan turned by 90° against ω₁, each load acting at its image.
@@ -463,36 +492,3 @@ class Samples:
         yield panes.value(self.report.balance_symbol(), ledger["M.eq"].kind, analysis.torque)
         for hooks in self._topics:
             yield from (panes.value(*shown) for shown in hooks.values(self.report, motion))
-
-    # --- what interpolation costs
-
-    def errors(self, scale: float) -> Errors:
-        """Return the errors of straight lines between samples, for a drawing of `scale` mm per metre.
-
-        For places, the bound (mm) is h²/8 times the largest second derivative by the driver's angle, the acceleration
-        over ω². For rates and forces, it is the largest difference (share) in the middle between samples, without
-        jumps.
-        """
-        middles = (self.angles[1:] + self.angles[:-1]) / 2
-        steps = np.diff(self.angles)
-        wide = steps > 4 * BESIDE
-        between, at = analyse(self.machine, middles), self.analysis
-        rate = FULL_TURN * self.machine.speed / (self.machine.cycle_travel / self.machine.turns)
-        bound = 0.0
-        for name, moved in at.motion.points.items():
-            here = np.abs(np.concatenate((moved.a, between.motion.points[name].a)))
-            bound = max(bound, float(np.nanmax(here)) / rate**2 * float(steps.max()) ** 2 / 8)
-        pairs = [
-            (getattr(at.motion.points[name], what), getattr(moved, what))
-            for name, moved in between.motion.points.items()
-            for what in ("v", "a")
-        ]
-        pairs += [(at.forces.reactions[name].force, one.force) for name, one in between.forces.reactions.items()]
-        share = 0.0
-        for samples, true in pairs:
-            greatest = float(np.nanmax(np.abs(samples)))
-            if greatest > 0:
-                off = np.abs((samples[1:] + samples[:-1]) / 2 - true)[wide]
-                share = max(share, float(np.nanmax(off)) / greatest)
-        crank = self.machine.drawn * MM or self.machine.span * scale or 1.0
-        return Errors(bound * scale, crank, share)

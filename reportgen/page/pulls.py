@@ -31,6 +31,8 @@ MOST_STEPS = 32
 """Largest number of steps of a region in each direction."""
 PAUSE = 0.002
 """Time (s) after which a region looks again whether the pulled machine is ready."""
+MACHINE = "machine"
+"""The name of the machine's own drawing."""
 Asked = Mapping[str, Any]
 PlacedBy = tuple[Linkage | None, tuple[PlacingValue, ...]]
 LoadedBy = Mapping[str, tuple[LoadValue, ...]]
@@ -130,30 +132,33 @@ class Pulls:
         return Source(str(self.path), top=top)
 
     def drag(self, asked: Asked) -> Mapping[str, Any] | bytes:
-        """Return the samples of everything that moves with another value at a place; see `EditSession.drag`."""
-        resident, where, top = self.resident(), asked_place(asked["where"]), self.read()
+        """Return the samples of everything that moves with other `values` at their places; see `EditSession.drag`."""
+        resident, top = self.resident(), self.read()
         if resident is None:
             return {}
-        old = at(top, where)
-        if not isinstance(old, Scalar) or top is None:
-            return b""
-        return self._sampled(resident, put(top, where, replace(old, text=str(asked["value"]), null=False)))
+        for place, text in asked.get("values") or [(asked["where"], asked["value"])]:
+            where = asked_place(place)
+            old = at(top, where)
+            if not isinstance(old, Scalar) or top is None:
+                return b""
+            top = put(top, where, replace(old, text=str(text), null=False))
+        return b"" if top is None else self._sampled(asked, resident, top)
 
-    def _sampled(self, resident: Resident, changed: Node, **more: Any) -> bytes:
+    def _sampled(self, asked: Asked, resident: Resident, changed: Node, **more: Any) -> bytes:
         """Return the samples of the machine of other nodes; no bytes if no machine has these values."""
         assignment, faults = catalogue.understood(self._source(changed), self.path)
         if assignment is None or faults:
             return b""
         try:
-            return resident.sampled(assignment, **more)
+            return resident.sampled(assignment, asked_sight(asked), **more)
         except (ReportgenError, ArithmeticError, ValueError, np.linalg.LinAlgError):
             return b""
 
     def pull(self, asked: Asked) -> Mapping[str, Any] | bytes:
         """Return the machine whose point or tip is as near as possible to a place, as `drag` does, with the `values`.
 
-        The values are in whole steps of their fields and within their bounds. Where no machine has them, the answer has
-        no values. It is empty for a kind that is not a machine.
+        The values are in whole steps of their fields and within their bounds; `texts` has each by its own place, for
+        `drag`. Where no machine has them, the answer has no values. It is empty for a kind that is not a machine.
         """
         resident = self.resident()
         if resident is None:
@@ -178,8 +183,8 @@ class Pulls:
         texts = grabbed.pull.texts(offsets)
         changed = with_texts(top, texts)
         place = grabbed.pull.at(grabbed.pull.rounded(offsets)) * resident.samples.scale
-        answer = {"values": _of_fields(changed, texts), "at": [place.real, -place.imag]}
-        samples = self._sampled(resident, changed, **answer) if np.isfinite(place) else b""
+        answer = {"values": _of_fields(changed, texts), "texts": texts, "at": [place.real, -place.imag]}
+        samples = self._sampled(asked, resident, changed, **answer) if np.isfinite(place) else b""
         if samples:
             grabbed.offsets = offsets
             if isinstance(grabbed, PulledPoint):
@@ -304,6 +309,19 @@ def _of_fields(top: Node, texts: list[tuple[Where, str]]) -> list[tuple[Where, s
     """Return values by the places of the fields that show them: a list of values has one field."""
     places = [where[:-1] if isinstance(at(top, where[:-1]), SequenceNode) else where for where, _ in texts]
     return [(place, written_at(at(top, place))) for place in dict.fromkeys(places)]
+
+
+def asked_sight(asked: Asked) -> frozenset[str] | None:
+    """Return the panes and layers that a page has in sight, which include the machine itself; None for all.
+
+    Raise `TypeError` if they are not names.
+    """
+    seen = asked.get("seen")
+    if seen is None:
+        return None
+    if not isinstance(seen, list) or any(not isinstance(name, str) for name in seen):
+        raise TypeError("what is in sight is a list of names")
+    return frozenset((MACHINE, *seen))
 
 
 def asked_place(steps: Any) -> Where:

@@ -16,7 +16,7 @@ from reportgen.case import MachineAnalysis
 from reportgen.cases import open_case, opened
 from reportgen.page.animation_panel import PanelWriter
 from reportgen.page.controlled_parts import ControlledParts, owners, variations
-from reportgen.page.drag_samples import Resident, tracks
+from reportgen.page.drag_samples import FINER, SPOTS, Resident, grouped
 from reportgen.page.motion_samples import Samples
 from tests.lanes import matrix
 
@@ -80,7 +80,10 @@ def test_samples_are_those_of_a_whole_animation(name: str, where: tuple[str | in
     writer = PanelWriter(animation, "en", other.words)
     writer.panel()
     starts = np.concatenate(([0], np.cumsum(writer.tracks.lengths)))
-    for number, track in zip(resident.numbers, tracks(animation.panes, animation.values), strict=True):
+    moved = grouped(animation.panes, animation.values)
+    assert moved.keys() == resident.numbers.keys()
+    pairs = [pair for group in moved for pair in zip(resident.numbers[group], moved[group], strict=True)]
+    for number, track in pairs:
         own = writer.tracks.number(track)
         for part in range(1 + np.iscomplexobj(track.values)):
             expected = writer.tracks.values[slice(*starts[own + part : own + part + 2])]
@@ -89,6 +92,30 @@ def test_samples_are_those_of_a_whole_animation(name: str, where: tuple[str | in
             np.testing.assert_allclose(here, expected, rtol=0, atol=1e-6 * max(greatest, 1e-30))
     if where[-1] == "r":
         assert bodies, "a longer crank is drawn longer"
+
+
+@pytest.mark.parametrize("layers", [("paths",), ("centres", "loads"), ("velocities", "reactions")])
+@pytest.mark.parametrize(("name", "where", "value"), matrix(CHANGES, [CHANGES[0]]))
+def test_what_is_in_sight_has_the_samples_of_all(
+    name: str, where: tuple[str | int, ...], value: str, layers: tuple[str, ...]
+) -> None:
+    """The machine with some layers, and the plan of accelerations: sample for sample; all others stay as they are."""
+    file = FOLDER / name
+    resident = Resident.of(open_case(file))
+    assert resident is not None
+    assignment = changed(file, where, value)
+    bodies, whole = unpacked(resident.sampled(assignment), resident.values)
+    reshaped, samples = unpacked(resident.sampled(assignment, frozenset(("machine", "a", *layers))), resident.values)
+    in_sight = np.zeros(samples.size, dtype=bool)
+    animation = resident.samples.animation()
+    for (pane, layer), tracks in grouped(animation.panes, animation.values).items():
+        if pane in ("machine", "a") and layer in ("", SPOTS, FINER, *layers):
+            for number, track in zip(resident.numbers[pane, layer], tracks, strict=True):
+                in_sight[slice(*resident.starts[[number, number + 1 + np.iscomplexobj(track.values)]])] = True
+    assert in_sight.any()
+    np.testing.assert_array_equal(samples, np.where(in_sight, whole, resident.values))
+    own = {str(place) for layer in ("", *layers) for place in resident.places.get(layer, ())}
+    assert reshaped == {place: body for place, body in bodies.items() if place in own}
 
 
 def test_each_value_leads_to_what_it_moves() -> None:

@@ -95,6 +95,7 @@ const drafts = (() => {
     drop: (place) => all.delete(place),
     typing: (place) => all.get(place)?.typing,
     text: (place) => all.get(place)?.text,
+    there: (place) => file.get(place),
     places: () => [...all.keys()],
     // What is to be written, [place, entry] each, in the order in which it was typed.
     due: () => [...all].flatMap(([place, { due, refused }]) => (refused ? [] : due.map((entry) => [place, entry]))).sort(([, one], [, next]) => one.order - next.order),

@@ -3,8 +3,16 @@
   const reshaped = new Map();
   let mounted, fed;
   extended.set(root, {
-    // Samples stand in runs, [place, number] each, among those of the machine as it was mounted.
-    feed: (samples, { bodies, runs }) => {
+    // What is in sight: the names of drawings, and of the layers that are shown; null if numbers or curves are, too.
+    sight: () => {
+      const stages = drawing.parts.map((part) => part.element).filter((one, index) => !index || seen.has(one));
+      const layers = Object.keys(drawing.layers).filter((layer) => drawing.layers[layer]);
+      if (seen.has(drawing.numbers) || drawing.charts.some(({ element }) => seen.has(element))) return null;
+      return [...stages.map((one) => one.dataset.stage), ...layers];
+    },
+    // Samples stand in runs, [place, number] each, among those of the machine as it was mounted.  Of a part of them only
+    // what is in sight is drawn.
+    feed: (samples, { bodies, runs }, part = false) => {
       if (values !== fed) mounted = values;
       fed = values = mounted.slice();
       let taken = 0;
@@ -18,6 +26,7 @@
         if (!reshaped.has(item)) reshaped.set(item, item.innerHTML);
         item.innerHTML = body;
       }
+      state.partly = part;
       if (!state.playing) draw();
     },
     // What another script has put into the drawing of the machine moves with it, and takes the keys of the angle.

@@ -31,6 +31,7 @@
     }
   } catch { /* no memory */ }
 
+  const PATIENCE = 5000;
   const ask = async (name) => (await fetch(name, { cache: "no-store" })).json();
 
   // The first place with a name that is in view, and how far below the upper edge it is.
@@ -43,6 +44,10 @@
   const renewMoving = async () => {
     const news = await ask("moving.json");
     if (news.panels.length !== moves.length) return;
+    // What is being pulled first gets its place on the new machine, so that it does not go back for a moment.
+    const until = [];
+    document.dispatchEvent(new CustomEvent("renewing", { detail: until }));
+    await Promise.race([Promise.all(until), new Promise((done) => setTimeout(done, PATIENCE))]);
     looks.rule("moving", news.rules);
     const place = anchor();
     news.panels.forEach(({ body, data }, index) => moves[index].renew(body, data));

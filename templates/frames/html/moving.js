@@ -5,8 +5,9 @@ const panelOf = (root, panels) => {
   const TURN_SECONDS = 7, ARROW_SHARE = 0.75, SHORT = 3, NOTHING = 0.02, READABLE = 120, SLOW = 22;
   // What a panel has by an id begins with its own name, as the panel itself; that of the machine has none.
   const own = root.id.slice(0, -"moving".length), byId = (name) => root.querySelector(`#${own}${name}`);
-  // `run` is the motion that is played as the time goes, `clock` its time (s); null at constant speed.
-  const state = { angle: 0, playing: false, last: 0, rate: 1, told: 0, pace: 16, run: null, clock: 0 };
+  // `run` is the motion that is played as the time goes, `clock` its time (s); null at constant speed.  `partly` is true
+  // while only what is in sight has its samples.
+  const state = { angle: 0, playing: false, last: 0, rate: 1, told: 0, pace: 16, run: null, clock: 0, partly: false };
   let animation, steps, values, starts, drawing, now;
 
   // --- samples
@@ -225,7 +226,7 @@ const panelOf = (root, panels) => {
     for (const { target, isIntersecting } of entries) if (isIntersecting) seen.add(target); else seen.delete(target);
     if (now) draw();
   }, { rootMargin: "100px" });
-  const visible = (element) => !state.playing || seen.has(element);
+  const visible = (element) => !state.playing && !state.partly || seen.has(element);
 
   const sizes = new ResizeObserver(() => {
     if (lettering.measure(drawing.parts) && now) draw();
@@ -419,6 +420,7 @@ const panelOf = (root, panels) => {
   // --- setting up, and anew when the page is renewed
 
   const mount = (data) => {
+    state.partly = false;
     animation = data;
     steps = animation.instants;
     values = unpack(animation.tracks);

@@ -9,6 +9,7 @@ const pulls = (() => {
   const form = document.getElementById("fields"), words = JSON.parse(document.getElementById("live").textContent).words;
   let grips = { points: {}, ground: {}, loads: {} }, asked = "", held = null, count = 0, unwritten = 0;
 
+  // In what is held, `last` is where the pointer was for the machine that is shown.
   const svg = () => panel.root.querySelector('[data-stage="machine"] svg');
   const at = (name) => extended.get(panel.root).spotAt(name) || grips.ground[name];
   const placeOf = ({ point, load }) => load ? extended.get(panel.root).tipAt(load) : at(point);
@@ -97,12 +98,18 @@ const pulls = (() => {
     if (!grip) return;
     const playing = panel.playing();
     if (playing) panel.pause();
-    const [x, y] = toDrawing(event), place = placeOf(grip);
-    held = { grip, playing, id: event.pointerId, from: [event.clientX, event.clientY], off: [place[0] - x, place[1] - y], moved: false, fields: new Set() };
-    ring(place);
+    held = { grip, playing, id: event.pointerId, from: [event.clientX, event.clientY], moved: false, fields: new Set() };
+    ring(placeOf(grip));
+  };
+  // The point is where it is now while the pointer is at this place of the screen.
+  const hold = ([clientX, clientY]) => {
+    const place = placeOf(held.grip), [x, y] = toDrawing({ clientX, clientY });
+    held.off = [place[0] - x, place[1] - y];
   };
   const begin = () => {
     held.moved = true;
+    // The last pull may have moved the point since it was pressed.
+    hold(held.from);
     count += 1;
     // What is typed and not yet in the file stays as it is typed.
     const locked = [...typeof locks === "undefined" ? [] : locks.places(), ...drafts.places().map((one) => JSON.parse(one))];
@@ -130,10 +137,11 @@ const pulls = (() => {
       return;
     }
     if (!held.moved) begin();
-    const [x, y] = toDrawing(event), mine = held;
+    const [x, y] = toDrawing(event), mine = held, from = [event.clientX, event.clientY];
     mine.answered = fields.ask("pull.json", { ...mine.body, to: [x + mine.off[0], y + mine.off[1]] }, ({ values, at: place }) => {
       // The last answer may come after the release.
       if (held !== mine && !mine.released) return;
+      if (place) mine.last = from;
       if (place && !mine.released) ring(place);
       if (!mine.released) document.body.classList.toggle("pull-stopped", !place);
       for (const [where, text] of values) {
@@ -210,7 +218,9 @@ const pulls = (() => {
   }, true);
   document.addEventListener("showing", () => {
     if (asked === document.body.dataset.moving) return;
-    if (held) cancel();
+    // A pull goes on with the new machine, at the scale of its drawing, if that has its point.
+    if (held && !placeOf(held.grip)) cancel();
+    if (held?.last) hold(held.last);
     mark();
     learn();
   });
