@@ -192,6 +192,7 @@ class AtlasMachine:
             "about": words.get("description", ""),
             "task": words.get("task", ""),
             "called": called,
+            "links": {int(link): name for link, name in links.items() if link.isdecimal()},
             "first": links.get("1", ""),
             "motions": tuple(replace(row, called=links.get(str(row.link), "")) for row in made.facts["motions"]),
         }

@@ -92,6 +92,7 @@ def facts(given: file.Parameters, loads: tuple[str, ...], acting: Container[str]
         "about": "",
         "task": "",
         "called": {},
+        "links": {},
         "first": "",
         "derived": False,
         "derived_places": False,

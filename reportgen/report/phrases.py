@@ -411,6 +411,12 @@ def base_step(report: ReportContext, what: str, group: AssurView, side: Side, po
     )
 
 
+def called(report: ReportContext, link: int) -> str:
+    """Return the name that a machine of the atlas has for a link, in parentheses; "" if it has none."""
+    name = report.own.get("links", {}).get(link, "")
+    return report.words["link_called"].format(name=name) if name else ""
+
+
 def known_sense(report: ReportContext, side: Side) -> Inlines:
     """Return the sense of the relative acceleration that velocities give: towards the base, or that of the Coriolis
     rotation.

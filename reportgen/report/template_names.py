@@ -187,6 +187,7 @@ FUNCTIONS: Mapping[str, Callable[..., Any]] = {
     "velocity_equation": vector_equations.velocity_equation,
     # words
     "balance_sign": phrases.balance_sign,
+    "called": phrases.called,
     "by_moments": template_equations.by_moments,
     "centre_state": mechanism_figures.centre_state,
     "couple_sense": guide_couples.couple_sense,

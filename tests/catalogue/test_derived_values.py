@@ -115,15 +115,19 @@ def test_a_line_has_the_unit_of_its_parameters(
 
 
 @pytest.mark.parametrize("language", languages())
-def test_the_report_has_the_lines_and_names_their_parameters(language: Language) -> None:
+def test_the_report_has_the_lines_and_the_names_of_the_machine(language: Language) -> None:
     """The length L of the jaw is no length of a link, so the table of given data has it for the lines."""
     sample = min(catalogue.examples("atlas/jaw-crusher").values())
     document = open_case(sample, language).document()
     printed = [chain.parts[-2:] for chain in trees.chains(document)]
     assert [line.parts[-2:] for line in lines_of(sample) if line.parts[-2:] not in printed] == []
-    name = machine_words(atlas_files()["atlas/jaw-crusher"], language)["parameters"]["L"]
-    rows = [line for line in text_of(document).splitlines() if line.casefold().startswith(name)]
+    words, text = machine_words(atlas_files()["atlas/jaw-crusher"], language), text_of(document)
+    rows = [line for line in text.splitlines() if line.casefold().startswith(words["parameters"]["L"])]
     assert any("700" in row for row in rows), rows
+    # Links have their names where their group, their motion, their mass centre and their load are introduced.
+    marks = "（{}）" if language == "zh" else "({})"
+    counts = {link: text.count(marks.format(name)) for link, name in words["links"].items()}
+    assert counts.items() >= {"2": 2, "3": 3, "4": 2, "5": 4}.items()
 
 
 @pytest.mark.parametrize(
