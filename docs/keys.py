@@ -19,7 +19,7 @@ FOLDER = Path(__file__).resolve().parent / "reference"
 KINDS = (
     *("engine-twin", "engine-single", "engine-v", "slider-crank", "four-bar", "lever-six-bar", "toggle-press"),
     *("scotch-yoke", "slotted-lever", "shaper", "linkage", "cam", "gear-pair", "planetary-train", "plane-motion"),
-    *("rotor", "engine-balance", "friction", "turning-moment", "structure"),
+    *("rotor", "engine-balance", "friction", "turning-moment", "structure", "synthesis"),
 )
 LAST_MACHINE = "linkage"
 """Last of the kinds that are machines; the others are mechanisms and exercises."""

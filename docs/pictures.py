@@ -55,6 +55,7 @@ SHOWN = {
     "engine-balance": ROOT / "assignments" / "engine-balance" / "v-six.yaml",
     "turning-moment": ROOT / "assignments" / "turning-moment" / "curve.yaml",
     "structure": ROOT / "assignments" / "structure" / "class-three.yaml",
+    "synthesis": ROOT / "assignments" / "synthesis" / "slider-crank-by-offset.yaml",
     "linkage-press": ROOT / "assignments" / "linkage" / "press-class-iii.yaml",
 }
 """What the README shows of kinds with a folder of their own."""
@@ -100,7 +101,7 @@ def page_with(text: str, pages: pymupdf.Document) -> pymupdf.Page:
     return next(page for page in pages if page.search_for(text))
 
 
-SCHEMES = ("fig.scheme", "fig.velocity", "fig.inversion", "fig.mesh", "fig.diagram")
+SCHEMES = ("fig.scheme", "fig.velocity", "fig.inversion", "fig.mesh", "fig.diagram", "fig.construction")
 """The figure that shows a machine, the system of an exercise, a cam, or gears in mesh."""
 
 

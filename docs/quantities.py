@@ -36,6 +36,9 @@ OTHERS: Mapping[str, tuple[str, ...]] = {
     ),
     "turning-moment": tuple(f"turning-moment/{name}" for name in ("curve", "areas", "two-curves", "by-speed")),
     "structure": ("structure/geared-bars",),
+    "synthesis": tuple(
+        f"synthesis/{name}" for name in ("best-crank-rocker", "crank-rocker-by-frame", "slider-crank-by-offset")
+    ),
 }
 """Example files by section of the page; each adds the ids that those before it do not have."""
 

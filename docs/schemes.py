@@ -19,8 +19,8 @@ from reportgen.drawing.geometry import bounds, frame, moved
 from reportgen.page.kind_cards import scheme_file
 from reportgen.page.svg_elements import Painter, Pens
 
-SCHEMES = ("fig.scheme", "fig.velocity", "fig.inversion", "fig.mesh", "fig.diagram")
-"""The figure that shows a machine, the system of an exercise, a cam, gears in mesh, or a diagram."""
+SCHEMES = ("fig.scheme", "fig.velocity", "fig.inversion", "fig.mesh", "fig.diagram", "fig.construction")
+"""The figure that shows a machine, the system of an exercise, a cam, gears in mesh, a diagram, or a construction."""
 MARGIN = 1.0
 """Room around a drawing (mm), for the width of its lines."""
 LARGEST = 4.0
@@ -34,6 +34,7 @@ SHOWN = {
     "engine-balance": "engine-balance/v-six.yaml",
     "turning-moment": "turning-moment/curve.yaml",
     "structure": "structure/class-three.yaml",
+    "synthesis": "synthesis/slider-crank-by-offset.yaml",
 }
 """Examples that show more of their kind than its smallest one."""
 

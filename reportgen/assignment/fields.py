@@ -405,6 +405,8 @@ Instant = Annotated[Given, Either(DEGREES, WAY)]
 Pressure = Annotated[Given, quantity("N/cm2", least=0, most=1e5, tiny=1e-6)]
 RodRatio = Annotated[Given, Ratio(Interval(least=0.001, below=1), inverse="inverse-ratio")]
 Share = Annotated[Given, Ratio(Interval(least=0, most=1, tiny=1e-6))]
+SwingAngle = Annotated[Given, quantity("deg", least=1, most=170)]
+SpeedRatio = Annotated[Given, Ratio(Interval(least=1.001, most=3))]
 PressureUnit = Annotated[Given, UnitOf("N/cm2")]
 Nodes = Field(min_length=2, max_length=2000)
 """Range of the number of nodes of a table."""

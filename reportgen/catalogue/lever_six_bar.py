@@ -6,13 +6,13 @@ Ground 0, crank 1 (BA), coupler 2 (AC), rocker 3 (DC), rod 4 (EF), slider 5 (at 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Annotated, Literal
+from typing import Literal
 
 import numpy as np
 
 from reportgen.assignment.checks import of_parameters, of_turning, one_of
 from reportgen.assignment.common import Assignment, Part, Positions
-from reportgen.assignment.fields import Coordinate, ForceSize, Interval, Length, Ratio, quantity
+from reportgen.assignment.fields import Coordinate, ForceSize, Length, SpeedRatio, SwingAngle
 from reportgen.base.errors import Finding
 from reportgen.base.units import Given
 from reportgen.catalogue import assembly_checks
@@ -34,10 +34,6 @@ TURNS = 1
 TURN = Number(360.0, unit="°")
 BARS = {1: ("B", "A"), 2: ("A", "C"), 3: ("D", "C"), 4: ("E", "F")}
 """The bars by the pins at their ends."""
-
-
-SwingAngle = Annotated[Given, quantity("deg", least=1, most=170)]
-SpeedRatio = Annotated[Given, Ratio(Interval(least=1.001, most=3))]
 
 
 class SliderForce(Part):

@@ -1,4 +1,3 @@
-"""The kind `structure`: mobility, Assur groups and class of a mechanism from a table of its links and pairs.
-
-Also the synthesis of linkages from their extreme positions.
+"""The kinds `structure` (mobility, Assur groups and class from links and pairs) and `synthesis` (lengths from extreme
+positions).
 """

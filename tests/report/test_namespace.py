@@ -37,6 +37,9 @@ OTHERS = {
     "engine-balance/v-six.yaml": {"catalogue/engine-balance.md"},
     "turning-moment/curve.yaml": {"catalogue/turning-moment.md"},
     "structure/geared-bars.yaml": {"catalogue/structure.md"},
+    "synthesis/best-crank-rocker.yaml": {"catalogue/synthesis.md"},
+    "synthesis/crank-rocker-by-frame.yaml": {"catalogue/synthesis.md"},
+    "synthesis/slider-crank-by-offset.yaml": {"catalogue/synthesis.md"},
 }
 """The files of words of each kind of work that is no machine, by one of its assignments."""
 Sections = Mapping[tuple[Path, str], nodes.Template]

@@ -63,6 +63,7 @@ WORKS = (
     "planetary-train",
     "turning-moment",
     "structure",
+    "synthesis",
 )
 LEVER = "assignments/lever-six-bar-02.yaml"
 """A machine with a spring between two points and a torsion spring."""

@@ -1,85 +1,235 @@
-"""Crank-rockers and slider-cranks from K and swing or stroke: known lengths, and random ones turned through a cycle."""
+"""Crank-rockers and slider-cranks from K and swing or stroke: known lengths, and random ones analysed as machines."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 import pytest
 
-from reportgen.structure.extreme_positions import CrankRockerTask, FourBar, crank_angle_between, slider_crank
+from reportgen.base.arrays import Flags, Floats
+from reportgen.catalogue.extreme_positions import (
+    BEFORE,
+    BEYOND,
+    CrankRocker,
+    ExtremePositions,
+    PivotPlace,
+    SliderCrank,
+    crank_angle_between,
+)
+from reportgen.catalogue.four_bar import proportions
+from reportgen.formula.calculation import Calculation
+from reportgen.machine import Crank, Dyad, Guide, Linkage
+from reportgen.machine.kinematics import solve_motion
+
+RANDOM = 1000
+"""Random syntheses of each of both mechanisms."""
+ALONG = 0.05
+"""A line to C that is nearer to AD (rad) is left out: the arc cosine of about 1 loses half the digits there."""
+INSIDE = 0.1
+"""Least transmission angle (rad) of a solution that a scan can find: near 0 the crank hardly turns, and a cell of the
+scan has no point inside.
+"""
+
+
+def lengths(task: ExtremePositions, place: PivotPlace) -> tuple[float, float, float, float]:
+    """Crank, coupler, frame or offset, and the least transmission angle of a solution."""
+    along = np.array(place.along)
+    return (
+        float(task.crank(along)),
+        float(task.coupler(along)),
+        float(task.frame(place.side, along)),
+        float(task.transmission(place.side, along)),
+    )
 
 
 def test_crank_rocker_of_the_best_transmission() -> None:
     """K 1.3, ψ 42°, c 120 mm: θ 23.478261°, circle 107.941858 mm, γ_min 39.876037°."""
-    task = CrankRockerTask(1.3, math.radians(42), 120.0)
+    task = CrankRocker(1.3, math.radians(42), 120.0)
     assert math.degrees(task.angle) == pytest.approx(23.478261, abs=1e-6)
     assert task.radius == pytest.approx(107.941858, abs=1e-6)
-    best = task.best()
+    best = task.best(BEFORE)
+    beyond = task.best(BEYOND)
     assert best is not None
-    made = best[1]
-    assert (made.crank, made.coupler, made.frame) == pytest.approx((39.52636, 92.17501, 116.46185), abs=2e-5)
-    assert math.degrees(made.transmission) == pytest.approx(39.876037, abs=1e-6)
+    assert beyond is not None
+    *links, γ = lengths(task, best)
+    assert links == pytest.approx((39.52636, 92.17501, 116.46185), abs=2e-5)
+    assert math.degrees(γ) == pytest.approx(39.876037, abs=1e-6)
+    assert lengths(task, beyond)[-1] < γ
 
 
 def test_slider_crank() -> None:
     """K 1.4, H 50, e 20 mm: θ 30°, r 22.159093, l 49.910173 mm, γ_min 32.360258°."""
-    made = slider_crank(1.4, 50.0, 20.0)
-    assert made is not None
+    task = SliderCrank(1.4, 50.0)
+    (place,) = task.with_frame(20.0)
+    r, rod, e, γ = lengths(task, place)
     assert math.degrees(crank_angle_between(1.4)) == pytest.approx(30)
-    assert (made.crank, made.rod) == pytest.approx((22.159093, 49.910173), abs=1e-6)
-    assert math.degrees(made.transmission) == pytest.approx(32.360258, abs=1e-6)
+    assert (r, rod, e) == pytest.approx((22.159093, 49.910173, 20), abs=1e-6)
+    assert math.degrees(γ) == pytest.approx(32.360258, abs=1e-6)
 
 
-def turned(made: FourBar) -> tuple[float, float, float]:
-    """Return swing and least transmission angle (rad) over a finely divided turn, and K from its extremes."""
-    φ = np.linspace(0, 2 * math.pi, 20001)
-    A = made.crank * np.exp(1j * φ)
-    to = made.frame - A
-    diagonal = np.abs(to)
-    cosine = (made.coupler**2 + made.rocker**2 - diagonal**2) / (2 * made.coupler * made.rocker)
-    at_D = np.arccos((made.rocker**2 + diagonal**2 - made.coupler**2) / (2 * made.rocker * diagonal))
-    rocker = np.unwrap(np.angle(-to) - at_D)
-    γ = np.arccos(cosine)
-    between = abs(φ[rocker.argmax()] - φ[rocker.argmin()])
-    slow = max(between, 2 * math.pi - between)
-    return float(np.ptp(rocker)), float(np.minimum(γ, math.pi - γ).min()), slow / (2 * math.pi - slow)
+@pytest.mark.parametrize("task", [CrankRocker(1.3, 0.7, 0.12), CrankRocker(1.1, 2.0, 0.1), SliderCrank(1.4, 0.05)])
+def test_no_place_of_a_scan_is_better_than_the_best(task: ExtremePositions) -> None:
+    for side in task.sides:
+        best, ends = task.best(side), task.interval(side)
+        assert (best is None) == (ends is None)
+        if best is None or ends is None:
+            continue
+        grid = np.linspace(*ends, 20011)[1:-1]
+        assert task.works(side, grid).all()
+        assert task.transmission(side, grid).max() <= lengths(task, best)[-1] + 1e-9
+
+
+# --- analysed as machines ---------------------------------------------------------------------------
+
+
+def drawn_place(task: ExtremePositions, random: np.random.Generator) -> PivotPlace | None:
+    """A random place of A that works; None if there is none on the drawn side."""
+    side = int(random.choice(list(task.sides)))
+    ends = task.interval(side)
+    return None if ends is None else PivotPlace(side, ends[0] + random.uniform(0.02, 0.98) * (ends[1] - ends[0]))
+
+
+def transmission(linkage: Linkage, angles: Floats, path: float | None = None) -> Floats:
+    """Transmission angles from the motion: between the coupler and the rocker, or the normal of the guide."""
+    motion = solve_motion(linkage, angles, 1.0)
+    B, C = motion.points["B"].p, motion.points["C"].p
+    across = (C - linkage.ground["D"]) if path is None else np.full_like(C, 1j)
+    γ = np.abs(np.angle((B - C) / across))
+    return np.minimum(γ, math.pi - γ)
 
 
 def test_random_crank_rockers_turn_as_wanted() -> None:
+    """The four-bar's own formulas give K and ψ back; its motion has the least transmission angle where it should."""
     random = np.random.default_rng(66)
     solved = 0
-    for _ in range(200):
-        K, ψ = random.uniform(1.05, 1.8), math.radians(random.uniform(15, 80))
-        made = CrankRockerTask(K, ψ, 1.0).four_bar(random.uniform(0, 2 * math.pi))
-        if made is None:
+    dense = np.linspace(0, 2 * math.pi, 73)
+    while solved < RANDOM:
+        task = CrankRocker(random.uniform(1.02, 2.0), math.radians(random.uniform(10, 110)), 1.0)
+        place = drawn_place(task, random)
+        if place is None:
+            continue
+        a, b, d, γ = lengths(task, place)
+        q = Calculation()
+        for id, length in (("l.AB", a), ("l.BC", b), ("l.DC", 1.0), ("l.AD", d)):
+            q.give(id, length)
+        proportions(q)
+        if min(q.si(id) for id in ("alpha.1", "alpha.2", "psi.2")) < ALONG:
             continue
         solved += 1
-        swing, least, ratio = turned(made)
-        assert swing == pytest.approx(ψ, abs=1e-6)
-        assert least == pytest.approx(made.transmission, abs=1e-6)
-        assert ratio == pytest.approx(K, abs=2e-3)
-    assert solved > 20
+        assert q.si("K") == pytest.approx(task.K, abs=1e-9)
+        assert q.si("swing") == pytest.approx(task.swing, abs=1e-9)
+        linkage = Linkage(
+            {"A": 0j, "D": complex(d)},
+            Crank("A", "B", a),
+            (Dyad("RRR", (2, 3), "B", "C", "D", lengths=(b, 1.0), sign=1),),
+        )
+        assert transmission(linkage, np.array([0.0, math.pi])).min() == pytest.approx(γ, abs=1e-9)
+        assert transmission(linkage, dense).min() >= γ - 1e-9
 
 
-def test_random_slider_cranks_have_stroke_and_k_or_there_is_none() -> None:
-    """K from both extreme directions of the rod; where there is none, a scan over all lengths finds none."""
+def test_random_slider_cranks_have_stroke_and_k() -> None:
+    """The extreme places of the slider in its motion have the wanted distance and times; γ likewise."""
     random = np.random.default_rng(67)
-    absent = 0
-    for _ in range(2000):
-        K, e = random.uniform(1.02, 2.5), random.uniform(0.01, 2.0)
-        made = slider_crank(K, 1.0, e)
-        if made is None:
-            absent += 1
-            if absent <= 40:
-                R, L = np.meshgrid(np.linspace(0.01, 0.6, 250), np.linspace(0.02, 6, 500))
-                turns = R + e < L
-                R, L = R[turns], L[turns]
-                θ = np.arccos(e / (L + R)) - np.arccos(e / (L - R))
-                H = np.sqrt((L + R) ** 2 - e**2) - np.sqrt((L - R) ** 2 - e**2)
-                assert not np.any((np.abs(θ - crank_angle_between(K)) < 2e-3) & (np.abs(H - 1) < 2e-3))
+    for _ in range(RANDOM):
+        task = SliderCrank(random.uniform(1.02, 2.8), 1.0)
+        place = drawn_place(task, random)
+        assert place is not None
+        r, rod, e, γ = lengths(task, place)
+        linkage = Linkage(
+            {"A": 0j, "D": 0j},
+            Crank("A", "B", r),
+            (Dyad("RRP", (2, 3), "B", "C", Guide(-1j * e, 0.0), lengths=(rod, 0.0), sign=1),),
+        )
+        stretched, folded = -math.asin(e / (rod + r)), math.pi - math.asin(e / (rod - r))
+        motion = solve_motion(linkage, np.array([stretched, folded]), 1.0)
+        places, speeds = motion.points["C"].p.real, motion.points["C"].v.real
+        assert places[0] - places[1] == pytest.approx(1.0, abs=1e-9)
+        assert speeds == pytest.approx([0, 0], abs=1e-9)
+        slow = max(folded - stretched, 2 * math.pi - (folded - stretched))
+        assert slow / (2 * math.pi - slow) == pytest.approx(task.K, abs=1e-9)
+        assert transmission(linkage, np.array([math.pi / 2]), 0.0)[0] == pytest.approx(γ, abs=1e-9)
+
+
+# --- where there is none ------------------------------------------------------------------------------
+
+Residues = Callable[[Floats, Floats], tuple[Floats, Floats]]
+
+
+def roots(residues: Residues, crank: Floats, coupler: Floats) -> int:
+    """The number of cells of a grid of cranks and couplers from which Newton's method reaches a common zero."""
+    a, b = np.meshgrid(crank, coupler)
+
+    def changes(values: Floats) -> Flags:
+        """Cells of 3 × 3 points with values of both signs."""
+        rows, columns = values.shape
+        near = np.stack([values[i : rows - 2 + i, k : columns - 2 + k] for i in range(3) for k in range(3)])
+        return (np.nanmin(near, axis=0) < 0) & (np.nanmax(near, axis=0) > 0)
+
+    cells = np.logical_and(*map(changes, residues(a, b)))
+    x, y = a[1:-1, 1:-1][cells], b[1:-1, 1:-1][cells]
+    step = 1e-7
+    for _ in range(30):
+        f, g = residues(x, y)
+        fx, gx = ((one - zero) / step for one, zero in zip(residues(x + step, y), (f, g), strict=True))
+        fy, gy = ((one - zero) / step for one, zero in zip(residues(x, y + step), (f, g), strict=True))
+        det = fx * gy - fy * gx
+        x, y = x - (f * gy - fy * g) / det, y - (fx * g - f * gx) / det
+    f, g = residues(x, y)
+    return int((np.hypot(f, g) < 1e-10).sum())
+
+
+def with_margin(task: ExtremePositions, places: list[PivotPlace]) -> bool | None:
+    """True if there is a solution, None if all are so near to a border that a scan may miss them."""
+    if any(lengths(task, place)[-1] > INSIDE for place in places):
+        return True
+    return None if places else False
+
+
+@pytest.mark.filterwarnings("ignore::RuntimeWarning")
+def test_a_scan_finds_a_crank_rocker_exactly_where_there_is_one() -> None:
+    """All cranks and couplers that turn, with the swing and θ of their extreme positions, for a given frame."""
+    random = np.random.default_rng(68)
+    found = {True: 0, False: 0}
+    for _ in range(60):
+        task = CrankRocker(random.uniform(1.1, 2.0), math.radians(random.uniform(20, 100)), 1.0)
+        d = random.uniform(0.4, 2.5)
+
+        def residues(a: Floats, b: Floats, d: float = d, task: CrankRocker = task) -> tuple[Floats, Floats]:
+            shortest = (a < b) & (a < 1) & (a < d)
+            longest = np.maximum(np.maximum(b, 1), d)
+            turns = shortest & (2 * a + 2 * longest < a + b + 1 + d)
+            far, near = b + a, b - a
+            ψ = np.arccos((d**2 + 1 - far**2) / (2 * d)) - np.arccos((d**2 + 1 - near**2) / (2 * d))
+            at_A = [np.arccos((d**2 + side**2 - 1) / (2 * d * side)) for side in (far, near)]
+            θ = np.abs(at_A[0] - at_A[1])
+            return np.where(turns, ψ - task.swing, np.nan), np.where(turns, θ - task.angle, np.nan)
+
+        some = with_margin(task, task.with_frame(d))
+        if some is None:
             continue
-        between = math.acos(e / (made.rod + made.crank)) - math.acos(e / (made.rod - made.crank))
-        assert (math.pi + between) / (math.pi - between) == pytest.approx(K, abs=1e-9)
-        assert made.stroke == pytest.approx(1.0, abs=1e-9)
-    assert 0 < absent < 2000
+        found[some] += 1
+        assert bool(roots(residues, np.linspace(0.003, 1, 500), np.linspace(0.003, 3.6, 1200))) == some
+    assert min(found.values()) > 5
+
+
+@pytest.mark.filterwarnings("ignore::RuntimeWarning")
+def test_a_scan_finds_a_slider_crank_exactly_where_there_is_one() -> None:
+    random = np.random.default_rng(69)
+    found = {True: 0, False: 0}
+    for _ in range(60):
+        task, e = SliderCrank(random.uniform(1.1, 2.5), 1.0), random.uniform(0.05, 2.5)
+
+        def residues(r: Floats, rod: Floats, e: float = e, task: SliderCrank = task) -> tuple[Floats, Floats]:
+            turns = r + e < rod
+            H = np.sqrt((rod + r) ** 2 - e**2) - np.sqrt((rod - r) ** 2 - e**2)
+            θ = np.arccos(e / (rod + r)) - np.arccos(e / (rod - r))
+            return np.where(turns, H - 1, np.nan), np.where(turns, θ - task.angle, np.nan)
+
+        some = with_margin(task, task.with_frame(e))
+        if some is None:
+            continue
+        found[some] += 1
+        assert bool(roots(residues, np.linspace(0.002, 0.7, 500), np.linspace(0.01, 6, 1500))) == some
+    assert min(found.values()) > 5

@@ -1,0 +1,202 @@
+"""Synthesis exercises: faults at their places, results of the examples, what a sheet asks for, marks and mistakes."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from reportgen import catalogue, load, solve
+from reportgen.base.template_folders import languages
+from reportgen.classes.class_marking import Graded
+from reportgen.marking.judging import mark
+from reportgen.marking.marking_scheme import marking_scheme
+from reportgen.marking.toleranced_key import Ask
+from reportgen.structure import synthesis_ids as names
+from tests.marking import students
+from tests.marking.designs import STUDENTS, check_named, drawn_class, graded_class, telling_and_texts
+from tests.report import built
+
+FOLDER = Path(__file__).parents[2] / "assignments" / "synthesis"
+FILES = sorted(FOLDER.glob("*.yaml"))
+HEAD = "kind: synthesis\nreport: {language: en}\nparameters:\n"
+ROCKER = "task: crank-rocker", "K: 1.3", "psi: 42 deg", "c: 120 mm"
+SLIDER = "task: slider-crank", "K: 1.4", "H: 50 mm"
+FAULTS = [
+    ((*ROCKER, "d: 118 mm", "a: 40 mm"), "9:3 both-given"),
+    (ROCKER, "3:1 missing-key"),
+    ((*ROCKER[:3], "d: 118 mm"), "3:1 missing-key"),
+    ((*ROCKER, "d: 118 mm", "e: 10 mm"), "9:3 synthesis-other-task"),
+    ((*SLIDER, "e: 20 mm", "c: 100 mm"), "8:3 synthesis-other-task"),
+    ((*SLIDER, "e: 100 mm"), "7:6 synthesis-none"),
+    ((*ROCKER, "d: 300 mm"), "8:6 synthesis-none"),
+    ((*ROCKER, "a: 60 mm"), "8:6 synthesis-none"),
+    ((*ROCKER, "d: 100 mm", "A: beyond"), "9:6 synthesis-side"),
+    (("task: crank-rocker", "K: 3", "psi: 1 deg", "c: 120 mm", "best: transmission"), ""),
+    (("task: crank-rocker", "K: 1.3", "psi: 42 deg", "c: 120 mm", "best: transmission", "gamma: 30 deg"), ""),
+]
+
+
+def checked(tmp_path: Path, *lines: str) -> list[Any]:
+    file = tmp_path / "mechanism.yaml"
+    file.write_text(HEAD + "".join(f"  {line}\n" for line in lines), encoding="utf-8")
+    return catalogue.examine(file, "en")
+
+
+@pytest.mark.parametrize(("lines", "fault"), FAULTS, ids=[f"{k} {fault}" for k, (_, fault) in enumerate(FAULTS)])
+def test_faults_are_at_their_places(tmp_path: Path, lines: tuple[str, ...], fault: str) -> None:
+    faults = [one for one in checked(tmp_path, *lines) if one.level == "error"]
+    assert [f"{one.location.line}:{one.location.column} {one.code}" for one in faults] == ([fault] if fault else [])
+
+
+def test_the_message_names_the_lengths_with_a_solution(tmp_path: Path) -> None:
+    """H/tan θ = 50 mm/tan 30° is the bound of the offset."""
+    (fault,) = checked(tmp_path, *SLIDER, "e: 100 mm")
+    assert "86.603 mm" in fault.message
+    assert not [one for one in checked(tmp_path, *SLIDER, "e: 86 mm") if one.level == "error"]
+
+
+def test_a_poor_transmission_is_a_warning_with_what_is_possible(tmp_path: Path) -> None:
+    (warning,) = checked(tmp_path, *SLIDER, "e: 20 mm")
+    assert (warning.level, warning.code) == ("warning", "synthesis-poor")
+    case: Any = built.case(tmp_path / "mechanism.yaml", "en")
+    assert f"{math.degrees(case.transmission_of(case.best_place)):.4g}" in warning.message
+    assert checked(tmp_path, *SLIDER, "e: 20 mm", "gamma: 30 deg") == []
+
+
+def position(file: Path) -> Any:
+    return solve(load(file))["positions"][0]
+
+
+def test_examples_have_the_published_lengths() -> None:
+    """The values of the reference cases (mm, degrees)."""
+    best = position(FOLDER / "best-crank-rocker.yaml")
+    assert best["chosen"] == 2
+    links = [best["solutions"]["2"][name] * 1e3 for name in ("crank", "coupler", "frame")]
+    assert links == pytest.approx((39.526358, 92.175010, 116.461850), abs=2e-5)
+    assert math.degrees(best["solutions"]["2"]["transmission"]) == pytest.approx(39.876037, abs=1e-6)
+    slider = position(FOLDER / "slider-crank-by-offset.yaml")["solutions"]["1"]
+    assert [slider[name] * 1e3 for name in ("crank", "coupler")] == pytest.approx((22.159093, 49.910173), abs=1e-6)
+    assert math.degrees(slider["transmission"]) == pytest.approx(32.360258, abs=1e-6)
+
+
+def test_a_given_crank_has_both_frames(tmp_path: Path) -> None:
+    """The crank that goes with a frame gives this frame back on its side of the chord."""
+    by_frame = position(FOLDER / "crank-rocker-by-frame.yaml")["solutions"]
+    for number, side in (("1", "beyond"), ("2", "before")):
+        crank = f"a: {by_frame[number]['crank'] * 1e3!r} mm"
+        lines = "task: crank-rocker", "K: 1.2", "psi: 60 deg", "c: 100 mm", crank
+        assert not [one for one in checked(tmp_path, *lines) if one.level == "error"]
+        assert position(tmp_path / "mechanism.yaml")["solutions"][number]["frame"] == pytest.approx(0.13)
+        checked(tmp_path, *lines, f"A: {side}")
+        assert list(position(tmp_path / "mechanism.yaml")["solutions"]) == [number]
+
+
+def test_what_the_sheet_asks_for() -> None:
+    scheme = marking_scheme(built.case(FOLDER / "crank-rocker-by-frame.yaml", "en"))
+    families = (
+        *(names.centre, names.along, names.far, names.near, names.crank, names.coupler),
+        *(names.near_angle, names.far_angle, names.transmission),
+    )
+    wanted = {names.ANGLE, names.RADIUS, names.BEST} | {family(n) for family in families for n in (1, 2)}
+    assert {row.id for row in Ask().of(scheme.key).asked} == wanted
+
+
+MISTAKES = [
+    ("best-crank-rocker", "synthesis-whole-turn", (names.ANGLE,)),
+    ("best-crank-rocker", "synthesis-whole-swing", (names.RADIUS,)),
+    ("best-crank-rocker", "synthesis-other-side", (names.centre(2),)),
+    ("best-crank-rocker", "synthesis-not-least", (names.transmission(2),)),
+    ("crank-rocker-by-frame", "synthesis-worse-solution", (names.BEST,)),
+    ("crank-rocker-by-frame", "synthesis-not-halved", (names.crank(1), names.coupler(1))),
+    ("slider-crank-by-offset", "synthesis-one-stroke", (names.ANGLE,)),
+    ("slider-crank-by-offset", "synthesis-diameter", (names.RADIUS,)),
+    ("slider-crank-by-offset", "synthesis-central-angle", (names.RADIUS,)),
+    ("slider-crank-by-offset", "synthesis-not-halved", (names.crank(1),)),
+    ("slider-crank-by-offset", "synthesis-without-offset", (names.transmission(1),)),
+]
+
+
+@pytest.mark.parametrize(("name", "mistake", "where"), MISTAKES, ids=lambda one: str(one))
+def test_the_usual_mistakes_have_names(name: str, mistake: str, where: tuple[str, ...]) -> None:
+    check_named(FOLDER / f"{name}.yaml", mistake, where)
+
+
+@pytest.mark.parametrize("file", FILES, ids=lambda file: file.stem)
+def test_right_sheets_get_all_marks_and_mistakes_have_words(file: Path) -> None:
+    scheme = marking_scheme(built.case(file, "en"))
+    marked = mark(scheme, students.written(scheme, students.worked_out(scheme)))
+    assert marked.points == marked.out_of
+    for language in languages():
+        case = built.case(file, language)
+        for mistake in {name for many in case.misconceptions.changed.values() for name, _ in many}:
+            assert "{symbol}" in case.words["mistakes"][mistake]
+            assert case.words["mistake_names"][mistake]
+
+
+@pytest.mark.parametrize("language", languages())
+def test_reports_and_sheets_show_every_solution(language: str) -> None:
+    for file in FILES:
+        case: Any = built.case(file, language)
+        figures = [block for block in case.document().blocks if getattr(block, "key", "") == "fig.construction"]
+        assert len(figures[0].scenes) == len(case.solved)
+        assert len(case.plates()["synthesis"][0].scenes) == len(case.solved)
+
+
+def test_the_drawing_has_the_lengths_of_the_solution() -> None:
+    """AB₁ and AB₂ are the crank, B₁C₁ and B₂C₂ the coupler, A is under θ from C₁ and C₂, at the frame from D."""
+    from reportgen.structure.synthesis_drawings import ExtremeConstruction
+
+    for file in FILES:
+        case: Any = built.case(file, "en")
+        for place in case.solved:
+            drawn = ExtremeConstruction(case, place)
+            links = position(file)["solutions"][str(drawn.number)]
+            # The printed angles have hundredths of a degree.
+            near = case.wanted.radius * math.radians(0.01)
+            for pin, end in zip(drawn.pins, drawn.ends, strict=True):
+                assert abs(pin - drawn.pivot) == pytest.approx(links["crank"], abs=near)
+                assert abs(end - pin) == pytest.approx(links["coupler"], abs=near)
+            beside = abs(drawn.pivot) if case.has_rocker else drawn.pivot.imag
+            assert beside == pytest.approx(links["frame" if case.has_rocker else "offset"], abs=near)
+
+
+PARAMETERS = {
+    "crank-rocker": "K: [1.2, 1.25, 1.3], psi: {from: 36 deg, to: 48 deg, step: 2 deg}, c: 120 mm, best: transmission",
+    "slider-crank": "K: [1.3, 1.4, 1.5], H: {from: 40 mm, to: 60 mm, step: 5 mm}, e: [15 mm, 18 mm, 20 mm]",
+}
+SLIPS = {"crank-rocker": ("synthesis-whole-swing", names.RADIUS), "slider-crank": ("synthesis-diameter", names.RADIUS)}
+
+
+@pytest.fixture(scope="module", params=sorted(PARAMETERS))
+def drawn(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> tuple[str, Path]:
+    """The folder of twelve variants of a task."""
+    task = str(request.param)
+    text = f"kind: synthesis\nreport: {{language: en}}\nparameters: {{task: {task}, {PARAMETERS[task]}}}\n"
+    return task, drawn_class(tmp_path_factory.mktemp("synthesis"), text)
+
+
+@pytest.fixture(scope="module")
+def graded(drawn: tuple[str, Path]) -> tuple[str, Graded]:
+    """Right sheets; the first student takes a wrong radius and goes on from that."""
+    task, folder = drawn
+    return task, graded_class(folder, *SLIPS[task])
+
+
+def test_a_class_of_twelve_gets_its_marks(graded: tuple[str, Graded]) -> None:
+    task, of_class = graded
+    assert of_class.problems == ()
+    full = {marking.key.id for marking in of_class.markings if marking.points == marking.out_of}
+    assert full == {f"S{number:02d}" for number in range(2, STUDENTS + 1)}
+    slipped = next(one for one in of_class.markings if one.key.id == "S01")
+    assert {(cell.mistake, cell.id) for cell in slipped.first_errors} == {SLIPS[task]}
+
+
+@pytest.mark.parametrize("file", FILES, ids=lambda file: file.stem)
+def test_the_task_holds_no_answer(file: Path) -> None:
+    telling, (task, key) = telling_and_texts(file)
+    assert telling
+    assert not [number for number in telling if number in task]
+    assert not [number for number in telling if number not in key]
