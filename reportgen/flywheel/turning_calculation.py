@@ -5,17 +5,20 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from functools import cached_property
+from itertools import pairwise
 
 from reportgen.derivation.unprinted_values import with_rest
 from reportgen.flywheel import turning_ids as names
 from reportgen.flywheel.turning_diagram import SAME_ANGLE, TurningDiagram
 from reportgen.flywheel.turning_file import Parameters, Torques
 from reportgen.flywheel.turning_torques import CLOSE, DRIVING, RESISTING, diagram_of, mean_of, steady_run
-from reportgen.formula import NOTHING, PI, Expression, Number, Operand, Ref, Symbol, call, cos, minus, plus, sin
+from reportgen.formula import NOTHING, PI, Expression, Number, Operand, Ref, Symbol, call, cos, minus, plus, sin, total
 from reportgen.formula.calculation import ZERO, Calculation
 from reportgen.formula.vocabulary import KeyChapter
 
 STRAIGHT = Number(180.0, unit="°")
+MOST_TRAPEZOIDS = 6
+"""Largest number of terms of a mean torque that is printed as a sum; one of a longer table is only its result."""
 
 
 def multiple(order: float, angle: Ref) -> Expression:
@@ -129,7 +132,16 @@ class TurningCalculation:
         if torques.terms:
             return q.give(id, mean_of(torques))
         nodes = self._nodes(side, torques)
-        M = q.define(id, call("line_area", nodes[0], nodes[-2], *nodes) / (nodes[-2] - nodes[0]))
+        cycle = nodes[-2] - nodes[0]
+        rows = list(zip(torques.nodes, nodes[::2], nodes[1::2], strict=True))
+        # A jump has no width, and a piece with zero torque at both ends no area.
+        areas = [
+            (y0 + y1) / 2 * (x1 - x0)
+            for ((at, low), x0, y0), ((end, high), x1, y1) in pairwise(rows)
+            if end > at and (low or high)
+        ]
+        written = total(areas) / cycle if 0 < len(areas) <= MOST_TRAPEZOIDS else None
+        M = q.define(id, call("line_area", nodes[0], nodes[-2], *nodes) / cycle, written=written)
         q.set_out("mean", M)
         return M
 

@@ -62,6 +62,9 @@ class TurningPage(DesignPage[SolvedTurning]):
             "torque_table": self.torque_table if tables else "",
             "curves": self.curve_equations if curves else "",
             "has_table": bool(tables),
+            "has_sum": any(
+                id in written and written[id].written is not None for id in (turning_ids.MEAN, turning_ids.MEAN_OF_LOAD)
+            ),
             "has_curve": bool(curves),
             "load_curve": given.resisting is not None and bool(given.resisting.terms),
             "load_varies": given.resisting is not None and given.resisting.varies,

@@ -10,10 +10,14 @@ from typing import Any
 import numpy as np
 import pytest
 
+from reportgen.base.template_folders import languages
+from reportgen.base.units import Language
 from reportgen.cases import open_case
+from reportgen.document import text_of
 from reportgen.flywheel import turning_ids as names
 from reportgen.flywheel.turning_file import Parameters
 from reportgen.flywheel.turning_torques import both_torques, steady_run
+from tests.report import trees
 
 FOLDER = Path(__file__).parents[2] / "assignments" / "turning-moment"
 RANDOM = 500
@@ -151,3 +155,26 @@ def test_drawn_torques_meet_at_the_points() -> None:
         for (start, stop), area in zip(pairwise([*case.run.points, case.cycle]), case.run.areas, strict=True):
             inside = (φ > start + 1e-9) & (φ < stop - 1e-9)
             assert np.all(np.sign((driving - resisting)[inside]) == np.sign(area)), file.name
+
+
+@pytest.mark.parametrize("language", languages())
+def test_the_mean_of_a_short_table_is_a_sum_of_trapezoids(language: Language) -> None:
+    """(40·90 + 1000·45 + 700·15 + 40·210)/360 = 187.5 N·m; the two jumps of the press have no width."""
+    document = open_case(FOLDER / "press.yaml", language).document()
+    (line,) = (line for line in trees.lines(trees.chains(document), "en") if line.result.startswith("187.5"))
+    assert line.holds
+    assert line.substitution.count("°") == 10
+    assert "t1" in text_of(document)
+
+
+def test_the_mean_of_a_long_table_is_only_its_result(tmp_path: Path) -> None:
+    angles = ", ".join(f"{angle} deg" for angle in range(0, 361, 30))
+    torques = ", ".join(str(100 + 90 * (number % 3)) for number in range(13))
+    file = tmp_path / "long.yaml"
+    file.write_text(
+        "kind: turning-moment\nreport: {language: en}\nparameters:\n  n: 120 rpm\n  delta: 0.02\n"
+        f"  driving: {{phi: [{angles}], M: [{torques}], unit: N m}}\n"
+    )
+    case = open_case(file)
+    assert case.printed[names.MEAN].written is None
+    assert "rows of the table" not in text_of(case.document())
