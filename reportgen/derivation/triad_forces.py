@@ -34,7 +34,11 @@ def ternary_group(statics: Statics, triad: Triad) -> Polygon:
     (first, last), third = special.pair, special.third
     digits = {leg.link: ids.joint(statics.scheme.owner[leg.outer], leg.link) for leg in triad.legs}
     across = [_tangential(statics, leg, digits[leg.link]) for leg in triad.legs]
-    _axial(statics, triad, third, digits[third.link], across)
+    # A leg without moments has no term for its part, which is zero whatever the position.
+    turning = [
+        load for load in across if not isinstance(q.families[ids.reaction(digits[load.link], "t")].definition, Number)
+    ]
+    _axial(statics, triad, third, digits[third.link], turning)
 
     path = ForceChain(q)
     path.lay(ids.reaction_force(digits[first.link], "t"), first.link)
@@ -115,6 +119,6 @@ def _axial(statics: Statics, triad: Triad, leg: TriadLeg, digits: str, across: l
     )
     # A term for each link, so that the line can be broken between them.
     terms = [-turning / h for turning, _ in parts if turning is not None]
-    terms += [-(couple / q["mu.l"]) / h for _, couples in parts for couple in couples]
+    terms += [-couple / (q["mu.l"] * h) for _, couples in parts for couple in couples]
     size = q.define(ids.reaction(digits, "n"), Sum(tuple(terms)) if terms else 0.0, scale=statics.force)
     q.construct(ids.force_vector(name), size * assumed, of=size.id)

@@ -235,6 +235,9 @@ class Ledger:
                 return Negative(product) if minus % 2 else product
             case Fraction(top, Ref() as bottom) if self._is_negative_arm(bottom, position):
                 return _negated(Fraction(self._signs_out(top, position), bottom))
+            case Fraction(top, Product() as bottom):
+                over, under = self._signs_out(top, position), self._signs_out(bottom, position)
+                return _negated(Fraction(over, under.of)) if isinstance(under, Negative) else Fraction(over, under)
             case Call("branch", (Ref(id), *branches)):
                 return self._signs_out(branches[int(self.families[id].at(position))], position)
             case _:

@@ -14,6 +14,7 @@ from books import Book, keep
 from made_triads import R1, clear_places, random_linkages
 
 from reportgen.derivation.group_motion import enter_kinematics
+from reportgen.formula import Fraction, Negative, ids, walk
 from reportgen.formula.calculation import Calculation
 from reportgen.machine import Crank, Dyad, Guide, Linkage
 from reportgen.machine.kinematics import solve_motion
@@ -138,3 +139,20 @@ def test_the_plate_turns_about_its_instant_centre(turn: int) -> None:
         assert np.abs(ends[0] - ends[1]).max() < 1e-9 * RATE
     assert "ic.4" not in q
     assert "ic.5" not in q
+
+
+def test_a_leg_without_moments_has_no_term() -> None:
+    """The line of the axial part names the part across leg 4, which has a torque, and those of no other leg.
+
+    No fraction stands in the numerator of another, and no denominator is negative.
+    """
+    bare = replace(R1, inertias=tuple(body for body in R1.inertias if body.link == 3))
+    ledger = keep(bare, np.radians(15 + 30.0 * np.arange(12)), 1, (), ((4, 60.0),)).ledger()
+    assert ledger["R.12.t"].values == pytest.approx(0)
+    assert ledger["R.05.t"].values == pytest.approx(0)
+    assert {id for id in ledger.inputs["R.05.n"] if id in ids.reaction} == {"R.04.t"}
+    for k in range(1, 13):
+        chain = ledger.chain("R.05.n", k)
+        fractions = [node for part in chain.parts for node in walk(part) if isinstance(node, Fraction)]
+        assert fractions
+        assert not any(isinstance(node, Fraction | Negative) for one in fractions for node in (one.top, one.bottom))
