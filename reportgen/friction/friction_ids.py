@@ -13,7 +13,7 @@ coefficient_of_slider = Name("friction.f.{link}")
 pin_radius = Name("friction.r.{point}")
 circle = Name("friction.rho.{point}")
 angle = Name("friction.phi.{link}")
-turning = Name("friction.omega.{joint}")  # size of the rate of the second link against the first
+turning = Name("friction.omega.{joint}")  # size of the rate of the link acted on against the other
 reaction = Name("friction.R.{joint}[.{round}]")
 """Reaction of a pin, or across a guide; with a round, the reaction before convergence."""
 couple = Name("friction.M.{joint}")

@@ -165,7 +165,7 @@ def _rate(q: Calculation, machine: Machine, each: RubbingJoint) -> Ref | None:
     """
     if not each.is_pin:
         return q[_sliding(q, machine.linkage, each.joint)]
-    turns = [(link, ω) for link in each.joint.links if (ω := _omega(q, machine, link)) is not None]
+    turns = [(link, ω) for link in each.ends if (ω := _omega(q, machine, link)) is not None]
     match turns:
         case []:
             return None

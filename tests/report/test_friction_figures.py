@@ -14,6 +14,7 @@ from reportgen.cases import MachineCase, open_case
 from reportgen.document import text_of
 from reportgen.drawing import Circle, Label, Scene
 from reportgen.formula import Symbol
+from reportgen.friction import friction_ids
 from reportgen.friction import views as friction
 from reportgen.friction.force_plans import force_plan_with_friction
 from reportgen.friction.joints import relative_sense, with_friction
@@ -102,13 +103,31 @@ def test_the_plans_with_friction_close(file: Path) -> None:
         assert closing.length == pytest.approx(force / μ * MM, abs=RULER)
 
 
-def test_the_plan_of_a_class_iii_group_has_all_its_outer_reactions(tmp_path: Path) -> None:
-    """With and without friction, the vectors go head to tail through the reaction of the third leg, and close."""
-    file = tmp_path / "press.yaml"
+@pytest.fixture(scope="module")
+def press(tmp_path_factory: pytest.TempPathFactory) -> tuple[ReportContext, int]:
+    """The press with a group of class III, with friction in its pins."""
+    file = tmp_path_factory.mktemp("press") / "press.yaml"
     text = (ROOT / "linkage" / "press-class-iii.yaml").read_text(encoding="utf-8")
     pins = ", ".join(f"{name}: {{f: 0.1, r: 10 mm}}" for name in "OABCDEF")
     file.write_text(text.replace("  declared:", f"  friction: {{pins: {{{pins}}}}}\n  declared:"), encoding="utf-8")
-    report, k = report_of(file)
+    return report_of(file)
+
+
+def test_the_joints_of_a_class_iii_group_are_labelled_as_calculated(press: tuple[ReportContext, int]) -> None:
+    """The rotation drawn at a pin has the name with which the text computes it: R_32 acts on link 2, so ω_23."""
+    report, k = press
+    drawn = {
+        item.content for scene in friction.joints(report, k).scenes for item in scene.items if isinstance(item, Label)
+    }
+    named = [family.symbol for id, family in report.ledger.families.items() if id in friction_ids.turning]
+    assert Symbol("ω", "23") in named
+    assert len(named) >= 5
+    assert set(named) <= drawn
+
+
+def test_the_plan_of_a_class_iii_group_has_all_its_outer_reactions(press: tuple[ReportContext, int]) -> None:
+    """With and without friction, the vectors go head to tail through the reaction of the third leg, and close."""
+    report, k = press
     (group,) = report.triads
     assert group.polygon is not None
     plan = force_plan_with_friction(report, group.polygon, k)
