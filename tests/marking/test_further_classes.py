@@ -1,4 +1,4 @@
-"""Classes with what few files give: single instants, friction, a machine of the atlas.
+"""Classes with what few files give: single instants, friction, a machine of the atlas, class III.
 
 They are drawn, set as tasks, filled in and marked; mistakes are named.
 """
@@ -70,6 +70,34 @@ parameters:
   {O1A: {from: 60 mm, to: 80 mm, step: 5 mm}, O1O2: [150 mm, 160 mm], n: {from: 40 rpm, to: 80 rpm, step: 10 rpm},
    F: {from: 800 N, to: 1200 N, step: 100 N}}
 """
+PRESS = """
+kind: linkage
+variant: 2026-F
+salt: press
+report: {language: vi, extent: short, worked_positions: [4]}
+positions: {count: 6}
+parameters:
+  frame: {O: [0 mm, 0 mm], B: [300 mm, -30 mm], C: [70 mm, 300 mm]}
+  driver: {type: crank, centre: O, pin: A, length: 50 mm, n: {from: 60 rpm, to: 90 rpm, step: 5 rpm}}
+  groups:
+    - type: 3RRR
+      plate: 3
+      legs:
+        - {link: 2, joints: [A, D], length: 130 mm}
+        - {link: 4, joints: [B, E], length: {from: 186 mm, to: 194 mm, step: 2 mm}}
+        - {link: 5, joints: [C, F], length: 150 mm}
+      at: {E: [100 mm, 0 mm], F: [60 mm, 140 mm]}
+      near: {D: [83 mm, 160 mm]}
+      near_at: 60 deg
+    - {type: RRP, links: [6, 7], joints: [F, H], length: 200 mm, guide: {at: [300 mm, 210 mm], angle: 0 deg}, end: far}
+  masses: [{link: 7, at: H, G: [70 N, 80 N, 90 N]}]
+  loads: [{by: constant, link: 7, at: H, F: 400 N, direction: 0 deg, against: motion}]
+"""
+SPECIAL = (
+    ("v.S24", "special-point-fixed"),
+    ("omega.3", "rotation-from-special-point"),
+    ("a.S24", "special-point-even"),
+)
 SLIDING = (("a.A3A.k", "no-coriolis"), ("m.3", "weight-for-mass"), ("omega.1", "rpm-for-radians"))
 RUBBING = (
     *(("friction.rho.B", "radius-for-circle"), ("friction.omega.12", "one-link")),
@@ -128,6 +156,7 @@ def test_mistakes_of_a_class_at_its_instants_are_told(tmp_path: Path) -> None:
         (SHAPER, 3, (), "face.05.1"),
         (FRICTION, 12, RUBBING, "friction.M.12"),
         (SLOTTER, 12, SLIDING, "a.A3A.k"),
+        (PRESS, 12, SPECIAL, "v.S24"),
     ],
 )
 def test_a_class_goes_from_its_variants_to_its_marks(
