@@ -19,11 +19,20 @@ from tests.report import built
 VARIANTS, FEW = 20, 2
 FIGURES = 5
 """Of a computed quantity's largest value."""
-GIVEN_WITH = {"segment": 2, "angle": 2, "direction": 1, "count": 0, "sign": 0, "share": 3}
+GIVEN_WITH = {
+    "segment": 2,
+    "angle": 2,
+    "direction": 1,
+    "count": 0,
+    "sign": 0,
+    "share": 3,
+    "trial angle": 4,
+    "trial length": 7,
+}
 """Decimals of what is not told by figures."""
 
 
-@pytest.mark.parametrize("path", matrix(built.FILES, built.TELLING), ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", matrix(built.ALL, built.TELLING), ids=lambda path: path.stem)
 def test_files(path: Path) -> None:
     """A computed quantity has five figures at its largest or is short; one quantity has one number of decimals."""
     case = built.case(path, built.own_language(path))

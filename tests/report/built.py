@@ -75,6 +75,9 @@ SIBLINGS = _first_of_each_kind(path for path in FILES if path not in TYPESET)
 
 SLIDE = ROOT / "assignments" / "linkage-slide.yaml"
 """A machine of the user's own, which a slider drives; its file is in English."""
+CLASS_III = sorted((ROOT / "assignments" / "linkage").glob("*class-iii.yaml"))
+"""Machines with a group of class III."""
+ALL = [*FILES, *CLASS_III]
 
 ENGINE_CASES = [pytest.param(engine, marks=MARKS[engine], id=engine) for engine in ENGINES]
 PRINTED = [

@@ -17,7 +17,7 @@ from tests.report import built
 
 HALF = 0.5000001
 """Half a unit of the last digit, with room for the rounding of binary numbers."""
-FILES = pytest.mark.parametrize("path", matrix(built.FILES, built.TYPESET), ids=lambda path: path.stem)
+FILES = pytest.mark.parametrize("path", matrix(built.ALL, built.TYPESET), ids=lambda path: path.stem)
 
 
 def opened(path: Path) -> ReportContext:

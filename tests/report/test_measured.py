@@ -94,7 +94,7 @@ def ends(ledger: Ledger, id: str, k: int, label: str, turn: str) -> tuple[list[s
     return figures, wanted
 
 
-@pytest.mark.parametrize("file", matrix(built.FILES, built.TELLING), ids=lambda file: file.stem)
+@pytest.mark.parametrize("file", matrix(built.ALL, built.TELLING), ids=lambda file: file.stem)
 def test_ends_of_what_is_measured_are_named_in_its_figure(file: Path) -> None:
     written = built.written(file, built.own_language(file))
     ledger, machine, shown = written.case.ledger, written.case.analysis.machine, names(written.document)

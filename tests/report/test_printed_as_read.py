@@ -97,7 +97,7 @@ def test_a_report_is_free_of_doubles_and_ids(name: str, language: str, tmp_path:
     assert faults(text_of(_case(name, tmp_path, language).document())) == []
 
 
-@pytest.mark.parametrize("path", matrix(built.FILES, ()), ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", matrix(built.ALL, ()), ids=lambda path: path.stem)
 @pytest.mark.parametrize("language", ["vi", "en", "ru", "zh"])
 def test_every_report_is_free_of_doubles_and_ids(path: Path, language: str) -> None:
     """But for what its file has so."""

@@ -34,7 +34,7 @@ def faults(written: Written) -> list[str]:
     ]
 
 
-@pytest.mark.parametrize("path", matrix(built.FILES, built.TYPESET), ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", matrix(built.ALL, built.TYPESET), ids=lambda path: path.stem)
 def test_labels_of_every_file_are_clear(path: Path) -> None:
     assert faults(built.written(path, built.own_language(path))) == []
 
@@ -67,7 +67,7 @@ def well_labelled(assignment: Assignment) -> None:
         assert all(one.to(point) > 1.5 for one in led for other in figure if other is not one for point in other.named)
 
 
-@pytest.mark.parametrize("path", matrix(built.FILES, built.TELLING), ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", matrix(built.ALL, built.TELLING), ids=lambda path: path.stem)
 def test_leaders_are_short_and_cross_none_and_labels_stand_at_their_own_points(path: Path) -> None:
     well_labelled(api.load(path))
 
@@ -79,7 +79,7 @@ def test_labels_of_a_variant_stand_at_their_own_points(name: str, tmp_path: Path
     well_labelled(api.load(file))
 
 
-@pytest.mark.parametrize("path", matrix(built.FILES, built.TELLING), ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", matrix(built.ALL, built.TELLING), ids=lambda path: path.stem)
 def test_small_plans_name_points_only_and_print_their_scale_once(path: Path) -> None:
     """The scale stands behind the caption, or once on a sheet; no panel repeats it."""
     document = built.written(path, built.own_language(path)).document

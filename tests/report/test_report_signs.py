@@ -22,6 +22,7 @@ from reportgen.formula.vocabulary import vector
 from reportgen.machine import SlidingDriver
 from reportgen.report import force_figures, result_tables
 from reportgen.report.context import ReportContext
+from reportgen.report.triad_views import TriadView
 from tests.derivation.printed import SHARE
 from tests.lanes import matrix
 from tests.report import built
@@ -35,7 +36,7 @@ FURTHER = 4
 
 @pytest.fixture(
     scope="module",
-    params=matrix([*built.FILES, *RARE], [*built.TELLING, built.SLIDE, *RARE]),
+    params=matrix([*built.ALL, *RARE], [*built.TELLING, built.SLIDE, *RARE]),
     ids=lambda one: getattr(one, "stem", one),
 )
 def written(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Written:
@@ -137,9 +138,14 @@ def test_what_moments_give_is_positive_with_a_clockwise_moment(report: ReportCon
     for k in positions(report):
         at = {name: complex(one.p[k - 1]) for name, one in report.analysis.motion.points.items()}
         for group in report.groups:
-            by_rod = [(group.outer, group.P, group.Q), (group.guide, group.T, group.Q)]
-            for digits, pin, centre in (*by_rod, (group.across, group.Q, group.T)):
-                for part in "ts" if digits != group.across else "s":
+            if isinstance(group, TriadView):
+                sought = [(leg.outer, leg.P, leg.Q, "t") for leg in group.legs]
+            else:
+                by_rod = [(group.outer, group.P, group.Q), (group.guide, group.T, group.Q)]
+                every = [*by_rod, (group.across, group.Q, group.T)]
+                sought = [(*one, "ts" if one[0] != group.across else "s") for one in every]
+            for digits, pin, centre, parts in sought:
+                for part in parts:
                     id = f"R.{digits}.{part}"
                     if id in group.by_moments and not report.is_zero(id, k):
                         force = complex(report.ledger[f"F.R{digits}.{part}"].at(k))

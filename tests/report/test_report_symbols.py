@@ -93,7 +93,7 @@ def words_of(symbols: Iterable[Symbol]) -> set[str]:
 VIETNAMESE = {"cb", "qt", "tt", "đ"}
 
 
-@pytest.mark.parametrize("path", matrix(built.FILES, built.TYPESET[:2]), ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", matrix(built.ALL, built.TYPESET[:2]), ids=lambda path: path.stem)
 def test_an_english_report_has_english_indices(path: Path) -> None:
     """In the ledger, of which report, key and sheet are made."""
     english = built.case(path, "en").ledger

@@ -34,7 +34,7 @@ def additions(drawing: Plan, stage: int) -> list[tuple[complex, complex]]:
     return [(start, end) for start, end in (*new, *lines) if abs(end - start) > VISIBLE]
 
 
-@pytest.mark.parametrize("file", matrix(built.FILES, built.TYPESET), ids=lambda file: file.stem)
+@pytest.mark.parametrize("file", matrix(built.ALL, built.TYPESET), ids=lambda file: file.stem)
 def test_force_plans_begin_with_what_is_known_without_moments(file: Path) -> None:
     report = ReportContext(built.case(file, built.own_language(file)))
     k = report.assignment.worked_positions[0]
@@ -46,7 +46,7 @@ def test_force_plans_begin_with_what_is_known_without_moments(file: Path) -> Non
         if group.polygon is None:
             continue
         known = [s for s in group.polygon.edges if not s.unknown and is_drawn(group, s.name)]
-        by_moments = {s.start + s.end for s in known if s.name.endswith(".t")}
+        by_moments = {s.start + s.end for s in known if s.name.endswith((".t", ".n"))}
         given = {s.start + s.end for s in known} - by_moments
         panels = force_stages(report, k, group).scenes
         arrows = [[item for item in panel.items if isinstance(item, Arrow)] for panel in panels]
@@ -57,7 +57,7 @@ def test_force_plans_begin_with_what_is_known_without_moments(file: Path) -> Non
         assert not by_moments or not second & {s.start + s.end for s in group.polygon.edges if s.unknown}
 
 
-@pytest.mark.parametrize("file", matrix(built.FILES, built.TYPESET), ids=lambda file: file.stem)
+@pytest.mark.parametrize("file", matrix(built.ALL, built.TYPESET), ids=lambda file: file.stem)
 def test_every_stage_adds_an_arrow_or_a_line(file: Path) -> None:
     report = ReportContext(built.case(file, built.own_language(file)))
     for k in range(1, report.count + 1):
