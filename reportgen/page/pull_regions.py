@@ -7,11 +7,12 @@ Whether the linkage runs is found at each place. The checks of the whole file ar
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise, product
 from pathlib import Path
+from typing import Protocol
 
 import numpy as np
 
@@ -23,7 +24,7 @@ from reportgen.catalogue import assembly_checks
 from reportgen.catalogue.assembly_checks import WHOLE_TURN, DriverTravel
 from reportgen.machine import Linkage
 from reportgen.machine.analysis import Machine
-from reportgen.page.pulled_values import Pull, place_of, with_texts
+from reportgen.page.pulled_values import Pull, Stepped, place_of, with_texts
 
 REACH = 0.35
 """Distance from the point to the edge of the region, as a share of the drawing's larger side."""
@@ -62,13 +63,22 @@ class Requirement:
             return False
 
 
+class PulledPlace(Protocol):
+    """A pulled point or end of a coil, whose place follows values of a file."""
+
+    @property
+    def values(self) -> Sequence[Stepped]: ...
+    def at(self, offsets: np.ndarray) -> complex: ...
+    def ways(self, offsets: np.ndarray) -> np.ndarray: ...
+
+
 @dataclass(frozen=True)
 class FileChecks:
     """The checks of a file for other values of a pull; faults of the file as it is are ignored."""
 
     source: Source
     path: Path
-    pull: Pull
+    pull: PulledPlace
 
     def met(self, offsets: np.ndarray) -> bool:
         """Return True if values that differ by so much [values] cause no fault."""
@@ -92,7 +102,7 @@ class FileChecks:
 
 
 def region(
-    pull: Pull,
+    pull: PulledPlace,
     required: Requirement,
     reach: float,
     count: int,
@@ -107,7 +117,10 @@ def region(
     ways = np.abs(pull.ways(np.zeros(len(pull.values))))
     axes = []
     for value, far in zip(pull.values, ways.tolist(), strict=True):
-        half = min(reach / far, max(abs(value.typed.number) * (1 - LEAST), reach / far * LEAST))
+        half = reach / far
+        if isinstance(pull, Pull):
+            # Lengths stay positive; the coordinates of an end of a coil may change their signs.
+            half = min(half, max(abs(value.typed.number) * (1 - LEAST), half * LEAST))
         low, high = max(-half, value.low - value.typed.number), min(reach / far, value.high - value.typed.number)
         steps = count * (FINER_LINE if len(pull.values) == 1 else 1)
         axes.append(np.linspace(low, high, steps + 1))
@@ -119,9 +132,7 @@ def region(
     for index in np.ndindex(places.shape):
         if not going():
             return None
-        linkage = pull.made(offsets(index))
-        if required.met(linkage, required.travel.turning):
-            places[index] = place_of(linkage, pull.point, pull.driver)
+        places[index] = _place(pull, offsets(index), required)
     if checks is not None:
         met = _filtered(np.isfinite(places), lambda index: going() and checks.met(offsets(index)))
         if not going():
@@ -129,6 +140,19 @@ def region(
         places[~met] = complex(np.nan, np.nan)
     strips = _lines if len(axes) == 1 else _strips
     return list(strips(places))
+
+
+def _place(pull: PulledPlace, offsets: np.ndarray, required: Requirement) -> complex:
+    """Return the place (m) of what is pulled for values that differ by so much [values]; nan if no machine runs then.
+
+    The end of a coil on the frame leaves the linkage as it is.
+    """
+    if not isinstance(pull, Pull):
+        return pull.at(offsets)
+    linkage = pull.made(offsets)
+    if not required.met(linkage, required.travel.turning):
+        return complex(np.nan, np.nan)
+    return place_of(linkage, pull.point, pull.driver)
 
 
 def _filtered(flags: Flags, check: Callable[[tuple[int, ...]], bool]) -> Flags:

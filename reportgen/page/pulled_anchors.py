@@ -109,6 +109,10 @@ class AnchorPull:
         """Return the place of the end (m) for differences of the values [values]."""
         return self.start + complex(self.shifts @ offsets)
 
+    def ways(self, offsets: np.ndarray) -> np.ndarray:
+        """Return how far the end goes (m) for a unit of each value [values], the same everywhere."""
+        return self.shifts
+
     def rounded(self, offsets: np.ndarray) -> np.ndarray:
         """Return the differences [values] of numbers in whole steps within their bounds."""
         return rounded(self.values, offsets)

@@ -57,6 +57,11 @@ class PulledLoad:
     pull: LoadPull | AnchorPull
     offsets: np.ndarray
 
+    @property
+    def begun(self) -> AnchorPull | None:
+        """The pull of an end of a coil, which has a region; None for a load."""
+        return self.pull if isinstance(self.pull, AnchorPull) else None
+
 
 @dataclass
 class Pulls:
@@ -206,9 +211,10 @@ class Pulls:
         top = self.read()
         with self.grabbing:
             grabbed = self.grabbed(asked, resident, top) if resident else None
-            if resident is None or not isinstance(grabbed, PulledPoint):
+            begun = None if grabbed is None else grabbed.begun
+            if resident is None or begun is None:
                 return {}
-            begun, machine, scale = grabbed.begun, resident.samples.machine, resident.samples.scale
+            machine, scale = resident.samples.machine, resident.samples.scale
 
         def going() -> bool:
             while self.working:
