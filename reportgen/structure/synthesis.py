@@ -74,13 +74,12 @@ def _of_solutions(given: Parameters) -> Iterator[Finding]:
         return
     task = wanted(given)
     extent = task.cranks() if selecting == "a" else task.frames()
-    if extent is None:
-        about = {"psi": given.psi.text if given.psi else "", "K": given.K.text}
-        yield Finding("synthesis-impossible", (*TOP, "psi"), about)
-    elif given.A is not None and places(given.model_copy(update={"A": None})):
+    # Before the chord, near C₂, some place of A always works.
+    assert extent is not None
+    if given.A is not None and places(given.model_copy(update={"A": None})):
         yield Finding("synthesis-side", (*TOP, "A"), {"A": given.A})
     else:
-        low, high = (f"{end * 1e3:.5g} mm" for end in extent)
+        low, high = (f"{round(end * 1e3, 4):.5g} mm" for end in extent)
         about = {"key": selecting, "text": getattr(given, selecting).text, "low": low, "high": high}
         yield Finding("synthesis-none", (*TOP, selecting), about)
 

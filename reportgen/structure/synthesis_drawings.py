@@ -205,7 +205,7 @@ def transmission(case: SolvedSynthesis, half: bool = False, area: Area | None = 
         curves.append(PlottedCurve(text, np.degrees(grid), γ, marks, named))
     degrees = str(case.words["synthesis"]["degrees"])
     across: Content = Chain((Symbol("β"),), degrees)
-    up: Content = Chain((Symbol("γ", "min"),), degrees)
+    up: Content = Chain((Symbol("γ", "min"),), "°")
     level = (math.degrees(case.given.gamma.si), case.printed.symbol(names.PERMITTED))
     return plotted(Diagram(tuple(curves), across, up, levels=(level,)), half=half, area=area).scene
 

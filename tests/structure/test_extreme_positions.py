@@ -81,6 +81,16 @@ def test_no_place_of_a_scan_is_better_than_the_best(task: ExtremePositions) -> N
         assert task.transmission(side, grid).max() <= lengths(task, best)[-1] + 1e-9
 
 
+@pytest.mark.parametrize("K", [1.001, 1.05, 1.2, 1.5, 2.0, 2.5, 3.0])
+@pytest.mark.parametrize("swing", [1, 5, 20, 60, 90, 120, 150, 170])
+def test_every_swing_has_a_mechanism(K: float, swing: float) -> None:
+    """`check` relies on it when it names the lengths with a solution."""
+    task = CrankRocker(K, math.radians(swing), 0.1)
+    assert task.interval(BEFORE) is not None
+    assert task.frames() is not None
+    assert task.cranks() is not None
+
+
 # --- analysed as machines ---------------------------------------------------------------------------
 
 

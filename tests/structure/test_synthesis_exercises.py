@@ -54,7 +54,7 @@ def test_faults_are_at_their_places(tmp_path: Path, lines: tuple[str, ...], faul
 def test_the_message_names_the_lengths_with_a_solution(tmp_path: Path) -> None:
     """H/tan θ = 50 mm/tan 30° is the bound of the offset."""
     (fault,) = checked(tmp_path, *SLIDER, "e: 100 mm")
-    assert "86.603 mm" in fault.message
+    assert "between 0 mm and 86.603 mm" in fault.message
     assert not [one for one in checked(tmp_path, *SLIDER, "e: 86 mm") if one.level == "error"]
 
 
@@ -200,3 +200,26 @@ def test_the_task_holds_no_answer(file: Path) -> None:
     assert telling
     assert not [number for number in telling if number in task]
     assert not [number for number in telling if number not in key]
+
+
+COURSEWORK = """kind: slider-crank
+report: {language: en}
+parameters: {r: 60 mm, l: 140 mm, n: 960 rpm}
+parts:
+  - kind: synthesis
+    parameters: {task: slider-crank, K: 1.1, H: 120 mm, e: 20 mm}
+"""
+
+
+def test_a_synthesis_is_a_part_of_a_coursework(tmp_path: Path) -> None:
+    """Its rows are asked beside those of the machine, its drawings are in the report, right sheets get all marks."""
+    (tmp_path / "course.yaml").write_text(COURSEWORK, encoding="utf-8")
+    case: Any = built.case(tmp_path / "course.yaml", "en")
+    scheme = marking_scheme(case)
+    asked = {row.id for row in Ask().of(scheme.key).asked}
+    assert {names.ANGLE, names.RADIUS, names.crank(1), names.coupler(1), names.transmission(1)} <= asked
+    assert len(asked) > len([id for id in asked if id.startswith("synthesis.")])
+    marked = mark(scheme, students.written(scheme, students.worked_out(scheme)))
+    assert marked.points == marked.out_of
+    keys = {getattr(block, "key", "") for block in case.document().blocks}
+    assert any(key.endswith("fig.construction") for key in keys)
