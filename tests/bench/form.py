@@ -194,8 +194,12 @@ def felt(driver: Any, name: str, where: tuple[str, ...], times: int = TIMES) -> 
         for _ in range(5):
             sleep(SETTLED)
             old = driver.execute_script("return document.getElementById(arguments[0]).dataset.was", field)
+            before = file.stat().st_ctime_ns
             typed, shown = driver.execute_async_script(TYPE, field, next(variations(old)))
-            files.append(file.stat().st_ctime_ns / 1e6 - typed)
+            # The machine may be drawn before the file is written.
+            while (written := file.stat().st_ctime_ns) == before:
+                sleep(0.001)
+            files.append(written / 1e6 - typed)
             machines.append(shown - typed)
         paint, shift = driver.execute_async_script(SEEN)
         middles = [*np.quantile(keys, (0.5, 0.95)), *np.quantile(frames, (0.5, 0.95))]
