@@ -1,6 +1,7 @@
 """Flywheels of R. S. Khurmi and J. K. Gupta, Theory of Machines, chapter 16, and of Shigley, chapter 16.
 
-The books round ω and the areas on the way: their results agree to the last printed digit or two.
+Examples and pages of Khurmi as in the textbook companion at https://tbc-python.fossee.in. The books
+round ω and the areas on the way: their results agree to the last printed digit or two.
 """
 
 from __future__ import annotations
@@ -25,7 +26,7 @@ def wheel(tmp_path: Path, *lines: str) -> Any:
 
 
 def test_petrol_engine_by_areas() -> None:
-    """Areas of 295, 685, 40, 340, 960, 270 mm², 36 kg at 150 mm, 1800 rpm: ΔE = 985 mm² = 86 N·m, C_s = 0.3 %."""
+    """Khurmi 16.4, p. 574: areas of 295, 685, 40, 340, 960, 270 mm², 36 kg at 150 mm, 1800 rpm: 86 N·m, C_s = 0.3 %."""
     found = solve(load(EXAMPLES / "areas.yaml"))["positions"][0]["wheel"]
     assert found["range"] == pytest.approx(985 * math.pi / 36)
     assert found["range"] == pytest.approx(86, abs=0.5)
@@ -33,7 +34,7 @@ def test_petrol_engine_by_areas() -> None:
 
 
 def test_multi_cylinder_engine_by_areas(tmp_path: Path) -> None:
-    """1 mm is 600 N·m and 3°; ±1.5 % at 600 rpm, 0.5 m: ΔE = 172 mm² = 5404 N·m, m = 183 kg."""
+    """Khurmi 16.5, p. 575: 1 mm is 600 N·m and 3°; ±1.5 % at 600 rpm, 0.5 m: ΔE = 172 mm² = 5404 N·m, m = 183 kg."""
     areas = "areas: {values: [52, -124, 92, -140, 85, -72, 107], torque: 600 N m, angle: 3 deg}"
     found = wheel(tmp_path, areas, "n: 600 rpm", "delta: 0.03", "k: 0.5 m")
     assert found["range"] == pytest.approx(5404, abs=1)
@@ -41,7 +42,9 @@ def test_multi_cylinder_engine_by_areas(tmp_path: Path) -> None:
 
 
 def test_engine_by_a_curve() -> None:
-    """T = 20 000 + 9500 sin 2θ − 5700 cos 2θ: 377 kW, 3121 kg·m² for 1 % at 180 rpm, 3.044 rad/s² at 45°."""
+    """Khurmi 16.11, p. 585: T = 20 000 + 9500 sin 2θ − 5700 cos 2θ; 377 kW, 3121 kg·m² for 1 % at 180 rpm, and
+    3.044 rad/s² at 45°.
+    """
     found = solve(load(EXAMPLES / "curve.yaml"))["positions"][0]["wheel"]
     assert found["range"] == pytest.approx(math.hypot(9500, 5700))
     assert found["power"] == pytest.approx(377e3, abs=500)
@@ -50,7 +53,7 @@ def test_engine_by_a_curve() -> None:
 
 
 def test_engine_and_load_by_curves() -> None:
-    """5000 + 600 sin 2θ against 5000 + 500 sin θ, 500 kg at 0.4 m, 150 rpm: ΔE = 1204 N·m, 6.1 %."""
+    """Khurmi 16.12, p. 587: 5000 + 600 sin 2θ against 5000 + 500 sin θ, 500 kg at 0.4 m, 150 rpm; 1204 N·m, 6.1 %."""
     position = solve(load(EXAMPLES / "two-curves.yaml"))["positions"][0]
     assert position["wheel"]["range"] == pytest.approx(1204, abs=0.5)
     assert position["wheel"]["delta"] == pytest.approx(0.061, abs=0.0005)
@@ -59,7 +62,7 @@ def test_engine_and_load_by_curves() -> None:
 
 
 def test_three_cylinder_engine_by_a_table(tmp_path: Path) -> None:
-    """Triangles of 90 N·m at 120° add up to 45 … 90 N·m: 4.24 kW, ΔE = 11.78 N·m, 3.9 %, 293 rad/s²."""
+    """Khurmi 16.8, p. 580: triangles of 90 N·m at 120° add up to 45 … 90 N·m; 4.24 kW, 11.78 N·m, 3.9 %, 293 rad/s²."""
     torque = "driving: {phi: [0 deg, 60 deg, 120 deg], M: [45, 90, 45], unit: N m}"
     found = wheel(tmp_path, torque, "n: 600 rpm", "m: 12 kg", "k: 80 mm", "at: 60 deg")
     assert found["mean"] == pytest.approx(67.5)
@@ -70,7 +73,7 @@ def test_three_cylinder_engine_by_a_table(tmp_path: Path) -> None:
 
 
 def test_locomotive_flywheel_by_its_fluctuation(tmp_path: Path) -> None:
-    """6.5 t at 1.8 m, ΔE = 56 kN·m, 120 rpm: 121 rpm and 119 rpm."""
+    """Khurmi 16.1, p. 573: 6.5 t at 1.8 m, ΔE = 56 kN·m, 120 rpm; 121 rpm and 119 rpm."""
     found = wheel(tmp_path, "areas: {values: [56, -56], unit: kJ}", "n: 120 rpm", "m: 6500 kg", "k: 1.8 m")
     speeds = [found[name] * 30 / math.pi for name in ("fastest", "slowest")]
     assert speeds == pytest.approx([121, 119], abs=0.1)
