@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections import Counter
+from collections.abc import Callable, Iterator, Mapping, Sequence
 
 from reportgen.assignment.parameter_formulas import ANGLE
 from reportgen.base.errors import Where
@@ -60,7 +61,7 @@ def derived_lines(
     lines: dict[tuple[Symbol | None, str], Chain] = {}
     for at in machine.formulas:
         if not isinstance(at.formula.tree, ast.Name):
-            symbol = places.get(at.where) or places.get(at.where[:3] if at.where[0] == "loads" else ())
+            symbol = places.get(at.where)
             lines.setdefault((symbol, at.formula.text), _line(at, given, symbols, symbol))
     return tuple(lines.values())
 
@@ -130,7 +131,7 @@ def _symbols(machine: CompiledMachine, linkage: linkage_file.Parameters, entered
 
 
 def _places(linkage: linkage_file.Parameters, entered: Calculation) -> Iterator[tuple[Where, Symbol]]:
-    """Yield the places of a `linkage` file at which a value has a symbol; all values of a load have one."""
+    """Yield the places of a `linkage` file at which a value has a symbol; the values of a load's table have none."""
     yield from ((where, entered.families[id].symbol) for where, id in ids_by_place(linkage) if id in entered)
     for name in linkage.frame:
         yield from ((("frame", name, number), Symbol(axis, name)) for number, axis in enumerate("xy"))
@@ -156,12 +157,20 @@ def _places(linkage: linkage_file.Parameters, entered: Calculation) -> Iterator[
     driver = linkage.driver
     if isinstance(driver, linkage_file.SlideDriver):
         yield from _of_guide(("driver", "guide"), "1")
-    for index, load in enumerate(linkage.loads):
+    yield from _of_loads(linkage.loads)
+
+
+def _of_loads(loads: Sequence[linkage_file.Loading]) -> Iterator[tuple[Where, Symbol]]:
+    """Yield the places of the sizes and directions of loads; a second one on a link is P3a, as among its forces."""
+    counts = Counter[tuple[str, int]]()
+    for index, load in enumerate(loads):
         letter = "M" if getattr(load, "torque_unit", None) or getattr(load, "M", None) else "P"
-        symbol = Symbol("D" if isinstance(load, linkage_file.Gas) else letter, str(load.link))
-        for key in ("F", "M", "D", "values", "inward", "outward"):
-            yield ("loads", index, key), symbol
-        yield ("loads", index, "direction"), Symbol("α", f"P{load.link}")
+        before = counts[letter, load.link]
+        counts[letter, load.link] += 1
+        name = f"{load.link}{chr(ord('a') + before - 1) if before else ''}"
+        symbol = Symbol("D" if isinstance(load, linkage_file.Gas) else letter, name)
+        yield from ((("loads", index, key), symbol) for key in "FMD")
+        yield ("loads", index, "direction"), Symbol("α", f"P{name}")
 
 
 def _of_point(where: Where, name: str) -> Iterator[tuple[Where, Symbol]]:
@@ -203,13 +212,16 @@ def _common_unit(result: str, quantities: list[Given]) -> str:
 
 
 def _unit_of(unit: str, common: str) -> str:
-    """Return the unit in which a value with some unit is printed, "" for a pure number."""
+    """Return the unit in which a value with some unit is printed, "" for a pure number.
+
+    Quantities that no linkage has, as a stiffness or a density, are printed without a unit, in the SI.
+    """
     if not unit or unit == common:
         return unit
     dimension = scale(unit)[1]
     if dimension == ANGLE:
         return "deg"
-    return next(name for name in _COHERENT if scale(name)[1] == dimension)
+    return next((name for name in _COHERENT if scale(name)[1] == dimension), "")
 
 
 def _number(given: Given, common: str) -> Expression:
@@ -220,13 +232,14 @@ def _number(given: Given, common: str) -> Expression:
     if not given.unit:
         return Number(given.value)
     is_angle = scale(given.unit)[1] == ANGLE
-    factor = scale(_unit_of(given.unit, common))[0]
+    coherent = _unit_of(given.unit, common)
+    factor = scale(coherent)[0] if coherent else 1.0
     value = given.value if given.unit in (common, "deg") else float(f"{given.si / factor:.{EXACT}g}")
     return Number(value, unit="°" if is_angle else "")
 
 
 def _built(node: ast.expr, leaf: Leaf) -> Expression:
-    """Return a formula as an expression with `leaf` for each name; a factor that repeats becomes a power."""
+    """Return a formula as an expression with `leaf` for each name; a repeated name becomes a square."""
     match node:
         case ast.Constant(value=int(number) | float(number)):
             return Number(float(number))

@@ -60,6 +60,8 @@ def test_each_calculated_value_of_a_machine_has_a_line_that_recomputes(kind: str
     found = trees.lines(chains, "en")
     assert len(found) == len(chains)
     assert misses(found) == []
+    heads = [chain.parts[0] for chain in chains if isinstance(chain.parts[0], Symbol)]
+    assert len(set(heads)) == len(heads), "each value has a symbol of its own"
     values = [str(one) for one in _leaves(assignment.parameters.expanded)]
     for line in found:
         assert any(_same(line.digits, value) for value in values), line
@@ -112,6 +114,28 @@ def test_a_line_has_the_unit_of_its_parameters(
     assert re.findall(r"\d+(?:\.\d+)?", line.substitution) == numbers.split()
     # What is not in one unit is in SI units: 2·0.2²/12 + 0.001·0.15² and 1.5·400·cos 30°.
     assert by_result.keys() >= {"0.00668917kg·m²", "519.615N"}
+
+
+def test_loads_of_one_link_and_a_stiffness(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Two loads have two symbols; a unit that no quantity of a linkage has is that of the SI."""
+    folder, file = tmp_path / "machines", tmp_path / "mine.yaml"
+    folder.mkdir()
+    sizes = ["F/2", "c1*a"]
+    loads = ", ".join(f"{{by: constant, link: 3, at: E, F: {size}, direction: 0 deg}}" for size in sizes)
+    with_stiffness = FILE.replace("FORMULA", "k*a*sin(beta)").replace(
+        "parameters:\n", "parameters:\n  c1: {default: 2 N/mm}\n"
+    )
+    (folder / "made.yaml").write_text(re.sub(r"loads: .*", f"loads: [{loads}]", with_stiffness), "utf-8")
+    monkeypatch.setenv(ATLAS_VARIABLE, str(folder))
+    file.write_text("kind: atlas/made\nparameters: {}\n", "utf-8")
+    assert [one for one in catalogue.check(file) if "error" in str(one)] == []
+    chains = lines_of(file)
+    heads = {chain.parts[0]: line for chain, line in zip(chains, trees.lines(chains, "en"), strict=True)}
+    assert misses(list(heads.values())) == []
+    half, spring = heads[Symbol("P", "3")], heads[Symbol("P", "3a")]
+    assert half.result.replace(" ", "") == "0.2kN"
+    assert re.findall(r"\d+(?:\.\d+)?", spring.substitution) == ["2000", "0.06"]
+    assert spring.result.replace(" ", "") == "120N"
 
 
 @pytest.mark.parametrize("language", languages())
