@@ -8,8 +8,8 @@ from collections.abc import Mapping
 from reportgen.formula.ids import Name
 from reportgen.formula.vocabulary import QuantityKind, VocabularyRow
 
-across = Name("ternary.k.{joint}")  # velocity along a leg for ω = 1 of a link: joint 42 is link 2 on leg 4
-along = Name("ternary.h.{joint}")  # velocity across the leg for ω = 1 of the link
+across = Name("ternary.k.{joint}")  # arm across a leg, velocity along it for ω = 1: joint 42 is link 2 on leg 4
+along = Name("ternary.h.{joint}")  # arm along the leg, the velocity across it for ω = 1 of the link
 side = Name("ternary.b.{what}.{link}")  # right-hand side of the equation of a leg
 
 # --- steps of the iteration for both angles; `number` steps precede them

@@ -18,7 +18,7 @@ from reportgen.formula.vocabulary import KeyChapter
 
 STRAIGHT = Number(180.0, unit="°")
 MOST_TRAPEZOIDS = 6
-"""Largest number of terms of a mean torque that is printed as a sum; one of a longer table is only its result."""
+"""Largest number of terms of a mean torque that is printed as a sum; of a longer table, only the result is printed."""
 
 
 def multiple(order: float, angle: Ref) -> Expression:

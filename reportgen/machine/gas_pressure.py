@@ -162,7 +162,7 @@ class StrokeIndicator:
         """Return the pressure (Pa) [N] at cycle angles [N] (rad), with the piston at fractions [N] of its stroke."""
         stroke, at = stroke_at(cycle_angle, dead_centres), np.asarray(fraction)
         nodes, rows = np.asarray(self.fractions), np.asarray(self.rows)
-        # Behind the last node, s/H = 1, a row goes on level.
+        # Beyond the last node, s/H = 1, the pressure stays constant.
         slopes = np.diff(rows, append=rows[:, -1:]) / np.diff(nodes, append=np.inf)
         before = np.clip(np.searchsorted(nodes, at, side="right") - 1, 0, nodes.size - 1)
         return np.asarray(slopes[stroke, before] * (at - nodes[before]) + rows[stroke, before], dtype=np.float64)

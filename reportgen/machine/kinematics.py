@@ -210,7 +210,7 @@ class Motion:
         return carried(self.origins[link], self.links[link], p)
 
     def velocity(self, link: int, at: Complexes | complex) -> Complexes:
-        """Return the velocity (m/s) [N] of the point `of` a moving link: v = v_O + iω r."""
+        """Return the velocity (m/s) [N] of the point of a moving link that lies at `at` (m) [N]: v = v_O + iω r."""
         origin = self.origins[link]
         return origin.v + 1j * self.links[link].omega * (at - origin.p)
 

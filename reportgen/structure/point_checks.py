@@ -72,6 +72,8 @@ def _of_places(given: Parameters, points: Mapping[str, PairPoint]) -> Iterator[F
     for joint in joints:
         if joint.gears and not gear_axes(points[joint.name], points):
             yield Finding("structure-point-gears", (*POINTS, joint.name), _named(joint.links))
+        elif any(profile.axis is not None and abs(joint.at - profile.axis) <= SAME_PLACE for profile in joint.profiles):
+            yield Finding("structure-point-radius", (*POINTS, joint.name, "at"))
         elif joint.profiles and not _in_contact(joint):
             yield Finding("structure-point-contact", (*POINTS, joint.name, "at"))
 
@@ -86,10 +88,10 @@ def _close(pin: PlacedJoint, earlier: PlacedJoint) -> Finding:
 
 
 def _in_contact(joint: PlacedJoint) -> bool:
-    """Return True if the contact is on the line through the axes of the profiles, which are apart."""
+    """Return True if the contact is on the line through the axes of both profiles, which are apart."""
     axes = [profile.axis for profile in joint.profiles if profile.axis is not None]
     if len(axes) < 2:
-        return abs(joint.at - axes[0]) > SAME_PLACE
+        return True
     along = axes[1] - axes[0]
     if abs(along) <= SAME_PLACE:
         return False

@@ -46,8 +46,8 @@ SHORT_CRANK = 9.0
 """The arrow of a shorter crank goes around its pin."""
 CLEAR = 1.0
 """Least distance of the driver's arrow from the links."""
-LEGS = math.cos(math.radians(75))
-"""Least angle (75°) of the driver's arrow from vertically down, where the pivot's support is."""
+COS_TO_SUPPORT = math.cos(math.radians(75))
+"""Cosine of the least angle (75°) of the driver's arrow from vertically down, where the pivot's support is."""
 SWEEP = 1.0
 """Angle (rad) of the driver's arrow."""
 FADED = Pen(0.2, style.GRAY)
@@ -181,7 +181,7 @@ class Sketch:
         nearest = min(radii, default=12.0)
         reach = min(0.55 * nearest, 12.0) if nearest > SHORT_CRANK else nearest + 3.0
         starts = [angle + 0.25 + quarter * math.pi / 2 for quarter in range(4)]
-        free = [start for start in starts if math.cos(start + SWEEP / 2 + math.pi / 2) < LEGS] or starts
+        free = [start for start in starts if math.cos(start + SWEEP / 2 + math.pi / 2) < COS_TO_SUPPORT] or starts
 
         def clearance(start: float) -> float:
             return settled(self._clearance([joint.at + reach * polar(start + SWEEP * k / 6) for k in range(7)]))

@@ -54,7 +54,7 @@ FAULTS = [
     (GEARS, "teeth: 20 deg", "teeth: 20 deg, slide: 0 deg", ["structure-point-slide 9:65"]),
     (GEARS, "teeth:", "centres: [[0 mm, 0 mm]], teeth:", ["both-given 9:68"]),
     (GEARS, "at: [30 mm, 0 mm]", "at: [30 mm, 2 mm]", ["structure-point-contact 9:28"]),
-    (GEARS, "teeth: 20 deg", "centres: [[30 mm, 0 mm]]", ["structure-point-contact 9:28"]),
+    (GEARS, "teeth: 20 deg", "centres: [[30 mm, 0 mm]]", ["structure-point-radius 9:28"]),
     (GEARS, "[70 mm, 0 mm]", "[1 mm, 0 mm]", ["structure-point-close 8:28"]),
 ]
 
