@@ -51,6 +51,8 @@ COS_TO_SUPPORT = math.cos(math.radians(75))
 SWEEP = 1.0
 """Angle (rad) of the driver's arrow."""
 FADED = Pen(0.2, style.GRAY)
+AMONG_OTHERS = Pen(0.5, style.BLUE, style.DASHED)
+"""Pen of an emphasized link beside links in black, from which it differs without colour, too."""
 
 
 @dataclass(frozen=True)
@@ -72,7 +74,7 @@ class Sketch:
     def pen(self, link: int) -> Pen:
         """Return the pen of the bar or the plate of a link."""
         if link in self.emphasized:
-            return style.NEW
+            return style.NEW if self.others_gray else AMONG_OTHERS
         return FADED if self.others_gray else style.HEAVY
 
     def clear_joint(self, joint: PlacedJoint) -> bool:

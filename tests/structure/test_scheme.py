@@ -203,7 +203,7 @@ def test_placed_joints_are_those_of_the_equivalent_mechanism(file: Path) -> None
 
 
 def blue_bars(scene: Scene) -> list[Any]:
-    return [item for item in scene.items if isinstance(item, Line | Polyline) and item.stroke == style.NEW]
+    return [item for item in scene.items if isinstance(item, Line | Polyline) and item.stroke.colour == style.BLUE]
 
 
 @pytest.mark.parametrize("file", FILES, ids=lambda file: file.stem)
