@@ -1,8 +1,9 @@
 """Synthesize a crank-rocker or a slider-crank from its two extreme positions.
 
 While the driven link goes one way, the crank turns through 180° + θ, while it returns, through 180° − θ; K is the
-ratio of both. The extreme places C₁, C₂ of the driven pin are seen from the centre A of the crank under θ, so A is on a
-circle through both. With β, the angle at the circle's centre from the middle of the arc to A,
+ratio of both. The chord C₁C₂ of the extreme places of the driven pin subtends the angle θ at the centre A of the crank,
+so A is on a circle through C₁ and C₂, at whose centre the chord subtends 2θ. With β, the angle at the circle's centre
+from the middle of the arc to A,
 
     AC₁ = 2ρ cos((β − θ)/2),  AC₂ = 2ρ cos((β + θ)/2),
 
@@ -26,6 +27,10 @@ SAMPLES = 2001
 REFINEMENTS = 80
 """Steps of a search by golden section; each leaves 0.62 of the interval."""
 GOLDEN = (math.sqrt(5) - 1) / 2
+ON_CHORD = 1e-9
+"""A place of A nearer to an end of its arc (rad) is the end itself: the arc cosine and the arc sine that give the place
+have at least nine digits. At an end A is at C₂, crank and coupler are equal, and the mechanism folds up.
+"""
 BEYOND, BEFORE = 1, -1
 """Sides of the chord C₁C₂ on which A may be, seen from the fixed end of the rocker."""
 SIDES = {"beyond": BEYOND, "before": BEFORE}
@@ -92,7 +97,7 @@ class ExtremePositions(ABC):
 
     @cached_property
     def grid(self) -> Floats:
-        """Places β over the arc from which the chord is seen under θ, without its ends."""
+        """Places β over the arc at whose points the chord subtends θ, without its ends."""
         return np.linspace(0.0, math.pi - self.angle, SAMPLES + 2)[1:-1]
 
     def interval(self, side: int) -> tuple[float, float] | None:
@@ -158,7 +163,7 @@ class ExtremePositions(ABC):
         return self._working(PivotPlace(side, 2 * math.asin(sine)) for side in self.sides if sine <= 1)
 
     def _working(self, places: Iterable[PivotPlace]) -> list[PivotPlace]:
-        end = math.pi - self.angle
+        end = math.pi - self.angle - ON_CHORD
         return [one for one in places if 0 < one.along < end and bool(self.works(one.side, np.array(one.along)))]
 
 
@@ -189,7 +194,7 @@ class CrankRocker(ExtremePositions):
         return np.sqrt(y**2 + ρ**2 + 2 * side * y * ρ * np.cos(along))
 
     def works(self, side: int, along: Floats) -> Flags:
-        """C₁ and C₂ have to be on one side of the line AD, or the links would be folded over between them."""
+        """C₁ and C₂ have to be on one side of the line AD, or the links would overlap between them."""
         height = self.centre(side) + side * self.radius * np.cos(along)
         δ = np.arctan2(self.radius * np.sin(along), height)
         return (self.swing / 2 < δ) & (δ < math.pi - self.swing / 2)
@@ -202,8 +207,14 @@ class CrankRocker(ExtremePositions):
         return np.minimum(near, math.pi - far)
 
     def with_frame(self, length: float) -> list[PivotPlace]:
-        """Return the places of A at this distance from D (m) that give a mechanism which works."""
+        """Return the places of A at this distance from D (m) that give a mechanism which works.
+
+        At the distance of the rocker's pin, A is at C₁ or C₂. About D as the centre of the circle, the distance does
+        not select a place. Both give [].
+        """
         places: list[PivotPlace] = []
+        if math.isclose(length, self.rocker, rel_tol=ON_CHORD):
+            return places
         for side in self.sides:
             y, ρ = self.centre(side), self.radius
             cosine = side * (length**2 - y**2 - ρ**2) / (2 * y * ρ) if y else math.inf
@@ -233,6 +244,11 @@ class SliderCrank(ExtremePositions):
     def works(self, side: int, along: Floats) -> Flags:
         """C₁ and C₂ have to be on one side of the normal of the guide through A."""
         return (self.angle < along) & (along < math.pi - self.angle)
+
+    def interval(self, side: int) -> tuple[float, float] | None:
+        """Return the ends of θ < β < π − θ, at which the crank hardly turns; None from K = 3 on, where θ = 90°."""
+        low, high = self.angle + ON_CHORD, math.pi - self.angle - ON_CHORD
+        return (low, high) if low < high else None
 
     def transmission(self, side: int, along: Floats) -> Floats:
         """It is least where the pin of the crank is farthest from the guide."""

@@ -66,21 +66,28 @@ def _of_keys(given: Parameters) -> Iterator[Finding]:
 
 
 def _of_solutions(given: Parameters) -> Iterator[Finding]:
-    """Require a solution; else name the lengths with which there is one."""
+    """Require a solution; else name the lengths with which there is one, or the ratio that no mechanism has."""
     from reportgen.structure.synthesis_solution import places, wanted
 
-    selecting = next((key for key in ("a", "d", "e", "best") if getattr(given, key) is not None), None)
-    if selecting is None or places(given):
+    if places(given):
         return
     task = wanted(given)
+    selecting = next((key for key in ("a", "d", "e", "best") if getattr(given, key) is not None), None)
     extent = task.cranks() if selecting == "a" else task.frames()
-    # Before the chord, near C₂, some place of A always works.
-    assert extent is not None
+    if extent is None:
+        # Only of a slider-crank: before the chord of a rocker, near C₂, some place of A always works.
+        yield Finding("synthesis-ratio", (*TOP, "K"), {"text": given.K.text})
+        return
+    if selecting is None:
+        return
     if given.A is not None and places(given.model_copy(update={"A": None})):
         yield Finding("synthesis-side", (*TOP, "A"), {"A": given.A})
     else:
-        low, high = (f"{round(end * 1e3, 4):.5g} mm" for end in extent)
+        # 0 is added because rounding may leave −0.
+        low, high = (f"{round(end * 1e3, 4) + 0:.5g} mm" for end in extent)
         about = {"key": selecting, "text": getattr(given, selecting).text, "low": low, "high": high}
+        if given.task == CRANK_ROCKER:
+            about["hint"] = "synthesis-in-line"
         yield Finding("synthesis-none", (*TOP, selecting), about)
 
 
@@ -95,13 +102,16 @@ CHECKS = (
 
 
 def _poor(assignment: Assignment) -> Iterator[Finding]:
-    """Warn about a least transmission angle below the permitted one, with the greatest that is possible."""
+    """Warn about a least transmission angle below the permitted one, with the greatest on the required side."""
     from reportgen.structure.synthesis_case import SynthesisCase
 
     case = SynthesisCase(assignment)
     if case.is_poor:
         angle, best = (f"{math.degrees(case.transmission_of(one)):.4g}" for one in (case.chosen, case.best_place))
-        yield Finding("synthesis-poor", (*TOP, "gamma"), {"angle": angle, "best": best})
+        about = {"angle": angle, "best": best}
+        if case.given.best is not None:
+            about["hint"] = "synthesis-ratio"
+        yield Finding("synthesis-poor" if case.given.A is None else "synthesis-poor-side", (*TOP, "gamma"), about)
 
 
 WARNINGS = (_poor,)

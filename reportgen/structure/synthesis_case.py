@@ -76,13 +76,13 @@ class SynthesisPage(DesignPage[SolvedSynthesis]):
             "table": self.table_of_solutions,
             "chosen": Symbol("A", "", case.mark(chosen)),
             "crank": ids.CRANK if case.shares_crank else ids.crank(chosen),
-            "coupler": ids.coupler(case.own(chosen)),
+            "coupler": ids.coupler(case.number_of_crank(chosen)),
             "frame": ids.FRAME if given.d is not None else ids.frame(chosen),
             "offset": ids.OFFSET,
             "least": ids.transmission(chosen),
             "permitted": ids.PERMITTED,
             "poor": case.is_poor,
-            **self.mends(),
+            **self.better_length(),
             "sheet": lines,
             "quantity": self.quantity,
             "lines": self.lines,
@@ -99,27 +99,27 @@ class SynthesisPage(DesignPage[SolvedSynthesis]):
             transmission=lines.get(f"transmission{n}", []),
             pivot=Symbol("A", "", case.mark(n)),
             beyond=place.side == BEYOND,
-            along=ids.along(case.own(n)),
+            along=ids.along(case.number_of_crank(n)),
             delta=ids.pivot_angle(n),
             angle=ids.transmission(n),
         )
 
-    def mends(self) -> dict[str, Any]:
+    def better_length(self) -> dict[str, Any]:
         """Return the greatest least transmission angle that is possible, and the length that gives it, by its name.
 
-        Every value is "" unless the chosen solution is poor and another length mends it.
+        Every value is "" unless the chosen solution is poor and its length is given.
         """
         case, given = self.case, self.case.given
-        mends: dict[str, Any] = dict.fromkeys(("best_angle", "best_frame", "best_crank", "best_offset"), "")
+        better: dict[str, Any] = dict.fromkeys(("best_angle", "best_frame", "best_crank", "best_offset"), "")
         if not case.is_poor or given.best is not None:
-            return mends
+            return better
         place, mm = case.best_place, case.ledger.printed_unit("mm")
         angle = math.degrees(case.transmission_of(place))
         along = np.array(place.along)
         length = case.wanted.crank(along) if given.a is not None else case.wanted.frame(place.side, along)
         name = "best_crank" if given.a is not None else "best_frame" if case.has_rocker else "best_offset"
-        mends[name] = Value(Number(float(length) * MM, 2, mm))
-        return mends | {"best_angle": Value(Number(angle, 2, "°"))}
+        better[name] = Value(Number(float(length) * MM, 2, mm))
+        return better | {"best_angle": Value(Number(angle, 2, "°"))}
 
     @property
     def table_of_solutions(self) -> Table:
@@ -129,7 +129,7 @@ class SynthesisPage(DesignPage[SolvedSynthesis]):
         heads: tuple[Inlines, ...] = ()
         for place in case.solved:
             n = number_of(place)
-            columns = [ids.CRANK if case.shares_crank else ids.crank(n), ids.coupler(case.own(n))]
+            columns = [ids.CRANK if case.shares_crank else ids.crank(n), ids.coupler(case.number_of_crank(n))]
             if case.has_rocker:
                 columns += [ids.ROCKER, ids.FRAME if case.given.d is not None else ids.frame(n)]
             else:
@@ -169,7 +169,7 @@ class SynthesisCase(SolvedSynthesis):
             n = number_of(place)
             lengths = {
                 "crank": value(ids.CRANK if self.shares_crank else ids.crank(n)),
-                "coupler": value(ids.coupler(self.own(n))),
+                "coupler": value(ids.coupler(self.number_of_crank(n))),
             }
             if self.has_rocker:
                 lengths["rocker"] = value(ids.ROCKER)
@@ -177,7 +177,7 @@ class SynthesisCase(SolvedSynthesis):
             else:
                 lengths["offset"] = value(ids.OFFSET)
             solutions[str(n)] = {
-                "place": value(ids.along(self.own(n))),
+                "place": value(ids.along(self.number_of_crank(n))),
                 **lengths,
                 "transmission": value(ids.transmission(n)),
             }

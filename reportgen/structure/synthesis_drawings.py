@@ -63,7 +63,7 @@ class ExtremeConstruction:
 
     @property
     def along(self) -> float:
-        return self.value(names.along(self.case.own(self.number)))
+        return self.value(names.along(self.case.number_of_crank(self.number)))
 
     @property
     def crank(self) -> float:
@@ -71,7 +71,7 @@ class ExtremeConstruction:
 
     @cached_property
     def ends(self) -> tuple[complex, complex]:
-        """C₁, at which crank and coupler are stretched, and C₂, at which they are folded."""
+        """C₁, at which crank and coupler are extended, and C₂, at which they overlap."""
         if self.case.has_rocker:
             c, half = self.value(names.ROCKER), self.value(names.SWING) / 2
             return c * polar(math.pi / 2 - half), c * polar(math.pi / 2 + half)

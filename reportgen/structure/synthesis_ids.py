@@ -45,7 +45,7 @@ ROWS: tuple[VocabularyRow, ...] = (
     VocabularyRow(Name(STROKE), "H", _LENGTH),
     VocabularyRow(Name(CRANK), "a", _LENGTH),
     VocabularyRow(Name(FRAME), "d", _LENGTH),
-    VocabularyRow(Name(OFFSET), "e", _LENGTH),
+    VocabularyRow(Name(OFFSET), "e", _LENGTH, _G),
     VocabularyRow(Name(PERMITTED), "γ", "angle", below="per"),
     VocabularyRow(Name(ANGLE), "θ", "angle", _G),
     VocabularyRow(Name(RADIUS), "ρ", _LENGTH, _G),

@@ -97,9 +97,8 @@ class SolvedSynthesis(DesignCase):
 
     @cached_property
     def best_place(self) -> PivotPlace:
-        """The place of A with the greatest least transmission angle that the wanted motion allows."""
-        every = [place for side in self.wanted.sides if (place := self.wanted.best(side)) is not None]
-        return max(every, key=self.transmission_of)
+        """The place of A with the greatest least transmission angle, on the side that the file requires."""
+        return max(places(self.given.model_copy(update={"best": "transmission"})), key=self.transmission_of)
 
     @property
     def shares_crank(self) -> bool:
@@ -110,7 +109,7 @@ class SolvedSynthesis(DesignCase):
         """Return the prime of the symbols of the second of two solutions; else ""."""
         return "′" if len(self.solved) > 1 and number == 2 else ""
 
-    def own(self, number: int) -> int:
+    def number_of_crank(self, number: int) -> int:
         """Return the number under which a solution has its crank and coupler."""
         return self.numbers[0] if self.shares_crank else number
 
@@ -142,26 +141,26 @@ class SolvedSynthesis(DesignCase):
 
     def _enter_links(self, q: Calculation, place: PivotPlace, along: Expression | None) -> tuple[Ref, Ref, Ref]:
         """Enter β, from its formula or as the search gives it, and with it crank and coupler; return all three."""
-        n, own = number_of(place), self.own(number_of(place))
+        n, of_crank = number_of(place), self.number_of_crank(number_of(place))
         prime = "" if self.shares_crank else self.mark(n)
         θ, ρ = q[names.ANGLE], q[names.RADIUS]
-        if (β := q.find(names.along(own))) is None:
+        if (β := q.find(names.along(of_crank))) is None:
             symbol = Symbol("β", "", prime)
             if along is None:
-                β = q.define(names.along(own), q[names.SCAN] * place.along, symbol, written=Number(place.along))
+                β = q.define(names.along(of_crank), q[names.SCAN] * place.along, symbol, written=Number(place.along))
             else:
-                q.set_out(f"place{n}", β := q.define(names.along(own), along, symbol))
-            far = q.define(names.far(own), 2 * ρ * cos((β - θ) / 2), Symbol("l", "AC1", prime))
-            near = q.define(names.near(own), 2 * ρ * cos((β + θ) / 2), Symbol("l", "AC2", prime))
+                q.set_out(f"place{n}", β := q.define(names.along(of_crank), along, symbol))
+            far = q.define(names.far(of_crank), 2 * ρ * cos((β - θ) / 2), Symbol("l", "AC1", prime))
+            near = q.define(names.near(of_crank), 2 * ρ * cos((β + θ) / 2), Symbol("l", "AC2", prime))
             q.set_out(f"place{n}", far, near)
             letters = ("a", "b") if self.has_rocker else ("r", "l")
             if not self.shares_crank:
                 a = q.define(names.crank(n), (far - near) / 2, Symbol(letters[0], "", prime))
                 q.set_out(f"links{n}", a)
-            b = q.define(names.coupler(own), (far + near) / 2, Symbol(letters[1], "", prime))
+            b = q.define(names.coupler(of_crank), (far + near) / 2, Symbol(letters[1], "", prime))
             q.set_out(f"links{n}", b)
         a = q[names.CRANK] if self.shares_crank else q[names.crank(n)]
-        return β, a, q[names.coupler(own)]
+        return β, a, q[names.coupler(of_crank)]
 
     def _enter_rocker(self, q: Calculation, place: PivotPlace) -> None:
         """Enter a crank-rocker: the circle's centre, the place of A, the links, and what shows that it works."""
@@ -212,7 +211,7 @@ class SolvedSynthesis(DesignCase):
         along = None if self.given.e is None else acos(q[names.OFFSET] / ρ - cos(θ))
         β, r, l = self._enter_links(q, place, along)  # noqa: E741
         if self.given.e is None:
-            e = q.define(names.frame(n), ρ * (cos(β) + cos(θ)), Symbol("e"))
+            e = q.define(names.OFFSET, ρ * (cos(β) + cos(θ)))
             q.set_out(f"links{n}", e)
         else:
             e = q[names.OFFSET]

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import cmath
 import math
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+import pymupdf
 import pytest
 
 from reportgen import catalogue, load, solve
 from reportgen.base.template_folders import languages
+from reportgen.base.units import Language
 from reportgen.classes.class_marking import Graded
 from reportgen.marking.judging import mark
 from reportgen.marking.marking_scheme import marking_scheme
@@ -34,6 +38,11 @@ FAULTS = [
     ((*ROCKER, "d: 300 mm"), "8:6 synthesis-none"),
     ((*ROCKER, "a: 60 mm"), "8:6 synthesis-none"),
     ((*ROCKER, "d: 100 mm", "A: beyond"), "9:6 synthesis-side"),
+    ((*ROCKER, "d: 120 mm"), "8:6 synthesis-none"),
+    (("task: slider-crank", "K: 3", "H: 50 mm", "e: 1 mm"), "5:6 synthesis-ratio"),
+    (("task: slider-crank", "K: 3", "H: 50 mm", "best: transmission"), "5:6 synthesis-ratio"),
+    (("task: slider-crank", "K: 2.9995", "H: 50 mm", "best: transmission"), ""),
+    (("task: slider-crank", "K: 2.9995", "H: 50 mm", "e: 1 mm"), "7:6 synthesis-none"),
     (("task: crank-rocker", "K: 3", "psi: 1 deg", "c: 120 mm", "best: transmission"), ""),
     (("task: crank-rocker", "K: 1.3", "psi: 42 deg", "c: 120 mm", "best: transmission", "gamma: 30 deg"), ""),
 ]
@@ -61,9 +70,88 @@ def test_the_message_names_the_lengths_with_a_solution(tmp_path: Path) -> None:
 def test_a_poor_transmission_is_a_warning_with_what_is_possible(tmp_path: Path) -> None:
     (warning,) = checked(tmp_path, *SLIDER, "e: 20 mm")
     assert (warning.level, warning.code) == ("warning", "synthesis-poor")
-    case: Any = built.case(tmp_path / "mechanism.yaml", "en")
-    assert f"{math.degrees(case.transmission_of(case.best_place)):.4g}" in warning.message
+    assert f"the greatest possible is {best_slider(1.4, 50.0):.4g}°" in warning.message
+    assert "best: transmission" in warning.hint
     assert checked(tmp_path, *SLIDER, "e: 20 mm", "gamma: 30 deg") == []
+
+
+def best_slider(K: float, H: float) -> float:
+    """The greatest least transmission angle (°), by a scan of the offset: A = (x, e), C₁ and C₂ at ± H/2."""
+    θ = math.pi * (K - 1) / (K + 1)
+    # The stroke subtends θ at A: the offset e of each x is on the circle about (0, H/(2 tan θ)).
+    x = np.linspace(0, H / 2 / math.sin(θ), 400_001)
+    e = H / 2 / math.tan(θ) + np.sqrt((H / 2 / math.sin(θ)) ** 2 - x**2) * np.array([[1], [-1]])
+    far, near = np.hypot(x + H / 2, e), np.hypot(x - H / 2, e)
+    r, rod = (far - near) / 2, (far + near) / 2
+    works = (x > H / 2) & (e > 0) & (r + e < rod)
+    return math.degrees(float(np.arccos(((r + e) / rod)[works]).max()))
+
+
+def best_rocker(K: float, ψ: float, c: float, side: int) -> float:
+    """The greatest least transmission angle (°) of one side (1 beyond the chord), by a scan of the places of A.
+
+    The angle between coupler and rocker is taken from the points of the mechanism with the crank in line with AD.
+    """
+    θ = math.pi * (K - 1) / (K + 1)
+    ends = [c * cmath.exp(1j * (math.pi / 2 + half)) for half in (-ψ / 2, ψ / 2)]
+    ρ = abs(ends[0] - ends[1]) / 2 / math.sin(θ)
+    O = 1j * (c * math.cos(ψ / 2) + side * ρ * math.cos(θ))  # noqa: E741
+    A = O + ρ * np.exp(1j * np.linspace(0, 2 * math.pi, 400_001))
+    A = A[(A.real < 0) & (side * (A.imag - ends[0].imag) > 0)]
+    far, near = np.abs(A - ends[0]), np.abs(A - ends[1])
+    a, b, d = (far - near) / 2, (far + near) / 2, np.abs(A)
+    together = (ends[0] / A).imag * (ends[1] / A).imag > 0
+    longest = np.maximum(np.maximum(b, c), d)
+    works = together & (a > 0) & (2 * a + 2 * longest < a + b + c + d)
+    cosines = [((b**2 + c**2 - (d + s * a) ** 2) / (2 * b * c))[works] for s in (-1, 1)]
+    return math.degrees(float(np.minimum(np.arccos(cosines[0]), math.pi - np.arccos(cosines[1])).max()))
+
+
+@pytest.mark.parametrize(("side", "sign"), [("beyond", 1), ("before", -1)])
+def test_the_best_place_is_on_the_required_side(tmp_path: Path, side: str, sign: int) -> None:
+    """The warning and the report promise only what is possible there."""
+    best = best_rocker(1.3, math.radians(42), 120.0, sign)
+    (warning,) = checked(tmp_path, *ROCKER, "d: 200 mm" if sign == 1 else "d: 118 mm", f"A: {side}", "gamma: 60 deg")
+    assert warning.code == "synthesis-poor-side"
+    assert f"on this side of the chord is {best:.4g}°" in warning.message
+    assert f"it would be greatest on this side, {best:.2f}" in printed(tmp_path / "mechanism.yaml", "en")
+
+
+def printed(file: Path, language: Language) -> str:
+    """The text of the report, in lines of one blank."""
+    pages = pymupdf.open(stream=built.typeset(built.written(file, language), "typst").pdf)
+    return " ".join("".join(page.get_text() for page in pages).split())
+
+
+@pytest.mark.parametrize("language", languages())
+def test_a_slider_crank_of_the_best_transmission(tmp_path: Path, language: Language) -> None:
+    """Its offset is a result: of the report, the key and the marking."""
+    assert checked(tmp_path, *SLIDER, "best: transmission", "gamma: 30 deg") == []
+    file = tmp_path / "mechanism.yaml"
+    solution = position(file)["solutions"]["1"]
+    r, rod, e = (solution[name] for name in ("crank", "coupler", "offset"))
+    assert math.degrees(solution["transmission"]) == pytest.approx(best_slider(1.4, 50.0), abs=1e-6)
+    assert math.cos(solution["transmission"]) == pytest.approx((r + e) / rod)
+    assert math.sqrt((rod + r) ** 2 - e**2) - math.sqrt((rod - r) ** 2 - e**2) == pytest.approx(0.05)
+    text = printed(file, language).replace(",", ".")
+    assert all(f"{length * 1e3:.5g}" in text for length in (r, rod, e))
+    scheme = marking_scheme(built.case(file, language))
+    wanted = {names.OFFSET, names.crank(1), names.coupler(1), names.transmission(1)}
+    assert wanted <= {row.id for row in Ask().of(scheme.key).asked}
+    marked = mark(scheme, students.written(scheme, students.worked_out(scheme)))
+    assert marked.points == marked.out_of
+
+
+def test_the_task_of_the_best_slider_crank_holds_no_answer(tmp_path: Path) -> None:
+    checked(tmp_path, *SLIDER, "best: transmission")
+    telling, (task, _) = telling_and_texts(tmp_path / "mechanism.yaml")
+    assert telling
+    assert not [number for number in telling if number in task]
+
+
+def test_the_best_transmission_is_not_advised_twice(tmp_path: Path) -> None:
+    (warning,) = checked(tmp_path, *SLIDER, "best: transmission")
+    assert (warning.code, warning.hint) == ("synthesis-poor", "give a smaller K")
 
 
 def position(file: Path) -> Any:
@@ -146,7 +234,7 @@ def test_reports_and_sheets_show_every_solution(language: str) -> None:
 
 
 def test_the_drawing_has_the_lengths_of_the_solution() -> None:
-    """AB₁ and AB₂ are the crank, B₁C₁ and B₂C₂ the coupler, A is under θ from C₁ and C₂, at the frame from D."""
+    """AB₁ and AB₂ are the crank, B₁C₁ and B₂C₂ the coupler, the chord subtends θ at A, the frame is AD."""
     from reportgen.structure.synthesis_drawings import ExtremeConstruction
 
     for file in FILES:
