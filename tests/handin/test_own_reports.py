@@ -36,6 +36,14 @@ LONGEST = ("engine-twin-05", "en", "full")
 LEFT: dict[tuple[Extent, str], str] = {
     ("short", "cam.[uwm]*"): "the chapter that works out the curvature is left out",
     ("short", "train.[rv].*"): "the triangles of velocities are left out",
+    ("full", "structure.mechanism"): "its symbol C is also the letter of a point",
+    ("short", "structure.mechanism"): "its symbol C is also the letter of a point",
+    ("full", "synthesis.b*"): "the place of a solution is said in a sentence, the best in the last line",
+    ("short", "synthesis.b*"): "the place of a solution is said in a sentence, the best in the last line",
+    ("full", "synthesis.gamma.*"): "the least of two angles is not read back",
+    ("short", "synthesis.gamma.*"): "the least of two angles is not read back",
+    ("full", "turning.M.mean"): "a fraction with a long sum is not read back",
+    ("short", "turning.M.mean"): "a fraction with a long sum is not read back",
     ("full", "turning.A.2"): "a side of its line is broken before a sign, and is not read on",
     ("short", "turning.A.2"): "a side of its line is broken before a sign, and is not read on",
 }
