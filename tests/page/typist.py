@@ -25,7 +25,8 @@ from reportgen.page.form_fields import written_at
 from reportgen.page.local_server import Server
 from tests.page.browser import Browser
 
-PATIENCE = 20.0
+PATIENCE = 120.0
+"""A page that has not come to rest after this time (s) hangs, however busy the processors are."""
 FOCUSED = """
 const field = document.activeElement;
 return field.matches("#fields input:not([type=range], [data-list])") && field.dataset.was !== undefined
