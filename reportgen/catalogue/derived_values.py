@@ -84,7 +84,8 @@ def own_symbol(name: str) -> Symbol:
     """Return the symbol of a parameter: m2 is m with the index 2, AB the length l of AB, beta is β."""
     if re.fullmatch(r"([A-Z]\d*){2}", name):
         return vocabulary.symbol(ids.length(name))
-    word, number = re.fullmatch(r"(.*?)(\d*)", name).groups()  # type: ignore[union-attr]
+    word = name.rstrip("0123456789")
+    number = name.removeprefix(word)
     if word in _GREEK:
         return Symbol(_GREEK[word], number)
     return Symbol(word[0], word[1:] + number) if word[:1].isupper() else Symbol(word, number)
@@ -225,7 +226,7 @@ def _unit_of(unit: str, common: str) -> str:
 
 
 def _number(given: Given, common: str) -> Expression:
-    """Return a quantity as it stands in the substitution: in degrees, or without its unit; a typed ratio as such."""
+    """Return a quantity as the substitution shows it: in degrees or without its unit, a typed ratio as a fraction."""
     top, slash, bottom = given.text.partition("/")
     if slash and not given.unit:
         return Number(float(top)) / Number(float(bottom))

@@ -50,7 +50,7 @@ def table_rows(position: Mapping[str, Any]) -> dict[str, dict[str, float]]:
 
 
 def check(given: Parameters) -> Iterator[Finding]:
-    """Yield the faults of the keys; without any, why there is no mechanism."""
+    """Yield the faults of the keys. If there are none, yield the reason why no mechanism exists."""
     yield from [*_of_keys(given)] or _of_solutions(given)
 
 

@@ -36,7 +36,7 @@ DRAWN = {
 }
 """The value that is drawn in a file; no more than so many ms for all its samples, and so many kB."""
 SIGHT = frozenset(("machine", "paths", "v", "a"))
-"""What is in sight of a window of 1440 × 900 when a form opens."""
+"""The drawings that a window of 1440 × 900 shows when a form opens."""
 TIMES = 60
 KEYSTROKES = 100
 SETTLED = 3.0

@@ -53,7 +53,7 @@ def lines_of(file: Path) -> tuple[Chain, ...]:
 
 @pytest.mark.parametrize("kind", MACHINES)
 def test_each_calculated_value_of_a_machine_has_a_line_that_recomputes(kind: str) -> None:
-    """A school calculator comes to the printed digits, which are those of the value in the linkage."""
+    """A school calculator gives the printed digits, and the linkage has the same value."""
     sample = min(catalogue.examples(kind).values(), key=lambda path: path.stat().st_size)
     assignment = catalogue.load(sample)
     chains = lines_of(sample)
@@ -140,7 +140,7 @@ def test_loads_of_one_link_and_a_stiffness(tmp_path: Path, monkeypatch: pytest.M
 
 @pytest.mark.parametrize("language", languages())
 def test_the_report_has_the_lines_and_the_names_of_the_machine(language: Language) -> None:
-    """The length L of the jaw is no length of a link, so the table of given data has it for the lines."""
+    """The length L of the jaw is not a length of a link, so the table of given data lists it for these lines."""
     sample = min(catalogue.examples("atlas/jaw-crusher").values())
     document = open_case(sample, language).document()
     printed = [chain.parts[-2:] for chain in trees.chains(document)]

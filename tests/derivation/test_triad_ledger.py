@@ -144,7 +144,7 @@ def test_the_plate_turns_about_its_instant_centre(turn: int) -> None:
 def test_a_leg_without_moments_has_no_term() -> None:
     """The line of the axial part names the part across leg 4, which has a torque, and those of no other leg.
 
-    No fraction stands in the numerator of another, and no denominator is negative.
+    No fraction has another in its numerator, and no denominator is negative.
     """
     bare = replace(R1, inertias=tuple(body for body in R1.inertias if body.link == 3))
     ledger = keep(bare, np.radians(15 + 30.0 * np.arange(12)), 1, (), ((4, 60.0),)).ledger()
