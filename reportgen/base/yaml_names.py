@@ -12,14 +12,16 @@ from reportgen.base.yaml_values import at, path_text, quoted
 def renamed(text: str, where: Where, name: str) -> str:
     """Return the text in which the entry at a place has another name.
 
-    Raises `EditError` if there is no such entry, if its table has the name already, or if the changed text would be
-    read differently.
+    Raises `EditError` if there is no such entry, if the name is empty or in its table already, or if the changed text
+    would be read differently.
     """
     above = at(read_nodes(text).top, where[:-1])
     entry = above.find(where[-1]) if isinstance(above, MappingNode) else None
     if entry is None or not isinstance(above, MappingNode):
         raise EditError("nothing", place=path_text(where))
-    if not name or (name != where[-1] and above.find(name) is not None):
+    if not name:
+        raise EditError("name_empty")
+    if name != where[-1] and above.find(name) is not None:
         raise EditError("name_taken", name=name)
     start, end = entry[0].span
     changed = text[:start] + quoted(name) + text[end:]

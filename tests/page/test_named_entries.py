@@ -32,7 +32,7 @@ def test_names_in_braces_and_names_that_need_marks() -> None:
 
 
 @pytest.mark.parametrize(
-    ("where", "name", "reason"), [(AT, "A", "name_taken"), (AT, "", "name_taken"), ((*AT[:-1], "Z"), "B", "nothing")]
+    ("where", "name", "reason"), [(AT, "A", "name_taken"), (AT, "", "name_empty"), ((*AT[:-1], "Z"), "B", "nothing")]
 )
 def test_what_cannot_be_renamed(where: tuple[str, ...], name: str, reason: str) -> None:
     with pytest.raises(EditError) as refused:
