@@ -15,13 +15,14 @@ import pytest
 from tests.lanes import proof
 from tests.page.browser import Browser
 from tests.page.hand import READY, TOLD, hand_on
-from tests.page.typist import Typist, until
+from tests.page.typist import Typist, edit_beside, until
 
 KNOB = """
 const { left, top, width, height } = document.querySelector(".handle circle").getBoundingClientRect();
 return [left + width / 2, top + height / 2];
 """
 SHADED = "return document.querySelector('.region')?.getBoundingClientRect().width > 20"
+REGION = "return document.querySelector('.region')?.getAttribute('d')"
 RECORD = """
 window.seen = [];
 const record = () => {
@@ -220,6 +221,28 @@ def test_a_second_pull_goes_on_where_the_first_one_ended(browser: Browser, tmp_p
         Typist(browser).idle()
         assert hand.at("C")[0] > here[0] + 20
         assert all(text in hand.file.read_text(encoding="utf-8") for text in (hand.values()[BC], hand.values()[CD]))
+        assert browser.messages() == []
+
+
+@proof
+def test_a_region_is_that_of_the_machine_that_is_shown(browser: Browser, tmp_path: Path) -> None:
+    """An editor makes the frame longer in the middle of a pull: the shape is found anew at the scale of the drawing."""
+    with hand_on(browser, "four-bar-01.yaml", tmp_path) as hand:
+        pulls = hand.session.pulls
+        pulls.region = region = Mock(wraps=pulls.region)
+        hand.press(hand.at("C"))
+        hand.move((8, -6))
+        until(lambda: region.call_count == 2 and browser.run(SHADED))
+        old, shown = browser.run(REGION), browser.run("return document.body.dataset.moving")
+        edit_beside(hand.file, ("parameters", "AD"), "440 mm")
+        until(lambda: browser.run(RENEWED, shown))
+        until(lambda: region.call_count == 4)
+        [asked] = region.call_args.args
+        new = pulls.region(asked)["path"]
+        assert new != old
+        until(lambda: browser.run(REGION) == new)
+        Typist(browser).press("Escape")
+        hand.release()
         assert browser.messages() == []
 
 

@@ -4,8 +4,7 @@
 const fields = (() => {
   const form = document.getElementById("fields"), words = JSON.parse(document.getElementById("live").textContent).words;
   const machine = typeof panels === "undefined" ? undefined : panels[0];
-  const PAUSE = 2000, REST = 1000, WHOLE = 300, KEEP = `reportgen-form${location.pathname}`;
-  const post = (name, body, more) => fetch(name, { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify(body), ...more });
+  const PAUSE = 2000, REST = 1000, KEEP = `reportgen-form${location.pathname}`;
   const place = (element) => JSON.parse(element.closest("[data-w]").dataset.w);
   const byPlace = (where) => [...form.querySelectorAll("input[data-w], select[data-w], fieldset[data-w]")].find((one) => JSON.stringify(place(one)) === JSON.stringify(where));
   const ofKey = (key, root = form) => [...root.querySelectorAll("[data-was]")].find((one) => one.dataset.w === key);
@@ -239,77 +238,10 @@ const fields = (() => {
     pause = setTimeout(() => commit(field), PAUSE);
   };
 
-  // While a slider is drawn or a point is pulled, only what moves in sight follows: the newest value is asked for when the
-  // last one is there.  All the rest follows when it rests.
-  let wanted = null, asking = false, turn = 0, answered, partly = null, later = 0, ahead = null, texts = null;
-  const ask = (name, body, took = () => {}, whole = false) => {
-    clearTimeout(later);
-    wanted = { name, body, took, of: turn, whole };
-    // Settled when there is no more to ask.
-    if (!asking) answered = follow();
-    return answered;
-  };
-  const next = () => {
-    if (!wanted) return null;
-    const asked = { ...wanted, sight: wanted.whole || !machine ? null : extended.get(machine.root)?.sight() };
-    wanted = null;
-    return { ...asked, answer: post(asked.name, { ...asked.body, seen: asked.sight }).then(received).catch(() => null) };
-  };
-  const received = async (answer) =>
-    answer.headers.get("Content-Type") === "application/json" ? { said: await answer.json() }
-      : { samples: answer.ok ? await answer.arrayBuffer() : new ArrayBuffer(0) };
-  const take = ({ said, samples }, { name, body, took, sight }) => {
-    if (said) { took(said); return; }
-    document.body.classList.toggle("stale", !samples.byteLength);
-    if (!samples.byteLength) return;
-    const length = new DataView(samples).getUint32(0, true);
-    const changes = JSON.parse(new TextDecoder().decode(new Uint8Array(samples, 4, length)));
-    // Changes of another machine than the page shows are no changes of that; those of a newer one wait for it.
-    const show = () => {
-      extended.get(machine?.root)?.feed(new Float32Array(samples, 4 + length), changes, Boolean(sight));
-      partly = sight ? { name, body, of: changes.of } : null;
-    };
-    const shown = Number(document.body.dataset.moving);
-    if (changes.of < shown) return;
-    if (changes.of > shown) ahead = { of: changes.of, show }; else show();
-    texts = changes.texts || body.values || [[body.where, body.value]];
-    took(changes);
-    document.body.dataset.drawn = body.value ?? "";
-  };
-  const follow = async () => {
-    asking = true;
-    for (let asked = next(); asked;) {
-      const present = asked, answer = await present.answer;
-      // The server computes the next value while this one is drawn.
-      asked = next();
-      try { if (answer && present.of === turn) take(answer, present); } catch { /* the next value is drawn anew */ }
-    }
-    asking = false;
-    if (partly) later = setTimeout(askWhole, WHOLE);
-  };
-  const askWhole = () => {
-    const { name, body, of } = partly;
-    partly = null;
-    if (String(of) === document.body.dataset.moving) ask(name, body, () => {}, true);
-  };
-  // A machine that is renewed in the middle of a pull is shown as it is pulled.
-  document.addEventListener("renewing", ({ detail }) => {
-    if (texts && drafts.places().length) detail.push(ask("drag.json", { values: texts }));
-  });
-  document.addEventListener("showing", () => {
-    if (ahead && String(ahead.of) === document.body.dataset.moving) {
-      ahead.show();
-      ahead = null;
-    }
-  });
-  const drag = (input) => ask("drag.json", { where: place(input), value: input.value });
-  // The machine is again as the file has it, and what is asked for comes to nothing.
+  const drag = (input) => dragging.ask("drag.json", { where: place(input), value: input.value });
   const takeBack = (keys) => {
-    wanted = partly = ahead = texts = null;
-    clearTimeout(later);
-    turn += 1;
     keys.forEach(drafts.drop);
-    if (machine) extended.get(machine.root)?.feed(new Float32Array(0), { bodies: {}, runs: [] });
+    dragging.takeBack();
     show();
   };
   // Returns when it is written, or refused.
@@ -502,5 +434,5 @@ const fields = (() => {
     document.body.classList.add("kept");
   }
   push(...settings(drafts.due()));
-  return { keep, byPlace, reach, build, type, ask, takeBack, commitAll };
+  return { keep, byPlace, reach, build, type, takeBack, commitAll };
 })();

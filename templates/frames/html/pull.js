@@ -138,7 +138,7 @@ const pulls = (() => {
     }
     if (!held.moved) begin();
     const [x, y] = toDrawing(event), mine = held, from = [event.clientX, event.clientY];
-    mine.answered = fields.ask("pull.json", { ...mine.body, to: [x + mine.off[0], y + mine.off[1]] }, ({ values, at: place }) => {
+    mine.answered = dragging.ask("pull.json", { ...mine.body, to: [x + mine.off[0], y + mine.off[1]] }, ({ values, at: place }) => {
       // The last answer may come after the release.
       if (held !== mine && !mine.released) return;
       if (place) mine.last = from;

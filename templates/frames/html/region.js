@@ -4,8 +4,7 @@
 (() => {
   if (typeof pulls === "undefined" || !pulls) return;
   const COARSE = 8, FINE = 24;
-  const post = async (name, body) => (await fetch(name, { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify(body) })).json();
-  let current = null, last = null;
+  let current = null, searched = "";
 
   const shade = ({ path, lines }) => {
     let shape = pulls.svg().querySelector(".region");
@@ -13,26 +12,25 @@
     shape.classList.toggle("line", lines);
     shape.setAttribute("d", path);
   };
+  // In millimetres of the drawing of the machine that is shown: a renewed one may have another scale.
   const find = async (detail) => {
+    const of = searched = document.body.dataset.moving;
     try {
       for (const count of [COARSE, FINE]) {
-        const found = await post("region.json", { ...detail, count });
-        if (current !== detail || found.path === undefined) return;
-        shade(last = found);
+        const found = await (await post("region.json", { ...detail, count })).json();
+        if (current !== detail || searched !== of || found.path === undefined) return;
+        shade(found);
       }
     } catch { /* the server tells of itself */ }
   };
   document.addEventListener("pull", ({ detail }) => {
     const ended = current;
     current = detail;
-    last = null;
     if (detail) { find(detail); return; }
     pulls.svg().querySelector(".region")?.remove();
     if (ended) post("released.json", { grab: ended.grab }).catch(() => {});
   });
-  // The drawing of a renewed machine has none.
   document.addEventListener("showing", () => {
-    if (!current || pulls.svg().querySelector(".region")) return;
-    if (last) shade(last); else find(current);
+    if (current && searched !== document.body.dataset.moving) find(current);
   });
 })();
