@@ -33,9 +33,15 @@ class HookModule(Generic[Hooks]):
     def __init__(self, name: str, hooks: type[Hooks]) -> None:
         self.name = name
         self.hooks = hooks
+        self._loaded: dict[str, Hooks | None] = {}
 
     def of(self, topic: str) -> Hooks | None:
         """Return the hooks of a topic, None if it has no such module."""
+        if topic not in self._loaded:
+            self._loaded[topic] = self._load(topic)
+        return self._loaded[topic]
+
+    def _load(self, topic: str) -> Hooks | None:
         if not (PACKAGE / topic / f"{self.name}.py").is_file():
             return None
         hooks = import_module(f"{PACKAGE.name}.{topic}.{self.name}").HOOKS

@@ -18,7 +18,7 @@ from reportgen import catalogue
 from reportgen.assignment import parts
 from reportgen.base.errors import Fault, Location, Problem, Where
 from reportgen.base.files import contents, renew_file
-from reportgen.base.kinds import titles
+from reportgen.base.kinds import kinds, title
 from reportgen.base.units import Language
 from reportgen.base.yaml_edit import EditError, with_value
 from reportgen.base.yaml_source import (
@@ -160,7 +160,7 @@ class EditSession(LiveSession):
             return {}
         return {"begun": self.maker.make(str(asked["product"]))}
 
-    def page(self) -> str:
+    def _written_page(self) -> str:
         now = self.revision
         live = Live({**now.words["live"], **now.words["edit"]}, now.moving, now.reports, SCRIPTS, STYLES, self.form())
         return html.write(now.document or empty_document(now), now.words["page"], now.panels, live, now.report)
@@ -263,7 +263,7 @@ class EditSession(LiveSession):
             words=words["edit"],
             groups=groups,
             kind=kind.text if isinstance(kind, Scalar) else "",
-            title=titles(language).get(kind.text, "") if isinstance(kind, Scalar) else "",
+            title=title(kind.text, language) if isinstance(kind, Scalar) and kind.text in kinds() else "",
             file=self.path.name,
             problems=problems,
             elsewhere={file: Path(file).name for problem in problems if (file := problem.location.file) != source.file},
@@ -272,11 +272,11 @@ class EditSession(LiveSession):
             can_redo=redo,
             # What takes something from a machine cannot be made without it.
             products=[] if given.top is not source.top else list(self.products),
-            part_kinds=part_kinds(),
+            # To know the kinds of parts, all kinds are loaded.
+            part_kinds={name: title(name, language) for name in part_kinds()} if form and form.has_parts else {},
             pages=pages,
             folder=self.path.parent,
             whole=self.whole and self.whole.name,
-            kind_titles=titles(language),
             missing=self._missing.rows(self.revision.case, problems, form, source),
         )
         self._form = inputs, written, self._form[2] + 1

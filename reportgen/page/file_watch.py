@@ -130,8 +130,6 @@ def choose(
     """Serve a page on which a kind is chosen, whose file is then edited; `begins` makes it of a kind and a sample."""
     chooser = Chooser(partial(opens, Path(), language), language, begins=begins)
     with _served(chooser, 0) as server:
-        # Made while the browser starts.
-        threading.Thread(target=chooser.page, daemon=True).start()
         _announce(server, browser, stream)
         with suppress(KeyboardInterrupt):
             while not chooser.chosen.wait(HEARING):
@@ -210,6 +208,8 @@ def _followed(session: LiveSession, path: Path, opens: Opener, *beside: Path) ->
 def _announce(server: Server, browser: bool, stream: TextIO) -> None:
     print(server.address, file=stream, flush=True)
     if browser:
+        # The first page is made while the browser starts.
+        threading.Thread(target=server.session.page, daemon=True).start()
         webbrowser.open(server.address)
 
 

@@ -115,6 +115,11 @@ class Form:
         object.__setattr__(self, "words", field_words(self.kind.name, self.language))
 
     @property
+    def has_parts(self) -> bool:
+        """True for a kind that can be the machine of a coursework."""
+        return PARTS in self.root["properties"]
+
+    @property
     def groups(self) -> list[FieldGroup]:
         """The sections of the file, the kind's own data first."""
         sections = {key: about for key, about in self.root["properties"].items() if key not in NEVER}

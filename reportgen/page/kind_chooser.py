@@ -36,12 +36,12 @@ class Chooser(LiveSession):
     _choosing: threading.Lock = field(default_factory=threading.Lock)
     _writing: threading.Lock = field(default_factory=threading.Lock)
 
-    def page(self) -> str:
+    def _written_page(self) -> str:
         # The first page is being made while the browser starts, and is not begun a second time.
         with self._writing:
-            return self._page()
+            return self._cards_page()
 
-    def _page(self) -> str:
+    def _cards_page(self) -> str:
         now = self.revision
         words, offered = now.words["edit"], cards(now.language)
         groups = [(title, offered[group]) for group, title in words["groups"].items() if group in offered]

@@ -28,6 +28,8 @@ PART = "part/"
 """Path of the pages of parts that are in separate files."""
 AHEAD = 0.2
 """Seconds that the animation has to itself before the report is begun."""
+LONGEST = 5.0
+"""Longest time (s) that a report waits for pages that are being made."""
 
 
 @dataclass(frozen=True)
@@ -87,6 +89,7 @@ class LiveSession:
         self._asked = 0
         self._worker = threading.Thread(target=self._write_reports, daemon=True)
         self._to_write: tuple[int, Case] | None = None
+        self._pages_in_work = 0
 
     def open(self) -> None:
         """Make the first revision."""
@@ -159,6 +162,10 @@ class LiveSession:
                 # The animation is sent to the page first.
                 if self.changed.wait_for(partial(self._overtaken, wanted), AHEAD):
                     continue
+                # So is a page that is being made: both would take twice as long beside each other.
+                self.changed.wait_for(partial(self._undisturbed, wanted), LONGEST)
+                if self._overtaken(wanted):
+                    continue
                 self._to_write = None
             number, case = wanted
             try:
@@ -176,6 +183,10 @@ class LiveSession:
     def _overtaken(self, wanted: tuple[int, Case]) -> bool:
         """Return True if another report is wanted than this one, or none."""
         return self.closed or self._to_write is not wanted
+
+    def _undisturbed(self, wanted: tuple[int, Case]) -> bool:
+        """Return True if no page is being made, or if this report need not be written."""
+        return not self._pages_in_work or self._overtaken(wanted)
 
     def _publish(self, **news: Any) -> None:
         with self.changed:
@@ -217,6 +228,16 @@ class LiveSession:
 
     def page(self) -> str:
         """Return the whole current page; with an empty document if no report is finished yet."""
+        with self.changed:
+            self._pages_in_work += 1
+        try:
+            return self._written_page()
+        finally:
+            with self.changed:
+                self._pages_in_work -= 1
+                self.changed.notify_all()
+
+    def _written_page(self) -> str:
         now = self.revision
         document = now.document or empty_document(now)
         live = Live(now.words["live"], now.moving, now.reports)

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import importlib.util
 import shutil
+import threading
 from pathlib import Path
 from types import ModuleType
+from typing import Any
 
 import pytest
 
@@ -14,9 +16,13 @@ from reportgen.base.errors import OutputError
 from reportgen.base.kinds import kinds
 from reportgen.base.template_folders import languages
 from reportgen.base.yaml_source import read_source
+from reportgen.case import Case
 from reportgen.cases import open_case
+from reportgen.document import Document
+from reportgen.page import html
 from reportgen.page.kind_cards import REST, cards, samples_of, scheme_file
 from reportgen.page.kind_chooser import Chooser
+from reportgen.page.live_view import LiveSession
 from tests.documents import ROOT
 from tests.kinds import KINDS
 from tests.lanes import matrix, proof
@@ -132,3 +138,30 @@ def test_a_kind_is_found_and_its_sample_becomes_the_file(browser: Browser, tmp_p
         assert browser.messages() == []
     written = (tmp_path / "toggle-press.yaml").read_text(encoding="utf-8")
     assert written == catalogue.example(catalogue.examples("toggle-press")["toggle-press-02"], "vi")
+
+
+def test_a_report_waits_for_a_page_that_is_being_made(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Beside the report, which takes longer, the first view would come twice as late."""
+    begun, together = threading.Event(), []
+    case = open_case(ROOT / "assignments" / "four-bar-01.yaml")
+    document, write = type(case).document, html.write
+
+    def document_noted(self: Case) -> Document:
+        begun.set()
+        return document(self)
+
+    monkeypatch.setattr(type(case), "document", document_noted)
+
+    def write_slowly(*arguments: Any) -> str:
+        together.append(begun.wait(1.0))
+        return write(*arguments)
+
+    monkeypatch.setattr(html, "write", write_slowly)
+    session = LiveSession(lambda: case)
+    page = threading.Thread(target=session.page)
+    page.start()
+    session.open()
+    page.join()
+    assert together == [False]
+    until(lambda: session.revision.reports == 1)
+    session.close()
