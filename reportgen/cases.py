@@ -17,9 +17,12 @@ import numpy as np
 from reportgen import catalogue
 from reportgen.assignment import Assignment
 from reportgen.assignment.common import Drawing
+from reportgen.base.template_folders import REFERENCE
 from reportgen.base.topics import topics
 from reportgen.base.translation_coverage import is_topic_whole
 from reportgen.base.units import Language
+from reportgen.base.words import as_error
+from reportgen.base.yaml_source import read_text
 from reportgen.case import AskedFor, Case, DriverMotion, MachineAnalysis, Misconceptions
 from reportgen.case.answer_key import Span
 from reportgen.case.missing_chapters import MissingChapter, heading_of
@@ -62,6 +65,14 @@ def open_case(path: Path | str, language: Language | None = None, whole: Path | 
     located.
     """
     return opened(catalogue.load(path, language, whole))
+
+
+def starter_case(kind: str, language: Language = REFERENCE) -> Case:
+    """Return the case of the starter file of a kind.  Raises `AssignmentError`, and `KeyError` for an unknown kind."""
+    assignment, faults = catalogue.assess(read_text(catalogue.sample(kind, language)), Path())
+    if assignment is None:
+        raise as_error(faults, language)
+    return opened(assignment)
 
 
 def opener() -> Callable[..., Case]:

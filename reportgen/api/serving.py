@@ -8,13 +8,15 @@ from typing import TYPE_CHECKING
 
 from reportgen.api.typesetting import pages_of, typeset
 from reportgen.base.units import Language
-from reportgen.cases import opener
+from reportgen.case import MachineAnalysis
+from reportgen.cases import opener, starter_case
 from reportgen.page import file_watch as served
 from reportgen.page.file_watch import Products
 
 if TYPE_CHECKING:
     from reportgen.case import Case
     from reportgen.document import Document
+    from reportgen.page.kind_cards import CardDrawing
 
 Written = Callable[[Callable[[], bytes], Language], None]
 """Called for each finished report with its language and a function that returns its PDF or raises `TypesetterError`."""
@@ -42,4 +44,14 @@ def choose(
     begins: Callable[[str, str], Path], products: Products, language: Language | None = None, browser: bool = True
 ) -> None:
     """Show the kinds in a browser; `begins` creates a file of a kind or a copy of its sample, which is then edited."""
-    served.choose(begins, opener(), language, products, pages=pages_of, browser=browser)
+    served.choose(begins, opener(), language, products, pages=pages_of, draws=_drawn_scheme, browser=browser)
+
+
+def _drawn_scheme(kind: str) -> CardDrawing:
+    """Return the scheme of a machine with its default parameters, for its card.  Raises `AssignmentError`."""
+    # It loads the makers of reports.
+    from reportgen.page.scheme_drawings import card_drawing, machine_scheme
+
+    case = starter_case(kind)
+    assert isinstance(case, MachineAnalysis), "a machine of the atlas is a linkage"
+    return card_drawing(kind, machine_scheme(case))

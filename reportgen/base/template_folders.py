@@ -164,6 +164,11 @@ def is_own_machine(file: Path) -> bool:
     return not file.is_relative_to(templates())
 
 
+def is_users_machine(kind: str) -> bool:
+    """Return True for a machine of the user's folder, also if it replaces one of the program."""
+    return any(map(is_own_machine, machine_files(kind)))
+
+
 def is_machine_name(name: str) -> bool:
     """Return True for a name that a file of the atlas can have, without its ending."""
     return _MACHINE_NAME.fullmatch(name) is not None

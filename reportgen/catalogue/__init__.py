@@ -35,7 +35,7 @@ from reportgen.base.atlas_words import is_machine_file
 from reportgen.base.errors import AssignmentError, Fault, Finding, Level, Problem, ReportgenError, TemplateError
 from reportgen.base.field_words import also, choice_words, field_words, remarked
 from reportgen.base.kinds import SAMPLE, kinds
-from reportgen.base.template_folders import is_of_atlas, kind_words, samples
+from reportgen.base.template_folders import is_of_atlas, is_users_machine, kind_words, samples
 from reportgen.base.topics import topics
 from reportgen.base.translation_coverage import is_topic_whole, is_whole, offered
 from reportgen.base.units import Language, QuantityFault, measures, read_quantity, read_unit
@@ -71,8 +71,11 @@ def _atlas() -> ModuleType:
 
 
 def faults_of(kind: str) -> tuple[Fault, ...]:
-    """Return the faults in the file of a machine of the atlas; () for one that is in order, and for any other kind."""
-    faults: tuple[Fault, ...] = _atlas().faults_of(kind) if is_of_atlas(kind) else ()
+    """Return the faults in the file of a machine of the user's folder; () for one that is in order.
+
+    All other kinds are in order, as tests check.
+    """
+    faults: tuple[Fault, ...] = _atlas().faults_of(kind) if is_users_machine(kind) else ()
     return faults
 
 

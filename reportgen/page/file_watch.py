@@ -25,6 +25,7 @@ from reportgen.base.yaml_source import read_source
 from reportgen.case import Case
 from reportgen.document import Document
 from reportgen.page.edit_session import EditSession
+from reportgen.page.kind_cards import CardDrawing
 from reportgen.page.kind_chooser import Chooser
 from reportgen.page.live_view import LiveSession
 from reportgen.page.local_server import Server
@@ -124,11 +125,15 @@ def choose(
     language: Language | None = None,
     products: Products = no_products,
     pages: Typesetting = no_pages,
+    draws: Callable[[str], CardDrawing] | None = None,
     browser: bool = True,
     stream: TextIO = sys.stdout,
 ) -> None:
-    """Serve a page on which a kind is chosen, whose file is then edited; `begins` makes it of a kind and a sample."""
-    chooser = Chooser(partial(opens, Path(), language), language, begins=begins)
+    """Serve a page on which a kind is chosen, whose file is then edited; `begins` makes it of a kind and a sample.
+
+    `draws` draws the scheme of a machine of the user's folder.
+    """
+    chooser = Chooser(partial(opens, Path(), language), language, begins=begins, draws=draws)
     with _served(chooser, 0) as server:
         _announce(server, browser, stream)
         with suppress(KeyboardInterrupt):

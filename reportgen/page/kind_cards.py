@@ -1,6 +1,7 @@
 """The cards on which a user chooses a kind: name, uses, scheme, samples, and the words by which it is found.
 
-The scheme of a kind is a file of the templates, `frames/schemes/KIND.svg`, which `docs/schemes.py` draws.
+The scheme of a kind is a file of the templates, `frames/schemes/KIND.svg`, which `docs/schemes.py` draws. A machine of
+the user's folder has none; the page asks for its drawing when it shows the card.
 """
 
 from __future__ import annotations
@@ -8,12 +9,21 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, lru_cache
 from pathlib import Path
 from typing import Any
 
 from reportgen import catalogue
-from reportgen.base.template_folders import DEFAULT_LANGUAGE, REFERENCE, kind_places, templates
+from reportgen.base.atlas_words import machine_source
+from reportgen.base.template_folders import (
+    DEFAULT_LANGUAGE,
+    REFERENCE,
+    atlas_files,
+    is_own_machine,
+    is_users_machine,
+    kind_places,
+    templates,
+)
 from reportgen.base.units import Language
 from reportgen.base.words import load_words
 
@@ -60,9 +70,9 @@ def scheme_file(kind: str) -> Path:
 
 
 def scheme(kind: str) -> CardDrawing | None:
-    """Return the scheme of a kind; None if nobody has drawn it."""
+    """Return the scheme of a kind; None for a machine of the user's folder, also if one of the program has its name."""
     file = scheme_file(kind)
-    parts = _SCHEME.match(file.read_text(encoding="utf-8")) if file.is_file() else None
+    parts = _SCHEME.match(file.read_text(encoding="utf-8")) if file.is_file() and not is_users_machine(kind) else None
     return CardDrawing(*parts.groups()) if parts else None
 
 
@@ -86,13 +96,21 @@ def _first_sentence(text: str) -> str:
     return sentence[0] if sentence else ""
 
 
-@cache
 def cards(language: Language) -> Mapping[str, tuple[Card, ...]]:
     """Return the cards of all kinds by the keys of their groups, in a language."""
+    files = [(kind, file) for kind, file in atlas_files().items() if is_own_machine(file)]
+    return _cards(language, tuple((kind, machine_source(file).text) for kind, file in files))
+
+
+@lru_cache(maxsize=8)
+def _cards(language: Language, _machines: tuple[tuple[str, str], ...]) -> Mapping[str, tuple[Card, ...]]:
+    """Return the cards, cached while the files of the user's folder have the same texts."""
     grouped: dict[str, list[Card]] = {}
     for kind in catalogue.sound_kinds():
         words = _words(kind, language)
-        card = Card(kind, words["title"], words.get("uses", ""), scheme(kind), samples_of().get(kind, ()), _terms(kind))
+        # A machine of the user's folder need not have the parameters of a sample of its name.
+        samples = () if is_users_machine(kind) else samples_of().get(kind, ())
+        card = Card(kind, words["title"], words.get("uses", ""), scheme(kind), samples, _terms(kind))
         grouped.setdefault(words.get("group", REST), []).append(card)
     return {group: tuple(members) for group, members in grouped.items()}
 

@@ -4,16 +4,17 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
 from reportgen import catalogue
 from reportgen.base.errors import ReportgenError
 from reportgen.base.kinds import kinds
+from reportgen.base.template_folders import is_users_machine
 from reportgen.page import html
 from reportgen.page.html import Live
-from reportgen.page.kind_cards import cards
+from reportgen.page.kind_cards import CardDrawing, cards
 from reportgen.page.live_view import LiveSession, empty_document
 
 READY = 60.0
@@ -26,15 +27,19 @@ WHOLE = ""
 class Chooser(LiveSession):
     """The session of the page that offers the kinds.
 
-    `begins` makes the file of a kind, as a copy of the sample with a name, or `WHOLE`.
+    `begins` makes the file of a kind, as a copy of the sample with a name, or `WHOLE`. `draws` draws the scheme of a
+    machine of the user's folder.
     """
 
     begins: Callable[[str, str], Path] = field(default=lambda kind, sample: Path())
+    draws: Callable[[str], CardDrawing] | None = None
     chosen: threading.Event = field(default_factory=threading.Event)
     ready: threading.Event = field(default_factory=threading.Event)
     path: Path = Path()
     _choosing: threading.Lock = field(default_factory=threading.Lock)
     _writing: threading.Lock = field(default_factory=threading.Lock)
+    _drawing: threading.Lock = field(default_factory=threading.Lock)
+    _drawn: dict[str, Mapping[str, str]] = field(default_factory=dict)
 
     def _written_page(self) -> str:
         # The first page is being made while the browser starts, and is not begun a second time.
@@ -64,7 +69,26 @@ class Chooser(LiveSession):
 
     @property
     def takes(self) -> Mapping[str, Callable[[Mapping[str, Any]], Mapping[str, Any] | bytes]]:
-        return {"begin.json": self.begin}
+        return {"begin.json": self.begin, "scheme.json": self.scheme}
+
+    def scheme(self, asked: Mapping[str, Any]) -> Mapping[str, str]:
+        """Return the scheme of a machine of the user's folder, which is drawn once: its box, rules and elements.
+
+        Return {} if it cannot be drawn. Raise `KeyError` for any other kind.
+        """
+        kind = str(asked["kind"])
+        if kind not in kinds() or not is_users_machine(kind):
+            raise KeyError(kind)
+        with self._drawing:
+            if kind not in self._drawn:
+                self._drawn[kind] = self._scheme(kind)
+        return self._drawn[kind]
+
+    def _scheme(self, kind: str) -> Mapping[str, str]:
+        try:
+            return asdict(self.draws(kind)) if self.draws is not None else {}
+        except (ReportgenError, ArithmeticError, ValueError, LookupError):
+            return {}
 
     def begin(self, asked: Mapping[str, Any]) -> Mapping[str, Any]:
         """Begin the file of a kind, wait until its form is ready, and return `begun`: False after `READY` seconds.

@@ -41,15 +41,36 @@
   // A browser may fill in what was typed before the page was loaded anew.
   if (search.value) find();
 
-  const begin = async ({ dataset: { kind, sample } }) => {
-    const body = JSON.stringify({ kind, ...(sample ? { sample } : {}) });
+  // The answer to a message, or nothing if it was refused.
+  const ask = async (name, message, lost = {}) => {
     try {
-      const answer = await fetch("begin.json", { method: "POST", headers: { "Content-Type": "application/json" }, body });
+      const answer = await fetch(name, { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify(message) });
       return answer.ok ? await answer.json() : {};
     } catch {
-      return { refused: words.lost };
+      return lost;
     }
   };
+  const begin = ({ dataset: { kind, sample } }) => ask("begin.json", { kind, ...(sample ? { sample } : {}) }, { refused: words.lost });
+
+  // A machine of the user's folder is drawn when its card comes into view, one after another.
+  const draw = async (place) => {
+    const { box, rules, elements } = await ask("scheme.json", { kind: place.closest("[data-kind]").dataset.kind });
+    if (!elements) return;
+    const sheet = new CSSStyleSheet();
+    sheet.replaceSync(rules);
+    document.adoptedStyleSheets.push(sheet);
+    place.innerHTML = `<svg aria-hidden="true" viewBox="${box}">${elements}</svg>`;
+  };
+  let drawn = Promise.resolve();
+  const seen = new IntersectionObserver((places) => {
+    for (const { isIntersecting, target } of places) {
+      if (!isIntersecting) continue;
+      seen.unobserve(target);
+      drawn = drawn.then(() => draw(target));
+    }
+  }, { rootMargin: "200px" });
+  for (const place of document.querySelectorAll(".scheme:empty")) seen.observe(place);
+
   for (const button of buttons) {
     button.addEventListener("click", async () => {
       buttons.forEach((one) => { one.disabled = true; });
