@@ -26,7 +26,6 @@ from reportgen.machine.spring_geometry import Coil
 FULL_TURN = 2 * np.pi
 STEPS = 720
 """Number of samples of a turn, half a degree apart, in a search for reversals and unreachable angles."""
-HALVINGS = 50
 AT_ONCE = 5
 """Number of halvings made in one step."""
 BEFORE_A_TURN = 1e-9
@@ -412,21 +411,15 @@ def by_angle(angles: tuple[float, ...], values: tuple[float, ...]) -> IndicatorT
 def opposing(size: float, rate: Callable[[Floats], Floats]) -> Opposing:
     """Return a load of constant size (N or N·m) that opposes a rate.
 
-    `rate` returns the rate [N] (m/s or rad/s) at cycle angles [N] (rad) of one turn; the sizes of its values do not
-    matter, only their signs.
+    `rate` returns the rate [N] (m/s or rad/s) at cycle angles [N] (rad) of one turn.  A zero of a smooth rate is
+    computed with few calls of it, a jump of its sign with more.
     """
-    edges, signs, changes = _changes(rate)
-    first = signs[changes]
-    halvings = HALVINGS if changes.size else 0
-
-    def unchanged(angle: Floats) -> Flags:
-        return np.asarray(np.sign(rate(angle.ravel()).reshape(angle.shape)) == first[:, None])
-
-    _, high = halved(edges[changes], edges[changes + 1], unchanged, halvings)
-    reversals = np.sort(np.mod(high + BEFORE_A_TURN, FULL_TURN) - BEFORE_A_TURN)
-    # The first of them in the turn is where the sign before it ends.
-    after = rate(np.array([(reversals[0] + reversals[1]) / 2])) if reversals.size > 1 else -rate(np.array([0.0]))
-    return Opposing(size, tuple(map(float, reversals)), -float(np.sign(after[0])))
+    edges, rates, changes = _changes(rate)
+    zeros = zeros_between(rate, edges[np.stack((changes, changes + 1))], rates[np.stack((changes, changes + 1))])
+    reversals = np.mod(zeros + BEFORE_A_TURN, FULL_TURN) - BEFORE_A_TURN
+    order = np.argsort(reversals)
+    before = np.sign(rates[changes[order[0]] if order.size else 0])
+    return Opposing(size, tuple(map(float, reversals[order])), float(before))
 
 
 def reversal_count(rate: Callable[[Floats], Floats]) -> int:
@@ -435,10 +428,35 @@ def reversal_count(rate: Callable[[Floats], Floats]) -> int:
 
 
 def _changes(rate: Callable[[Floats], Floats]) -> tuple[Floats, Floats, NDArray[np.int64]]:
-    """Return the samples (rad) of a turn, the signs of the rate there, and after which of them the sign changes."""
+    """Return the samples (rad) of a turn, the rates there, and after which of them the rate changes its sign."""
     edges = np.linspace(0.0, FULL_TURN, STEPS + 1) - FULL_TURN / STEPS / np.pi
-    signs = np.sign(rate(edges))
-    return edges, signs, np.flatnonzero(signs[1:] != signs[:-1])
+    rates = rate(edges)
+    signs = np.sign(rates)
+    return edges, rates, np.flatnonzero(signs[1:] != signs[:-1])
+
+
+def zeros_between(rate: Callable[[Floats], Floats], ends: Floats, rates: Floats) -> Floats:
+    """Return the zeros [N] (rad) of a rate between the `ends` [2, N] (rad) of intervals, with unlike `rates` [2, N].
+
+    The zero of the chord over an interval of the width w (rad) is off by w²|f″/f′|/8 at most, so that the places at the
+    distance w² on both sides of it enclose the zero of a smooth rate.  The middle halves the interval of any other.
+    """
+    first, each = np.sign(rates[0]), np.arange(ends.shape[1])
+    while (ends[1] - ends[0] > 4 * BEFORE_A_TURN).any():
+        (low, high), chord = ends, _chord(ends, rates)
+        near = np.maximum((high - low) ** 2, BEFORE_A_TURN)
+        inner = np.sort(np.clip((chord - near, (low + high) / 2, chord + near), low, high), axis=0)
+        # Motion is solved along rising angles, interval by interval.
+        inside = rate(inner.T.ravel()).reshape(inner.T.shape).T
+        changed = np.argmax(np.vstack((np.sign(inside) != first, np.ones_like(each, dtype=bool))), axis=0)
+        pair = np.stack((changed, changed + 1)), each
+        ends, rates = np.vstack((low, inner, high))[pair], np.vstack((rates[0], inside, rates[1]))[pair]
+    return _chord(ends, rates)
+
+
+def _chord(ends: Floats, rates: Floats) -> Floats:
+    """Return the zeros [N] of straight lines through `rates` [2, N] at `ends` [2, N]."""
+    return np.asarray(ends[0] + (ends[1] - ends[0]) * rates[0] / (rates[0] - rates[1]))
 
 
 def halved(low: Floats, high: Floats, before: Callable[[Floats], Flags], times: int) -> tuple[Floats, Floats]:

@@ -201,8 +201,8 @@ def test_a_frame_of_a_pull_computes_nothing_twice(monkeypatch: pytest.MonkeyPatc
     """Only loads search for turning points, not the checks; tracks that are repeated are sampled once."""
     resident = Resident.of(open_case(FOLDER / "linkage-8.yaml"))
     assert resident is not None
-    searches, sampled = Mock(wraps=load_laws.halved), Mock(wraps=animation_panel.samples)
-    monkeypatch.setattr(load_laws, "halved", searches)
+    searches, sampled = Mock(wraps=load_laws.zeros_between), Mock(wraps=animation_panel.samples)
+    monkeypatch.setattr(load_laws, "zeros_between", searches)
     monkeypatch.setattr("reportgen.page.drag_samples.samples", sampled)
     assignment, faults = catalogue.understood(read_source(FOLDER / "linkage-8.yaml"), FOLDER / "linkage-8.yaml")
     assert assignment is not None

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from pathlib import Path
 from typing import get_args
@@ -14,7 +14,7 @@ import pytest
 
 import reportgen
 from reportgen import api
-from reportgen.base.arrays import Complexes
+from reportgen.base.arrays import Complexes, Floats
 from reportgen.derivation import enter_plans
 from reportgen.machine import load_laws
 from reportgen.machine.analysis import Machine, analyse
@@ -30,6 +30,7 @@ from reportgen.machine.load_laws import (
     TableLaw,
     TravelLaw,
     by_stroke,
+    opposing,
 )
 from reportgen.machine.loads import Applied
 
@@ -139,3 +140,44 @@ def test_its_force_plans_close(followed: Machine) -> None:
     largest = np.abs(analysis.torque).max()
     assert q.value("M.eq") == pytest.approx(analysis.torque, abs=1e-9 * largest)
     assert np.angle(q.value("sense.P3") / analysis.applied[0].force) == pytest.approx(0.0, abs=1e-12)
+
+
+# --- reversals ------------------------------------------------------------------------------------
+
+LEAN, OFFSET = 0.3, 0.2
+"""λ = R/L and e/L of a slider-crank whose slider stands still where the crank and the coupler are in one line."""
+
+
+def slider_speed(angle: Floats) -> Floats:
+    """ẋ/(Rω) of an offset slider-crank."""
+    down = LEAN * np.sin(angle) - OFFSET
+    return -np.sin(angle) - down * np.cos(angle) / np.sqrt(1 - down**2)
+
+
+def dead_centres() -> tuple[float, float]:
+    """The crank angles at which sin θ = e/(L ± R)."""
+    return float(np.arcsin(OFFSET / (1 + LEAN))), float(np.pi + np.arcsin(OFFSET / (1 - LEAN)))
+
+
+@pytest.mark.parametrize("shape", [lambda rate: rate, np.sign, lambda rate: np.where(np.abs(rate) > 1e-12, rate, 0.0)])
+@pytest.mark.parametrize("sense", [1.0, -1.0])
+def test_a_load_turns_where_the_motion_does(shape: Callable[[Floats], Floats], sense: float) -> None:
+    """The places are those of the geometry, also of a rate that only has a sign (to the distance that counts as none)
+    or that is 0 where it is rounding.
+    """
+    load = opposing(2.0, lambda angle: shape(sense * slider_speed(angle)))
+    np.testing.assert_allclose(load.reversals, dead_centres(), atol=4e-9 if shape is np.sign else 1e-12)
+    assert load.before == sense
+
+
+def test_reversals_of_a_smooth_motion_take_few_solutions_of_it() -> None:
+    """One over the turn, and one for each power of the width of an interval: w², w⁴, w⁸ with w = half a degree."""
+    calls = 0
+
+    def rate(angle: Floats) -> Floats:
+        nonlocal calls
+        calls += 1
+        return slider_speed(angle)
+
+    opposing(1.0, rate)
+    assert calls == 4
