@@ -20,6 +20,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from reportgen.base.arrays import Flags, Floats
 from reportgen.catalogue import ternary_ids
 from reportgen.catalogue.loop_bodies import LoopBody, Moving
 from reportgen.catalogue.loop_builder import LoopBuilder
@@ -45,6 +46,7 @@ from reportgen.formula import (
     times,
 )
 from reportgen.formula.calculation import Calculation
+from reportgen.formula.constructions import cross
 from reportgen.machine import Triad, TriadLeg
 
 HALF_TURN = Number(180.0, unit="°")
@@ -52,6 +54,11 @@ CONVERGED = 1e-9
 """A correction (rad) after which the iteration ends: the error then is about its square."""
 FEWEST, MOST = 2, 8
 """Numbers of steps of the iteration; only beside a dead point it takes more than 4."""
+READINGS = (0, 1, 2, 3, 12)
+"""Decimals of a degree to which the first angles are read: the fewest that lead to the assembly of the drawing.
+
+Beside a dead point two assemblies are less than a degree apart. The last reading is the angle itself.
+"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,7 +115,8 @@ def cramer(rows: Sequence[VectorComponents], right: VectorComponents) -> VectorC
 class AngleIteration:
     """Newton's iteration for the angles of the first leg and of the ternary link.
 
-    It starts from both angles as they are read from the drawing, to a degree.
+    It starts from both angles as they are read from the drawing: to a degree, more finely at positions beside a dead
+    point.
     """
 
     triad: Triad
@@ -122,11 +130,10 @@ class AngleIteration:
         """
         first, *_ = self.triad.legs
         links = first.link, self.triad.plate
-        rod = q.value(ids.place(first.inner)) - q.value(ids.place(first.outer))
-        angles: list[Ref] = []
-        for link, vector in zip(links, (rod, q.value(ids.link_axis(self.triad.plate))), strict=True):
-            read = np.radians(np.round(np.degrees(np.angle(vector))))
-            angles.append(q.give(ternary_ids.trial_angle(0, link), read, Symbol("φ", str(link), "(0)"), trial=True))
+        angles = [
+            q.give(ternary_ids.trial_angle(0, link), read, Symbol("φ", str(link), "(0)"), trial=True)
+            for link, read in zip(links, self._read(q), strict=True)
+        ]
         for number in range(MOST):
             step = _Step(q, number)
             corrections = self._corrections(step, *angles)
@@ -142,6 +149,40 @@ class AngleIteration:
             q.define(ids.formula_angle(link), angle, scale=1.0) for link, angle in zip(links, angles, strict=True)
         )
         return φ, φ_plate
+
+    def _read(self, q: Calculation) -> tuple[Floats, Floats]:
+        """Return both angles (rad) [N] as they are read from the drawing, each position as finely as it needs."""
+        first = self.triad.legs[0]
+        rod = q.value(ids.place(first.inner)) - q.value(ids.place(first.outer))
+        turn = q.value(ids.link_axis(self.triad.plate))
+        drawn = np.degrees(np.angle(np.broadcast_arrays(rod, turn)))
+        read = np.round(drawn, READINGS[0])
+        for decimals in READINGS[1:]:
+            strays = ~self._leads_to(q, np.radians(drawn), np.radians(read))
+            read = np.where(strays, np.round(drawn, decimals), read)
+        return np.radians(read[0]), np.radians(read[1])
+
+    def _leads_to(self, q: Calculation, drawn: Floats, read: Floats) -> Flags:
+        """Return True where the iteration converges from the angles `read` [2, N] to those `drawn`."""
+        first, *others = self.triad.legs
+        start, length = q.value(ids.place(first.outer)), q.value(ids.length(first.outer, first.inner))
+        angles = read
+        with np.errstate(divide="ignore", invalid="ignore"):
+            for _ in range(MOST):
+                rod, turn = np.exp(1j * angles)
+                rows: list[tuple[Floats, Floats]] = []
+                gaps: list[Floats] = []
+                for leg, local in zip(others, self.triad.at, strict=True):
+                    reach = start + length * rod + local * turn - q.value(ids.place(leg.outer))
+                    e = reach / np.abs(reach)
+                    rows.append((cross(length * rod, e), cross(local * turn, e)))
+                    gaps.append(leg.length - np.abs(reach))
+                (a, b), (c, d) = rows
+                determinant = a * d - b * c
+                corrections = np.array([gaps[0] * d - b * gaps[1], a * gaps[1] - gaps[0] * c]) / determinant
+                angles = angles + corrections
+        apart = np.abs(np.exp(1j * angles) - np.exp(1j * drawn)).max(axis=0)
+        return np.asarray((np.abs(corrections).max(axis=0) < CONVERGED) & (apart < CONVERGED))
 
     def _corrections(self, step: _Step, first: Ref, plate: Ref) -> list[Ref]:
         """Enter the gap and the direction of each leg, the arms, and the corrections of both angles."""

@@ -5,7 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+import numpy as np
+
 from reportgen.base.template_access import template_members, view
+from reportgen.catalogue import ternary_ids
 from reportgen.derivation.equation_sides import Scheme, Side
 from reportgen.derivation.load_entries import Polygon
 from reportgen.derivation.triad_motion import entered_point
@@ -15,6 +18,9 @@ from reportgen.formula.ledger import Ledger
 from reportgen.machine import Triad, TriadLeg
 from reportgen.report.assur_view import AssurView
 from reportgen.report.driver_view import DriverView
+
+WHOLE = 1e-6
+"""Difference from a whole number of degrees that rounding in radians does not reach."""
 
 
 @view("P", "Q", "rod")
@@ -52,7 +58,7 @@ class LegView:
 @template_members(
     *("form", "S", "pair", "third", "first", "last", "legs", "about", "pivoted", "normals", "later_normals"),
     *("velocity_lines", "acceleration_lines", "axial_lines", "reactions", "joints", "others", "later", "feet"),
-    *("seen", "towards_third", "joint"),
+    *("seen", "towards_third", "joint", "read_finely"),
 )
 class TriadView(AssurView):
     """An Assur group of class III for templates.
@@ -128,6 +134,11 @@ class TriadView(AssurView):
     def joint(self) -> str:
         """The joint of the third leg of the file, whose template curve assembles the group."""
         return self.legs[2].Q
+
+    def read_finely(self, k: int) -> bool:
+        """Return True if the iteration begins with angles read more finely than to a degree at a position."""
+        first, plate = (ternary_ids.trial_angle(0, link) for link in (self.legs[0].link, self.plate))
+        return any(abs(np.sin(np.pi * np.degrees(self.ledger[id].at(k)))) > WHOLE for id in (first, plate))
 
     @property
     def seen(self) -> tuple[NamedPoint, ...]:

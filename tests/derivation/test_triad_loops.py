@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from itertools import pairwise
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -11,10 +12,13 @@ from books import Book, keep
 from made_triads import R1, clear_places, random_linkages
 from test_loops import looped
 
+from reportgen import api
 from reportgen.catalogue import ternary_ids
 from reportgen.catalogue.ternary_loop import MOST
 from reportgen.catalogue.vector_loops import ClosedLoops
 from reportgen.formula import ids
+from reportgen.machine import Crank, Linkage
+from reportgen.machine.kinematics import course_of
 
 RELATIVE = 1e-9
 """Of the greatest size: the iteration ends with errors near the square of 1e-9, and dead points are near."""
@@ -73,6 +77,33 @@ def test_random_chains() -> None:
                 book = keep(linkage, places, 1, pushes)
                 check(book, looped(book))
     assert used >= 7
+
+
+PRESS = Path(__file__).parents[2] / "assignments" / "linkage" / "press-class-iii.yaml"
+LONGER = 0.12
+"""Length (m) of a crank that stops in dead points of the group, before a turn is over."""
+
+
+@pytest.mark.parametrize("linkage", [R1, api.load(PRESS, "en").parameters.linkage], ids=["r1", "press"])
+def test_beside_dead_points_the_iteration_stays_with_its_assembly(linkage: Linkage) -> None:
+    """Down to 0.1° of transmission angle, which no machine may have, it leads to the assembly of the plans.
+
+    Two assemblies are less than a degree apart there: from whole degrees, the iteration leads to the wrong one.
+    """
+    linkage = replace(linkage, driver=Crank("O", "A", LONGER))
+    triad = linkage.triads[0]
+    course = course_of(linkage, triad)
+    first, last = course.driver[[0, -1]]
+    places = np.array([end + inwards * 10.0**-n for end, inwards in ((first, 1), (last, -1)) for n in range(1, 6)])
+    book = keep(linkage, places, 1)
+    looped(book)
+    for link in triad.links:
+        turned = np.exp(1j * (book.b.value(ids.formula_angle(link)) - book.motion.links[link].angle))
+        assert np.abs(turned - 1).max() < RELATIVE, link
+    read = np.degrees(book.b.value(ternary_ids.trial_angle(0, triad.plate)))
+    whole = np.abs(read - np.round(read)) < 1e-6
+    assert whole[[0, 1, 5, 6]].all()
+    assert not whole.all()
 
 
 def test_the_gaps_close_quadratically() -> None:

@@ -124,6 +124,44 @@ def test_the_table_of_the_iteration_adds_up(folder: Path, language: str) -> None
     assert [rows[n][-2] for n in (5, 11, 14, 15)] == [0.0] * 4
 
 
+TOGGLE = """\
+kind: linkage
+positions: {at: [173 deg]}
+parameters:
+  frame: {O: [-112.773 mm, 34.845 mm], B: [300.226 mm, -27.643 mm], C: [67.642 mm, 300.541 mm]}
+  driver: {type: crank, centre: O, pin: A, length: 2 mm, omega1: 20 rad/s}
+  groups:
+    - type: 3RRR
+      plate: 3
+      legs:
+        - {link: 2, joints: [A, D], length: 130 mm}
+        - {link: 4, joints: [B, E], length: 190 mm}
+        - {link: 5, joints: [C, F], length: 150 mm}
+      at: {E: [100 mm, 0 mm], F: [60 mm, 140 mm]}
+      near: {D: [19 mm, 42 mm], F: [117 mm, 159 mm]}
+"""
+"""An eccentric moves the legs of R1 beside a dead point, at a transmission angle of 0.11°."""
+
+
+@pytest.mark.parametrize(
+    ("language", "words"), [("en", "dead point"), ("vi", "vị trí chết"), ("ru", "мёртвому положению"), ("zh", "死点")]
+)
+def test_beside_a_dead_point_the_iteration_begins_with_finer_angles(tmp_path: Path, language: str, words: str) -> None:
+    """The report says why its first angles are not whole degrees, and the last gaps are zero as elsewhere."""
+    file = tmp_path / "toggle.yaml"
+    file.write_text(TOGGLE, encoding="utf-8")
+    blocks = open_case(file, language=language).document().blocks
+    (place,) = (k for k, block in enumerate(blocks) if isinstance(block, Table) and "iteration" in block.key)
+    table = blocks[place]
+    assert isinstance(table, Table)
+    rows = [[_number(cell) for cell in row[2:]] for row in table.rows]
+    assert rows[0][0] == pytest.approx(-6.5)
+    assert rows[1][0] == pytest.approx(-6.8)
+    assert [rows[n][-2] for n in (5, 11, 14, 15)] == [0.0] * 4
+    text = " ".join(str(block) for block in blocks[place - 2 : place])
+    assert words in text
+
+
 def _number(cell: Cell) -> float | None:
     """The number of a cell; None for an empty one."""
     (content,) = cell.inlines
