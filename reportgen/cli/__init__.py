@@ -11,6 +11,7 @@ import os
 import signal
 import sys
 from functools import cache
+from importlib import import_module
 
 TYPE_CHECKING = False
 # Until `main` runs, Ctrl-C is not handled; importing `typing` alone takes as long as everything loaded before.
@@ -27,6 +28,33 @@ STOPPED = "reportgen: đã dừng (interrupted)\n"
 
 COLLECTED = 1_000_000
 """Number of new objects between two garbage collections: a report makes many lasting objects and hardly any cycles."""
+
+COMMANDS = {
+    "edit": "student",
+    "kinds": "student",
+    "new": "student",
+    "check": "student",
+    "build": "student",
+    "watch": "student",
+    "sheet": "student",
+    "compare": "student",
+    "solve": "student",
+    "plot": "export",
+    "figure": "export",
+    "read": "student",
+    "samples": "student",
+    "schema": "student",
+    "variants": "instructor",
+    "batch": "instructor",
+    "key": "instructor",
+    "grade": "instructor",
+    "serve": "serving",
+    "words": "translator",
+    "docs": "documentation",
+}
+"""The commands, each a function of this name, with their modules: in the order of a student's work, then of an
+instructor's.
+"""
 
 
 def main() -> None:
@@ -56,7 +84,7 @@ def main() -> None:
     warnings.simplefilter("always", OutputWarning)
     try:
         language_of_run(sys.argv[1:])
-        sys.exit(_app()(standalone_mode=False, prog_name="reportgen") or 0)
+        sys.exit(_app(*sys.argv[1:2])(standalone_mode=False, prog_name="reportgen") or 0)
     except typer.TyperException as error:
         misused(error)
         sys.exit(WRONG_USAGE)
@@ -90,11 +118,13 @@ def _leave(*_: object) -> None:
 
 
 @cache
-def _app() -> typer.Typer:
-    """Return the commands in the order of the help."""
+def _app(first: str = "") -> typer.Typer:
+    """Return the application with all commands, or with one alone if the `first` word of the line is its name.
+
+    Most of the time of a short command would else go into options of the others.
+    """
     import typer
 
-    from reportgen.cli import documentation, export, instructor, serving, student, translator
     from reportgen.cli.common import begin
     from reportgen.cli.help_texts import Command, Commands
 
@@ -108,31 +138,8 @@ def _app() -> typer.Typer:
         rich_markup_mode=None,
     )
     made.callback()(begin)
-    # In the order of a student's work, then of an instructor's.
-    for command in (
-        student.edit,
-        student.kinds,
-        student.new,
-        student.check,
-        student.build,
-        student.watch,
-        student.sheet,
-        student.compare,
-        student.solve,
-        export.plot,
-        export.figure,
-        student.read,
-        student.samples,
-        student.schema,
-        instructor.variants,
-        instructor.batch,
-        instructor.key,
-        instructor.grade,
-        serving.serve,
-        translator.words,
-        documentation.docs,
-    ):
-        made.command(cls=Command)(command)
+    for name in (first,) if first in COMMANDS else COMMANDS:
+        made.command(cls=Command)(getattr(import_module(f"reportgen.cli.{COMMANDS[name]}"), name))
     return made
 
 
