@@ -13,6 +13,7 @@ from string import Formatter
 from typing import TYPE_CHECKING, Any
 
 from reportgen.base.errors import TemplateError
+from reportgen.base.languages import setting_of
 from reportgen.base.placeholders import place_of
 from reportgen.base.template_access import member
 from reportgen.base.template_access import text as as_text
@@ -415,6 +416,14 @@ def called(report: ReportContext, link: int) -> str:
     """Return the name that a machine of the atlas has for a link, in parentheses; "" if it has none."""
     name = report.own.get("links", {}).get(link, "")
     return report.words["link_called"].format(name=name) if name else ""
+
+
+def links_called(report: ReportContext, group: AssurView) -> str:
+    """Return the links of a group with their names; "" if they have none."""
+    between = ", " if setting_of(report.assignment.language).spaced else "、"
+    names = [called(report, link) for link in group.links]
+    rows = (f"{link}{name}" for link, name in zip(group.links, names, strict=True))
+    return between.join(rows) if any(names) else ""
 
 
 def known_sense(report: ReportContext, side: Side) -> Inlines:

@@ -188,6 +188,7 @@ FUNCTIONS: Mapping[str, Callable[..., Any]] = {
     # words
     "balance_sign": phrases.balance_sign,
     "called": phrases.called,
+    "links_called": phrases.links_called,
     "by_moments": template_equations.by_moments,
     "centre_state": mechanism_figures.centre_state,
     "couple_sense": guide_couples.couple_sense,
