@@ -43,6 +43,8 @@ class DrawingPlate:
     number: int = 0
     first: int = 1
     """Number of the first scene: earlier ones may be on the sheet before."""
+    axis: str = ""
+    """Name of an axis: plates with the same one are enlarged together, so that their diagrams can be compared."""
     larger: Callable[[], DrawingPlate | None] | None = None
     """Function that returns the plate at the next larger standard scale; None if the plate has a fixed scale."""
 

@@ -155,7 +155,7 @@ def plates(case: SolvedTurning) -> Iterator[DrawingPlate]:
         size = on_sheet(case, steps)
         area = Area(*AREAS[size.steps], size.enlarged, mm=case.ledger.printed_unit("mm"))
         scenes: Sequence[Scene] = (lettered(draw(case, area=area).scene),)
-        return DrawingPlate(captions[f"figure-{name}"], (), "curves", tuple(scenes))
+        return DrawingPlate(captions[f"figure-{name}"], (), "curves", tuple(scenes), axis="φ")
 
     for name, draw in FIGURES.items():
         yield enlargeable(partial(plate, name, draw), len(AREAS) - 1)

@@ -96,7 +96,8 @@ def on_sheets(
 def enlarged(plates: Sequence[DrawingPlate], paper: str, form: TitleBlock) -> list[DrawingPlate]:
     """Return the plates of a set, each at the largest standard scale that needs no further sheet.
 
-    The plate that has been enlarged least grows next. Optional plates fill the remaining room.
+    The plate that has been enlarged least grows next, with those of the same axis. Optional plates fill the remaining
+    room.
     """
 
     def sheets(some: Sequence[DrawingPlate]) -> float:
@@ -105,19 +106,28 @@ def enlarged(plates: Sequence[DrawingPlate], paper: str, form: TitleBlock) -> li
         except TooLargeError:
             return math.inf
 
-    def larger(plate: DrawingPlate) -> DrawingPlate | None:
-        return plate.larger() if plate.larger else None
+    def larger(members: Sequence[int]) -> list[DrawingPlate]:
+        """Return larger versions of some plates, [] if one of them cannot be larger."""
+        versions = [best[member].larger for member in members]
+        made = [version() for version in versions if version is not None]
+        grown = [plate for plate in made if plate is not None]
+        return grown if len(grown) == len(members) else []
 
     best, most = list(plates), sheets(plates)
-    growing = {number: one for number, plate in enumerate(plates) if (one := larger(plate))}
+    units: dict[str | int, list[int]] = {}
+    for number, plate in enumerate(plates):
+        units.setdefault(plate.axis or number, []).append(number)
+    growing = {members[0]: (members, grown) for members in units.values() if (grown := larger(members))}
     while growing:
-        number = min(growing, key=lambda one: (growing[one].area / plates[one].area, one))
-        tried = growing.pop(number)
-        with_it = [*best[:number], tried, *best[number + 1 :]]
-        if sheets(with_it) <= most:
-            best = with_it
-            if after := larger(tried):
-                growing[number] = after
+        number = min(growing, key=lambda one: (growing[one][1][0].area / plates[one].area, one))
+        members, tried = growing.pop(number)
+        with_them = [*best]
+        for member, plate in zip(members, tried, strict=True):
+            with_them[member] = plate
+        if sheets(with_them) <= most:
+            best = with_them
+            if after := larger(members):
+                growing[number] = members, after
     return best
 
 

@@ -13,10 +13,14 @@ import pytest
 from reportgen.base.template_folders import languages
 from reportgen.base.units import Language
 from reportgen.cases import open_case
-from reportgen.document import text_of
+from reportgen.document import InlineMath, Text, text_of
+from reportgen.drawing import Label
 from reportgen.flywheel import turning_ids as names
+from reportgen.flywheel.turning_case import TurningPage
 from reportgen.flywheel.turning_file import Parameters
 from reportgen.flywheel.turning_torques import both_torques, steady_run
+from reportgen.formula import Chain, Symbol
+from reportgen.sheets import drawing_sheets
 from tests.report import trees
 
 FOLDER = Path(__file__).parents[2] / "assignments" / "turning-moment"
@@ -178,3 +182,22 @@ def test_the_mean_of_a_long_table_is_only_its_result(tmp_path: Path) -> None:
     case = open_case(file)
     assert case.printed[names.MEAN].written is None
     assert "rows of the table" not in text_of(case.document())
+
+
+@pytest.mark.parametrize("name", ["curve", "two-curves", "press"])
+def test_both_diagrams_of_a_sheet_have_one_scale_of_angles(name: str) -> None:
+    """Otherwise extremes of the energy do not lie below the points at which the torques are equal."""
+    parts = [part for sheet in drawing_sheets(open_case(FOLDER / f"{name}.yaml")) for part in sheet.parts]
+    labels = [item.content for part in parts for item in part.scene.items if isinstance(item, Label)]
+    chains = [content.parts for content in labels if isinstance(content, Chain)]
+    scales = [chain[1] for chain in chains if chain[0] == Symbol("μ", "φ")]
+    assert len(scales) == 2
+    assert scales[0] == scales[1]
+
+
+def test_points_of_equal_energy_are_marked_alike() -> None:
+    """The resisting torque has half the frequency of the driving one, so the energy is symmetrical about 180°."""
+    marks = [row[-1].inlines for row in TurningPage(open_case(FOLDER / "two-curves.yaml")).energy_table.rows]
+    assert marks[0] == (Text(""),)
+    assert marks[1] == marks[3] == (InlineMath(Symbol("E", "max")),)
+    assert marks[2] == (InlineMath(Symbol("E", "min")),)
