@@ -266,6 +266,7 @@ tan: OfOne = partial(call, "tan")
 asin: OfOne = partial(call, "arcsin")
 acos: OfOne = partial(call, "arccos")
 atan: OfOne = partial(call, "arctan")
+ln: OfOne = partial(call, "ln")
 inv: OfOne = partial(call, "inv")
 arcinv: OfOne = partial(call, "arcinv")
 

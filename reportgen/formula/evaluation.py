@@ -299,6 +299,7 @@ FUNCTIONS: Mapping[str, Callable[..., Value]] = {
     "sin": np.sin,
     "cos": np.cos,
     "tan": np.tan,
+    "ln": np.log,
     "arcsin": np.arcsin,
     "arccos": np.arccos,
     "arctan": np.arctan,

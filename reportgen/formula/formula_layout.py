@@ -36,7 +36,7 @@ from reportgen.formula import (
 RELATION, SUM, PRODUCT, QUOTIENT, MARKED, ATOM = range(6)
 """Levels of binding, the loosest first; MARKED is an atom that already has a unit or superscript."""
 PRIMES = "′″"
-NAMED = frozenset({"sin", "cos", "tan", "arcsin", "arccos", "arctan", "min", "max", "arg"})
+NAMED = frozenset({"sin", "cos", "tan", "arcsin", "arccos", "arctan", "ln", "min", "max", "arg"})
 """Functions that typesetters know by name; any other prints its own name upright."""
 BARE = NAMED | {"inv", "arcinv"}
 """Functions whose argument needs no parentheses."""

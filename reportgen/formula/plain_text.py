@@ -68,6 +68,7 @@ def quantity(number: Number, language: Language) -> str:
 
 NUMPY: Mapping[str, str] = {
     **{name: f"np.{name}({{}})" for name in ("sin", "cos", "tan", "arcsin", "arccos", "arctan")},
+    "ln": "np.log({})",
     "arctan2": "np.arctan2({}, {})",
     "min": "np.minimum({}, {})",
     "max": "np.maximum({}, {})",

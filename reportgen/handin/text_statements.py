@@ -72,7 +72,7 @@ _NAMES = re.compile(
 )
 _GIVEN = re.compile(rf"\s*{NUMBER}\s*(?:{UNIT}(?![\w/])|[;÷±…]|\s[^\W\d_]{{2,}})")
 """A number that was meant as a value, whatever follows it."""
-_FUNCTIONS = frozenset({"sin", "cos", "tan", "tg", "cotg", "arctan", "arcsin", "arccos", "arctg", "π", "pi", "x"})
+_FUNCTIONS = frozenset({"sin", "cos", "tan", "tg", "cotg", "arctan", "arcsin", "arccos", "arctg", "ln", "π", "pi", "x"})
 
 
 @dataclass(frozen=True, slots=True)

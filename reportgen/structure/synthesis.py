@@ -1,4 +1,4 @@
-"""The kind `synthesis`: a crank-rocker or slider-crank from its extreme positions, and the checks of its data."""
+"""The kind `synthesis`: a mechanism from its extreme positions, or through three points; the checks of its data."""
 
 from __future__ import annotations
 
@@ -9,11 +9,12 @@ from typing import TYPE_CHECKING, Any
 from reportgen.assignment.checks import of_parameters, one_of
 from reportgen.base.errors import Finding
 from reportgen.structure import synthesis_file
-from reportgen.structure.synthesis_file import CRANK_ROCKER, OF_TASK, REQUIRED, SLIDER_CRANK
+from reportgen.structure.synthesis_file import CRANK_ROCKER, KEYS, OF_FUNCTION, REQUIRED, SLIDER_CRANK, THREE_POINTS
 
 if TYPE_CHECKING:
     from reportgen.assignment import Assignment
     from reportgen.structure.synthesis_case import SynthesisCase
+    from reportgen.structure.three_point_case import ThreePointCase
 
 Parameters = synthesis_file.Parameters
 TURNS = 1
@@ -28,15 +29,26 @@ SYMBOLS: Mapping[str, Mapping[str, str]] = {
 """Symbols of the lengths that `solve` prints, by their names in the results."""
 
 
-def case(assignment: Assignment) -> SynthesisCase:
+def case(assignment: Assignment) -> SynthesisCase | ThreePointCase:
     """Return the case of an assignment."""
+    if assignment.parameters.task == THREE_POINTS:
+        from reportgen.structure.three_point_case import ThreePointCase
+
+        return ThreePointCase(assignment)
     from reportgen.structure.synthesis_case import SynthesisCase
 
     return SynthesisCase(assignment)
 
 
 def table_rows(position: Mapping[str, Any]) -> dict[str, dict[str, float]]:
-    """Return the rows of results that `solve` prints: the circle, lengths (m) and angles (°) of each solution."""
+    """Return the rows of results that `solve` prints: the circle, lengths (m) and angles (°) of each solution.
+
+    Through three points there are the links, the pairs of angles, and the structural errors of a function.
+    """
+    if "lengths" in position:
+        from reportgen.structure.three_point_case import solve_rows
+
+        return solve_rows(position)
     circle, solutions = position["circle"], position["solutions"]
     task = CRANK_ROCKER if "rocker" in next(iter(solutions.values())) else SLIDER_CRANK
     rows = {"circle": {"θ": math.degrees(circle["theta"]), "ρ": circle["radius"]}}
@@ -51,18 +63,20 @@ def table_rows(position: Mapping[str, Any]) -> dict[str, dict[str, float]]:
 
 def check(given: Parameters) -> Iterator[Finding]:
     """Yield the faults of the keys. If there are none, yield the reason why no mechanism exists."""
-    yield from [*_of_keys(given)] or _of_solutions(given)
+    yield from [*_of_keys(given)] or (_of_points(given) if given.task == THREE_POINTS else _of_solutions(given))
 
 
 def _of_keys(given: Parameters) -> Iterator[Finding]:
     """Require the keys of the task, and no keys of another one."""
-    for key in REQUIRED[given.task]:
+    required = [*REQUIRED[given.task]]
+    if given.function is not None and given.task == THREE_POINTS:
+        required += [*OF_FUNCTION, *(["exponent"] if given.function == "power" else [])]
+    for key in required:
         if getattr(given, key) is None:
             yield Finding("missing-key", (*TOP, key), {"key": key})
-    for task, keys in OF_TASK.items():
-        for key in keys if task != given.task else ():
-            if getattr(given, key) is not None:
-                yield Finding("synthesis-other-task", (*TOP, key), {"key": key, "task": given.task}, at="key")
+    for key in {key: None for keys in KEYS.values() for key in keys}:
+        if getattr(given, key) is not None and key not in KEYS[given.task]:
+            yield Finding("synthesis-other-task", (*TOP, key), {"key": key, "task": given.task}, at="key")
 
 
 def _of_solutions(given: Parameters) -> Iterator[Finding]:
@@ -76,6 +90,7 @@ def _of_solutions(given: Parameters) -> Iterator[Finding]:
     extent = task.cranks() if selecting == "a" else task.frames()
     if extent is None:
         # Only of a slider-crank: before the chord of a rocker, near C₂, some place of A always works.
+        assert given.K is not None
         yield Finding("synthesis-ratio", (*TOP, "K"), {"text": given.K.text})
         return
     if selecting is None:
@@ -91,9 +106,39 @@ def _of_solutions(given: Parameters) -> Iterator[Finding]:
         yield Finding("synthesis-none", (*TOP, selecting), about)
 
 
+def _of_points(given: Parameters) -> Iterator[Finding]:
+    """Require three different pairs of angles that a linkage goes through without being taken apart."""
+    from reportgen.structure.three_point_solution import pairs_of, value_of
+
+    if given.pairs is None and given.function is None:
+        return
+    if given.pairs is None:
+        ends = {"x": given.x, "driver": given.driver, "follower": given.follower}
+        for key, both in ends.items():
+            if both is not None and both[0] == both[1]:
+                yield Finding("synthesis-no-range", (*TOP, key), {"key": key})
+                return
+        assert given.x is not None
+        low, high = sorted(given.x)
+        values = [value_of(given, x) for x in (low, (low + high) / 2, high)]
+        pole = given.exponent is not None and given.exponent < 0 and low <= 0 <= high
+        if pole or not all(map(math.isfinite, values)):
+            yield Finding("synthesis-undefined", (*TOP, "x"), {"low": f"{low:g}", "high": f"{high:g}"})
+            return
+        if values[0] == values[2]:
+            yield Finding("synthesis-equal-values", (*TOP, "x"), {"low": f"{low:g}", "high": f"{high:g}"})
+            return
+    pairs, where = pairs_of(given), "pairs" if given.pairs is not None else "driver"
+    if pairs.lengths is None:
+        yield Finding("synthesis-no-linkage", (*TOP, where))
+    elif pairs.side is None:
+        yield Finding("synthesis-branch", (*TOP, where))
+
+
 CHECKS = (
     one_of("parameters", "a", "d", "best", form=("task", CRANK_ROCKER)),
     one_of("parameters", "e", "best", form=("task", SLIDER_CRANK)),
+    one_of("parameters", "pairs", "function", form=("task", THREE_POINTS)),
     of_parameters(check),
 )
 
@@ -103,6 +148,8 @@ CHECKS = (
 
 def _poor(assignment: Assignment) -> Iterator[Finding]:
     """Warn about a least transmission angle below the permitted one, with the greatest on the required side."""
+    if assignment.parameters.task == THREE_POINTS:
+        return
     from reportgen.structure.synthesis_case import SynthesisCase
 
     case = SynthesisCase(assignment)

@@ -4,32 +4,48 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
+from pydantic import Field
+
 from reportgen.assignment.common import Part
-from reportgen.assignment.fields import Length, SpeedRatio, SwingAngle, quantity
+from reportgen.assignment.fields import Angle, Decimal, Interval, Length, SpeedRatio, SwingAngle, quantity
 from reportgen.base.template_access import template_members
 from reportgen.base.units import Given
 
-CRANK_ROCKER, SLIDER_CRANK = "crank-rocker", "slider-crank"
-OF_TASK = {CRANK_ROCKER: ("psi", "c", "a", "d", "A"), SLIDER_CRANK: ("H", "e")}
-"""Keys of a task that the others do not have; the first are required."""
-REQUIRED = {CRANK_ROCKER: ("psi", "c"), SLIDER_CRANK: ("H",)}
+CRANK_ROCKER, SLIDER_CRANK, THREE_POINTS = "crank-rocker", "slider-crank", "three-points"
+OF_FUNCTION = "x", "driver", "follower"
+"""Keys that a function requires."""
+KEYS = {
+    CRANK_ROCKER: ("K", "psi", "c", "a", "d", "best", "A"),
+    SLIDER_CRANK: ("K", "H", "e", "best"),
+    THREE_POINTS: ("function", "exponent", *OF_FUNCTION, "pairs", "d"),
+}
+"""Keys that a task can have, besides `gamma`."""
+REQUIRED = {CRANK_ROCKER: ("K", "psi", "c"), SLIDER_CRANK: ("K", "H"), THREE_POINTS: ("d",)}
 
+Argument = Annotated[float, Decimal(Interval(least=-1e6, most=1e6))]
+Arguments = Annotated[tuple[Argument, ...], Field(min_length=2, max_length=2)]
+Exponent = Annotated[float, Decimal(Interval(least=-10, most=10))]
+TwoAngles = Annotated[tuple[Angle, ...], Field(min_length=2, max_length=2)]
+ThreePairs = Annotated[tuple[TwoAngles, ...], Field(min_length=3, max_length=3)]
 TransmissionAngle = Annotated[Given, quantity("deg", least=1, most=89)]
 USUAL = Given(0.6981317007977318, 40.0, "deg", "40 deg")
 """Usual least transmission angle."""
 
 
-@template_members("task", "a", "d", "e", "best")
+@template_members("task", "a", "d", "e", "best", "function")
 class Parameters(Part):
     """The wanted motion of a mechanism, and what selects a solution.
 
     A crank-rocker has the swing `psi` and the length `c` of its rocker; the crank `a`, the frame `d` or the `best`
     transmission selects a solution; its A may be required to be `beyond` the chord of the rocker's pin or `before` it.
-    A slider-crank has the stroke `H`; the offset `e` or the `best` transmission selects a solution.
+    A slider-crank has the stroke `H`; the offset `e` or the `best` transmission selects a solution. A four-bar linkage
+    through three points has the frame `d` and three `pairs` of angles of crank and follower from the frame line AD, or
+    a `function` of `x`, which runs from end to end while the crank turns over the range `driver` and the follower over
+    the range `follower`.
     """
 
-    task: Literal["crank-rocker", "slider-crank"]
-    K: SpeedRatio
+    task: Literal["crank-rocker", "slider-crank", "three-points"]
+    K: SpeedRatio | None = None
     psi: SwingAngle | None = None
     c: Length | None = None
     a: Length | None = None
@@ -38,4 +54,10 @@ class Parameters(Part):
     e: Length | None = None
     best: Literal["transmission"] | None = None
     A: Literal["beyond", "before"] | None = None
+    function: Literal["ln", "exp", "power"] | None = None
+    exponent: Exponent | None = None
+    x: Arguments | None = None
+    driver: TwoAngles | None = None
+    follower: TwoAngles | None = None
+    pairs: ThreePairs | None = None
     gamma: TransmissionAngle = USUAL

@@ -5,10 +5,12 @@ Solutions are numbered: 1 with the crank's centre beyond the chord of the driven
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 
 from reportgen.formula.ids import Name
 from reportgen.formula.vocabulary import KeyChapter, QuantityKind, VocabularyRow
+from reportgen.structure import three_point_names
 
 centre = Name("synthesis.O.{number}")
 along = Name("synthesis.beta.{number}")
@@ -32,7 +34,11 @@ ANGLE, RADIUS, BEST = "synthesis.theta", "synthesis.rho", "synthesis.best"
 FARTHEST = "synthesis.farthest"
 """The offset from which on one end of the stroke is below the crank's centre."""
 
-KINDS: Mapping[str, QuantityKind] = {"length in mm": QuantityKind("mm", 1e-3)}
+KINDS: Mapping[str, QuantityKind] = {
+    "length in mm": QuantityKind("mm", 1e-3),
+    # Structural errors are hundredths of a degree.
+    "fine angle": QuantityKind("°", math.pi / 180, decimals=4),
+}
 
 _G, _V = KeyChapter.geometry, KeyChapter.velocity
 _LENGTH = "length in mm"
@@ -64,4 +70,5 @@ ROWS: tuple[VocabularyRow, ...] = (
     VocabularyRow(transmission, "γ", "angle", _V, name="synthesis transmission"),
     VocabularyRow(Name(BEST), "γ", "angle", _V, below="max"),
     VocabularyRow(Name(FARTHEST), "e", _LENGTH, _G, below="max"),
+    *three_point_names.ROWS,
 )

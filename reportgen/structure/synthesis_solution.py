@@ -24,6 +24,7 @@ NEAR = 1e-9
 
 def wanted(given: Parameters) -> ExtremePositions:
     """Return the extreme positions that a file asks for; its required keys are there."""
+    assert given.K is not None
     if given.task == CRANK_ROCKER:
         assert given.psi is not None
         assert given.c is not None
@@ -119,6 +120,7 @@ class SolvedSynthesis(DesignCase):
     def calculation(self) -> Calculation:
         q, given = Calculation(), self.given
         q.give(names.SCAN, 1.0, hidden=True)
+        assert given.K is not None
         q.give(names.K, given.K.si)
         data = {names.SWING: given.psi, names.ROCKER: given.c, names.STROKE: given.H}
         data |= {names.CRANK: given.a, names.FRAME: given.d, names.OFFSET: given.e, names.PERMITTED: given.gamma}

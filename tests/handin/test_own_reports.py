@@ -47,6 +47,19 @@ LEFT: dict[tuple[Extent, str], str] = {
     ("full", "turning.A.2"): "a side of its line is broken before a sign, and is not read on",
     ("short", "turning.A.2"): "a side of its line is broken before a sign, and is not read on",
 }
+LEFT |= {
+    (extent, f"synthesis.{name}"): reason
+    for extent in EXTENTS
+    for names, reason in {
+        ("phi.*", "follower.*"): "it is last in a difference of cosines, whose value could be its own",
+        ("direction.*", "mu", "error"): "a line with several arguments is not read back",
+        ("factor.3",): "a side of its line is broken before a sign, and is not read on",
+    }.items()
+    for name in names
+}
+LEFT |= {
+    ("short", f"synthesis.{name}.[234]"): "a short report works out the first place" for name in ("actual", "opening")
+}
 """Why a report goes without a quantity that is asked for: the reason by the extent and a pattern of ids."""
 
 

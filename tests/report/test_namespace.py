@@ -37,11 +37,15 @@ OTHERS = {
     "engine-balance/v-six.yaml": {"catalogue/engine-balance.md"},
     "turning-moment/curve.yaml": {"catalogue/turning-moment.md"},
     "structure/geared-bars.yaml": {"catalogue/structure.md"},
-    "synthesis/best-crank-rocker.yaml": {"catalogue/synthesis.md"},
-    "synthesis/crank-rocker-by-frame.yaml": {"catalogue/synthesis.md"},
-    "synthesis/slider-crank-by-offset.yaml": {"catalogue/synthesis.md"},
+    "synthesis/best-crank-rocker.yaml": {"catalogue/synthesis.md#synthesis-"},
+    "synthesis/crank-rocker-by-frame.yaml": {"catalogue/synthesis.md#synthesis-"},
+    "synthesis/slider-crank-by-offset.yaml": {"catalogue/synthesis.md#synthesis-"},
+    "synthesis/three-points-logarithm.yaml": {"catalogue/synthesis.md#three-points-"},
 }
-"""The files of words of each kind of work that is no machine, by one of its assignments."""
+"""The files of words of each kind of work that is no machine, by one of its assignments.
+
+A file with sections for several tasks stands with the beginning of their names behind #.
+"""
 Sections = Mapping[tuple[Path, str], nodes.Template]
 OF_TOPICS = {name for hooks in VIEWS.among(topics()) for name in (*hooks.values, *hooks.functions)}
 OF_REPORT = {*template_names.PROPERTIES, *template_names.VALUES, *template_names.FUNCTIONS, *OF_TOPICS}
@@ -64,11 +68,17 @@ def parsed() -> Sections:
 
 
 def of_machines() -> Sections:
-    return {place: tree for place, tree in parsed().items() if named(place[0]) not in set().union(*OTHERS.values())}
+    others = {file.partition("#")[0] for files in OTHERS.values() for file in files}
+    return {place: tree for place, tree in parsed().items() if named(place[0]) not in others}
 
 
 def of_another(file: str) -> Sections:
-    return {place: tree for place, tree in parsed().items() if named(place[0]) in OTHERS[file]}
+    wanted = [one.partition("#") for one in OTHERS[file]]
+    return {
+        (path, section): tree
+        for (path, section), tree in parsed().items()
+        if any(named(path) == name and section.startswith(prefix) for name, _, prefix in wanted)
+    }
 
 
 def named(path: Path) -> str:
