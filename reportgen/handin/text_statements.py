@@ -8,6 +8,7 @@ means.
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 from reportgen.handin.symbol_matching import Symbols, bare
@@ -60,6 +61,8 @@ _COMPLETE = re.compile(rf"{NUMBER}\s*(?:{UNIT}|[(\[]\s*{UNIT}\s*[)\]])[.,]?$")
 _APART = re.compile(
     rf"(?:;|\n|⇒|=>|→|(?<!\(){any_of('hence')}|,\s+(?=[^\d\s])|\.\s+(?=[^\W\d]))(?!\s*[=≈])", re.IGNORECASE
 )
+_OF_SEVERAL = re.compile(r"(?<![^\W\d_])(?:min|max)\s*\((?:[^()]++|\([^()]*+\))*+\)", re.IGNORECASE)
+"""The least or greatest of several values, between which no clause ends."""
 _TAIL = re.compile(
     rf"\s*({NUMBER})\s*(?:[(\[]\s*({UNIT})\s*[)\]]|({UNIT}))?\s*[.,;:]?\s*((?:\([^()=\d][^()=]*\)|[^()=\d]*)\s*[.,;:]?)"
     r"(?:(?<=\s)\s*[(\[]\d{1,2}(?:[.-]\d{1,3})*[a-z]?[)\]][.,;]?)?\s*"
@@ -99,7 +102,7 @@ class Statement:
     @property
     def clauses(self) -> list[str]:
         """Its text in clauses, of which the first is its own."""
-        return _APART.split(self.text)
+        return list(_clauses(self.text))
 
 
 @dataclass(frozen=True, slots=True)
@@ -124,6 +127,17 @@ class StatedValue:
     def text(self) -> str:
         """The number and its unit as written."""
         return f"{self.number.strip()} {self.unit}".strip()
+
+
+def _clauses(text: str) -> Iterator[str]:
+    """Yield the clauses of a text."""
+    whole = [match.span() for match in _OF_SEVERAL.finditer(text)]
+    start = 0
+    for match in _APART.finditer(text):
+        if not any(first < match.start() < last for first, last in whole):
+            yield text[start : match.start()]
+            start = match.end()
+    yield text[start:]
 
 
 def statements(text: str, symbols: Symbols) -> list[Statement]:

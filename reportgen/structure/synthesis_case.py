@@ -15,10 +15,10 @@ from reportgen.base.units import MM
 from reportgen.case.design_case import DesignPage
 from reportgen.case.result_entries import ResultEntries
 from reportgen.catalogue.extreme_positions import BEYOND, PivotPlace
-from reportgen.document import Column, InlineMath, Inlines, Table, Text, Value
+from reportgen.document import Column, Equation, InlineMath, Inlines, Table, Text, Value
 from reportgen.drawing import Scene
 from reportgen.drawing.plates import DrawingPlate
-from reportgen.formula import Number, Symbol
+from reportgen.formula import Chain, Number, Symbol
 from reportgen.sheets.plates import drawn
 from reportgen.structure import synthesis_drawings
 from reportgen.structure import synthesis_ids as ids
@@ -31,7 +31,7 @@ NARROW, WIDE = 22.0, 26.0
 @view()
 @dataclass(frozen=True, slots=True)
 class SolutionView:
-    """A solution for the templates: the ids of its worked lines, and words that depend on it."""
+    """A solution for the templates: the ids of its worked lines, β, and what its words depend on."""
 
     centre: Sequence[str]
     place: Sequence[str]
@@ -41,7 +41,7 @@ class SolutionView:
     transmission: Sequence[str]
     pivot: Symbol
     beyond: bool
-    along: str
+    along: tuple[Equation, ...]
     delta: str
     angle: str
 
@@ -93,13 +93,14 @@ class SynthesisPage(DesignPage[SolvedSynthesis]):
     def solution(self, place: PivotPlace, lines: Mapping[str, list[str]]) -> SolutionView:
         """Return a solution for the templates."""
         case, n = self.case, number_of(place)
+        worked = case.printed.chain(ids.along(case.number_of_crank(n))).parts
         of = {name: lines.get(f"{name}{n}", []) for name in ("centre", "place", "links", "branch", "grashof")}
         return SolutionView(
             **of,
             transmission=lines.get(f"transmission{n}", []),
             pivot=Symbol("A", "", case.mark(n)),
             beyond=place.side == BEYOND,
-            along=ids.along(case.number_of_crank(n)),
+            along=(Equation((Chain((worked[0], worked[-1])),)),),
             delta=ids.pivot_angle(n),
             angle=ids.transmission(n),
         )
