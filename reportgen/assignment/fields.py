@@ -381,10 +381,29 @@ class Either(Reader):
         return self.first.schema() | {"examples": [f"1 {one.unit}" for one in (self.first, self.second)]}
 
 
+FIND = "find"
+"""Word in place of a quantity that the program is to find."""
+
+
+@dataclass(frozen=True, slots=True)
+class Sought(Reader):
+    """A quantity, or None for `find`."""
+
+    given: Quantity
+
+    def read(self, value: object) -> Given | None:
+        return None if value == FIND else self.given.read(value)
+
+    def schema(self) -> dict[str, Any]:
+        return {"anyOf": [{"const": FIND}, self.given.schema()]}
+
+
 OneLine = Annotated[str, TypedText()]
 Date = Annotated[datetime.date, Day()]
 Length = Annotated[Given, quantity("mm", least=0.1, below=1e5)]
+FoundLength = Annotated[Given | None, Sought(quantity("mm", least=0.1, below=1e5))]
 Coordinate = Annotated[Given, quantity("mm", above=-1e5, below=1e5, tiny=1e-4)]
+FoundCoordinate = Annotated[Given | None, Sought(quantity("mm", above=-1e5, below=1e5, tiny=1e-4))]
 PointCoordinates = Annotated[tuple[Coordinate, ...], Field(min_length=2, max_length=2)]
 Offset = Annotated[Given, quantity("mm", least=0, below=1e5, tiny=1e-4)]
 Angle = Annotated[Given, quantity("deg", least=-360, most=360, tiny=1e-6)]

@@ -16,9 +16,9 @@ from reportgen.assignment.fields import (
     Decimal,
     Interval,
     Length,
-    Quantity,
     Reader,
     RotationalSpeed,
+    Sought,
     Whole,
     fault,
     quantity,
@@ -38,22 +38,8 @@ from reportgen.cam.motion_laws import (
 )
 from reportgen.cam.profile import Cam
 
-FIND = "find"
 ALLOWED = 1e-9
 """A pressure angle may exceed its limit by this rounding error (rad)."""
-
-
-@dataclass(frozen=True, slots=True)
-class Sought(Reader):
-    """A quantity, or None for `find`."""
-
-    given: Quantity
-
-    def read(self, value: object) -> Given | None:
-        return None if value == FIND else self.given.read(value)
-
-    def schema(self) -> dict[str, Any]:
-        return {"anyOf": [{"const": FIND}, self.given.schema()]}
 
 
 @dataclass(frozen=True, slots=True)

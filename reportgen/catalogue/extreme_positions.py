@@ -31,6 +31,8 @@ ON_CHORD = 1e-9
 """A place of A nearer to an end of its arc (rad) is the end itself: the arc cosine and the arc sine that give the place
 have at least nine digits. At an end A is at C₂, crank and coupler are equal, and the mechanism folds up.
 """
+NEAR = 1e-9
+"""Two least transmission angles that differ by less (rad) are equal."""
 BEYOND, BEFORE = 1, -1
 """Sides of the chord C₁C₂ on which A may be, seen from the fixed end of the rocker."""
 SIDES = {"beyond": BEYOND, "before": BEFORE}
@@ -161,6 +163,35 @@ class ExtremePositions(ABC):
         """Return the places of A for a crank of this length (m) that give a mechanism which works."""
         sine = length / (2 * self.radius * math.sin(self.angle / 2))
         return self._working(PivotPlace(side, 2 * math.asin(sine)) for side in self.sides if sine <= 1)
+
+    @abstractmethod
+    def with_frame(self, length: float) -> list[PivotPlace]:
+        """Return the places of A for a frame (or offset) of this length (m) that give a mechanism which works."""
+
+    def places(
+        self, crank: float | None = None, frame: float | None = None, side: int | None = None
+    ) -> list[PivotPlace]:
+        """Return the places of A that give a mechanism which works; [] without any.
+
+        A length (m) selects them, of the crank or of the frame (or offset), else the best transmission on each side of
+        the chord; with a `side` the other one is left out.
+        """
+        if crank is not None:
+            every = self.with_crank(crank)
+        elif frame is not None:
+            every = self.with_frame(frame)
+        else:
+            every = [place for one in self.sides if (place := self.best(one)) is not None]
+        return [place for place in every if side in (None, place.side)]
+
+    def least_transmission(self, place: PivotPlace) -> float:
+        """Return the least transmission angle of a solution (rad)."""
+        return float(self.transmission(place.side, np.array(place.along)))
+
+    def chosen(self, places: Sequence[PivotPlace]) -> PivotPlace:
+        """Return the place with the greatest least transmission angle; of equal ones, the first."""
+        greatest = max(map(self.least_transmission, places))
+        return next(place for place in places if self.least_transmission(place) > greatest - NEAR)
 
     def _working(self, places: Iterable[PivotPlace]) -> list[PivotPlace]:
         end = math.pi - self.angle - ON_CHORD

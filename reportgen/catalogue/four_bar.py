@@ -15,15 +15,17 @@ from collections.abc import Iterable, Iterator, Mapping
 from functools import partial
 from typing import Literal
 
-from reportgen.assignment.checks import of_turning
+from reportgen.assignment.checks import of_parameters, of_turning
 from reportgen.assignment.common import Assignment, Part
-from reportgen.assignment.fields import Angle, Coordinate, ForceSize, Length
+from reportgen.assignment.fields import Angle, Coordinate, ForceSize, FoundLength, Length
 from reportgen.base.arrays import Floats
 from reportgen.base.errors import Finding
 from reportgen.base.units import Given
 from reportgen.catalogue import assembly_checks
 from reportgen.catalogue.crank_sliders import arm_of, compared, components
-from reportgen.catalogue.driven_machine import driven
+from reportgen.catalogue.driven_machine import KindSections, driven
+from reportgen.catalogue.extreme_formulas import STRAIGHT
+from reportgen.catalogue.found_lengths import LengthSearch, WantedSwing, find_four_bar, rocker_search
 from reportgen.catalogue.given_data import GivenData, accelerated, accelerating, cycle_angles, driver_acceleration
 from reportgen.catalogue.given_loads import LinkTorque, torque_on
 from reportgen.catalogue.parameters import Driven
@@ -32,7 +34,6 @@ from reportgen.formula import (
     Chain,
     Expression,
     Matrix,
-    Number,
     Ref,
     Symbol,
     acos,
@@ -53,8 +54,6 @@ from reportgen.machine import Crank, Dyad, Linkage, LinkPoint
 from reportgen.machine.analysis import Machine
 from reportgen.machine.load_laws import ConstantLaw
 from reportgen.machine.loads import Applied, fixed
-
-STRAIGHT = Number(180.0, None, "°")
 
 
 def _rocks(q: Calculation) -> bool:
@@ -78,13 +77,16 @@ def cosine(a: Expression, b: Expression, opposite: Expression) -> Expression:
 
 
 def proportions(q: Calculation) -> None:
-    """Enter Grashof's two sums; for a rocker the extreme positions C₁, C₂, its swing ψ and the ratio of times K."""
+    """Enter Grashof's two sums; for a rocker the extreme positions C₁, C₂, its swing ψ and the ratio of times K.
+
+    Lengths that were found from swing and ratio do not give them again.
+    """
     AB, BC, CD, AD = sides = tuple(q[ids.length(id)] for id in ("AB", "BC", "DC", "AD"))
     first, second, third, last = sorted(sides, key=q.si)
     ends = q.define("sum.ends", first + last, Symbol("l", "", "′"), "length")
     q.set_out("sums", ends, q.define("sum.others", second + third, Symbol("l", "", "″"), "length"))
     q.set_out("swing")
-    if not _rocks(q) or not _turns(q):
+    if "rho" in q or not _rocks(q) or not _turns(q):
         return
     extremes(q, AB, BC, CD, ("AC1", "AC2"), frame=AD, square=AD**2)
 
@@ -269,12 +271,16 @@ class LinkForce(Part):
 
 
 class Parameters(Driven, masses=(1, 2, 3), moments=(1, 2, 3), shares=(1, 2, 3), loads=("torque", "force")):
-    """Lengths, the branch, the speed; coupler points, masses and loads only if they are given."""
+    """Lengths, the branch, the speed; coupler points, masses and loads only if they are given.
 
-    AB: Length
-    BC: Length
+    AB, BC and AD may be found from the `swing` that they are to give the rocker.
+    """
+
+    AB: FoundLength
+    BC: FoundLength
     CD: Length
-    AD: Length
+    AD: FoundLength
+    swing: WantedSwing | None = None
     frame: Angle = Given(0.0, 0.0, "deg", "0 deg")
     branch: Literal["open", "crossed"] = "open"
     link3: Literal["rocker", "crank"] | None = None
@@ -288,12 +294,20 @@ class Parameters(Driven, masses=(1, 2, 3), moments=(1, 2, 3), shares=(1, 2, 3), 
         """+1 if C lies to the left of the line from B to D, else −1."""
         return 1 if self.branch == "open" else -1
 
+    @property
+    def search(self) -> LengthSearch:
+        """The search for the lengths that are not given."""
+        return rocker_search(self.swing, self.AB, self.BC, self.AD, self.CD)
+
 
 def _calculation(given: Parameters, crank: Given | None = None) -> GivenData:
     """Return the given data, coupler points, mass centres, masses, moments of inertia and Grashof's sums."""
     q = GivenData(given)
     for id, length in {"AB": given.AB, "BC": given.BC, "DC": given.CD, "AD": given.AD}.items():
-        q.datum(ids.length(id), length, Symbol("l", "CD" if id == "DC" else id))
+        if length is not None:
+            q.datum(ids.length(id), length, Symbol("l", "CD" if id == "DC" else id))
+    if given.swing is not None:
+        find_four_bar(q, given.swing, given.search)
     if given.frame.si:
         q.datum("frame", given.frame, "α", "angle")
     q.speed()
@@ -335,6 +349,8 @@ def _linkage(given: Parameters, q: GivenData) -> Linkage:
 @of_turning
 def _check_turning(given: Parameters) -> Iterator[Finding]:
     """Yield faults unless the crank turns fully, without dead points, and link 3 moves as the file says."""
+    if list(given.search.findings()):
+        return
     linkage = _linkage(given, _calculation(given))
     obstacles = list(
         assembly_checks.findings(linkage, {(2, 3): assembly_checks.Member("BC, CD", ("parameters", "BC"))})
@@ -347,7 +363,13 @@ def _check_turning(given: Parameters) -> Iterator[Finding]:
             yield Finding(code, ("parameters", "link3"), {"link": "3", "rods": "CD"})
 
 
-CHECKS = (_check_turning,)
+@of_parameters
+def _check_found(given: Parameters) -> Iterator[Finding]:
+    """Yield faults unless the lengths are all given, or the requested swing gives the others."""
+    yield from given.search.findings()
+
+
+CHECKS = (_check_found, _check_turning)
 
 
 def machine(assignment: Assignment) -> Machine:
@@ -367,6 +389,7 @@ def machine(assignment: Assignment) -> Machine:
         q,
         linkage,
         start,
+        KindSections() if given.swing is None else KindSections(sizes="synthesis"),
         formulas=lambda q: analytic_method(q, φ1, points, turn, turn * given.side),
         applied=()
         if force is None
@@ -379,6 +402,8 @@ def machine(assignment: Assignment) -> Machine:
             "form": ("rocker" if _rocks(q) else "crank") if _turns(q) else "part",
             "side": "left" if turn * given.side > 0 else "right",
             "branch": "left" if given.side > 0 else "right",
+            "selected": given.search.selected_by,
+            "pivot": given.search.pivot,
             "coupler": "EF" if given.E and given.BF else "E" if given.E else "F" if given.BF else "plain",
         },
     )

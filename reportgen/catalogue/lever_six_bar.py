@@ -15,14 +15,15 @@ from reportgen.assignment.common import Assignment, Part, Positions
 from reportgen.assignment.fields import Coordinate, ForceSize, Length, SpeedRatio, SwingAngle
 from reportgen.base.errors import Finding
 from reportgen.base.units import Given
-from reportgen.catalogue import assembly_checks
+from reportgen.catalogue import assembly_checks, extreme_formulas
 from reportgen.catalogue.declared_loads import against
 from reportgen.catalogue.driven_machine import KindSections, driven
-from reportgen.catalogue.four_bar import STRAIGHT, extremes
+from reportgen.catalogue.extreme_positions import SIDES
+from reportgen.catalogue.four_bar import extremes
 from reportgen.catalogue.given_data import CRANK_DRAWN, GivenData
 from reportgen.catalogue.parameters import Driven, FixedPoint
 from reportgen.catalogue.vector_loops import ClosedLoops
-from reportgen.formula import Number, Symbol, acos, cos, ids, sin, sqrt, turned
+from reportgen.formula import Number, Symbol, acos, cos, ids, sqrt, turned
 from reportgen.formula.calculation import Calculation
 from reportgen.formula.vocabulary import drawn_length
 from reportgen.machine import Crank, Dyad, Guide, Linkage, LinkPoint
@@ -115,10 +116,9 @@ def _synthesis(q: GivenData, asked: Swing) -> None:
     ψ, K = q.datum("swing", asked.angle, "ψ", "angle"), q.datum("K", asked.K)
     x, y, CD = q["D.x"], q["D.y"], q["l.DC"]
     BD = q.define("l.BD", sqrt(x**2 + y**2))
-    θ = q.define("theta", STRAIGHT * (K - 1) / (K + 1))
-    ρ = q.define("rho", CD * sin(ψ / 2) / sin(θ), "ρ", "length")
-    to_centre = ρ * cos(θ)
-    DO = q.define("l.DO", CD * cos(ψ / 2) + (to_centre if asked.B == "beyond" else -to_centre))
+    θ = q.define("theta", extreme_formulas.angle_of_sight(K))
+    ρ = q.define("rho", extreme_formulas.radius_by_swing(CD, ψ, θ), "ρ", "length")
+    DO = q.define("l.DO", extreme_formulas.height_of_centre(CD, ψ, ρ, θ, SIDES[asked.B]))
     δ = q.define("delta", acos((BD**2 + DO**2 - ρ**2) / (2 * BD * DO)), "δ", "angle")
     q.set_out("circle", BD, θ, ρ, DO, δ)
     ends = []
@@ -126,8 +126,8 @@ def _synthesis(q: GivenData, asked: Swing) -> None:
         at_D = q.define(ids.outer_angle(number), δ + half, Symbol("ψ", number), "angle")
         ends.append(q.define(ids.length("B", f"C{number}"), sqrt(BD**2 + CD**2 - 2 * BD * CD * cos(at_D))))
         q.set_out("circle", at_D, ends[-1])
-    q.set_out("links", q.define("l.BA", (ends[0] - ends[1]) / 2, Symbol("l", "AB")))
-    q.set_out("links", q.define("l.AC", (ends[0] + ends[1]) / 2))
+    q.set_out("links", q.define("l.BA", extreme_formulas.crank_between(*ends), Symbol("l", "AB")))
+    q.set_out("links", q.define("l.AC", extreme_formulas.coupler_between(*ends)))
 
 
 def _linkage(given: Parameters, q: GivenData) -> Linkage:

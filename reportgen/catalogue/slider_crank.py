@@ -10,7 +10,7 @@ from collections.abc import Iterator
 
 from reportgen.assignment.checks import of_parameters, one_of
 from reportgen.assignment.common import Assignment
-from reportgen.assignment.fields import Angle, Coordinate, Length, Share
+from reportgen.assignment.fields import Angle, FoundCoordinate, FoundLength, Share
 from reportgen.base.errors import Finding
 from reportgen.base.units import Given
 from reportgen.catalogue import given_loads
@@ -22,7 +22,8 @@ from reportgen.catalogue.crank_sliders import (
     loop_equations,
     offset_slider,
 )
-from reportgen.catalogue.driven_machine import driven
+from reportgen.catalogue.driven_machine import KindSections, driven
+from reportgen.catalogue.found_lengths import LengthSearch, WantedStroke, find_slider_crank, slider_search
 from reportgen.catalogue.given_data import MIDDLE, GivenData, cycle_angles
 from reportgen.catalogue.parameters import Driven
 from reportgen.machine.analysis import Machine
@@ -33,19 +34,31 @@ TURNS = 1
 
 
 class Parameters(Driven, masses=(2, 3), moments=(2,), centres=(2,), loads=("force",)):
-    """Lengths, the guide, the speed; a moving link has mass only if it is given."""
+    """Lengths, the guide, the speed; a moving link has mass only if it is given.
 
-    r: Length
-    l: Length  # noqa: E741 - the length's own letter
-    e: Coordinate = Given(0.0, 0.0, "mm", "0 mm")
+    r, l and e may be found from the `stroke` that they are to give the slider.
+    """
+
+    r: FoundLength
+    l: FoundLength  # noqa: E741 - the length's own letter
+    e: FoundCoordinate = Given(0.0, 0.0, "mm", "0 mm")
+    stroke: WantedStroke | None = None
     guide: Angle = Given(0.0, 0.0, "deg", "0 deg")
     s: Share | None = None
     force: given_loads.WorkingForce | None = None
 
+    @property
+    def search(self) -> LengthSearch:
+        """The search for the lengths that are not given."""
+        return slider_search(self.stroke, self.r, self.l, self.e)
+
 
 @of_parameters
 def _check_turning(given: Parameters) -> Iterator[Finding]:
-    """Yield faults unless the crank turns fully: l > r + |e|."""
+    """Yield faults unless the crank turns fully: l > r + |e|, or the requested stroke gives the lengths."""
+    yield from given.search.findings()
+    if given.r is None or given.l is None or given.e is None:
+        return
     if given.l.si <= given.r.si + abs(given.e.si):
         least = f"> r + |e| = {(given.r.si + abs(given.e.si)) * 1e3:g} mm"
         yield Finding("out-of-range", ("parameters", "l"), {"text": given.l.text, "range": least})
@@ -60,8 +73,12 @@ def machine(assignment: Assignment) -> Machine:
     positions, turn = assignment.positions, assignment.positions.sign
     q = GivenData(given)
     has_centre = bool(given.s or q.centre_of(2)) or any(q.of_link(letter, 2) for letter in "GmJ")
-    r, l = q.datum("l.AB", given.r), q.datum("l.BC", given.l)  # noqa: E741
-    e = q.datum("e", given.e) if given.e.si else None
+    for id, length in {"l.AB": given.r, "l.BC": given.l, "e": given.e}.items():
+        if length is not None and (length.si or id != "e"):
+            q.datum(id, length)
+    if given.stroke is not None:
+        find_slider_crank(q, given.stroke, given.search)
+    r, l, e = q["l.AB"], q["l.BC"], q.find("e")  # noqa: E741
     if given.guide.si:
         q.datum("guide.angle", given.guide, "α", "angle")
     q.speed()
@@ -78,7 +95,7 @@ def machine(assignment: Assignment) -> Machine:
     q.mass(3)
     q.set_out("loads", "s.3", "P3")
 
-    geometry = OffsetSlider(q.si(r), q.si(l), turn * given.e.si, given.guide.si, turn)
+    geometry = OffsetSlider(q.si(r), q.si(l), 0.0 if e is None else turn * q.si(e), given.guide.si, turn)
     start = geometry.stretched if positions.first is None else geometry.phi(positions.first.si)
     centre = next((point.local for point in q.centre_points({2: "B"})), None)
     linkage = geometry.linkage(q.inertias({2: "S2", 3: "C"}), given.gravity, centre)
@@ -95,6 +112,7 @@ def machine(assignment: Assignment) -> Machine:
         q,
         linkage,
         geometry.crank_angle(start),
+        KindSections() if given.stroke is None else KindSections(sizes="synthesis"),
         formulas=lambda q: offset_slider(q, turn, start + cycle_angles(positions), offset, has_centre),
         applied=applied,
         sliders=(course,),
@@ -102,6 +120,7 @@ def machine(assignment: Assignment) -> Machine:
         compared=compared((*OFFSET_PLANS, *(CENTRE_PLANS if has_centre else ()))),
         equations=loop_equations(turn, offset is not None, given.acceleration),
         facts={
+            "selected": given.search.selected_by,
             "form": "inline" if e is None else "offset",
             "stroke": given_loads.stroke_of(given.force),
             "centre": "share" if "s" in q else "place" if has_centre else "none",

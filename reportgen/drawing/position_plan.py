@@ -231,14 +231,15 @@ def _inclined(bones: Skeleton, moving: Sequence[PlaneMotion]) -> Canvas:
 class SwingMarks:
     """Construction of both ends of a pin's path (m): the crank's `centre`, the rocker's `pivot`, the pin's `ends`.
 
-    `angles` are the names of the angles between the lines to the ends; `circle` is the centre of a circle through the
+    `angles` are the names of the angles between the lines to the ends, seen from both. A slider has no pivot and only
+    the angle at the crank's centre. `circle` is the centre of a circle through the
     ends and the crank's centre, with its name, or None.
     """
 
     centre: complex
-    pivot: complex
+    pivot: complex | None
     ends: tuple[complex, complex]
-    angles: tuple[Content, Content]
+    angles: tuple[Content, ...]
     circle: tuple[complex, Content] | None = None
 
 
@@ -248,7 +249,7 @@ def swing_marks(marks: SwingMarks, scale: float) -> Canvas:
     It has the lines from the crank's centre to both ends with arcs about it, both named angles, and the arc of the
     circle, if there is one.
     """
-    centre, pivot = marks.centre * scale, marks.pivot * scale
+    centre = marks.centre * scale
     ends = [end * scale for end in marks.ends]
     items: list[Item] = []
     requests: list[Request] = []
@@ -257,9 +258,10 @@ def swing_marks(marks: SwingMarks, scale: float) -> Canvas:
         middle, radius = cmath.phase(end - centre), abs(end - centre)
         half = ARC_OVER / radius
         items += [Line(centre, end, style.CONSTRUCTION), Arc(centre, radius, middle - half, middle + half, style.THIN)]
-    for at, radius, name in zip(
-        (centre, pivot), (abs(ends[1] - centre) * BEYOND_BOTH, ANGLE), marks.angles, strict=True
-    ):
+    seen_from = [(centre, abs(ends[1] - centre) * BEYOND_BOTH)]
+    if marks.pivot is not None:
+        seen_from.append((marks.pivot * scale, ANGLE))
+    for (at, radius), name in zip(seen_from, marks.angles, strict=True):
         start, turn = cmath.phase(ends[0] - at), cmath.phase((ends[1] - at) / (ends[0] - at))
         items.append(Arc(at, radius, start, start + turn, style.DIMENSION, style.DIMENSION_HEAD))
         middle = start + turn / 2

@@ -12,7 +12,7 @@ from pydantic import Field
 
 from reportgen.assignment.checks import of_parameters
 from reportgen.assignment.common import Part
-from reportgen.assignment.fields import Decimal, Interval, Quantity, Reader, Whole, quantity
+from reportgen.assignment.fields import Decimal, Interval, Sought, Whole, quantity
 from reportgen.base.errors import Finding
 from reportgen.base.units import MM, Given
 from reportgen.gears.pair_formulas import Rack
@@ -27,7 +27,6 @@ PART = "gears"
 """Prefix of its ids, also in a coursework."""
 HAS_POSITIONS = False
 TOP = ("parameters",)
-FIND = "find"
 
 
 def case(assignment: Assignment) -> PairCase:
@@ -44,18 +43,6 @@ def table_rows(position: Mapping[str, Any]) -> dict[str, dict[str, float]]:
 
 
 # --- the file -------------------------------------------------------------------------------------
-
-
-class SoughtDistance(Reader):
-    """A centre distance, or None for `find`."""
-
-    given: Quantity = quantity("mm", least=1, below=1e5)
-
-    def read(self, value: object) -> Given | None:
-        return None if value == FIND else self.given.read(value)
-
-    def schema(self) -> dict[str, Any]:
-        return {"anyOf": [{"const": FIND}, self.given.schema()]}
 
 
 Shift = Annotated[float, Decimal(Interval(least=-3, most=3))]
@@ -85,7 +72,7 @@ class Parameters(Part):
     z2: PairTeeth
     shifts: Literal["find"] | Shifts = "find"
     by: Literal["x_min", "equal-sliding"] = "equal-sliding"
-    a_w: Annotated[Given | None, SoughtDistance()] = None
+    a_w: Annotated[Given | None, Sought(quantity("mm", least=1, below=1e5))] = None
     alpha: Annotated[Given, quantity("deg", least=10, most=35)] = Given(math.radians(20), 20.0, "deg", "20 deg")
     ha: Annotated[float, Decimal(Interval(least=0.3, most=1.5))] = 1.0
     c: Annotated[float, Decimal(Interval(least=0.05, most=0.5))] = 0.25

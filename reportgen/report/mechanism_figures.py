@@ -202,25 +202,33 @@ def extremes(report: ReportContext) -> FigureScenes:
 
 
 def swing(report: ReportContext) -> FigureScenes:
-    """Draw both extreme positions of the first group's rocker, with the arcs that construct them."""
+    """Draw both extreme positions of the first group's rocker or slider, with the arcs that construct them."""
     machine, ledger = report.machine, report.ledger
     linkage, first = machine.linkage, machine.linkage.dyads[0]
     assert isinstance(linkage.driver, Crank)
-    assert isinstance(first.end, str)
-    centre, pivot = (linkage.ground[name] for name in (linkage.driver.centre, first.end))
-    crank, (coupler, rocker) = linkage.driver.length, first.lengths
-    ends = (
-        complex(circle_circle(centre, coupler + crank, pivot, rocker, first.sign)),
-        complex(circle_circle(centre, coupler - crank, pivot, rocker, first.sign)),
-    )
+    centre = linkage.ground[linkage.driver.centre]
+    pivot = linkage.ground[first.end] if isinstance(first.end, str) else None
+    if pivot is None:
+        ends = machine.sliders[0].top, machine.sliders[0].bottom
+    else:
+        crank, (coupler, rocker) = linkage.driver.length, first.lengths
+        ends = (
+            complex(circle_circle(centre, coupler + crank, pivot, rocker, first.sign)),
+            complex(circle_circle(centre, coupler - crank, pivot, rocker, first.sign)),
+        )
     # Folded over the coupler the crank points away from the end.
     angles = np.angle([ends[0] - centre, centre - ends[1]])
     circle = None
-    if "rho" in ledger:
+    angles_between = [ledger.symbol("theta")]
+    if pivot is None:
+        circle = _above_guide(report, centre, ends), Symbol("ρ")
+    else:
+        angles_between.append(ledger.symbol("swing"))
+    if pivot is not None and "rho" in ledger:
         bisector = sum((end - pivot) / abs(end - pivot) for end in ends)
         at = pivot + float(ledger["l.DO"].values[0]) * bisector / abs(bisector)
         circle = at, Symbol("ρ")
-    marks = SwingMarks(centre, pivot, ends, (ledger.symbol("theta"), ledger.symbol("swing")), circle)
+    marks = SwingMarks(centre, pivot, ends, tuple(angles_between), circle)
     scale = drawing_scale(report)
     points = tuple(point for point in linkage.points if point.link in (DRIVER, *first.links))
     four_bar = replace(linkage, groups=(first,), points=points)
@@ -229,6 +237,14 @@ def swing(report: ReportContext) -> FigureScenes:
     shows = PositionPlan((linkage.driver.pin, first.middle), (first.middle,), labels=("1", "2"))
     notes = looks(report, scale).notes
     return on_paper(position_plan(four_bar, motion, dense, scale, shows, notes, beside=swing_marks(marks, scale)))
+
+
+def _above_guide(report: ReportContext, centre: complex, ends: tuple[complex, complex]) -> complex:
+    """Return the centre of the circle (m) from which a slider's stroke is seen under θ, on the side of the crank."""
+    middle, along = (ends[0] + ends[1]) / 2, (ends[0] - ends[1]) / abs(ends[0] - ends[1])
+    ρ, θ = (float(report.ledger[id].values[0]) for id in ("rho", "theta"))
+    side = np.sign(((centre - middle) / along).imag)
+    return complex(middle + 1j * side * ρ * np.cos(θ) * along)
 
 
 def _position_plan(

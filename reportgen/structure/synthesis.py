@@ -81,29 +81,11 @@ def _of_keys(given: Parameters) -> Iterator[Finding]:
 
 def _of_solutions(given: Parameters) -> Iterator[Finding]:
     """Require a solution; else name the lengths with which there is one, or the ratio that no mechanism has."""
-    from reportgen.structure.synthesis_solution import places, wanted
+    from reportgen.catalogue.extreme_faults import faults_without_place
+    from reportgen.structure.synthesis_solution import selection, wanted
 
-    if places(given):
-        return
-    task = wanted(given)
-    selecting = next((key for key in ("a", "d", "e", "best") if getattr(given, key) is not None), None)
-    extent = task.cranks() if selecting == "a" else task.frames()
-    if extent is None:
-        # Only of a slider-crank: before the chord of a rocker, near C₂, some place of A always works.
-        assert given.K is not None
-        yield Finding("synthesis-ratio", (*TOP, "K"), {"text": given.K.text})
-        return
-    if selecting is None:
-        return
-    if given.A is not None and places(given.model_copy(update={"A": None})):
-        yield Finding("synthesis-side", (*TOP, "A"), {"A": given.A})
-    else:
-        # 0 is added because rounding may leave −0.
-        low, high = (f"{round(end * 1e3, 4) + 0:.5g} mm" for end in extent)
-        about = {"key": selecting, "text": getattr(given, selecting).text, "low": low, "high": high}
-        if given.task == CRANK_ROCKER:
-            about["hint"] = "synthesis-in-line"
-        yield Finding("synthesis-none", (*TOP, selecting), about)
+    hints = {"synthesis-none": "synthesis-in-line"} if given.task == CRANK_ROCKER else {}
+    yield from faults_without_place(wanted(given), selection(given), TOP, TOP, hints)
 
 
 def _of_points(given: Parameters) -> Iterator[Finding]:

@@ -6,20 +6,17 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
-import numpy as np
-
 from reportgen.case import Misconceptions
 from reportgen.case.design_case import DesignCase
-from reportgen.catalogue.extreme_positions import BEYOND, SIDES, CrankRocker, ExtremePositions, PivotPlace, SliderCrank
-from reportgen.formula import Expression, Number, Ref, Symbol, acos, asin, call, cos, sin, sqrt, tan, total
+from reportgen.catalogue import extreme_formulas as formulas
+from reportgen.catalogue.extreme_faults import Selection
+from reportgen.catalogue.extreme_formulas import STRAIGHT
+from reportgen.catalogue.extreme_positions import BEYOND, CrankRocker, ExtremePositions, PivotPlace, SliderCrank
+from reportgen.formula import Expression, Number, Ref, Symbol, acos, call, cos, sin, tan, total
 from reportgen.formula.calculation import Calculation
 from reportgen.formula.ledger import MistakenValues
 from reportgen.structure import synthesis_ids as names
 from reportgen.structure.synthesis_file import CRANK_ROCKER, Parameters
-
-STRAIGHT = Number(180.0, None, "°")
-NEAR = 1e-9
-"""Two least transmission angles that differ by less (rad) are equal."""
 
 
 def wanted(given: Parameters) -> ExtremePositions:
@@ -33,20 +30,16 @@ def wanted(given: Parameters) -> ExtremePositions:
     return SliderCrank(given.K.si, given.H.si)
 
 
+def selection(given: Parameters) -> Selection:
+    """Return what selects the place of A: a length of the file, or the best transmission."""
+    lengths = {key: getattr(given, key) for key in ("a", "d", "e")}
+    key = next((key for key, length in lengths.items() if length is not None and given.best is None), "")
+    return Selection(key, lengths.get(key), key == "a", given.A)
+
+
 def places(given: Parameters) -> list[PivotPlace]:
     """Return the places of A that give a mechanism which works, each on its side of the chord; [] without any."""
-    task = wanted(given)
-    if given.best is not None:
-        every = [place for side in task.sides if (place := task.best(side)) is not None]
-    elif given.a is not None:
-        every = task.with_crank(given.a.si)
-    elif isinstance(task, CrankRocker) and given.d is not None:
-        every = task.with_frame(given.d.si)
-    elif isinstance(task, SliderCrank) and given.e is not None:
-        every = task.with_frame(given.e.si)
-    else:
-        every = []
-    return [place for place in every if given.A is None or place.side == SIDES[given.A]]
+    return selection(given).places(wanted(given))
 
 
 def number_of(place: PivotPlace) -> int:
@@ -83,13 +76,12 @@ class SolvedSynthesis(DesignCase):
 
     def transmission_of(self, place: PivotPlace) -> float:
         """Return the least transmission angle of a solution (rad)."""
-        return float(self.wanted.transmission(place.side, np.array(place.along)))
+        return self.wanted.least_transmission(place)
 
     @cached_property
     def chosen(self) -> PivotPlace:
         """The solution with the greatest least transmission angle; of equal ones, the first."""
-        greatest = max(map(self.transmission_of, self.solved))
-        return next(place for place in self.solved if self.transmission_of(place) > greatest - NEAR)
+        return self.wanted.chosen(self.solved)
 
     @property
     def is_poor(self) -> bool:
@@ -127,9 +119,11 @@ class SolvedSynthesis(DesignCase):
         for id, datum in data.items():
             if datum is not None:
                 q.give(id, datum.si)
-        θ = q.define(names.ANGLE, STRAIGHT * (q[names.K] - 1) / (q[names.K] + 1))
-        of_rocker = self.has_rocker
-        ρ = q[names.ROCKER] * sin(q[names.SWING] / 2) / sin(θ) if of_rocker else q[names.STROKE] / (2 * sin(θ))
+        θ = q.define(names.ANGLE, formulas.angle_of_sight(q[names.K]))
+        if self.has_rocker:
+            ρ = formulas.radius_by_swing(q[names.ROCKER], q[names.SWING], θ)
+        else:
+            ρ = formulas.radius_by_stroke(q[names.STROKE], θ)
         q.set_out("circle", θ, q.define(names.RADIUS, ρ))
         for place in self.solved:
             if self.has_rocker:
@@ -152,14 +146,14 @@ class SolvedSynthesis(DesignCase):
                 β = q.define(names.along(of_crank), q[names.SCAN] * place.along, symbol, written=Number(place.along))
             else:
                 q.set_out(f"place{n}", β := q.define(names.along(of_crank), along, symbol))
-            far = q.define(names.far(of_crank), 2 * ρ * cos((β - θ) / 2), Symbol("l", "AC1", prime))
-            near = q.define(names.near(of_crank), 2 * ρ * cos((β + θ) / 2), Symbol("l", "AC2", prime))
+            far = q.define(names.far(of_crank), formulas.far_distance(ρ, β, θ), Symbol("l", "AC1", prime))
+            near = q.define(names.near(of_crank), formulas.near_distance(ρ, β, θ), Symbol("l", "AC2", prime))
             q.set_out(f"place{n}", far, near)
             letters = ("a", "b") if self.has_rocker else ("r", "l")
             if not self.shares_crank:
-                a = q.define(names.crank(n), (far - near) / 2, Symbol(letters[0], "", prime))
+                a = q.define(names.crank(n), formulas.crank_between(far, near), Symbol(letters[0], "", prime))
                 q.set_out(f"links{n}", a)
-            b = q.define(names.coupler(of_crank), (far + near) / 2, Symbol(letters[1], "", prime))
+            b = q.define(names.coupler(of_crank), formulas.coupler_between(far, near), Symbol(letters[1], "", prime))
             q.set_out(f"links{n}", b)
         a = q[names.CRANK] if self.shares_crank else q[names.crank(n)]
         return β, a, q[names.coupler(of_crank)]
@@ -169,22 +163,16 @@ class SolvedSynthesis(DesignCase):
         n = number_of(place)
         prime, side = self.mark(n), place.side
         θ, ρ, c, ψ = (q[id] for id in (names.ANGLE, names.RADIUS, names.ROCKER, names.SWING))
-        to_centre = ρ * cos(θ)
-        from_chord = to_centre if side == BEYOND else -to_centre
-        y = q.define(names.centre(n), c * cos(ψ / 2) + from_chord, Symbol("y", "O", prime))
+        y = q.define(names.centre(n), formulas.height_of_centre(c, ψ, ρ, θ, side), Symbol("y", "O", prime))
         q.set_out(f"centre{n}", y)
         along: Expression | None = None
         if self.given.d is not None:
-            d = q[names.FRAME]
-            squares = d**2 - y**2 - ρ**2 if side == BEYOND else y**2 + ρ**2 - d**2
-            along = acos(squares / (2 * y * ρ))
+            along = formulas.place_by_frame(q[names.FRAME], y, ρ, side)
         elif self.given.a is not None:
-            along = 2 * asin(q[names.CRANK] / (2 * ρ * sin(θ / 2)))
+            along = formulas.place_by_crank(q[names.CRANK], ρ, θ)
         β, a, b = self._enter_links(q, place, along)
         if self.given.d is None:
-            product = 2 * y * ρ * cos(β)
-            square = y**2 + ρ**2 + (product if side == BEYOND else -product)
-            d = q.define(names.frame(n), sqrt(square), Symbol("d", "", prime))
+            d = q.define(names.frame(n), formulas.frame_at(y, ρ, β, side), Symbol("d", "", prime))
             q.set_out(f"links{n}", d)
         else:
             d = q[names.FRAME]
@@ -196,31 +184,26 @@ class SolvedSynthesis(DesignCase):
         sums = (names.ends(n), "1", (first, last)), (names.others(n), "2", tuple(middle))
         for id, index, links in sums:
             q.set_out(f"grashof{n}", q.define(id, total(links), Symbol("s", index, prime), optional=True))
-        γ1 = q.define(names.near_angle(n), self._between(b, c, d - a), Symbol("γ", "1", prime))
-        γ2 = q.define(names.far_angle(n), self._between(b, c, d + a), Symbol("γ", "2", prime))
+        γ1 = q.define(names.near_angle(n), formulas.angle_between(b, c, d - a), Symbol("γ", "1", prime))
+        γ2 = q.define(names.far_angle(n), formulas.angle_between(b, c, d + a), Symbol("γ", "2", prime))
         γ = q.define(names.transmission(n), call("min", γ1, STRAIGHT - γ2), Symbol("γ", "min", prime))
         q.set_out(f"transmission{n}", γ1, γ2, γ)
-
-    @staticmethod
-    def _between(b: Expression, c: Expression, opposite: Expression) -> Expression:
-        """Return the angle between coupler and rocker by the law of cosines."""
-        return acos((b**2 + c**2 - opposite**2) / (2 * b * c))
 
     def _enter_slider(self, q: Calculation, place: PivotPlace) -> None:
         """Enter a slider-crank: the place of A, the links, and what shows that it works."""
         n = number_of(place)
         θ, ρ = q[names.ANGLE], q[names.RADIUS]
-        along = None if self.given.e is None else acos(q[names.OFFSET] / ρ - cos(θ))
+        along = None if self.given.e is None else formulas.place_by_offset(q[names.OFFSET], ρ, θ)
         β, r, l = self._enter_links(q, place, along)  # noqa: E741
         if self.given.e is None:
-            e = q.define(names.OFFSET, ρ * (cos(β) + cos(θ)))
+            e = q.define(names.OFFSET, formulas.offset_at(ρ, β, θ))
             q.set_out(f"links{n}", e)
         else:
             e = q[names.OFFSET]
         limit = q.define(names.FARTHEST, q[names.STROKE] / tan(θ), optional=True)
         q.set_out(f"branch{n}", limit)
         q.set_out(f"grashof{n}", q.define(names.others(n), r + e, Symbol("s"), optional=True))
-        γ = q.define(names.transmission(n), acos((e + r) / l), Symbol("γ", "min"))
+        γ = q.define(names.transmission(n), formulas.transmission_of_slider(r, l, e), Symbol("γ", "min"))
         q.set_out(f"transmission{n}", γ)
 
     # --- what is often taken for something else

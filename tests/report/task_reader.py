@@ -95,6 +95,7 @@ def file_of(kind: str, text: str) -> File:
         if found := re.fullmatch(r"([Gm])_(\d)|(s)_(\d)|(J)_S?([1-9]\d?)", symbol):
             letter, link = (part for part in found.groups() if part)
             parameters[letter + link] = value
+    parameters |= _found(kind, task, data)
     if "δ_ω" in data:
         parameters["flywheel"] = {"delta": data["δ_ω"]}
     parameters |= _motion(task, data)
@@ -107,6 +108,19 @@ def file_of(kind: str, text: str) -> File:
         assert pair is not None
         file["indicator"]["firing"] = list(pair.groups())
     return file
+
+
+def _found(kind: str, task: Task, data: Mapping[str, str]) -> File:
+    """The lengths to be found of a four-bar or slider-crank, and the motion that they are to give."""
+    if "The lengths that the table does not give are to be found" not in task.text:
+        return {}
+    unknown = {key: "find" for symbol, key in LENGTHS[kind].items() if symbol not in data}
+    if kind == "four-bar":
+        side = task.find(r"with A (beyond|before) the chord")
+        wanted = {"swing": {"K": data["K"], "psi": data["ψ"], "A": side}}
+        return {key: unknown[key] for key in ("AB", "BC", "AD") if key in unknown} | wanted
+    wanted = {"stroke": {"K": data["K"], "H": data["H"]}}
+    return {key: unknown[key] for key in ("r", "l", "e") if key in unknown} | wanted
 
 
 def _positions(task: Task) -> File:

@@ -30,6 +30,8 @@ FILES = [file for file in EVERY if not file.stem.startswith("three-points")]
 HEAD = "kind: synthesis\nreport: {language: en}\nparameters:\n"
 ROCKER = "task: crank-rocker", "K: 1.3", "psi: 42 deg", "c: 120 mm"
 SLIDER = "task: slider-crank", "K: 1.4", "H: 50 mm"
+AROUND_D = "task: crank-rocker", "K: 1.4", "psi: 60 deg", "c: 100 mm"
+"""With ψ = 2θ the circle of A before the chord is about D."""
 FAULTS = [
     ((*ROCKER, "d: 118 mm", "a: 40 mm"), "9:3 both-given"),
     (ROCKER, "3:1 missing-key"),
@@ -41,6 +43,10 @@ FAULTS = [
     ((*ROCKER, "a: 60 mm"), "8:6 synthesis-none"),
     ((*ROCKER, "d: 100 mm", "A: beyond"), "9:6 synthesis-side"),
     ((*ROCKER, "d: 120 mm"), "8:6 synthesis-none"),
+    ((*AROUND_D, "d: 100 mm"), "8:6 synthesis-every-place"),
+    ((*AROUND_D, "d: 100 mm", "A: beyond"), "8:6 synthesis-none"),
+    ((*AROUND_D, "d: 101 mm"), ""),
+    ((*AROUND_D, "d: 101 mm", "A: before"), "9:6 synthesis-side"),
     (("task: slider-crank", "K: 3", "H: 50 mm", "e: 1 mm"), "5:6 synthesis-ratio"),
     (("task: slider-crank", "K: 3", "H: 50 mm", "best: transmission"), "5:6 synthesis-ratio"),
     (("task: slider-crank", "K: 2.9995", "H: 50 mm", "best: transmission"), ""),
