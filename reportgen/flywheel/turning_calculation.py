@@ -28,13 +28,10 @@ def multiple(order: float, angle: Ref) -> Expression:
 
 def extreme_points(energies: Sequence[float]) -> tuple[int, int]:
     """Return the numbers of the points with the greatest and the least energy; of equal ones, the first."""
-    return points_at(energies, max(energies))[0], points_at(energies, min(energies))[0]
-
-
-def points_at(energies: Sequence[float], level: float) -> list[int]:
-    """Return the numbers of the points whose energy is at a level, apart from rounding."""
     slack = ZERO * max(map(abs, energies))
-    return [k for k, energy in enumerate(energies, start=1) if abs(energy - level) <= slack]
+    high, low = max(energies), min(energies)
+    first = next(k for k, one in enumerate(energies, start=1) if one >= high - slack)
+    return first, next(k for k, one in enumerate(energies, start=1) if one <= low + slack)
 
 
 class TurningCalculation:

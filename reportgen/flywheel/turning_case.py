@@ -15,7 +15,7 @@ from reportgen.drawing import Scene
 from reportgen.drawing.animation import Animation
 from reportgen.drawing.plates import DrawingPlate
 from reportgen.flywheel import turning_drawings, turning_ids, turning_motion
-from reportgen.flywheel.turning_calculation import extreme_points, points_at
+from reportgen.flywheel.turning_calculation import extreme_points
 from reportgen.flywheel.turning_file import Torques
 from reportgen.flywheel.turning_solution import SolvedTurning
 from reportgen.flywheel.turning_torques import DRIVING, RESISTING
@@ -187,8 +187,8 @@ class TurningPage(DesignPage[SolvedTurning]):
         heads.append((Text(""),))
         units: list[Inlines] = [(Text(""),), *((Text(printed.number(family(1)).unit),) for family in families)]
         units.append((Text(""),))
-        levels = zip(case.extremes, (max(case.energies), min(case.energies)), strict=True)
-        marks = {k: extreme for extreme, level in levels for k in points_at(case.energies, level)}
+        # Of equal energies the first is marked: another one may be printed with fewer decimals.
+        marks = dict(zip(extreme_points(case.energies), case.extremes, strict=True))
         rows: list[tuple[Inlines, ...]] = []
         for k in range(1, case.count_of_areas + 1):
             mark: Inlines = (InlineMath(printed.symbol(marks[k])),) if k in marks else (Text(""),)

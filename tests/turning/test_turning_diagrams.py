@@ -13,10 +13,9 @@ import pytest
 from reportgen.base.template_folders import languages
 from reportgen.base.units import Language
 from reportgen.cases import open_case
-from reportgen.document import InlineMath, Text, text_of
+from reportgen.document import text_of
 from reportgen.drawing import Label
 from reportgen.flywheel import turning_ids as names
-from reportgen.flywheel.turning_case import TurningPage
 from reportgen.flywheel.turning_file import Parameters
 from reportgen.flywheel.turning_torques import both_torques, steady_run
 from reportgen.formula import Chain, Symbol
@@ -193,11 +192,3 @@ def test_both_diagrams_of_a_sheet_have_one_scale_of_angles(name: str) -> None:
     scales = [chain[1] for chain in chains if chain[0] == Symbol("μ", "φ")]
     assert len(scales) == 2
     assert scales[0] == scales[1]
-
-
-def test_points_of_equal_energy_are_marked_alike() -> None:
-    """The resisting torque has half the frequency of the driving one, so the energy is symmetrical about 180°."""
-    marks = [row[-1].inlines for row in TurningPage(open_case(FOLDER / "two-curves.yaml")).energy_table.rows]
-    assert marks[0] == (Text(""),)
-    assert marks[1] == marks[3] == (InlineMath(Symbol("E", "max")),)
-    assert marks[2] == (InlineMath(Symbol("E", "min")),)
