@@ -153,6 +153,11 @@ def _end_group(number: int) -> None:
         os.killpg(number, signal.SIGKILL)
 
 
+def is_bounded() -> bool:
+    """Return True in a subprocess that runs a call with limits."""
+    return _bounded
+
+
 def serve() -> None:
     """Run one `call_within` in the subprocess: read the call from standard input, write its result to standard
     output.

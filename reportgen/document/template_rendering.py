@@ -39,7 +39,7 @@ from jinja2.utils import pass_context
 
 from reportgen.base.errors import ReportgenError, TemplateError
 from reportgen.base.files import keep, kept
-from reportgen.base.process_limits import TEMPLATES, LimitError
+from reportgen.base.process_limits import TEMPLATES, LimitError, is_bounded
 from reportgen.base.template_access import template_members
 from reportgen.base.template_access import text as as_text
 from reportgen.base.template_folders import DEFAULT_LANGUAGE
@@ -220,6 +220,9 @@ def _render(places: tuple[Path, ...], name: str, names: Mapping[str, object]) ->
     except ReportgenError:
         raise
     except Exception as error:
+        # Outside the process with limits it is the computer that has too little memory.
+        if isinstance(error, MemoryError) and not is_bounded():
+            raise
         file, line = _origin(error, places, name)
         raise TemplateError(f"{file}:{line}: {_reason(error, places)}") from error
     finally:
