@@ -19,6 +19,7 @@ from reportgen.page.scheme_drawings import card_drawing
 SCHEMES = ("fig.scheme", "fig.velocity", "fig.inversion", "fig.mesh", "fig.diagram", "fig.construction")
 """The figure that shows a machine, the system of an exercise, a cam, gears in mesh, a diagram, or a construction."""
 SHOWN = {
+    "slider-crank": "slider-crank-02.yaml",
     "plane-motion": "plane-motion/17.yaml",
     "cam": "cam/roller-01.yaml",
     "gear-pair": "gears/pair-centre-distance.yaml",

@@ -178,9 +178,14 @@ def choices_of(schema: Schema) -> list[str]:
     return [str(value) for value in (*schema.get("enum", ()), *([schema["const"]] if "const" in schema else ()))]
 
 
-def alternatives_to(kind: Kind, path: Sequence[str]) -> list[str]:
-    """Return the other keys with the same meaning as the key of a path."""
-    checks = (check for check in kind.all_checks if isinstance(check, OneOf) and check.where == tuple(path[:-1]))
+def alternatives_to(kind: Kind, path: Sequence[str], values: Mapping[str, str] | None = None) -> list[str]:
+    """Return the other keys with the same meaning as the key of a path.
+
+    With the `values` of the table, those of the form that they choose; else those of every form.
+    """
+    checks = [check for check in kind.all_checks if isinstance(check, OneOf) and check.where == tuple(path[:-1])]
+    if values is not None:
+        checks = [check for check in checks if check.form is None or values.get(check.form[0]) == check.form[1]]
     return [name for check in checks if path[-1] in check.names for name in check.names if name != path[-1]]
 
 

@@ -211,9 +211,10 @@ class Form:
         It can be switched to the others.
         """
         by_key = {entry.where[-1]: entry for entry in entries}
+        values = {entry.key: entry.text for entry in entries if isinstance(entry, FieldLine)}
         kept: list[FieldLine | FieldGroup] = []
         for entry in entries:
-            others = [by_key[key] for key in self._alternatives(where, entry) if key in by_key]
+            others = [by_key[key] for key in self._alternatives(where, entry, values) if key in by_key]
             if not isinstance(entry, FieldLine) or not others:
                 kept.append(entry)
                 continue
@@ -225,9 +226,10 @@ class Form:
                 )
         return kept
 
-    def _alternatives(self, where: Where, entry: FieldLine | FieldGroup) -> list[str]:
+    def _alternatives(self, where: Where, entry: FieldLine | FieldGroup, values: Mapping[str, str]) -> list[str]:
+        """Return the other keys with the same meaning, in the form that the `values` of the table choose."""
         path = tuple(str(step) for step in where if not isinstance(step, int))
-        return alternatives_to(self.kind, (*path, str(entry.where[-1])))
+        return alternatives_to(self.kind, (*path, str(entry.where[-1])), values)
 
     def _must(self, where: Where, entry: FieldLine) -> bool:
         """Return True if one of several equivalent keys is required there."""

@@ -120,7 +120,7 @@ def _of_points(given: Parameters) -> Iterator[Finding]:
 CHECKS = (
     one_of("parameters", "a", "d", "best", form=("task", CRANK_ROCKER)),
     one_of("parameters", "e", "best", form=("task", SLIDER_CRANK)),
-    one_of("parameters", "pairs", "function", form=("task", THREE_POINTS)),
+    one_of("parameters", "function", "pairs", form=("task", THREE_POINTS)),
     of_parameters(check),
 )
 
