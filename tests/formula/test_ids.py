@@ -20,7 +20,7 @@ BEFORE_OTHERS = frozenset({ids.formula, ids.far, ids.unit, ids.rule, ids.rest})
 ONES_OF_THEIR_KIND = frozenset(
     {"alpha", "crank.angle", "delta", "drawing", "lambda", "power", "scale", "span", "steps", "swing", "theta"}
     | {"unevenness", "sum.ends", "sum.others", "t.back", "t.turn", "t.work", "omega.of", "J.r", "J.d", "beta", "free"}
-    | {"A.det", "A.excess", "A.lower", "A.upper", "P.angle", "rho"}
+    | {"A.det", "A.excess", "A.lower", "A.upper", "P.angle", "rho", "arc", "gamma.far", "gamma.least", "gamma.near"}
     | {"T.I", "T.range", "J.I", "J.rest", "J.share", "mu.J", "mu.A", "even", "K.5", "P.cut"}
 )
 """Ids that stand as text in the code."""
