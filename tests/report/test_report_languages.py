@@ -246,7 +246,7 @@ def test_every_name_of_quantities_is_that_of_one(table: str) -> None:
     # No example has a linkage with each kind of group, nor joints that rub in a machine in true motion.
     rare = [*(built.ROOT / "tests" / "broken" / "files").glob("dyad*.yaml"), built.ROOT / "tests/friction/motion.yaml"]
     samples = built.ROOT / "assignments"
-    for path in (*samples.glob("*.yaml"), *samples.glob("balancing/*.yaml"), *rare):
+    for path in (*samples.glob("*.yaml"), *samples.glob("balancing/*.yaml"), *samples.glob("linkage/*.yaml"), *rare):
         case = built.case(path, "en")
         for kind in ("", case.assignment.kind):
             for name in (name for key in _own(table, kind) for name in key.split(", ")):
