@@ -98,12 +98,14 @@ def test_a_title_block(make: Callable[[Path], None], tmp_path: Path, monkeypatch
         pytest.param(("check", "PIPE.yaml"), id="check"),
         pytest.param(("build", "PIPE.yaml"), id="build", marks=proof),
         pytest.param(("watch", "PIPE.yaml", "--no-open"), id="watch", marks=proof),
-        pytest.param(("grade", "PIPE.xlsx", "--assignments", "assignments"), id="grade", marks=proof),
-        pytest.param(("grade", "PIPE.csv", "--assignments", "assignments"), id="grade a table", marks=proof),
+        pytest.param(("grade", "PIPE.xlsx", "--assignments", "assignments/rotor"), id="grade", marks=proof),
+        pytest.param(("grade", "PIPE.csv", "--assignments", "assignments/rotor"), id="grade a table", marks=proof),
         pytest.param(
-            ("grade", "none.xlsx", "--assignments", "assignments", "--policy", "PIPE.yaml"), id="policy", marks=proof
+            ("grade", "none.xlsx", "--assignments", "assignments/rotor", "--policy", "PIPE.yaml"),
+            id="policy",
+            marks=proof,
         ),
-        pytest.param(("batch", "PIPE.csv", "--assignments", "assignments"), id="roster", marks=proof),
+        pytest.param(("batch", "PIPE.csv", "--assignments", "assignments/rotor"), id="roster", marks=proof),
         pytest.param(("variants", "PIPE.yaml", "PIPE.csv"), id="variants", marks=proof),
         pytest.param(("sheet", "assignments/slotted-lever-01.yaml", "--block", "PIPE.yaml"), id="block", marks=proof),
     ],

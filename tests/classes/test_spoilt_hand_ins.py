@@ -1,4 +1,4 @@
-"""Four hundred spoilt reports, drawings and sheets go through the whole of `grade`, with feedback: all are listed."""
+"""Two hundred spoilt reports, drawings and sheets go through the whole of `grade`, with feedback: all are listed."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ from tests.spoiling import element, extreme, letter, scaled, spoilt_bytes, spoil
 
 pytestmark = proof
 
-PARTS, STUDENTS, SEED = 4, 100, 59
+PARTS, STUDENTS, SEED = 2, 100, 59
 TYPESET_EVERY = 20
 """One page of feedback in so many is typeset; the others stop before the typesetter."""
 GOOD = "S000"

@@ -197,7 +197,7 @@ def made_up(scheme: MarkingScheme, rng: np.random.Generator) -> dict[str, Any]:
     ("name", "count"),
     [
         # The twin engine has the most values behind a scale.
-        *matrix([(name, 80 if name == "engine-twin-05" else 20) for name in MACHINES], []),
+        *matrix([(name, 40 if name == "engine-twin-05" else 10) for name in MACHINES], []),
         *(("slider-crank-01", 6), ("four-bar-01", 3), ("engine-v-01", 3)),
     ],
 )

@@ -23,7 +23,7 @@ from reportgen.report.report_extents import LEFT_OUT
 from reportgen.sheets import drawing_sheets, plates_by_set
 from tests.lanes import matrix
 from tests.report import built
-from tests.report.built import FILES, MARKS, ROOT, SAMPLE
+from tests.report.built import FILES, MARKS, ROOT, SAMPLE, TYPESET
 
 pymupdf = pytest.importorskip("pymupdf")
 
@@ -160,7 +160,7 @@ def test_its_pages(name: str, engine: api.Engine) -> None:
 # --- what does not depend on it -------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("name", matrix(NAMES, ["shaper-01"]))
+@pytest.mark.parametrize("name", matrix([path.stem for path in TYPESET], ["shaper-01"]))
 def test_key_and_answer_sheet_are_the_same(name: str, tmp_path: Path) -> None:
     path = ROOT / "assignments" / f"{name}.yaml"
     made = []

@@ -21,6 +21,7 @@ from reportgen.marking.task_paper import task_of
 from reportgen.marking.toleranced_key import key_of
 from reportgen.sheets import drawing_sheets
 from tests.lanes import matrix, proof
+from tests.report import built
 
 ASSIGNMENTS = Path(__file__).parents[2] / "assignments"
 SAMPLE = ASSIGNMENTS / "slider-crank-01.yaml"
@@ -182,7 +183,7 @@ def test_a_task_and_an_exercise_are_bounded_too(school: School) -> None:
         task_of(case, key_of(case))
 
 
-@pytest.mark.parametrize("path", sorted(ASSIGNMENTS.glob("*.yaml")), ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", built.TYPESET, ids=lambda path: path.stem)
 @pytest.mark.proof
 def test_the_sandbox_changes_no_report(school: School, path: Path) -> None:
     """All that the common words use is allowed, and fits within the limits."""

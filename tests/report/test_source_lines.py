@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from itertools import cycle
 from pathlib import Path
 from typing import Any
 
@@ -54,7 +55,10 @@ def by_language(paths: list[Path], telling: list[tuple[Path, Language]]) -> list
     return matrix(found, telling)
 
 
-@pytest.mark.parametrize(("path", "language"), by_language(MACHINES, []))
+@pytest.mark.parametrize(
+    ("path", "language"),
+    matrix([pytest.param(*turn, id=f"{turn[0].stem}-{turn[1]}") for turn in zip(MACHINES, cycle(("vi", "en")))], []),
+)
 def test_machines(path: Path, language: Language, tmp_path: Path) -> None:
     """Every position worked out; cells of tables show what the lines do."""
     document = api.document(api.load(all_worked(path, tmp_path), language))

@@ -58,6 +58,8 @@ SAMPLES = [
 LANGUAGES: tuple[Language, ...] = languages()
 TURNS = dict(zip(SAMPLES, cycle(LANGUAGES), strict=False))
 """Every file in one of the languages, by turns; the first of each kind is in all of them."""
+PROVED = [turn for turn in TURNS.items() if turn[0] not in built.FILES or turn[0] in built.TYPESET]
+"""Other files of a kind of machine differ in numbers only."""
 STRING = r'"((?:[^"\\]|\\.)*)"'
 HEARD = re.compile(rf"\bM\({STRING},\$|#[FAV]\({STRING},|#E\([\d.]+,{STRING},")
 
@@ -279,7 +281,7 @@ def test_no_two_symbols_of_a_report_sound_alike(sample: tuple[Language, tuple[Do
 SHORT = by_name("plane-motion/05")
 
 
-@pytest.mark.parametrize("of", matrix([named(*turn) for turn in TURNS.items()], telling=[(SHORT, TURNS[SHORT])]))
+@pytest.mark.parametrize("of", matrix([named(*turn) for turn in PROVED], telling=[(SHORT, TURNS[SHORT])]))
 def test_no_formula_is_without_words(of: tuple[Path, Language]) -> None:
     """The typesetter itself refuses one in a document that all can read; drawings are told elsewhere."""
     pytest.importorskip("typst")
