@@ -15,7 +15,7 @@ import numpy as np
 
 from reportgen.base.units import nice_up
 from reportgen.derivation.equation_sides import Scheme, Side, group_sides, image
-from reportgen.derivation.plan_scales import LEAST_MOTION, PER_MM, SHEET_BOXES, common_scale, extents
+from reportgen.derivation.plan_scales import LEAST_MOTION, PER_MM, SHEET_BOXES, common_scale, drawable, extents
 from reportgen.formula import (
     Expression,
     Number,
@@ -389,13 +389,14 @@ def slide(
 def chosen_scale(trial: Kinematics, what: What, worked: Sequence[int]) -> float | None:
     """Return the common scale of the plans (SI per metre of paper), from a trial.
 
-    None if the scale by the crank already draws the `worked` plans, counted from 1, large enough.
+    None if the scale by the crank already draws the `worked` plans, counted from 1, large enough, and no plan larger
+    than a sheet. Beside a dead point, the plan of accelerations would be metres long.
     """
     q, μ = trial.q, trial.q.si(ids.scale(what))
     sizes = extents([np.zeros(1), *map(q.value, trial.vertices[what])], q.positions) * μ
     printed = sizes[:, [k - 1 for k in worked]] if worked else sizes
     least = np.nanmin(printed.max(axis=0), initial=np.inf) / μ
-    if isinstance(trial.scheme.linkage.driver, Crank) and least >= LEAST_MOTION:
+    if isinstance(trial.scheme.linkage.driver, Crank) and least >= LEAST_MOTION and drawable(sizes / μ):
         return None
     return common_scale(sizes, worked, LEAST_MOTION)
 

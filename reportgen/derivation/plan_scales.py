@@ -15,6 +15,8 @@ TEXT_BOX = (0.145, 0.190)
 """Width and height of a plan on a page of text (m), without its labels."""
 SHEET_BOXES = (0.360, 0.210), (0.235, 0.335)
 """Width and height of a plan on an A3 sheet (m), landscape or portrait."""
+LARGEST_BOXES = (1.08, 0.70), (0.70, 1.08)
+"""Width and height of the largest plan of motion (m): it fits a sheet A0, landscape or portrait, with its labels."""
 LEAST_MOTION, LEAST_FORCES = 0.060, 0.100
 """Least width or height (m) of a worked plan of velocities or accelerations, and of one of forces."""
 DIAGRAM = 0.110, 0.090
@@ -50,6 +52,12 @@ def fitting(sizes: np.ndarray, box: tuple[float, float]) -> float:
 def fitting_axis(length: float, room: float) -> float:
     """Return the smallest round scale (SI per m) at which a length (SI) fits an axis of `room` (m of paper)."""
     return nice_up(length / room / PER_MM) * PER_MM
+
+
+def drawable(sizes: np.ndarray) -> bool:
+    """Return True if every plan of the `sizes` [2, K] (m of paper) fits a sheet A0; plans that are nan do not count."""
+    known = sizes[:, np.isfinite(sizes).all(axis=0)]
+    return any(bool((known <= np.array(box)[:, None]).all()) for box in LARGEST_BOXES)
 
 
 def filling(sizes: np.ndarray, least: float) -> float:

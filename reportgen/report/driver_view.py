@@ -7,6 +7,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from reportgen.base.template_access import template_members, view
 from reportgen.derivation.equation_sides import Side, image
 from reportgen.derivation.load_entries import Polygon
@@ -49,6 +51,7 @@ def points_on(linkage: Linkage, link: int) -> tuple[PointView, ...]:
 @template_members(
     *("centre", "pin", "others", "names", "arm", "kind", "rate", "drawn", "velocity"),
     *("velocity_segment", "acceleration_segment", "round_velocity", "round_acceleration"),
+    *("large_velocity", "large_acceleration"),
     *("velocity_lines", "acceleration_lines", "scale_lines"),
     *("rate2", "accelerated", "normal_segment", "component_lines", "component_segments"),
     *("component_scale_lines", "acceleration_scale_lines"),
@@ -59,7 +62,8 @@ class DriverView:
     `kind` is "crank" or "slide"; a slide has neither centre nor arm.  `rate` is the symbol of its speed, `rate2` that
     of its acceleration if it is `accelerated`.  `component_lines` are the two components of the crank pin's
     acceleration.  `round_velocity` and `round_acceleration` are True if the scale of a plan was chosen from the series
-    of round scales.
+    of round scales; `large_velocity` and `large_acceleration` are True if the crank pin's vector is then shorter
+    than the crank on paper.
     """
 
     def __init__(self, linkage: Linkage, ledger: Ledger) -> None:
@@ -86,3 +90,10 @@ class DriverView:
         self.component_lines = ledger.known(ids.acceleration(self.pin, part) for part in "nt")
         self.component_scale_lines = ["mu.a", tangential]
         self.acceleration_scale_lines = ["mu.a", self.acceleration_segment]
+        normal = self.normal_segment if self.accelerated else self.acceleration_segment
+        self.large_velocity = self._is_shorter(ledger, self.velocity_segment)
+        self.large_acceleration = self._is_shorter(ledger, normal)
+
+    def _is_shorter(self, ledger: Ledger, segment: str) -> bool:
+        """Return True if a segment is shorter than the crank on paper at every position; False without a crank."""
+        return bool(self.arm) and bool(np.nanmax(ledger[segment].values) < ledger[self.drawn].values[0])

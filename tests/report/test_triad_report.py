@@ -162,6 +162,24 @@ def test_beside_a_dead_point_the_iteration_begins_with_finer_angles(tmp_path: Pa
     assert words in text
 
 
+def test_plans_beside_a_dead_point_fit_a_sheet(tmp_path: Path) -> None:
+    """With the acceleration of the crank pin as long as the crank, that of F would be a plan of 48 m."""
+    file = tmp_path / "dead.yaml"
+    lower = R1.replace("{count: 8}", "{at: [162.4 deg, 30 deg, 100 deg]}").replace("length: 50 mm", "length: 120 mm")
+    file.write_text(lower.replace("[83 mm, 160 mm]", "[184 mm, 142 mm]"), encoding="utf-8")
+    context = ReportContext(open_case(file, language="en"))
+    assert abs(context.analysis.motion.points["F"].a[0]) > 900 * 20**2 * 0.12
+    points = [family.values for id, family in context.ledger.families.items() if id.startswith("plan.a.")]
+    drawn = np.array([np.broadcast_to(place, (3,)) for place in points]) * MM
+    assert np.nanmax(np.ptp(drawn.real, axis=0)) < 1189
+    assert np.nanmax(np.ptp(drawn.imag, axis=0)) < 1189
+    vectors = motion_plan(context, "a", 1).vectors
+    scale = float(context.ledger["mu.a"].values[0]) / MM
+    (of_f,) = (vector for vector in vectors if vector.name == "F")
+    assert abs(of_f.end - of_f.start) * scale == pytest.approx(abs(context.analysis.motion.points["F"].a[0]), rel=1e-3)
+    assert (context.driver.large_velocity, context.driver.large_acceleration) == (False, True)
+
+
 def _number(cell: Cell) -> float | None:
     """The number of a cell; None for an empty one."""
     (content,) = cell.inlines
