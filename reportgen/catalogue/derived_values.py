@@ -201,8 +201,14 @@ def _line(at: PlacedFormula, given: Mapping[str, Given], symbols: Mapping[str, S
     result = _unit_of(typed, unit)
     value = at.value(given).si / (scale(result)[0] if result else 1.0)
     result_number = Number(float(f"{value:.{FIGURES}g}"), unit=UNITS.get(result, result))
-    parts = (_built(formula.tree, named), _built(formula.tree, number), result_number)
+    # With the numbers, a parameter with a changed sign is the result already.
+    substituted = () if _is_opposite(formula.tree) else (_built(formula.tree, number),)
+    parts = (_built(formula.tree, named), *substituted, result_number)
     return Chain(parts if symbol is None else (symbol, *parts))
+
+
+def _is_opposite(node: ast.expr) -> bool:
+    return isinstance(node, ast.UnaryOp) and isinstance(node.operand, ast.Name)
 
 
 def _common_unit(result: str, quantities: list[Given]) -> str:
