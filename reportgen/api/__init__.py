@@ -45,6 +45,7 @@ FORMATS = names("report")
 
 load, check, examine, assess = catalogue.load, catalogue.check, catalogue.examine, catalogue.assess
 faulty_machines = catalogue.faulty_machines
+ignored_machines = catalogue.ignored_machines
 schema, sample, examples, example = catalogue.schema, catalogue.sample, catalogue.examples, catalogue.example
 typeset, typeset_sheet, SUFFIX = (typesetting.typeset, typesetting.typeset_sheet, typesetting.SUFFIX)
 

@@ -44,9 +44,36 @@ class Amount:
         return cls(given.si, scale(given.unit)[1] if given.unit else PLAIN)
 
 
+ROUNDING = 1e-14
+"""What the arithmetic of floats leaves of a value that cancels, in proportion to its operands: it is taken as 0."""
+
+
+def _sine(angle: float) -> float:
+    return _cancelled(math.sin(angle), max(1.0, abs(angle)))
+
+
+def _cosine(angle: float) -> float:
+    return _cancelled(math.cos(angle), max(1.0, abs(angle)))
+
+
+def _cancelled(value: float, size: float) -> float:
+    """Return 0 for a value that is the rounding of operands of some size, so that cos(90 deg) is 0."""
+    return 0.0 if abs(value) <= ROUNDING * size else value
+
+
+def _within_one(value: float) -> float:
+    """Return a sine or a cosine that rounding has led beyond 1 as 1."""
+    return math.copysign(1.0, value) if 1.0 < abs(value) <= 1.0 + ROUNDING else value
+
+
 OF_ANGLES, TO_ANGLES = ("sin", "cos", "tan"), ("asin", "acos", "atan")
 FUNCTIONS: Mapping[str, Callable[[float], float]] = {
-    **{name: getattr(math, name) for name in (*OF_ANGLES, *TO_ANGLES)},
+    "sin": _sine,
+    "cos": _cosine,
+    "tan": lambda angle: _sine(angle) / _cosine(angle),
+    "asin": lambda sine: math.asin(_within_one(sine)),
+    "acos": lambda cosine: math.acos(_within_one(cosine)),
+    "atan": math.atan,
     "sqrt": math.sqrt,
     "abs": abs,
 }
@@ -123,7 +150,8 @@ class Formula:
             return Amount(left.si / right.si, _product(left.dimension, _power(right.dimension, -1)))
         if left.dimension != right.dimension:
             raise FormulaError("formula-units", text=self.text)
-        return Amount(left.si + (right.si if isinstance(op, ast.Add) else -right.si), left.dimension)
+        value = left.si + (right.si if isinstance(op, ast.Add) else -right.si)
+        return Amount(_cancelled(value, abs(left.si) + abs(right.si)), left.dimension)
 
 
 @lru_cache(maxsize=2000)

@@ -27,9 +27,11 @@ TABLES = frozenset({"parameters", "links"})
 
 
 def is_machine_file(source: Source) -> bool:
-    """Return True for the nodes of a machine's file, which has a linkage and no kind."""
+    """Return True for the nodes of a machine's file, which has words or a linkage, and no kind."""
     top = source.top
-    return isinstance(top, MappingNode) and top.find("linkage") is not None and top.find("kind") is None
+    if not isinstance(top, MappingNode) or top.find("kind") is not None:
+        return False
+    return top.find("linkage") is not None or top.find("words") is not None
 
 
 def machine_source(file: Path) -> Source:

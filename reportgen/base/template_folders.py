@@ -195,6 +195,20 @@ def _machines_in(folder: Path, _changed: int) -> Mapping[str, Path]:
     return {f"{ATLAS}/{file.stem}": file for file in named[:MOST_MACHINES]}
 
 
+def ignored_machine_files() -> tuple[list[Path], list[Path]]:
+    """Return the files of the user's folder that are no machine: those with a wrong name, and those past the limit.
+
+    Links that lead out of the folder are in neither list.
+    """
+    own = os.environ.get(ATLAS_VARIABLE, "")
+    if not own:
+        return [], []
+    folder = Path(own).absolute()
+    files = [file for file in sorted(folder.glob("[!.]*.y*ml")) if not leads_out(file, folder)]
+    right = [file for file in files if file.suffix == ".yaml" and is_machine_name(file.stem)]
+    return [file for file in files if file not in right], right[MOST_MACHINES:]
+
+
 def topic_files(language: Path) -> list[Path]:
     """Return the files of the topics in the folder of a language, whether they exist or not."""
     return [language / topic_file(topic) for topic in topics()]

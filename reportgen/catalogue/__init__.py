@@ -32,10 +32,26 @@ from reportgen.assignment.common import Assignment, Drawing, Extended, Kind, Par
 from reportgen.assignment.fields import UNIT_KEY
 from reportgen.assignment.schema import alternatives_to, choices_of, file_schema, places, schema_of
 from reportgen.base.atlas_words import is_machine_file
-from reportgen.base.errors import AssignmentError, Fault, Finding, Level, Problem, ReportgenError, TemplateError
+from reportgen.base.errors import (
+    AssignmentError,
+    Fault,
+    Finding,
+    Level,
+    Location,
+    Problem,
+    ReportgenError,
+    TemplateError,
+)
 from reportgen.base.field_words import also, choice_words, field_words, remarked
 from reportgen.base.kinds import SAMPLE, kinds
-from reportgen.base.template_folders import is_of_atlas, is_users_machine, kind_words, samples
+from reportgen.base.template_folders import (
+    MOST_MACHINES,
+    ignored_machine_files,
+    is_of_atlas,
+    is_users_machine,
+    kind_words,
+    samples,
+)
 from reportgen.base.topics import topics
 from reportgen.base.translation_coverage import is_topic_whole, is_whole, offered
 from reportgen.base.units import Language, QuantityFault, measures, read_quantity, read_unit
@@ -92,6 +108,15 @@ def sound_kinds() -> list[str]:
 def faulty_machines(language: Language | None = None) -> list[Problem]:
     """Return the errors in the files of the atlas."""
     return [as_problem(fault, language) for name in kinds() for fault in faults_of(name)]
+
+
+def ignored_machines(language: Language | None = None) -> list[Problem]:
+    """Return warnings about files of the user's folder that are not machines because of their names or their number."""
+    misnamed, further = ignored_machine_files()
+    most = {"most": str(MOST_MACHINES)}
+    faults = [Fault("machine-file-name", Location(str(file)), {"text": file.name}) for file in misnamed]
+    faults += [Fault("machines-too-many", Location(str(file)), most) for file in further[:1]]
+    return [as_problem(fault, language, "warning") for fault in faults]
 
 
 def kind(name: str) -> Kind:

@@ -188,17 +188,11 @@ def read_machine(source: Source, base: Kind) -> tuple[CompiledMachine | None, li
     findings = [*_of_words(content), *_of_parameters(content, parameters)]
     formulas: list[PlacedFormula] = []
     findings += _compiled(content, parameters, base, formulas)
-    used = {name for one in formulas for name in one.formula.names}
-    findings += (
-        Finding("parameter-unused", ("parameters", name), {"text": name}, at="key")
-        for name in parameters
-        if name not in used and not findings
-    )
     machine = CompiledMachine(content, parameters, formulas)
-    if not findings:
-        findings += _expansion(machine)
-    if not findings:
-        findings += _named_links(machine)
+    # A formula at a misspelt key is not compiled, so the linkage comes before its unused parameters.
+    for further in (_expansion, _unused, _named_links):
+        if not findings:
+            findings += further(machine)
     faults = placed(source, findings)
     return (None if faults else machine), faults
 
@@ -239,7 +233,11 @@ def _of_parameters(content: MachineFile, made: dict[str, Parameter]) -> Iterator
             key = "default"
             made[name] = Parameter(name, reader, reader.read(about.default))
         except QuantityFault as problem:
-            yield Finding(problem.code, (*at, key), problem.arguments)
+            text = str(getattr(about, key))
+            if _calculates(text, frozenset(content.parameters)):
+                yield Finding("formula-here", (*at, key), {"text": text})
+            else:
+                yield Finding(problem.code, (*at, key), problem.arguments)
         except PydanticCustomError as problem:
             context = dict(problem.context or {})
             yield Finding(context.pop("code"), (*at, key), {name: str(text) for name, text in context.items()})
@@ -369,6 +367,15 @@ def _is_calculation(text: str) -> bool:
         return False
 
 
+def _calculates(text: str, known: frozenset[str]) -> bool:
+    """Return True for a formula of parameters or quantities that is more than a quantity."""
+    try:
+        read = formula(text, known)
+    except FormulaError:
+        return False
+    return bool(read.names or (read.constants and not isinstance(read.tree, ast.Name)))
+
+
 def _copied(content: Any) -> Any:
     if isinstance(content, dict):
         return {key: _copied(value) for key, value in content.items()}
@@ -389,6 +396,14 @@ def _expansion(machine: CompiledMachine) -> list[Finding]:
     content = machine.expanded({name: one.default for name, one in machine.parameters.items()})
     _, findings = read_section(_SECTION, linkage_file.Parameters, content)
     return findings
+
+
+def _unused(machine: CompiledMachine) -> Iterator[Finding]:
+    """Yield faults for parameters that no formula uses."""
+    used = {name for one in machine.formulas for name in one.formula.names}
+    for name in machine.parameters:
+        if name not in used:
+            yield Finding("parameter-unused", ("parameters", name), {"text": name}, at="key")
 
 
 def _named_links(machine: CompiledMachine) -> Iterator[Finding]:

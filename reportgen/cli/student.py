@@ -371,7 +371,8 @@ def kinds(lang: LangOption = None, atlas: AtlasOption = None) -> None:
         from reportgen import api
 
         faulty = api.faulty_machines(lang)
-        print(*faulty, sep="\n", end="\n" if faulty else "", file=sys.stderr)
+        for problem in (*faulty, *api.ignored_machines(lang)):
+            print(problem, file=sys.stderr)
     files = {str(machine.location.file) for machine in faulty}
     sound = [kind for kind in offered(language) if not files & {*map(str, machine_files(kind))}]
     known = {kind: title(kind, language) for kind in sound}

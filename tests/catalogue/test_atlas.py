@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import pickle
 import re
@@ -12,11 +13,11 @@ import numpy as np
 import pytest
 
 from reportgen import catalogue
-from reportgen.assignment.parameter_formulas import Amount, FormulaError, formula
+from reportgen.assignment.parameter_formulas import ANGLE, Amount, FormulaError, formula
 from reportgen.base.atlas_words import machine_source, machine_words
 from reportgen.base.field_words import field_words
 from reportgen.base.kinds import kinds, title, titles
-from reportgen.base.template_folders import ATLAS_VARIABLE, atlas_files, languages
+from reportgen.base.template_folders import ATLAS_VARIABLE, MOST_MACHINES, atlas_files, languages
 from reportgen.base.topics import topics
 from reportgen.base.words import templates_hash
 from reportgen.base.yaml_source import read_text
@@ -404,3 +405,78 @@ def test_a_spec_is_told_from_an_assignment() -> None:
     (problem,) = catalogue.examine(spec, "en")
     assert problem.code == "is-a-spec"
     assert "reportgen variants" in str(problem.hint)
+
+
+def test_a_misspelt_key_is_named_before_the_parameters_that_it_leaves_unused(department: Path) -> None:
+    for change, code in (
+        (("length: a", "lenght: a"), "unknown-key"),
+        (("{type: crank, centre: A, pin: B, length: a, n: w}", "x"), "wrong-type"),
+    ):
+        assert SLOTTER.count(change[0]) == 1
+        (department / "slotter.yaml").write_text(SLOTTER.replace(*change), "utf-8")
+        codes = [one.code for one in catalogue.examine(department / "slotter.yaml", "en")]
+        assert code in codes
+        assert "parameter-unused" not in codes
+
+
+@pytest.mark.parametrize("text", ["h/2", "180 mm/2", "h", "sqrt(h*h)"])
+def test_a_default_or_a_bound_is_not_a_formula(department: Path, text: str) -> None:
+    """So parameters cannot depend on each other; a number without its unit is a fault of its own."""
+    for key in ("default: 50 mm", "least: 20 mm"):
+        (department / "slotter.yaml").write_text(SLOTTER.replace(key, f"{key.split()[0]} {text}"), "utf-8")
+        (problem,) = catalogue.examine(department / "slotter.yaml", "en")
+        assert problem.code == "formula-here"
+        assert f"“{text}”" in problem.message
+    (department / "slotter.yaml").write_text(SLOTTER.replace("least: 20 mm", "least: 20"), "utf-8")
+    assert catalogue.examine(department / "slotter.yaml", "en")[0].code == "missing-unit"
+
+
+@pytest.mark.parametrize("missing", ["words", "linkage"])
+def test_a_file_without_words_or_linkage_is_still_a_machine(department: Path, missing: str) -> None:
+    """Its one fault is the missing section, not the missing `kind` of an assignment."""
+    parts = re.split(r"(?m)^(?=\w)", SLOTTER)
+    (department / "slotter.yaml").write_text("".join(p for p in parts if not p.startswith(missing)), "utf-8")
+    (problem,) = catalogue.examine(department / "slotter.yaml", "en")
+    assert problem.code == "missing-key"
+    assert f"“{missing}”" in problem.message
+
+
+def test_files_of_a_folder_that_are_not_read_are_named(department: Path, tmp_path: Path) -> None:
+    """Wrong names and the machines past the limit give warnings; links out of the folder and hidden files do not."""
+    for name in ("Shears.yaml", "press 2.yaml", "saw.yml", ".hidden.yaml", "notes.txt"):
+        (department / name).write_text(SLOTTER, "utf-8")
+    (tmp_path / "outside.yaml").write_text(SLOTTER, "utf-8")
+    (department / "Stray.yaml").symlink_to(tmp_path / "outside.yaml")
+    found = catalogue.ignored_machines("en")
+    assert [Path(one.location.file).name for one in found] == ["Shears.yaml", "press 2.yaml", "saw.yml"]
+    assert {(one.code, one.level) for one in found} == {("machine-file-name", "warning")}
+    for number in range(MOST_MACHINES):
+        (department / f"m-{number:03}.yaml").touch()
+    last = catalogue.ignored_machines("en")[-1]
+    assert (last.code, Path(last.location.file).name) == ("machines-too-many", "slotter.yaml")
+    assert "atlas/slotter" not in atlas_files()
+
+
+def test_a_formula_that_cancels_is_zero(department: Path) -> None:
+    """Floats leave 6e-17 of cos(90 deg), and 1 + 2e-16 of a ratio: neither is a fault of the machine."""
+    length = (("meter", 1.0),)
+    given = {"a": Amount(0.1, length), "h": Amount(0.3, length), "b": Amount(math.radians(90), ANGLE)}
+    for text, value in (
+        ("h*cos(b)", 0.0),
+        ("h*sin(2*b)", 0.0),
+        ("h*cos(3*b)", 0.0),
+        ("h*tan(2*b)", 0.0),
+        ("h - 3*a", 0.0),
+        ("h - a - a - a", 0.0),
+        ("h*cos(asin(3*a/h))", 0.0),
+        ("h*cos(acos(3*a/h))", 0.3),
+        ("h*cos(b - 1 deg)", 0.3 * math.sin(math.radians(1.0))),
+        ("h - 299.99999 mm", 1e-8),
+    ):
+        found = formula(text, frozenset(given)).value(given)
+        assert found.si == pytest.approx(value, rel=1e-6, abs=0.0), text
+    with pytest.raises(FormulaError, match="formula-value"):
+        formula("h*tan(b)", frozenset(given)).value(given)
+    turned = SLOTTER.replace("h + a + 20 mm, 0 mm", "h + a + 20 mm, h*cos(90 deg)")
+    (department / "slotter.yaml").write_text(turned, "utf-8")
+    assert catalogue.examine(department / "slotter.yaml", "en") == []
