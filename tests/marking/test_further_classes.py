@@ -1,4 +1,4 @@
-"""Classes with what few files give: single instants, friction, a machine of the atlas, class III.
+"""Classes with what few files give: single instants, friction, a machine of the atlas, class III, found lengths.
 
 They are drawn, set as tasks, filled in and marked; mistakes are named.
 """
@@ -93,6 +93,17 @@ parameters:
   masses: [{link: 7, at: H, G: [70 N, 80 N, 90 N]}]
   loads: [{by: constant, link: 7, at: H, F: 400 N, direction: 0 deg, against: motion}]
 """
+FOUND = """
+kind: four-bar
+variant: 2026-G
+salt: strokes
+report: {language: vi, extent: short, worked_positions: [2]}
+positions: {count: 6}
+parameters:
+  {AB: find, BC: find, CD: {from: 90 mm, to: 110 mm, step: 5 mm}, AD: 130 mm,
+   swing: {K: [1.15, 1.2, 1.25, 1.3], psi: {from: 50 deg, to: 65 deg, step: 5 deg}}, omega1: 20 rad/s,
+   G2: 12 N, G3: 15 N, torque: {M: 20 N m, sense: opposing}}
+"""
 SPECIAL = (
     ("v.S24", "special-point-fixed"),
     ("omega.3", "rotation-from-special-point"),
@@ -104,6 +115,8 @@ RUBBING = (
     ("friction.phi.3", "coefficient-for-angle"),
     *(("friction.omega.12", "links-turned-alike"), ("friction.eta", "efficiency-inverted")),
 )
+STROKES = (("gamma.far", "radians-for-degrees"), ("gamma.near", "radians-for-degrees"), ("l.BS2", "ratio-inverted"))
+"""After a mistake in θ or ρ no crank turns, so that a student could not go on."""
 MISTAKES = (("a.B.t", "no-tangential"), ("P3", "no-free-length"), ("M.Pqt1", "no-couple-of-driver"))
 REVERSED = (*MISTAKES, ("turn.eps.1", "direction-reversed"))
 
@@ -157,6 +170,7 @@ def test_mistakes_of_a_class_at_its_instants_are_told(tmp_path: Path) -> None:
         (FRICTION, 12, RUBBING, "friction.M.12"),
         (SLOTTER, 12, SLIDING, "a.A3A.k"),
         (PRESS, 12, SPECIAL, "v.S24"),
+        (FOUND, 12, STROKES, "l.AB"),
     ],
 )
 def test_a_class_goes_from_its_variants_to_its_marks(
